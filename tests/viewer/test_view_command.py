@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """`coframe view` and `coframe demo`, started from the command line."""
 
+import json
 import re
 import signal
 import subprocess
@@ -86,3 +87,45 @@ def test_an_address_of_another_machine_gives_a_message():
         "coframe: cannot listen on 192.0.2.1: it is not an address of this machine\n"
         "  Choose another host, or 127.0.0.1.\n"
     )
+
+
+def test_a_replay_is_written_without_a_browser(shared, tmp_path):
+    bag = shared / "recordings" / "tilt_laser.bag"
+    (tmp_path / "my.rviz").write_text(
+        """Visualization Manager:
+  Displays:
+    - {Class: rviz/LaserScan, Enabled: true, Name: Tilt, Topic: /scan, Color Transformer: AxisColor, Decay Time: 2}
+    - {Class: rviz/LaserScan, Enabled: false, Name: Hidden, Topic: /scan}
+  Global Options: {Fixed Frame: laser}
+"""
+    )
+    for number, (options, fixed, displays) in enumerate(
+        [([], "tilt_base", ["Grid", "TF", "/scan"]), (["-d", "my.rviz"], "laser", ["Tilt", "Hidden"])]
+    ):
+        output = tmp_path / f"{number}.html"
+        words = [*COMMAND, "view", str(bag), "-o", output.name, "--stop", "2s", "--rate", "10", *options]
+        result = subprocess.run(words, capture_output=True, text=True, check=False, cwd=tmp_path)
+        assert (result.returncode, result.stdout) == (0, ""), result.stderr
+        assert f"{output.name}: " in result.stderr
+        (block,) = re.findall(r'<script type="application/json" id="replay">(.*?)</script>', output.read_text())
+        replay = json.loads(block)
+        assert (replay["fixed"], replay["rate"]) == (fixed, 10.0)
+        assert [display["name"] for display in replay["rviz"]["displays"]] == displays
+        (scan,) = replay["displays"]
+        assert (scan["topic"], scan["color_by"]) == ("/scan", "axis" if options else "intensity")
+        assert len(scan["drawings"]) > 5
+    assert sorted(file.name for file in tmp_path.iterdir()) == ["0.html", "1.html", "my.rviz"]
+
+
+@pytest.mark.parametrize(
+    ("words", "text"),
+    [
+        (["view", "-o", "a.html"], "--output needs a recording"),
+        (["view", "run.mcap", "-o", "a.pdf"], "--output a.pdf: unknown suffix '.pdf'. Suffix: .html"),
+        (["view", "run.mcap", "--rate", "5"], "--rate can only be used with --output"),
+    ],
+)
+def test_options_of_replays_are_checked(words, text):
+    result = subprocess.run([*COMMAND, *words], capture_output=True, text=True, check=False)
+    assert (result.returncode, result.stdout) == (2, "")
+    assert result.stderr.startswith(f"coframe: {text}\n")

@@ -25,8 +25,10 @@ from coframe.cli.options import (
     RecordedTfTopicOption,
     recorded_tf_topics,
 )
-from coframe.cli.output import warn
+from coframe.cli.output import fail, warn
+from coframe.cli.view_export import write_replay
 from coframe.viewer import start_viewer
+from coframe.viewer.replay.page import MAX_RATE
 from coframe.wire import dds
 
 if TYPE_CHECKING:
@@ -84,6 +86,29 @@ def view(
         list[Path] | None,
         typer.Option(metavar="FOLDER", help="Folder from which meshes may be loaded; repeatable."),
     ] = None,
+    output: Annotated[
+        Path | None,
+        typer.Option(
+            "--output",
+            "-o",
+            metavar="FILE",
+            help="Write a replay of BAG to an .html file, which plays in any browser, instead of starting a viewer.",
+        ),
+    ] = None,
+    start: Annotated[
+        str | None, typer.Option(metavar="TIME", help="First time of the replay, written like --at of lookup.")
+    ] = None,
+    stop: Annotated[str | None, typer.Option(metavar="TIME", help="Last time of the replay.")] = None,
+    rate: Annotated[
+        float | None,
+        typer.Option(
+            metavar="HZ",
+            min=0.1,
+            max=MAX_RATE,
+            help="Frames per second of the replay. [default: 30, or fewer if the recording is long]",
+            show_default=False,
+        ),
+    ] = None,
     domain: DomainOption = None,
     tf_topic: RecordedTfTopicOption = None,
     tf_static_topic: RecordedTfStaticTopicOption = None,
@@ -95,6 +120,23 @@ def view(
     Example: coframe view run.mcap -d lab.rviz
     """
     live = bag == "live"
+    replay = {"start": start, "stop": stop, "rate": rate}
+    if output is not None:
+        if live:
+            fail("--output needs a recording", "Record one with: coframe record run.mcap", code=2)
+        if output.suffix.lower() not in {".html", ".htm"}:
+            fail(f"--output {output}: unknown suffix {output.suffix!r}. Suffix: .html", code=2)
+        look: dict[str, Any] = {"rviz": rviz, "fixed": fixed, "robot": robot, "mesh_roots": mesh_root or []}
+        names: dict[str, Any] = {
+            "tf_topic": tf_topic,
+            "tf_static_topic": tf_static_topic,
+            "prefix": prefix,
+            "keep": keep,
+        }
+        write_replay(Path(bag), output, **look, **names, start=start, stop=stop, rate=rate)
+        return
+    if unused := [f"--{name}" for name, value in replay.items() if value is not None]:
+        fail(f"{unused[0]} can only be used with --output", code=2)
     with run_until_interrupted():
         if live:
             dds.check()

@@ -61,8 +61,10 @@ def _artist(shape: Box | Line | Label) -> FancyBboxPatch | Line2D | Text:
         )
     if isinstance(shape, Line):
         x, y = zip(*shape.points, strict=True)
-        style = (0, (6, 4)) if shape.dashed else "solid"
-        return Line2D(x, y, color=shape.colour, linewidth=_POINT, linestyle=style)
+        line = Line2D(x, y, color=shape.colour, linewidth=_POINT)
+        if shape.dashed:
+            line.set_dashes((6, 4))
+        return line
     return Text(
         shape.x,
         shape.y,

@@ -171,7 +171,7 @@ def _viewer(
     port: int | None,
     joint_states: str = JOINT_STATES,
 ) -> Viewer:
-    config = None if rviz is None else _read_config(Path(rviz))
+    config = None if rviz is None else RvizConfig.load(Path(rviz))
     roots = [Path(root) for root in mesh_roots]
     description = load(robot, packages=roots) if isinstance(robot, str | os.PathLike) else robot
     meshes = make_mesh_table(None if description is None else description.path, roots)
@@ -200,14 +200,3 @@ def _source_of(source: Any) -> Source:
         "show() expects a coframe.Buffer, a connection from coframe.connect(), a recording from coframe.open_bag() or "
         f"the path of a recording, not {type(source).__name__}"
     )
-
-
-def _read_config(file: Path) -> RvizConfig:
-    try:
-        text = file.read_text(encoding="utf-8")
-    except OSError as error:
-        hint = "Check the path and the permission to read it."
-        raise ViewerError(f"{file} cannot be read: {error.strerror or error}", hint=hint) from None
-    except UnicodeDecodeError:
-        raise ViewerError(f"{file} is not a text file", hint="Is it an .rviz file?") from None
-    return RvizConfig.parse(text, str(file))

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from coframe.errors import ViewerError
 from coframe.viewer.findings import FindingsWatcher
-from coframe.viewer.replay.page import DEFAULT_SETTINGS, ReplayRequest, ReplaySettings
+from coframe.viewer.replay.page import DEFAULT_SETTINGS, FRAME_TIMEOUT, ReplayRequest, ReplaySettings
 from coframe.viewer.robots.descriptions import ROBOT_DESCRIPTION, RobotDescriptions
 from coframe.viewer.robots.joints import JOINT_STATES, JointPublisher
 from coframe.viewer.robots.meshes import MeshTable
@@ -34,8 +34,6 @@ STRUCTURE_PERIOD, TOPICS_PERIOD = 0.2, 1.0
 STRUCTURE_SHARE = 0.005
 # A float64 is exact up to 2**53 nanoseconds, which is 104 days.
 _MAX_OFFSET = 2**52
-FRAME_TIMEOUT = 15.0
-"""How many seconds a frame stays visible after its last sample, as in RViz."""
 _MAX_PREPARED_REPLAYS = 8
 
 

@@ -7,7 +7,7 @@ import base64
 import math
 from concurrent.futures import Executor, Future
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias, TypeVar
 
 import numpy as np
 
@@ -29,9 +29,21 @@ if TYPE_CHECKING:
 
     P = ParamSpec("P")
 
-__all__ = ["MAX_BYTES", "MAX_CLOUD_POINTS", "ReplayDisplay", "ReplayTimes", "packed", "record_displays"]
+__all__ = [
+    "MAX_BYTES",
+    "MAX_CLOUD_POINTS",
+    "ImmediateExecutor",
+    "Progress",
+    "ReplayDisplay",
+    "ReplayTimes",
+    "no_progress",
+    "packed",
+    "record_displays",
+]
 
 T = TypeVar("T")
+Progress: TypeAlias = "Callable[[str, int, int], object]"
+"""Called with a task, the amount done and the total."""
 
 MAX_BYTES = 48 << 20  # Of all displays together, and a third more as text.
 MAX_CLOUD_POINTS = 10_000
@@ -78,8 +90,15 @@ def packed(array: NDArray[Any]) -> str:
     return base64.b64encode(np.ascontiguousarray(array).tobytes()).decode()
 
 
+def no_progress(_task: str, _done: int, _total: int) -> None:
+    """Report nothing."""
+
+
 def record_displays(
-    displays: Sequence[ReplayDisplay], messages: Mapping[str, TopicMessages], replay_times: ReplayTimes
+    displays: Sequence[ReplayDisplay],
+    messages: Mapping[str, TopicMessages],
+    replay_times: ReplayTimes,
+    progress: Progress = no_progress,
 ) -> list[ReplayDisplayBlock]:
     """Return what the page needs of each display, in order; topics that cannot be displayed are skipped.
 
@@ -93,14 +112,14 @@ def record_displays(
     left = MAX_BYTES
     for index in order:
         room = left if index == order[-1] else left // 2
-        recorder = _DisplayRecorder(index, known[index], messages[known[index].topic])
+        recorder = _DisplayRecorder(index, known[index], messages[known[index].topic], progress)
         recorder.record(replay_times, room)
         left -= recorder.size
         blocks[index] = recorder.block()
     return [blocks[index] for index in range(len(known))]
 
 
-class _ImmediateExecutor(Executor):
+class ImmediateExecutor(Executor):
     """An executor that runs each call in the caller's thread."""
 
     def submit(self, fn: Callable[P, T], /, *args: P.args, **kwargs: P.kwargs) -> Future[T]:
@@ -117,10 +136,11 @@ class _DisplayRecorder:
     and the stamps of these poses.
     """
 
-    def __init__(self, number: int, display: ReplayDisplay, messages: TopicMessages) -> None:
+    def __init__(self, number: int, display: ReplayDisplay, messages: TopicMessages, progress: Progress) -> None:
         self._number = number
         self._topic = display.topic
         self._messages = messages
+        self._progress = progress
         self._options = replace(display.options, most_points=min(display.options.most_points, MAX_CLOUD_POINTS))
         self._clear()
 
@@ -168,7 +188,7 @@ class _DisplayRecorder:
         )
 
     def _try(self, replay_times: ReplayTimes, room: int) -> None:
-        display = Display(self._number, self._messages, self._options, _no_mesh, _ImmediateExecutor())
+        display = Display(self._number, self._messages, self._options, _no_mesh, ImmediateExecutor())
         count = len(replay_times.times)
         for index in range(0, count, self._every):
             at = max(int(replay_times.times[index]), 1)  # 0 would select the newest message.
@@ -178,6 +198,7 @@ class _DisplayRecorder:
                 self._drawings[str(sequence)] = base64.b64encode(drawing).decode()
                 self.size += len(drawing)
             self._add(index, display, replay_times.origin)
+            self._progress(self._topic, index + 1, count)
             if self.size > room:
                 raise _TooLargeError((index + 1) / (count + 1))
 

@@ -13,7 +13,7 @@ from coframe.errors import ViewerError
 from coframe.time import SECOND
 from coframe.viewer.protocol.encoding import relative_to
 from coframe.viewer.protocol.messages import ReplayBlock, Robot, TreeFrame
-from coframe.viewer.replay.displays import ReplayTimes, packed, record_displays
+from coframe.viewer.replay.displays import ReplayTimes, no_progress, packed, record_displays
 from coframe.viewer.robots.meshes import MESH_TYPES, MeshError
 from coframe.viewer.scene.scene import LocalOrigin, Scene
 from coframe.viewer.scene.statistics import frame_rows
@@ -27,14 +27,16 @@ if TYPE_CHECKING:
 
     from coframe import Buffer
     from coframe.viewer.protocol.messages import ReplayRviz, Vector
-    from coframe.viewer.replay.displays import ReplayDisplay
+    from coframe.viewer.replay.displays import Progress, ReplayDisplay
     from coframe.viewer.robots.descriptions import Description
     from coframe.viewer.robots.meshes import MeshTable
     from coframe.viewer.sources.topic_messages import TopicMessages
 
 __all__ = [
     "DEFAULT_SETTINGS",
+    "FRAME_TIMEOUT",
     "MAX_DISPLAYS",
+    "MAX_POSES",
     "MAX_RATE",
     "ReplayContent",
     "ReplayRequest",
@@ -42,6 +44,8 @@ __all__ = [
     "replay_page",
 ]
 
+FRAME_TIMEOUT = 15.0
+"""How many seconds a frame stays visible after its last sample, as in RViz."""
 MAX_RATE = 100.0
 """Frames per second."""
 MAX_POSES = 3_000_000  # 84 MB, and a third more as text.
@@ -107,13 +111,16 @@ class ReplayContent(NamedTuple):
     meshes: MeshTable
 
 
-def replay_page(template: Path, content: ReplayContent, request: ReplayRequest) -> bytes:
+def replay_page(
+    template: Path, content: ReplayContent, request: ReplayRequest, progress: Progress | None = None
+) -> bytes:
     """Return the HTML of a replay.
 
     Args:
         template: The page that plays it, with an empty block for the data.
         content: The data.
         request: The part of the data.
+        progress: Called with a task, the amount done and the total.
 
     Raises:
         ViewerError: The span is empty or too large, or the template does not exist.
@@ -125,18 +132,21 @@ def replay_page(template: Path, content: ReplayContent, request: ReplayRequest) 
     before, block_start, after = page.partition(_OPENING + _EMPTY)
     if not block_start:
         raise ViewerError("the page for replays has no block for the data: build it again in viewer/")
-    block = json.dumps(_block(content, request), separators=(",", ":"), allow_nan=False)
+    block = json.dumps(_block(content, request, progress or no_progress), separators=(",", ":"), allow_nan=False)
     # Inside a script element only its end tag has a meaning in HTML.
     safe = block.replace("<", "\\u003c")
     return f"{before}{_OPENING}{safe}{after}".encode()
 
 
-def _block(content: ReplayContent, request: ReplayRequest) -> ReplayBlock:
+def _block(content: ReplayContent, request: ReplayRequest, progress: Progress) -> ReplayBlock:
     scene = Scene(content.buffer.snapshot(), ages=False)
     scene.refresh()
     structure = scene.structure
     times = _times(request, len(structure.names))
-    placed = [scene.place(request.fixed, int(time), request.frame_timeout) for time in times]
+    placed = []
+    for number, time in enumerate(times, 1):
+        placed.append(scene.place(request.fixed, int(time), request.frame_timeout))
+        progress("frames", number, len(times))
     index = structure.names.index(request.fixed) if request.fixed in structure.names else None
     local = LocalOrigin()
     origin = local.follow(placed[len(placed) // 2], index)
@@ -163,7 +173,7 @@ def _block(content: ReplayContent, request: ReplayRequest) -> ReplayBlock:
             "states": packed(np.stack([one.states for one in placed])),
             "robots": _robots(content),
             "rviz": request.settings.rviz,
-            "displays": record_displays(request.settings.displays, content.messages, replay_times),
+            "displays": record_displays(request.settings.displays, content.messages, replay_times, progress),
             "stats": frame_rows(scene, request.origin, request.frame_timeout),
             "edges": edge_rows(scene.buffer, scene.infos, first, last, TIMELINE_BINS, request.origin),
             "bins": TIMELINE_BINS,

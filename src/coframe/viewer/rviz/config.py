@@ -20,6 +20,7 @@ from coframe.viewer.rviz.reading import read_yaml, yaml_module
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
+    from pathlib import Path
     from typing import TypeGuard
 
 __all__ = ["DISPLAY_CLASSES", "RvizConfig"]
@@ -110,6 +111,22 @@ class RvizConfig:
                 hint="Save one in RViz with File > Save Config As.",
             )
         return cls(document)
+
+    @classmethod
+    def load(cls, file: Path) -> RvizConfig:
+        """Return the configuration in a file.
+
+        Raises:
+            ViewerError: The file cannot be read or is not a configuration of RViz, or PyYAML is missing.
+        """
+        try:
+            text = file.read_text(encoding="utf-8")
+        except OSError as error:
+            hint = "Check the path and the permission to read it."
+            raise ViewerError(f"{file} cannot be read: {error.strerror or error}", hint=hint) from None
+        except UnicodeDecodeError:
+            raise ViewerError(f"{file} is not a text file", hint="Is it an .rviz file?") from None
+        return cls.parse(text, str(file))
 
     @property
     def fixed_frame(self) -> str:

@@ -1,0 +1,75 @@
+# SPDX-License-Identifier: Apache-2.0
+"""``coframe view BAG -o FILE``: a replay of a recording as one HTML file, without a browser."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import typer
+
+from coframe.cli.lifecycle import run_to_completion
+from coframe.cli.output import fail
+from coframe.cli.progress import task_progress
+from coframe.cli.recordings import check_has_transforms, open_recording, parse_time
+from coframe.robots import load
+from coframe.viewer.replay.export import export_replay
+from coframe.viewer.robots.robot_message import make_mesh_table
+from coframe.viewer.rviz.config import RvizConfig
+from coframe.viewer.sources.recorded import RecordedSource
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+    from pathlib import Path
+
+__all__ = ["write_replay"]
+
+
+def write_replay(
+    bag: Path,
+    output: Path,
+    *,
+    rviz: Path | None,
+    fixed: str,
+    robot: Path | None,
+    mesh_roots: Sequence[Path],
+    start: str | None,
+    stop: str | None,
+    rate: float | None,
+    tf_topic: str | None,
+    tf_static_topic: str | None,
+    prefix: str,
+    keep: str,
+) -> None:
+    """Write the replay; the file exists at the end only if it is complete."""
+    with run_to_completion():
+        config = None if rviz is None else RvizConfig.load(rviz)
+        description = None if robot is None else load(robot, packages=list(mesh_roots))
+        meshes = make_mesh_table(robot, mesh_roots)
+        with open_recording(bag, None, tf_topic, tf_static_topic, prefix, keep) as recording:
+            check_has_transforms(recording)
+            source = RecordedSource(recording)
+            with task_progress() as progress:
+                page = export_replay(
+                    source,
+                    meshes,
+                    rviz=config,
+                    robot=description,
+                    fixed=fixed,
+                    first=None if start is None else parse_time("--start", start, recording),
+                    last=None if stop is None else parse_time("--stop", stop, recording),
+                    rate=rate,
+                    progress=progress,
+                )
+        _write(output, page)
+        typer.echo(f"{output}: {len(page) / 1e6:.1f} MB, opens in any browser", err=True)
+
+
+def _write(output: Path, page: bytes) -> None:
+    part = output.with_name(f".{output.name}.part")
+    try:
+        part.write_bytes(page)
+        part.replace(output)
+    except OSError as error:
+        fail(f"{output} cannot be written: {error.strerror}", "Check that the folder exists and is writable.")
+    finally:
+        part.unlink(missing_ok=True)

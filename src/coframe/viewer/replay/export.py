@@ -1,0 +1,156 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Replays of recordings without a browser: what the page would show of a recording, as one HTML file."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from coframe.errors import ViewerError
+from coframe.time import SECOND
+from coframe.viewer.displays import Options
+from coframe.viewer.protocol.messages import DisplayOptions, ReplayRviz, RvizDisplay
+from coframe.viewer.protocol.schema import record
+from coframe.viewer.replay.displays import ImmediateExecutor, ReplayDisplay
+from coframe.viewer.replay.page import (
+    FRAME_TIMEOUT,
+    MAX_POSES,
+    ReplayContent,
+    ReplayRequest,
+    ReplaySettings,
+    replay_page,
+)
+from coframe.viewer.robots.descriptions import ROBOT_DESCRIPTION, RobotDescriptions
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from coframe.robots import Robot
+    from coframe.viewer.replay.displays import Progress
+    from coframe.viewer.robots.meshes import MeshTable
+    from coframe.viewer.rviz.config import RvizConfig
+    from coframe.viewer.sources.recorded import RecordedSource
+    from coframe.viewer.sources.source import Topic
+
+__all__ = ["export_replay"]
+
+TEMPLATE = Path(__file__).parents[1] / "static" / "replay.html"
+_DEFAULT_RATE, _LOWEST_RATE = 30.0, 1.0
+# As in the page: how many topics are displayed without a configuration, and those that are too large for this.
+_MAX_AUTOMATIC = 12
+_HEAVY = frozenset({"Image"})
+# The options of the page's displays that change what the server prepares, with the page's defaults.
+_COLOR_BY = {"Intensity": "intensity", "AxisColor": "axis", "RGB8": "rgb", "FlatColor": "flat", "Distance": "distance"}
+_DEFAULT_TRANSFORMER = {"LaserScan": "Intensity", "PointCloud2": "AxisColor"}
+_DEFAULT_TRAIL = 100
+
+
+def export_replay(
+    source: RecordedSource,
+    meshes: MeshTable,
+    *,
+    rviz: RvizConfig | None = None,
+    robot: Robot | None = None,
+    fixed: str = "",
+    first: int | None = None,
+    last: int | None = None,
+    rate: float | None = None,
+    progress: Progress | None = None,
+) -> bytes:
+    """Return the HTML file of a replay of a recording.
+
+    Args:
+        source: The recording.
+        meshes: The meshes that may be included.
+        rviz: The displays and the view; None for those that the page chooses by itself.
+        robot: A robot that is shown in addition to recorded ones.
+        fixed: The fixed frame; "" for that of `rviz` or the root of the largest tree.
+        first: The first time in nanoseconds; None for the start of the recording.
+        last: The last time in nanoseconds; None for the end of the recording.
+        rate: Frames per second; None for 30, or fewer if a long recording has too many poses.
+        progress: Called with a task, the amount done and the total.
+
+    Raises:
+        ViewerError: The span is empty or too large.
+    """
+    span = source.span
+    if span is None:
+        raise ViewerError(f"{source.title} has no moving frames to replay")
+    first, last = max(span[0], first or span[0]), min(span[1], last or span[1])
+    frames = max(len(source.buffer.frame_names()), 1)
+    if rate is None:
+        most = MAX_POSES / (frames * max((last - first) / SECOND, 1.0 / SECOND) + frames)
+        rate = max(min(_DEFAULT_RATE, most), _LOWEST_RATE)
+    displays = _displays(rviz, source.topics())
+    shown = _shown(displays, last)
+    look: ReplayRviz = {
+        "displays": displays,
+        "global": {},
+        "view": None if rviz is None else rviz.description()["view"],
+    }
+    topics = [ROBOT_DESCRIPTION, *(rviz.description_topics if rviz is not None else [])]
+    descriptions = RobotDescriptions(robot, dict.fromkeys(topics), meshes)
+    for _ in ("read", "store"):
+        descriptions.refresh(source, ImmediateExecutor())
+    opened = {one.topic: messages for one in shown if (messages := source.open(one.topic)) is not None}
+    try:
+        content = ReplayContent(source.buffer, opened, list(descriptions.known.values()), meshes)
+        fixed = fixed or (rviz.fixed_frame if rviz is not None else "") or _root_of_largest_tree(source)
+        settings = ReplaySettings(tuple(shown), look)
+        request = ReplayRequest(first, last, rate, fixed, FRAME_TIMEOUT, source.title, last, settings)
+        return replay_page(TEMPLATE, content, request, progress)
+    finally:
+        descriptions.close()
+        for messages in opened.values():
+            messages.close()
+
+
+def _root_of_largest_tree(source: RecordedSource) -> str:
+    from coframe.viewer.scene.scene import Scene  # noqa: PLC0415 - computed only without a fixed frame
+
+    scene = Scene(source.buffer, ages=False)
+    scene.refresh()
+    return scene.structure.largest
+
+
+def _displays(rviz: RvizConfig | None, topics: Sequence[Topic]) -> list[RvizDisplay]:
+    """Return the displays of a configuration, or those that the page chooses by itself."""
+    if rviz is not None:
+        return rviz.description()["displays"]
+    chosen = [topic for topic in topics if topic["display"] not in _HEAVY][:_MAX_AUTOMATIC]
+    return [
+        *(_display(name, name, None) for name in ("Grid", "TF")),
+        *(_display(topic["display"], topic["topic"], topic["topic"]) for topic in chosen),
+    ]
+
+
+def _display(kind: str, name: str, topic: str | None) -> RvizDisplay:
+    return {"class": kind, "name": name, "enabled": True, "topic": topic, "options": {}}
+
+
+def _shown(displays: Sequence[RvizDisplay], origin: int) -> list[ReplayDisplay]:
+    """Return the topics of enabled displays, with the options with which the page would subscribe to them."""
+    return [
+        ReplayDisplay(display["topic"], Options.from_message(_options(display), origin))
+        for display in displays
+        if display["enabled"] and display["topic"] and display["class"] != "RobotModel"
+    ]
+
+
+def _options(display: RvizDisplay) -> DisplayOptions:
+    options, kind = display["options"], display["class"]
+    chosen: dict[str, Any] = {}
+    if kind in _DEFAULT_TRANSFORMER:
+        transformer = options.get("Color Transformer")
+        chosen["color_by"] = _COLOR_BY[transformer if transformer in _COLOR_BY else _DEFAULT_TRANSFORMER[kind]]
+        chosen["axis"] = {"X": "x", "Y": "y"}.get(str(options.get("Axis")), "z")
+        chosen["decay"] = _number(options.get("Decay Time"), 0.0)
+    if kind == "Odometry":
+        chosen["keep"] = round(_number(options.get("Keep"), _DEFAULT_TRAIL))
+    # The checks of the protocol limit numbers from the file, which may be anything.
+    checked: DisplayOptions = record(DisplayOptions).build(chosen)
+    return checked
+
+
+def _number(value: Any, default: float) -> float:
+    return value if isinstance(value, int | float) and not isinstance(value, bool) else default
