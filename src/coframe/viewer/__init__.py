@@ -8,7 +8,7 @@ Subpackages, from the ground up; imports point down only:
     sources: The ROS graph, a recording or a buffer.
     scene: Poses, statistics, the timeline and relations of a buffer's frames.
     displays: Messages converted to drawings.
-    robots, rviz: Robot descriptions and RViz configuration files.
+    robots, rviz, tools: Robot descriptions, RViz configuration files, and what the page's tools publish.
     replay: A span of time as one HTML file.
     clients: What each connected tab shows, requests and receives.
     server: HTTP and WebSockets.

@@ -16,6 +16,7 @@ from coframe.viewer.robots.descriptions import ROBOT_DESCRIPTION, RobotDescripti
 from coframe.viewer.robots.joints import JOINT_STATES, JointPublisher
 from coframe.viewer.robots.meshes import MeshTable
 from coframe.viewer.scene.scene import Scene
+from coframe.viewer.tools.publisher import ToolPublisher
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping
@@ -73,6 +74,7 @@ class ViewerState:
         self.topics: list[Topic] = []
         self.origin = time.time_ns()
         self.executor = ThreadPoolExecutor(2, "coframe-viewer-work")
+        self._tools: ToolPublisher | None = None
         self._open: dict[str, _SharedMessages] = {}
         self._prepared_replays: dict[str, ReplaySettings] = {}
         self._structure_due = self._topics_due = 0.0
@@ -80,6 +82,7 @@ class ViewerState:
 
     def set_source(self, source: Source) -> None:
         """Show another source; all clients start from scratch."""
+        self._close_tools()
         self.source = source
         self.scene = Scene(source.buffer, ages=source.mode == "live")
         self.origin = time.time_ns()
@@ -94,7 +97,7 @@ class ViewerState:
 
     @property
     def can_publish(self) -> bool:
-        """Whether joint states can be published."""
+        """Whether the pages may publish."""
         return self.source.connection is not None
 
     def refresh(self) -> None:
@@ -156,7 +159,13 @@ class ViewerState:
             self._open.pop(topic).messages.close()
         self.findings.close()
         self.executor.shutdown(wait=True, cancel_futures=True)
+        self._close_tools()
         self.descriptions.close()
+
+    def _close_tools(self) -> None:
+        if self._tools is not None:
+            self._tools.close()
+            self._tools = None
 
     def joint_publisher(self, robot: Robot) -> JointPublisher:
         """Return a publisher of the positions of a robot's joints.
@@ -171,6 +180,24 @@ class ViewerState:
                 hint="Start the viewer with `coframe view live`.",
             )
         return JointPublisher(self.source.connection, robot, self._joint_states)
+
+    @property
+    def static_topic(self) -> str:
+        """The topic of static transforms."""
+        return "" if self.source.connection is None else self.source.connection.tf_topics[1]
+
+    def tool_publisher(self) -> ToolPublisher:
+        """Return the publisher of what the pages' tools define.
+
+        Raises:
+            ViewerError: The source is not the ROS graph.
+        """
+        connection = self.source.connection
+        if connection is None:
+            raise ViewerError("publishing requires a live ROS graph", hint="Start the viewer with `coframe view live`.")
+        if self._tools is None:
+            self._tools = ToolPublisher(connection)
+        return self._tools
 
     def prepare_replay(self, settings: ReplaySettings) -> str:
         """Store the settings of a replay; return the token with which it is requested."""

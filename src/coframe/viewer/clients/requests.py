@@ -10,7 +10,7 @@ from coframe.doctor.codes import codes, page
 from coframe.errors import ViewerError, WireError
 from coframe.viewer.displays import Options
 from coframe.viewer.protocol import messages
-from coframe.viewer.protocol.messages import CodePage, ReplayPrepared, Rviz, Saved, Timeline
+from coframe.viewer.protocol.messages import CodePage, Published, ReplayPrepared, Rviz, Saved, Timeline
 from coframe.viewer.protocol.requests import BadRequestError
 from coframe.viewer.protocol.schema import shorten
 from coframe.viewer.replay.displays import ReplayDisplay
@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 
     from coframe.viewer.clients.state import ClientState
     from coframe.viewer.protocol.messages import ClientMessage, Relation, ServerMessage
+    from coframe.viewer.tools.publisher import ToolPublisher
 
 __all__ = ["handle"]
 
@@ -117,6 +118,57 @@ async def _set_joints(client: ClientState, request: messages.SetJoints) -> None:
         raise BadRequestError(f"joint states cannot be published: {error}") from None
 
 
+async def _publish_point(client: ClientState, request: messages.PublishPoint) -> Published:
+    _check_fixed_frame(client, request.frame)
+    return await _publish(
+        client, request.topic, lambda tools: tools.publish_point(request.topic, request.frame, request.point)
+    )
+
+
+async def _publish_pose(client: ClientState, request: messages.PublishPose) -> Published:
+    _check_fixed_frame(client, request.frame)
+    return await _publish(
+        client,
+        request.topic,
+        lambda tools: tools.publish_pose(
+            request.topic, request.frame, request.position, request.yaw, request.covariance
+        ),
+    )
+
+
+async def _publish_static(client: ClientState, request: messages.PublishStatic) -> Published:
+    known = client.viewer.scene.structure
+    child = known.indices.get(request.child, -1)
+    parent = known.parents[child] if child >= 0 else -1
+    if parent < 0 or known.names[parent] != request.parent or not known.static[child]:
+        raise BadRequestError(
+            f"there is no static transform from {shorten(request.parent)} to {shorten(request.child)}",
+            "Select a frame whose transform to its parent is static.",
+        )
+    return await _publish(
+        client,
+        "",
+        lambda tools: tools.publish_static(request.parent, request.child, request.translation, request.quaternion),
+    )
+
+
+def _check_fixed_frame(client: ClientState, frame: str) -> None:
+    if frame != client.fixed:
+        raise BadRequestError(
+            f"nothing was published: the fixed frame is {shorten(client.fixed)}, and no longer {shorten(frame)}",
+            "Use the tool again.",
+        )
+
+
+async def _publish(client: ClientState, topic: str, publish: Callable[[ToolPublisher], int]) -> Published:
+    try:
+        tools = client.viewer.tool_publisher()
+        subscribers = await _in_background(client, publish, tools)
+    except (ViewerError, WireError) as error:
+        raise BadRequestError(f"nothing was published: {error}", error.hint) from None
+    return Published(type="published", topic=topic or client.viewer.static_topic, subscribers=subscribers)
+
+
 async def _explain(_client: ClientState, request: messages.Explain) -> CodePage:
     try:
         found = page(request.code)
@@ -143,7 +195,7 @@ async def _save_rviz(client: ClientState, request: messages.SaveRviz) -> Saved:
     if client.requested_rate is not None:
         options = {**options, "frame_rate": client.requested_rate}
     try:
-        merged = config.merged(request.displays, options, request.view)
+        merged = config.merged(request.displays, options, request.view, request.tools)
         text = await _in_background(client, merged.text)
     except (ViewerError, RecursionError) as error:
         raise BadRequestError(f"the configuration cannot be written: {error}") from None
@@ -172,6 +224,9 @@ _HANDLERS: dict[type, Callable[[ClientState, Any], Awaitable[ServerMessage | Non
     messages.Explain: _explain,
     messages.LoadRviz: _load_rviz,
     messages.PrepareReplay: _prepare_replay,
+    messages.PublishPoint: _publish_point,
+    messages.PublishPose: _publish_pose,
+    messages.PublishStatic: _publish_static,
     messages.Relate: _relate,
     messages.RequestTimeline: _timeline,
     messages.SaveRviz: _save_rviz,

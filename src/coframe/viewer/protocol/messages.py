@@ -32,6 +32,12 @@ Quaternion: TypeAlias = tuple[float, float, float, float]
 Span: TypeAlias = tuple[float, float]
 
 Id: TypeAlias = Annotated[int, Range(0, 2**32 - 1)]
+Metres: TypeAlias = Annotated[float, Range(-1e9, 1e9)]
+Radians: TypeAlias = Annotated[float, Range(-100.0, 100.0)]
+Unit: TypeAlias = Annotated[float, Range(-1.01, 1.01)]
+Variance: TypeAlias = Annotated[float, Range(0.0, 1e18)]
+Position: TypeAlias = tuple[Metres, Metres, Metres]
+Variances: TypeAlias = tuple[Variance, Variance, Variance]
 Nanoseconds: TypeAlias = Annotated[float, Range(-(2.0**62), 2.0**62)]
 
 MAX_BINS = 2000
@@ -59,6 +65,9 @@ RvizDisplay = TypedDict(
 
 RvizView = TypedDict("RvizView", {"class": str, "options": JsonObject})
 """The current view of an RViz configuration."""
+
+RvizTool = TypedDict("RvizTool", {"class": str, "topic": str | None, "options": JsonObject})
+"""A tool of an RViz configuration that publishes; ``class`` has no package prefix."""
 
 
 # Server to client, text.
@@ -89,6 +98,7 @@ RvizConfiguration = TypedDict(
         "displays": list[RvizDisplay],
         "global": RvizGlobalOptions,
         "view": RvizView | None,
+        "tools": list[RvizTool],
         "unknown": list[UnknownRvizPart],
     },
 )
@@ -224,6 +234,7 @@ Rviz = TypedDict(
         "displays": list[RvizDisplay],
         "global": RvizGlobalOptions,
         "view": RvizView | None,
+        "tools": list[RvizTool],
         "unknown": list[UnknownRvizPart],
     },
 )
@@ -329,6 +340,14 @@ class ReplayPrepared(TypedDict):
     settings: str
 
 
+class Published(TypedDict):
+    """The answer to requests that publish a message; ``subscribers`` is the number of matched subscriptions."""
+
+    type: Literal["published"]
+    topic: str
+    subscribers: int
+
+
 class Problem(TypedDict):
     """A request that failed, or a problem with the source."""
 
@@ -351,6 +370,7 @@ ServerMessage: TypeAlias = (
     | CodePage
     | Saved
     | ReplayPrepared
+    | Published
     | Problem
 )
 
@@ -454,6 +474,43 @@ class SetJoints:
 
 
 @dataclass(frozen=True)
+class PublishPoint:
+    """Publishes a PointStamped with the current time of the graph; ``frame`` must be the fixed frame."""
+
+    type: ClassVar[str] = "publish_point"
+    topic: str
+    frame: str
+    point: Position
+
+
+@dataclass(frozen=True)
+class PublishPose:
+    """Publishes a pose with the current time of the graph; ``frame`` must be the fixed frame.
+
+    It is a PoseWithCovarianceStamped if ``covariance`` has the variances of x, y and yaw, otherwise a PoseStamped.
+    ``yaw`` is in radians.
+    """
+
+    type: ClassVar[str] = "publish_pose"
+    topic: str
+    frame: str
+    position: Position
+    yaw: Radians
+    covariance: Variances | None = None
+
+
+@dataclass(frozen=True)
+class PublishStatic:
+    """Publishes another pose for an existing static transform; the quaternion x, y, z, w must be normalized."""
+
+    type: ClassVar[str] = "publish_static"
+    parent: str
+    child: str
+    translation: Position
+    quaternion: tuple[Unit, Unit, Unit, Unit]
+
+
+@dataclass(frozen=True)
 class LoadRviz:
     """Reads an .rviz file."""
 
@@ -469,6 +526,7 @@ class SaveRviz:
     displays: list[RvizDisplay]
     global_: JsonObject = field(default_factory=dict)
     view: JsonObject = field(default_factory=dict)
+    tools: list[RvizTool] = field(default_factory=list)
 
 
 @dataclass(frozen=True)
@@ -533,6 +591,9 @@ ClientMessage: TypeAlias = (
     | Relate
     | RequestTimeline
     | SetJoints
+    | PublishPoint
+    | PublishPose
+    | PublishStatic
     | LoadRviz
     | SaveRviz
     | PrepareReplay

@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 import copy
-import math
 import re
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -17,11 +16,14 @@ from coframe.viewer.protocol.messages import (
     UnknownRvizPart,
 )
 from coframe.viewer.rviz.reading import read_yaml, yaml_module
+from coframe.viewer.rviz.tools import merge_tools, read_tools
+from coframe.viewer.rviz.values import OWN_KEYS, is_number, plain, plain_class, set_topic, topic_of, update
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
     from pathlib import Path
-    from typing import TypeGuard
+
+    from coframe.viewer.protocol.messages import RvizTool
 
 __all__ = ["DISPLAY_CLASSES", "RvizConfig"]
 
@@ -64,7 +66,6 @@ _NEW: dict[str, Any] = {
         "Views": {"Current": {}},
     },
 }
-_TOPIC_KEYS = ("Topic", "Description Topic", "Marker Topic", "Image Topic")
 
 
 class _Found(NamedTuple):
@@ -76,7 +77,7 @@ class _Found(NamedTuple):
 
     @property
     def plain_class(self) -> str:
-        return _plain_class(self.display.get("Class"))
+        return plain_class(self.display.get("Class"))
 
     @property
     def name(self) -> str:
@@ -138,13 +139,13 @@ class RvizConfig:
     def frame_rate(self) -> float | None:
         """Frames per second; None if the file contains no valid rate."""
         value = self._global.get("Frame Rate")
-        return float(value) if _is_number(value) and 1 <= value <= 1000 else None
+        return float(value) if is_number(value) and 1 <= value <= 1000 else None
 
     @property
     def description_topics(self) -> list[str]:
         """The topics of its robot descriptions."""
         robots = (found for found in _displays(self._manager, "") if found.plain_class == "RobotModel")
-        return [topic for robot in robots if (topic := _topic_of(robot.display)) is not None]
+        return [topic for robot in robots if (topic := topic_of(robot.display)) is not None]
 
     def description(self) -> RvizConfiguration:
         """Return what the page understands, and a list of what it does not."""
@@ -152,14 +153,14 @@ class RvizConfig:
         unknown: list[UnknownRvizPart] = []
         for found in _displays(self._manager, ""):
             if found.plain_class in DISPLAY_CLASSES:
-                options = {str(key): _plain(value) for key, value in found.display.items() if key not in _OWN_KEYS}
+                options = {str(key): plain(value) for key, value in found.display.items() if key not in OWN_KEYS}
                 enabled = found.display.get("Enabled", True) is not False
                 known.append(
                     {
                         "class": found.plain_class,
                         "name": found.name,
                         "enabled": enabled,
-                        "topic": _topic_of(found.display),
+                        "topic": topic_of(found.display),
                         "options": options,
                     }
                 )
@@ -167,18 +168,26 @@ class RvizConfig:
                 full_class = str(found.display.get("Class") or "")
                 unknown.append({"path": found.path, "class": full_class, "name": found.name})
         view = self._view
-        view_class = _plain_class(view.get("Class"))
+        view_class = plain_class(view.get("Class"))
         if view and view_class not in VIEW_CLASSES:
             unknown.append({"path": "Views/Current", "class": str(view.get("Class") or ""), "name": view_class})
         current: RvizView | None = None
         if view:
-            current = {"class": view_class, "options": _plain({k: v for k, v in view.items() if k != "Class"})}
+            current = {"class": view_class, "options": plain({k: v for k, v in view.items() if k != "Class"})}
         global_options = RvizGlobalOptions(
             fixed_frame=self.fixed_frame or None,
             background=_color_of(self._global.get("Background Color")),
             frame_rate=self.frame_rate,
         )
-        return RvizConfiguration({"displays": known, "global": global_options, "view": current, "unknown": unknown})
+        return RvizConfiguration(
+            {
+                "displays": known,
+                "global": global_options,
+                "view": current,
+                "tools": read_tools(self._manager),
+                "unknown": unknown,
+            }
+        )
 
     def with_fixed_frame(self, frame: str) -> RvizConfig:
         """Return a copy with another fixed frame."""
@@ -187,7 +196,11 @@ class RvizConfig:
         return RvizConfig({**self._document, _MANAGER: {**manager, "Global Options": options}})
 
     def merged(
-        self, displays: Sequence[RvizDisplay], options: Mapping[str, Any], view: Mapping[str, Any]
+        self,
+        displays: Sequence[RvizDisplay],
+        options: Mapping[str, Any],
+        view: Mapping[str, Any],
+        tools: Sequence[RvizTool] = (),
     ) -> RvizConfig:
         """Return a copy with what the page shows now; everything that the page does not understand is preserved.
 
@@ -195,11 +208,13 @@ class RvizConfig:
             displays: The displays, as in `description`.
             options: The global options, as in `description`.
             view: The view, as in `description`.
+            tools: The tools that publish, as in `description`.
         """
         changed = RvizConfig(copy.deepcopy(self._document))
         changed._merge_displays(displays)
         changed._merge_global(options)
         changed._merge_view(view)
+        merge_tools(changed._manager, tools, changed._package)
         return changed
 
     def text(self) -> str:
@@ -244,7 +259,7 @@ class RvizConfig:
             else:
                 display = {"Class": f"{package}/{key[0]}", "Name": key[1]}
                 _merge_display(display, shown)
-                _set_topic(display, shown["topic"], package)
+                set_topic(display, shown["topic"], package)
                 new.append(display)
         for found in left:  # The user has removed it from the page.
             found.siblings[:] = [one for one in found.siblings if one is not found.display]
@@ -255,9 +270,9 @@ class RvizConfig:
         if isinstance(options.get("fixed_frame"), str):
             values["Fixed Frame"] = options["fixed_frame"]
         background = options.get("background")
-        if isinstance(background, list) and len(background) == 3 and all(_is_number(part) for part in background):
+        if isinstance(background, list) and len(background) == 3 and all(is_number(part) for part in background):
             values["Background Color"] = "; ".join(str(min(max(int(part), 0), 255)) for part in background)
-        if _is_number(options.get("frame_rate")):
+        if is_number(options.get("frame_rate")):
             values["Frame Rate"] = int(options["frame_rate"])
         self._manager["Global Options"] = values
 
@@ -265,15 +280,12 @@ class RvizConfig:
         if not view:
             return
         current = dict(self._view)
-        if isinstance(view.get("class"), str) and _plain_class(current.get("Class")) != view["class"]:
+        if isinstance(view.get("class"), str) and plain_class(current.get("Class")) != view["class"]:
             current["Class"] = f"{self._package}/{view['class']}"
-        _update(current, view.get("options"))
+        update(current, view.get("options"))
         views = dict(_mapping(self._manager, "Views"))
         views["Current"] = current
         self._manager["Views"] = views
-
-
-_OWN_KEYS = ("Class", "Name", "Enabled")
 
 
 def _displays(parent: dict[str, Any], path: str) -> Iterator[_Found]:
@@ -289,7 +301,7 @@ def _displays(parent: dict[str, Any], path: str) -> Iterator[_Found]:
 
 def _merge_display(display: dict[str, Any], shown: RvizDisplay) -> None:
     display["Enabled"] = shown["enabled"]
-    _update(display, shown["options"])
+    update(display, shown["options"])
 
 
 def _mapping(parent: dict[str, Any], key: str) -> dict[str, Any]:
@@ -304,59 +316,7 @@ def _sequence(parent: dict[str, Any], key: str) -> list[Any]:
     return value
 
 
-def _plain_class(name: Any) -> str:
-    """Return a class name without its package: TF for rviz_default_plugins/TF and rviz/TF."""
-    return str(name or "").rpartition("/")[2]
-
-
-def _topic_of(display: Mapping[str, Any]) -> str | None:
-    for key in _TOPIC_KEYS:
-        value = display.get(key)
-        value = value.get("Value") if isinstance(value, dict) else value
-        if isinstance(value, str) and value:
-            return value
-    return None
-
-
-def _set_topic(display: dict[str, Any], topic: str | None, package: str) -> None:
-    if not topic or _topic_of(display) is not None:
-        return
-    if package == "rviz":
-        display["Topic"] = topic
-        return
-    qos = {"Depth": 5, "Durability Policy": "Volatile", "History Policy": "Keep Last"}
-    display["Topic"] = {**qos, "Reliability Policy": "Reliable", "Value": topic}
-
-
 def _color_of(value: Any) -> list[int] | None:
     """Return red, green and blue of a colour such as "48; 48; 48"."""
     parts = re.fullmatch(r"\s*(\d{1,3})\s*[;,]\s*(\d{1,3})\s*[;,]\s*(\d{1,3})\s*", str(value))
     return [min(int(part), 255) for part in parts.groups()] if parts else None
-
-
-def _is_number(value: Any) -> TypeGuard[float]:
-    return isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
-
-
-def _plain(value: Any) -> Any:
-    """Return a value that JSON can represent."""
-    if isinstance(value, dict):
-        return {str(key): _plain(part) for key, part in value.items()}
-    if isinstance(value, list | tuple | set):
-        return [_plain(part) for part in value]
-    if value is None or isinstance(value, bool | str | int) or _is_number(value):
-        return value
-    return str(value)
-
-
-def _update(target: dict[str, Any], options: Any) -> None:
-    """Set the given options; others stay."""
-    if not isinstance(options, dict):
-        return
-    for key, value in options.items():
-        if key in _OWN_KEYS:
-            continue
-        if isinstance(value, dict) and isinstance(target.get(key), dict):
-            _update(target[key], value)
-        else:
-            target[key] = value

@@ -1,0 +1,182 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Publication of points, poses and static transforms from the viewer's node, as RViz's tools do."""
+
+from __future__ import annotations
+
+import math
+import re
+import threading
+import time
+from collections import OrderedDict
+from typing import TYPE_CHECKING, Any
+
+from coframe.errors import ViewerError
+from coframe.time import SECOND
+from coframe.viewer.tools.graph_clock import GraphClock
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from coframe.connection import Connection, MessagePublisher
+    from coframe.wire.static_broadcaster import StaticBroadcaster
+
+__all__ = ["ToolPublisher"]
+
+_TOPIC = re.compile(r"(/[A-Za-z_][A-Za-z0-9_]*)+")
+_MAX_TOPIC_LENGTH = 200
+# Each pair of topic and type has a publisher, which stays open for the next message.
+_MAX_PUBLISHERS = 16
+# How long a new publisher waits for the subscriptions that discovery knows, in seconds.
+_MATCH_TIMEOUT, _MATCH_STEP = 1.0, 0.01
+_NORM_TOLERANCE = 1e-3
+
+
+class ToolPublisher:
+    """Publishes what the tools of all pages define; may be used by any thread.
+
+    Args:
+        connection: The connection whose node publishes.
+    """
+
+    def __init__(self, connection: Connection) -> None:
+        self._connection = connection
+        self._lock = threading.Lock()
+        self._clock = GraphClock(connection)
+        self._publishers: OrderedDict[tuple[str, str], MessagePublisher[Any]] = OrderedDict()
+        self._statics: StaticBroadcaster | None = None
+
+    def publish_point(self, topic: str, frame: str, point: Sequence[float]) -> int:
+        """Publish a PointStamped with the current time.
+
+        Args:
+            topic: The topic.
+            frame: The frame of the point.
+            point: x, y and z in metres.
+
+        Returns:
+            The number of subscriptions that receive it.
+
+        Raises:
+            ViewerError: The topic is invalid.
+            WireError: DDS cannot publish.
+        """
+        with self._lock:
+            message = self._message("geometry_msgs/msg/PointStamped", frame)
+            message.point.x, message.point.y, message.point.z = point
+            return self._publish(topic, message)
+
+    def publish_pose(
+        self,
+        topic: str,
+        frame: str,
+        position: Sequence[float],
+        yaw: float,
+        covariance: Sequence[float] | None = None,
+    ) -> int:
+        """Publish a PoseStamped, or a PoseWithCovarianceStamped if there is a covariance, with the current time.
+
+        Args:
+            topic: The topic.
+            frame: The frame of the pose.
+            position: x, y and z in metres.
+            yaw: The rotation about z in radians.
+            covariance: The variances of x and y in square metres and of yaw in square radians.
+
+        Returns:
+            The number of subscriptions that receive it.
+
+        Raises:
+            ViewerError: The topic is invalid.
+            WireError: DDS cannot publish.
+        """
+        with self._lock:
+            if covariance is None:
+                message = self._message("geometry_msgs/msg/PoseStamped", frame)
+                pose = message.pose
+            else:
+                message = self._message("geometry_msgs/msg/PoseWithCovarianceStamped", frame)
+                pose = message.pose.pose
+                for place, variance in zip((0, 7, 35), covariance, strict=True):  # of 6 x 6: x, y, z, roll, pitch, yaw
+                    message.pose.covariance[place] = variance
+            pose.position.x, pose.position.y, pose.position.z = position
+            pose.orientation.z, pose.orientation.w = math.sin(yaw / 2), math.cos(yaw / 2)
+            return self._publish(topic, message)
+
+    def publish_static(self, parent: str, child: str, translation: Sequence[float], quaternion: Sequence[float]) -> int:
+        """Publish a static transform; it stays available to later subscribers while the viewer runs.
+
+        Args:
+            parent: The parent frame.
+            child: The child frame.
+            translation: x, y and z in metres.
+            quaternion: x, y, z and w, normalized.
+
+        Returns:
+            The number of subscriptions that receive it.
+
+        Raises:
+            ViewerError: The quaternion is not normalized.
+            WireError: DDS cannot publish.
+        """
+        norm = math.hypot(*quaternion)
+        if abs(norm - 1.0) > _NORM_TOLERANCE:
+            raise ViewerError(f"the quaternion has the norm {norm:.4g}, but must have 1")
+        with self._lock:
+            message = self._message("geometry_msgs/msg/TransformStamped", parent)
+            message.child_frame_id = self._name_on_graph(child)
+            target, rotation = message.transform.translation, message.transform.rotation
+            target.x, target.y, target.z = translation
+            rotation.x, rotation.y, rotation.z, rotation.w = (part / norm for part in quaternion)
+            if self._statics is None:
+                connection = self._connection
+                topic = connection.tf_topics[1]
+                self._statics = connection.participant.static_broadcaster(connection.node, topic)
+            self._statics.send([message])
+            return self._statics.matched
+
+    def close(self) -> None:
+        """Remove all publishers."""
+        with self._lock:
+            for publisher in self._publishers.values():
+                publisher.close()
+            self._publishers.clear()
+            if self._statics is not None:
+                self._statics.close()
+            self._clock.close()
+
+    def _message(self, ros_type: str, frame: str) -> Any:
+        # Imported here because only publishing needs the message classes.
+        from coframe.messages import find  # noqa: PLC0415
+
+        message: Any = find(ros_type)()
+        message.header.frame_id = self._name_on_graph(frame)
+        message.header.stamp.sec, message.header.stamp.nanosec = divmod(self._clock.now(), SECOND)
+        return message
+
+    def _name_on_graph(self, frame: str) -> str:
+        """Return the name of a frame without the prefix that it has only in the buffer."""
+        return frame.removeprefix(self._connection.prefix)
+
+    def _publish(self, topic: str, message: Any) -> int:
+        if len(topic) > _MAX_TOPIC_LENGTH or not _TOPIC.fullmatch(topic):
+            raise ViewerError(
+                f"{topic[:60]!r} is not a valid name of a topic",
+                hint="Write it as /name or /namespace/name with letters, digits and underscores.",
+            )
+        key = (topic, type(message).__name__)
+        publisher = self._publishers.get(key)
+        if publisher is None:
+            publisher = self._publishers[key] = self._connection.publisher(topic, type(message))
+            self._wait_for_subscriptions(topic, publisher)
+        self._publishers.move_to_end(key)
+        while len(self._publishers) > _MAX_PUBLISHERS:
+            self._publishers.popitem(last=False)[1].close()
+        publisher.publish(message)
+        return publisher.matched
+
+    def _wait_for_subscriptions(self, topic: str, publisher: MessagePublisher[Any]) -> None:
+        """Wait until the known subscriptions are matched: a new publisher does not reach them before."""
+        deadline = time.monotonic() + _MATCH_TIMEOUT
+        expected = len(self._connection.participant.subscribers(topic))
+        while publisher.matched < expected and time.monotonic() < deadline:
+            time.sleep(_MATCH_STEP)
