@@ -21,6 +21,8 @@ import type { Source } from "./protocol/source";
 import { Theme } from "./util/theme";
 import { Timeline } from "./panels/timeline";
 import { toast } from "./util/toast";
+import { Toolbar } from "./panels/toolbar";
+import { ToolSettings } from "./model/tools";
 import { TreePanel } from "./panels/tree";
 import { View } from "./scene/view";
 
@@ -31,8 +33,9 @@ export function showPage(source: Source): void {
   const model = new Model((message) => source.send(message));
   const view = new View(model, theme, byId("canvas") as HTMLCanvasElement, byId("labels"));
   const displays = new Displays(model, view, theme);
+  const toolSettings = new ToolSettings();
   const tree = new TreePanel(model);
-  const rviz = new RvizPanel(model, displays, view, theme, source.live);
+  const rviz = new RvizPanel(model, displays, view, theme, toolSettings, source.live);
   const replays = new ReplayExport(model, displays, rviz, view);
   const panel = new Panel(byId("panel"), [
     { id: "frames", title: "Frames", body: tree.element },
@@ -46,6 +49,7 @@ export function showPage(source: Source): void {
   );
   const timeline = new Timeline(byId("timeline"), model);
   const overlay = new Overlay(byId("overlay"), byId("notice"), model, view);
+  const toolbar = new Toolbar(byId("overlay"), model, view, toolSettings);
   new Inspector(byId("inspector"), model, view);
 
   const shortcuts = new Shortcuts([
@@ -61,12 +65,16 @@ export function showPage(source: Source): void {
     { key: "v", text: "Top-down or orbit view", act: () => overlay.toggleTop() },
     { key: "f", text: "Follow the selected frame", act: () => overlay.toggleFollow() },
     { key: "m", text: "Measure", act: () => overlay.toggleMeasure() },
+    { key: "n", text: "Measure, as in RViz", act: () => overlay.toggleMeasure() },
+    { key: "p", text: "2D pose estimate", act: () => toolbar.toggle("estimate") },
+    { key: "g", text: "2D goal pose", act: () => toolbar.toggle("goal") },
+    { key: "u", text: "Publish point", act: () => toolbar.toggle("point") },
     { key: "h", text: "Hide the selected frame", act: () => hideSelected() },
     { key: "/", text: "Search frames", act: () => (panel.open("frames"), tree.focusSearch()) },
-    { key: "p", text: "Show or hide the panel", act: () => panel.toggle() },
+    { key: "b", text: "Show or hide the panel", act: () => panel.toggle() },
     { key: "d", text: "Dark or light theme", act: () => theme.toggleDark() },
     { key: "s", text: "Save an image", act: () => void saveImage(view, model) },
-    { key: "Escape", shown: "Esc", text: "Deselect or stop measuring", act: () => deselect() },
+    { key: "Escape", shown: "Esc", text: "Deselect or cancel the tool", act: () => deselect() },
     { key: "?", text: "Show or hide this help", act: () => shortcuts.show() },
   ]);
 
@@ -91,7 +99,7 @@ export function showPage(source: Source): void {
   }
 
   function deselect(): void {
-    if (view.measure.active) overlay.toggleMeasure();
+    if (view.tools.active) view.tools.choose(null);
     else model.select(null);
   }
 
@@ -136,6 +144,7 @@ export function showPage(source: Source): void {
       case "rviz":
       case "relation":
       case "timeline":
+      case "published":
       case "replay":
       case "saved":
         model.emit(message.type, message as never);

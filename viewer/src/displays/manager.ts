@@ -22,6 +22,8 @@ import { RobotDisplay } from "./robot";
 import { TfDisplay } from "./tf";
 
 const MAX_AUTOMATIC = 12;
+/** Displays without surfaces on which tools could find points. */
+const FLAT = new Set(["Axes", "Grid", "TF"]);
 
 export class Displays {
   list: Display[] = [];
@@ -66,6 +68,11 @@ export class Displays {
       for (const display of this.list) if (display.config.enabled) box.union(display.bounds());
       return box;
     });
+    view.addSurfaces(() =>
+      this.list
+        .filter(({ config }) => config.enabled && !FLAT.has(kindName(config.class)))
+        .map((display) => display.object),
+    );
     theme.onChange(() => {
       for (const display of this.list) display.restyle();
     });

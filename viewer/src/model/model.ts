@@ -11,6 +11,7 @@ import type {
   Findings,
   Hello,
   Problem,
+  Published,
   Relation,
   ReplayPrepared,
   Robot,
@@ -38,6 +39,7 @@ export interface ModelEvents {
   problem: Problem;
   findings: Findings;
   page: CodePage;
+  published: Published;
   replay: ReplayPrepared;
   saved: Saved;
   connected: boolean;

@@ -40,7 +40,7 @@ export class Bar {
     this.fixed.id = "fixed";
     this.pill.append(h("span", { class: "dot" }), this.state);
     root.append(
-      iconButton("menu", "Show or hide the panel (p)", actions.togglePanel),
+      iconButton("menu", "Show or hide the panel (b)", actions.togglePanel),
       h("div", { class: "brand" }, brandMark(), h("span", { class: "wide-only" }, "coframe")),
       this.title,
       h("span", { class: "spacer" }),

@@ -39,7 +39,7 @@ export class Overlay {
       "Top",
     );
     this.follow = iconButton("target", "Follow the selected frame (f)", () => this.toggleFollow());
-    this.ruler = iconButton("ruler", "Measure between two frames (m)", () => this.toggleMeasure());
+    this.ruler = iconButton("ruler", "Measure between two frames or points (m, n)", () => this.toggleMeasure());
     this.empty = h(
       "div",
       { class: "empty-scene", hidden: true },
@@ -67,6 +67,7 @@ export class Overlay {
     for (const event of ["tree", "robot"] as const) model.on(event, () => this.updateEmpty());
     model.on("hello", () => setTimeout(() => this.updateEmpty(), MESSAGE_DELAY_MS));
     model.on("selection", () => this.updateButtons());
+    view.tools.onChange(() => this.updateButtons());
     view.onDrawn(() => this.updateHints());
     this.updateButtons();
   }
@@ -82,10 +83,7 @@ export class Overlay {
   }
 
   toggleMeasure(): void {
-    const { measure } = this.view;
-    measure.setActive(!measure.active);
-    this.view.refresh();
-    this.updateButtons();
+    this.view.tools.toggle("measure");
   }
 
   private setMode(mode: CameraMode): void {

@@ -5,6 +5,7 @@ import type { Displays } from "../displays/manager";
 import { cssColour } from "../displays/options";
 import { download, h, shorten } from "../util/dom";
 import type { Model } from "../model/model";
+import type { ToolSettings } from "../model/tools";
 import type { JsonObject, RvizConfiguration, RvizView } from "../protocol/messages";
 import type { Theme } from "../util/theme";
 import { toast } from "../util/toast";
@@ -24,6 +25,7 @@ export class RvizPanel {
     private readonly displays: Displays,
     private readonly view: View,
     private readonly theme: Theme,
+    private readonly tools: ToolSettings,
     live: boolean,
   ) {
     this.file.addEventListener("change", () => void this.load());
@@ -75,7 +77,8 @@ export class RvizPanel {
       fixed_frame: this.model.fixed,
       background: [1, 3, 5].map((at) => Number.parseInt(background.slice(at, at + 2), 16)),
     };
-    this.model.send({ type: "save_rviz", displays: this.displays.save(), global, view: { ...this.camera() } });
+    const tools = this.tools.save();
+    this.model.send({ type: "save_rviz", displays: this.displays.save(), global, view: { ...this.camera() }, tools });
   }
 
   /** The view in the format of .rviz files. */
@@ -107,6 +110,7 @@ export class RvizPanel {
       const name = typeof target === "string" && !target.startsWith("<") ? target : null;
       if (name && name !== fixed) this.view.setFollowed(name);
     }
+    this.tools.load(rviz.tools);
     this.hideFrames(rviz);
     this.unknownSection.hidden = rviz.unknown.length === 0;
     this.unknown.replaceChildren(

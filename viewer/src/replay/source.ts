@@ -111,6 +111,7 @@ export class ReplaySource implements Source {
         displays: block.rviz.displays,
         view: block.rviz.view,
         global: NO_GLOBAL_OPTIONS,
+        tools: [],
         unknown: [],
       },
       topics: this.displays.map(({ block: { topic, type, display } }) => ({ topic, type, display })),

@@ -1,16 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-/** Measures the distance between two frames that the user clicks. */
+/** Measures the distance between two frames or points that the user clicks. */
 
 import * as THREE from "three";
 import { shorten } from "../util/dom";
 import * as format from "../util/format";
 import type { Label } from "./labels";
+import type { Vector } from "../protocol/messages";
 import type { Palette } from "../util/theme";
+
+/** A frame, which may move, or a point that is expressed in the fixed frame. */
+export type MeasuredEnd = string | Vector;
 
 export class Measure {
   active = false;
   readonly object: THREE.Line;
-  frames: string[] = [];
+  chosen: MeasuredEnd[] = [];
   private readonly ends = [new THREE.Vector3(), new THREE.Vector3()] as const;
   private readonly material: THREE.LineDashedMaterial;
 
@@ -35,17 +39,17 @@ export class Measure {
 
   setActive(active: boolean): void {
     this.active = active;
-    this.frames = [];
+    this.chosen = [];
   }
 
-  /** Adds a frame; the third one starts a new measurement. */
-  add(frame: string): void {
-    if (this.frames.length >= 2) this.frames = [];
-    if (this.frames[0] !== frame) this.frames.push(frame);
+  /** Adds a frame or a point; the third one starts a new measurement. */
+  add(end: MeasuredEnd): void {
+    if (this.chosen.length >= 2) this.chosen = [];
+    if (typeof end !== "string" || this.chosen[0] !== end) this.chosen.push(end);
   }
 
-  update(position: (frame: string) => THREE.Vector3 | null): void {
-    const found = this.active ? this.frames.map(position) : [];
+  update(position: (end: MeasuredEnd) => THREE.Vector3 | null): void {
+    const found = this.active ? this.chosen.map(position) : [];
     this.object.visible = found.length === 2 && found.every(Boolean);
     if (!this.object.visible) return;
     found.forEach((point, k) => this.ends[k as 0 | 1].copy(point as THREE.Vector3));
@@ -60,8 +64,9 @@ export class Measure {
 
   /** The next step for the user, or the result along the axes of the fixed frame. */
   text(): string {
-    if (this.frames.length === 0) return "Measure: click the first frame";
-    if (this.frames.length === 1) return `From ${shorten(this.frames[0] ?? "", 40)}: click the second frame`;
+    const [first] = this.chosen;
+    if (first === undefined) return "Measure: click the first frame or point";
+    if (this.chosen.length === 1) return `From ${nameOf(first)}: click the second frame or point`;
     if (!this.object.visible) return "One of the two frames is not visible";
     const [a, b] = this.ends;
     const along = (["x", "y", "z"] as const).map((k) => `Δ${k} ${format.fixed(b[k] - a[k], 3)}`).join("  ");
@@ -79,4 +84,8 @@ export class Measure {
       className: "measure",
     };
   }
+}
+
+function nameOf(end: MeasuredEnd): string {
+  return typeof end === "string" ? shorten(end, 40) : `(${end.map((part) => format.fixed(part, 3)).join(", ")})`;
 }

@@ -4,10 +4,12 @@
 import * as THREE from "three";
 import { FramesView, type FrameOptions } from "./frames";
 import { LabelLayer, type Label } from "./labels";
-import { Measure } from "./measure";
+import { Measure, type MeasuredEnd } from "./measure";
 import type { Model } from "../model/model";
 import { FramePoses } from "./frame_poses";
-import type { FrameUpdate } from "../protocol/messages";
+import { Picker } from "./picking";
+import { PointerTools } from "./tools";
+import type { FrameUpdate, Vector } from "../protocol/messages";
 import { SceneRenderer } from "./renderer";
 import type { Theme } from "../util/theme";
 
@@ -29,6 +31,7 @@ export class View {
   readonly renderer: SceneRenderer;
   readonly framePoses = new FramePoses();
   readonly measure: Measure;
+  readonly tools: PointerTools;
   /** The frame update whose poses are in the scene. */
   shown: FrameUpdate | null = null;
   /** The number of frame updates drawn. */
@@ -45,6 +48,9 @@ export class View {
   private cameraChosen = false;
   private readonly bounds: (() => THREE.Box3)[] = [];
   private chain: number[] = [];
+  private readonly picker = new Picker();
+  private readonly surfaces: (() => THREE.Object3D[])[] = [];
+  private readonly pointListeners: ((point: Vector) => void)[] = [];
   private readonly posesListeners: ((framePoses: FramePoses, update: FrameUpdate) => void)[] = [];
   private readonly beforeDrawListeners: ((update: FrameUpdate) => void)[] = [];
   private readonly drawnListeners: ((update: FrameUpdate | null) => void)[] = [];
@@ -65,7 +71,9 @@ export class View {
       () => this.prepare(),
       () => this.finish(),
     );
-    this.renderer.scene.add(this.frames.object, this.measure.object);
+    this.tools = new PointerTools(canvas, this);
+    this.tools.onChange((tool) => this.measure.setActive(tool === "measure"));
+    this.renderer.scene.add(this.frames.object, this.measure.object, this.tools.object);
     this.renderer.compile(this.frames.alwaysDrawn);
     theme.onChange(() => this.recolour());
     model.on("frames", (update) => {
@@ -124,6 +132,25 @@ export class View {
     this.bounds.push(bounds);
   }
 
+  /** Registers objects on whose surfaces the tools find points. */
+  addSurfaces(surfaces: () => THREE.Object3D[]): void {
+    this.surfaces.push(surfaces);
+  }
+
+  /** Calls the listener with each point that the user clicks with the tool for points, in the fixed frame. */
+  onPoint(listener: (point: Vector) => void): void {
+    this.pointListeners.push(listener);
+  }
+
+  groundAt(event: PointerEvent): THREE.Vector3 | null {
+    this.aim(event);
+    return this.picker.ground(-this.framePoses.origin[2]);
+  }
+
+  inFixedFrame(point: THREE.Vector3): Vector {
+    return point.toArray().map((value, k) => value + (this.framePoses.origin[k] as number)) as Vector;
+  }
+
   /** Prevents the camera from being fitted to the first frames, after a file has set it. */
   keepCamera(): void {
     this.fitted = true;
@@ -153,7 +180,7 @@ export class View {
     this.frames.object.visible = this.tfShown;
     this.frames.update(framePoses, model.forest, this.tf);
     this.frames.setChain(framePoses, model.selection.frame ? this.chain : []);
-    this.measure.update((frame) => this.position(frame));
+    this.measure.update((end) => this.positionOf(end));
     if (this.followed) {
       const position = this.position(this.followed);
       if (position) this.renderer.camera.follow(position);
@@ -240,11 +267,35 @@ export class View {
       if (!down || Math.hypot(event.clientX - down.x, event.clientY - down.y) > CLICK_PX) return;
       const bounds = canvas.getBoundingClientRect();
       const frame = this.pick(event.clientX - bounds.left, event.clientY - bounds.top);
-      if (this.measure.active) {
-        if (frame) this.measure.add(frame);
-        this.refresh();
-      } else this.model.select(frame);
+      if (this.tools.active) this.use(event, frame);
+      else this.model.select(frame);
     });
+  }
+
+  /** Uses the active tool at a frame, on a surface or on the ground plane. */
+  private use(event: PointerEvent, frame: string | null): void {
+    this.aim(event);
+    const surface = this.picker.surface(this.surfaces.flatMap((found) => found())) ?? this.groundAt(event);
+    const point = surface && this.inFixedFrame(surface);
+    if (this.tools.active === "measure") {
+      const end = frame ?? point;
+      if (end) this.measure.add(end);
+    } else if (this.tools.active === "point" && point) {
+      this.tools.choose(null);
+      for (const listener of this.pointListeners) listener(point);
+    }
+    this.refresh();
+  }
+
+  private aim(event: PointerEvent): void {
+    const { camera, canvas, width, height } = this.renderer;
+    const bounds = canvas.getBoundingClientRect();
+    this.picker.aim(camera.current, event.clientX - bounds.left, event.clientY - bounds.top, width, height);
+  }
+
+  private positionOf(end: MeasuredEnd): THREE.Vector3 | null {
+    if (typeof end === "string") return this.position(end);
+    return new THREE.Vector3(...end).sub(new THREE.Vector3(...this.framePoses.origin));
   }
 
   private pick(x: number, y: number): string | null {

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+/** The points of the scene under the pointer: on the ground plane, and on the surfaces that are drawn. */
+
+import * as THREE from "three";
+
+/** A point of a cloud is hit if the pointer is within this many pixels of it. */
+const CLOUD_POINT_PX = 5;
+/** A ray that is nearly parallel to the ground would hit it at a distance that the user cannot mean. */
+const MAX_GROUND_DISTANCE_M = 1e4;
+
+export type SceneCamera = THREE.PerspectiveCamera | THREE.OrthographicCamera;
+
+export class Picker {
+  private readonly raycaster = new THREE.Raycaster();
+
+  /** Points the ray at a pixel of a view of this size. */
+  aim(camera: SceneCamera, x: number, y: number, width: number, height: number): void {
+    camera.updateMatrixWorld();
+    this.raycaster.setFromCamera(new THREE.Vector2((x / width) * 2 - 1, 1 - (y / height) * 2), camera);
+    this.pixels = (distance) =>
+      camera instanceof THREE.OrthographicCamera
+        ? 1 / camera.zoom
+        : (2 * distance * Math.tan((camera.fov * Math.PI) / 360)) / height;
+  }
+
+  /** The size in metres of a pixel at a distance. */
+  private pixels: (distance: number) => number = () => 0;
+
+  /** The point of the horizontal plane at a height; null if the ray does not hit it. */
+  ground(height: number): THREE.Vector3 | null {
+    const { ray } = this.raycaster;
+    const point = ray.intersectPlane(new THREE.Plane(new THREE.Vector3(0, 0, 1), -height), new THREE.Vector3());
+    return point && point.distanceTo(ray.origin) < MAX_GROUND_DISTANCE_M ? point : null;
+  }
+
+  /** The nearest point on a visible mesh or cloud; null if the ray hits none. */
+  surface(roots: readonly THREE.Object3D[]): THREE.Vector3 | null {
+    const hits: THREE.Intersection[] = [];
+    for (const root of roots)
+      forEachVisible(root, (object) => {
+        const isCloud = object instanceof THREE.Points;
+        if (!isCloud && !(object instanceof THREE.Mesh)) return;
+        if (isCloud) this.raycaster.params.Points.threshold = CLOUD_POINT_PX * this.pixels(this.distance(object));
+        object.raycast(this.raycaster, hits);
+      });
+    hits.sort((a, b) => a.distance - b.distance);
+    const nearest = hits[0];
+    if (!nearest) return null;
+    const { object, index } = nearest;
+    if (!(object instanceof THREE.Points) || index === undefined) return nearest.point;
+    // The hit is the nearest point of the ray; the point of the cloud is what the user means.
+    const position = (object as THREE.Points<THREE.BufferGeometry>).geometry.getAttribute("position");
+    return new THREE.Vector3().fromBufferAttribute(position, index).applyMatrix4(object.matrixWorld);
+  }
+
+  private distance(cloud: THREE.Points): number {
+    cloud.geometry.boundingSphere ?? cloud.geometry.computeBoundingSphere();
+    const { center } = cloud.geometry.boundingSphere as THREE.Sphere;
+    const distance = center.clone().applyMatrix4(cloud.matrixWorld).distanceTo(this.raycaster.ray.origin);
+    return Number.isFinite(distance) ? distance : 0;
+  }
+}
+
+function forEachVisible(object: THREE.Object3D, act: (object: THREE.Object3D) => void): void {
+  if (!object.visible) return;
+  act(object);
+  for (const child of object.children) forEachVisible(child, act);
+}
