@@ -10,11 +10,12 @@ from matplotlib.figure import Figure
 from matplotlib.font_manager import FontProperties, findfont, get_font
 from matplotlib.lines import Line2D
 from matplotlib.patches import FancyBboxPatch
-from matplotlib.text import Text
 
 from coframe.tree_drawing.layout import Box, Line, draw
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
     from coframe.tree_drawing.forest import Forest
     from coframe.tree_drawing.layout import Label
 
@@ -42,39 +43,35 @@ def as_png(forest: Forest, title: str) -> bytes:
     axes.set_xlim(0.0, drawing.width)
     axes.set_ylim(drawing.height, 0.0)
     for shape in drawing.shapes:
-        axes.add_artist(_artist(shape))
+        _draw(axes, shape)
     stream = io.BytesIO()
     figure.savefig(stream, format="png", dpi=density)
     return stream.getvalue()
 
 
-def _artist(shape: Box | Line | Label) -> FancyBboxPatch | Line2D | Text:
+def _draw(axes: Axes, shape: Box | Line | Label) -> None:
     if isinstance(shape, Box):
-        return FancyBboxPatch(
-            (shape.x, shape.y),
-            shape.width,
-            shape.height,
-            boxstyle=f"round,pad=0,rounding_size={_CORNER}",
-            facecolor=shape.fill,
-            edgecolor=shape.border,
-            linewidth=_POINT,
-        )
-    if isinstance(shape, Line):
+        corner = f"round,pad=0,rounding_size={_CORNER}"
+        box = FancyBboxPatch((shape.x, shape.y), shape.width, shape.height, boxstyle=corner, linewidth=_POINT)
+        box.set(facecolor=shape.fill, edgecolor=shape.border)
+        axes.add_patch(box)
+    elif isinstance(shape, Line):
         x, y = zip(*shape.points, strict=True)
         line = Line2D(x, y, color=shape.colour, linewidth=_POINT)
         if shape.dashed:
             line.set_dashes((6, 4))
-        return line
-    return Text(
-        shape.x,
-        shape.y,
-        shape.text,
-        color=shape.colour,
-        fontfamily=_FONT,
-        fontsize=shape.size * _POINT * _FONT_SCALE,
-        fontweight="bold" if shape.bold else "normal",
-        parse_math=False,  # A name that contains $...$ is not a formula.
-    )
+        axes.add_line(line)
+    else:
+        axes.text(
+            shape.x,
+            shape.y,
+            shape.text,
+            color=shape.colour,
+            fontfamily=_FONT,
+            fontsize=shape.size * _POINT * _FONT_SCALE,
+            fontweight="bold" if shape.bold else "normal",
+            parse_math=False,  # A name that contains $...$ is not a formula.
+        )
 
 
 def _spelled(text: str) -> str:
