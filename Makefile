@@ -7,7 +7,7 @@ DEMO_STAMP := $(VENV)/.demo_ready
 NATIVE := $(shell find native -name '*.cpp' -o -name '*.hpp' -o -name '*.inc') CMakeLists.txt
 
 .DEFAULT_GOAL := help
-.PHONY: help setup build build-split demo test test-slow test-long sanitize lint typecheck format conformance bench generate page page-check clean
+.PHONY: help setup build build-split demo test test-slow test-long test-ros sanitize lint typecheck format conformance bench generate page page-check clean
 
 help: ## list the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  make %-12s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -45,6 +45,9 @@ $(VENV)/.oracle: pyproject.toml | $(STAMP)
 
 test-slow: $(STAMP) $(VENV)/.oracle ## run the tests that take minutes
 	$(BIN)/python -m pytest -m "slow and not long" $(ARGS)
+
+test-ros: $(STAMP) ## run programs with the sourced ROS 2 and with coframe, and compare their outputs
+	COFRAME_TEST_ROS=1 $(BIN)/python -m pytest tests/interop -v $(ARGS)
 
 test-long: $(STAMP) ## compare ten million random operations with the real tf2 (a new seed each run); ten minutes with a stuck tab
 	$(BIN)/python -m pytest -m long -rP $(ARGS)

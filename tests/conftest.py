@@ -86,6 +86,16 @@ _UP = "ip link set lo up && ip link set lo multicast on && echo up && exec cat"
 @pytest.fixture
 def network() -> Iterator[Network]:
     """A network of this test's own."""
+    yield from _network()
+
+
+@pytest.fixture(scope="session")
+def session_network() -> Iterator[Network]:
+    """A network for programs that run once for several tests."""
+    yield from _network()
+
+
+def _network() -> Iterator[Network]:
     if not (shutil.which("unshare") and shutil.which("nsenter") and shutil.which("ip")):
         pytest.skip("network namespaces need unshare, nsenter and ip")
     network = Network()

@@ -252,7 +252,7 @@ def test_an_invalid_parameter_stops_the_node_with_an_error(node, parameter, sent
 @pytest.mark.parametrize(
     ("arguments", "environment", "sentence"),
     [
-        (["-r", "nonsense"], {}, "--remap 'nonsense' does not have the form from:=to"),
+        (["-r", "nonsense"], {}, "'-r nonsense'. Error: it does not have the form from:=to"),
         (["--params-file", "nowhere.yaml"], {}, "--params-file nowhere.yaml"),
         (["-r", "__node:=a-b"], {}, "Invalid node name"),
         ([], {"ROS_DOMAIN_ID": "abc"}, "ROS_DOMAIN_ID is 'abc'"),

@@ -1,11 +1,15 @@
 # SPDX-License-Identifier: Apache-2.0
 """Parsing of `--ros-args`."""
 
+import re
+
 import pytest
 
-from rclpy import _arguments, _yaml
+from rclpy import _arguments, _rclpy_pybind11, _yaml, exceptions, handle
 from rclpy._remapping import NameResolver, remap_node
-from rclpy.exceptions import RCLInvalidROSArgsError, UnknownROSArgsError
+from rclpy.context import Context
+from rclpy.exceptions import RCLError, RCLInvalidROSArgsError, UnknownROSArgsError
+from rclpy.impl import implementation_singleton
 from rclpy.impl.logging_severity import LoggingSeverity
 from rclpy.utilities import remove_ros_args
 
@@ -15,10 +19,11 @@ def resolver(*rules: str, node: str = "arm", namespace: str = "/") -> NameResolv
     return NameResolver(node, namespace, _arguments.parse(["--ros-args", *words]).remaps)
 
 
-def test_arguments_outside_of_ros_args_are_ignored():
+def test_only_remapping_rules_are_used_outside_of_ros_args():
     args = ["prog", "x:=y", "--ros-args", "-r", "a:=b", "--", "-r", "c:=d", "--ros-args", "-p", "n:=1"]
-    parsed = _arguments.parse(args)
-    assert [rule.match for rule in parsed.remaps] == ["a"]
+    parsed = _arguments.parse([*args, "--", "--size:=5", "12:=x", "http://a:=1"])
+    assert [rule.match for rule in parsed.remaps] == ["a", "x", "c"]
+    assert parsed.deprecated_remaps == ["x:=y", "c:=d"]
     assert [(item.name, item.value) for item in parsed.parameters] == [("n", 1)]
     assert remove_ros_args(args) == ["prog", "x:=y", "-r", "c:=d"]
 
@@ -26,18 +31,33 @@ def test_arguments_outside_of_ros_args_are_ignored():
 @pytest.mark.parametrize(
     ("args", "error", "text"),
     [
-        (["--bogus"], UnknownROSArgsError, "unknown ROS arguments: .'--bogus'"),
-        (["-r"], RCLInvalidROSArgsError, "-r needs an argument"),
-        (["-r", "chatter"], RCLInvalidROSArgsError, "does not have the form from:=to"),
+        (["--bogus", "c"], UnknownROSArgsError, "['--bogus', 'c']"),
+        (["-r"], RCLInvalidROSArgsError, "Couldn't parse trailing -r flag. No remap rule found."),
+        (["-r", "chatter"], RCLInvalidROSArgsError, "'-r chatter'. Error: it does not have the form from:=to"),
         (["-r", "chatter:="], RCLInvalidROSArgsError, "no value after :="),
+        (["-r", "__ns:=robot"], RCLInvalidROSArgsError, "it must lead with a '/'"),
+        (["-r", "__node:=1arm"], RCLInvalidROSArgsError, "must not start with a number"),
         (["-p", "rate"], RCLInvalidROSArgsError, "does not have the form"),
-        (["--log-level", "loud"], RCLInvalidROSArgsError, "Known levels: debug, info"),
-        (["--params-file", "/nowhere.yaml"], RCLInvalidROSArgsError, "No such file"),
+        (["-p", "rate:="], RCLInvalidROSArgsError, "no value after :="),
+        (["-p", "1x:=2"], RCLInvalidROSArgsError, "starts with a letter"),
+        (["-p", "x:=[1, a]"], RCLInvalidROSArgsError, "Sequence should be of same type. Value type 'string'"),
+        (["--log-level", "loud"], RCLInvalidROSArgsError, "Argument does not use a valid severity level"),
+        (["--params-file", "/nowhere.yaml"], RCLInvalidROSArgsError, "Error: Error opening YAML file"),
     ],
 )
 def test_invalid_arguments_are_reported(args, error, text):
-    with pytest.raises(error, match=text):
+    with pytest.raises(error, match=re.escape(text)):
         _arguments.parse(["--ros-args", *args])
+
+
+def test_errors_of_the_process_have_the_class_of_ros_and_a_hint(domain_id):
+    with pytest.raises(_rclpy_pybind11.RCLError, match=r"^failed to initialize rcl: Couldn't parse log") as caught:
+        Context().init(["--ros-args", "--log-level", "loud"], domain_id=domain_id)
+    assert caught.value.hint == "Known levels: debug, info, warn, error, fatal."
+    with pytest.raises(RCLError, match="external configuration"):
+        Context().init(["--ros-args", "--log-config-file", "x"], domain_id=domain_id)
+    assert exceptions.InvalidHandle is _rclpy_pybind11.InvalidHandle is handle.InvalidHandle
+    assert implementation_singleton.rclpy_implementation.RCLError is RCLError
 
 
 def test_logging_options():

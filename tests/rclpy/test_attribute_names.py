@@ -76,7 +76,10 @@ _IN_ROS = {
 }
 # Public names of newer distributions than the one that was listed, and documented additions.
 _LATER = {
-    "Node": {"get_fully_qualified_node_names"},
+    "Node": {
+        *("add_post_set_parameters_callback", "add_pre_set_parameters_callback", "get_fully_qualified_node_names"),
+        *("list_parameters", "remove_post_set_parameters_callback", "remove_pre_set_parameters_callback"),
+    },
     "Subscription": {"get_publisher_count"},
     "Buffer": {"clock", "jump_handle", "time_jump_callback"},
     "BufferClient": {"lookup_transform_async", "lookup_transform_full_async"},

@@ -114,7 +114,14 @@ def test_programs_report_errors_in_one_message(tmp_path):
         endless: ["joint_state_publisher", file, *circle],
         f"coframe: {endless}": ["coframe.cli", "joints", file, *circle],
         "no joint named 'trun'": ["coframe.cli", "joints", file, "--zero", "trun=1"],
-        "coframe: Failed to parse ROS arguments: --param": ["coframe.cli", "robot", file, "--ros-args", "-p", "x"],
+        "coframe: failed to initialize rcl: Couldn't parse parameter override rule: '-p x'": [
+            "coframe.cli",
+            "robot",
+            file,
+            "--ros-args",
+            "-p",
+            "x",
+        ],
         "No such file": ["robot_state_publisher", file, "--ros-args", "--params-file", "/nowhere"],
     }
     processes = {

@@ -3,6 +3,7 @@
 
 import io
 import re
+from pathlib import Path
 
 import pytest
 
@@ -29,7 +30,7 @@ def test_default_format(capfd):
     [("info", "INFO"), ("warn", "WARN"), ("warning", "WARN"), ("error", "ERROR"), ("fatal", "FATAL")],
 )
 def test_severities(capfd, method, word):
-    assert getattr(get_logger("arm"), method)("text")
+    assert getattr(get_logger(f"arm.{method}"), method)("text")
     assert capfd.readouterr().err.startswith(f"[{word}] ")
 
 
@@ -49,7 +50,7 @@ def test_levels_are_inherited_along_dots(capfd):
 def test_empty_names_are_rejected():
     with pytest.raises(ValueError, match="Logger name must not be empty"):
         get_logger("")
-    with pytest.raises(ValueError, match="Child logger name must not be None or empty"):
+    with pytest.raises(ValueError, match="Child logger name must not be empty"):
         get_logger("arm").get_child("")
 
 
@@ -139,5 +140,29 @@ def test_sinks_receive_the_records_of_child_loggers():
 
 def test_severity_from_text():
     assert rclpy.logging.get_logging_severity_from_string("warn") is LoggingSeverity.WARN
-    with pytest.raises(RuntimeError, match="Unknown logging severity 'loud'"):
+    with pytest.raises(RuntimeError, match="Failed to get severity name") as caught:
         rclpy.logging.get_logging_severity_from_string("loud")
+    assert caught.value.hint == "'loud' is not one of UNSET, DEBUG, INFO, WARN, ERROR, FATAL."
+
+
+def test_misuse_is_refused_as_in_ros():
+    logger = get_logger("arm.misused")
+    with pytest.raises(TypeError, match="must be a string, got 5"):
+        logger.info(5)
+
+    def log(severity: LoggingSeverity) -> None:
+        logger.log("one line", severity)
+
+    log(LoggingSeverity.INFO)
+    with pytest.raises(ValueError, match="severity cannot be changed"):
+        log(LoggingSeverity.WARN)
+
+
+def test_logging_directory(monkeypatch):
+    for name in ("ROS_LOG_DIR", "ROS_HOME"):
+        monkeypatch.delenv(name, raising=False)
+    assert rclpy.logging.get_logging_directory() == Path("~/.ros/log").expanduser()
+    monkeypatch.setenv("ROS_HOME", "/home/ros")
+    assert rclpy.logging.get_logging_directory() == Path("/home/ros/log")
+    monkeypatch.setenv("ROS_LOG_DIR", "/logs")
+    assert rclpy.logging.get_logging_directory() == Path("/logs")

@@ -77,7 +77,9 @@ def test_declare_by_type(node):
 
 
 def test_declare_parameters_with_a_namespace(node):
-    node.declare_parameters("gain", [("p", 1.0), ("i", 2.0, ParameterDescriptor(description="integral")), ("d",)])
+    parameters = [("p", 1.0), ("i", 2.0, ParameterDescriptor(description="integral")), ("d",)]
+    with pytest.warns(UserWarning, match="only providing its name is deprecated"):
+        node.declare_parameters("gain", parameters)
     assert {name: parameter.value for name, parameter in node.get_parameters_by_prefix("gain").items()} == {
         "p": 1.0,
         "i": 2.0,
@@ -139,9 +141,9 @@ def test_set_checks_type_range_and_read_only(node):
         ]
     )
     assert [result.successful for result in results] == [True, False, False, False, False, False]
-    assert "multiple of the step" in results[1].reason
+    assert results[1].reason.endswith("is not a valid step. Min: 0, max: 10, value: 7, step: 5")
     assert "out of range. Min: 0, Max: 10, value: 11" in results[2].reason
-    assert results[3].reason == "Wrong parameter type, expected 'INTEGER' got 'STRING'"
+    assert results[3].reason == "Wrong parameter type, expected 'Type.INTEGER' got 'Type.STRING'"
     assert "read-only" in results[5].reason
     with pytest.raises(ParameterImmutableException):
         node.undeclare_parameter("fixed")

@@ -42,7 +42,7 @@ def test_incomplete_profiles_are_rejected():
         QoSProfile()
     with pytest.raises(InvalidQoSProfileException, match="KEEP_LAST without a depth setting"):
         QoSProfile(history=HistoryPolicy.KEEP_LAST)
-    assert QoSProfile(history=HistoryPolicy.KEEP_ALL).depth == 0
+    assert QoSProfile(history=HistoryPolicy.KEEP_ALL).depth == 10
 
 
 def test_wrong_types_are_rejected():
@@ -50,8 +50,6 @@ def test_wrong_types_are_rejected():
         QoSProfile(depth=1, nonsense=2)
     with pytest.raises(AssertionError):
         QoSProfile(depth="1")
-    with pytest.raises(AssertionError):
-        QoSProfile(depth=-1)
     with pytest.raises(AssertionError):
         QoSProfile(depth=1, deadline=1.0)
     with pytest.raises(ValueError, match="17"):
@@ -91,8 +89,15 @@ def test_int_is_a_depth():
 
 
 def test_compatibility():
-    reliable, best_effort = QoSProfile(depth=1), qos_profile_sensor_data
-    assert qos_check_compatible(reliable, best_effort) == (QoSCompatibility.OK, "")
+    reliable, best_effort = QoSProfile(depth=1, liveliness=LivelinessPolicy.AUTOMATIC), qos_profile_sensor_data
+    assert qos_check_compatible(reliable, reliable) == (QoSCompatibility.OK, "")
+    text = "WARNING: Publisher's liveliness is automatic, but subscription's is system_default;"
+    assert qos_check_compatible(reliable, best_effort) == (QoSCompatibility.WARNING, text)
+    slow, fast = (QoSProfile(depth=1, deadline=Duration(seconds=seconds)) for seconds in (2, 1))
+    assert qos_check_compatible(slow, fast) == (
+        QoSCompatibility.ERROR,
+        "ERROR: Subscription deadline is less than publisher deadline;",
+    )
     verdict, reason = qos_check_compatible(best_effort, reliable)
     assert verdict is QoSCompatibility.ERROR
     assert "Best effort publisher and reliable subscription" in reason

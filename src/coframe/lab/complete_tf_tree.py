@@ -23,10 +23,12 @@ Parameters:
 import math
 import sys
 from collections.abc import Sequence
+from typing import Any
 
 import rclpy
 from builtin_interfaces.msg import Time
 from geometry_msgs.msg import TransformStamped
+from rcl_interfaces.msg import SetParametersResult
 from rclpy.exceptions import NameValidationException, ParameterException
 from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
@@ -80,7 +82,22 @@ class CompleteTFTree(Node):
         self.timer = self.create_timer(self.period, self.publish_dynamic_transforms)
         self.sim_time = 0.0
         self.last_tick: ClockTime | None = None
+        self.add_on_set_parameters_callback(self.change_parameters)
         self.get_logger().info("Complete TF tree manager started")
+
+    def change_parameters(self, parameters: list[Any]) -> SetParametersResult:
+        """Apply a new rate. The node reads its other parameters only when it starts, so their changes are refused."""
+        for parameter in parameters:
+            if parameter.name == "rate" and not parameter.value > 0.0:
+                return SetParametersResult(successful=False, reason="the rate must be greater than 0 Hz")
+            if parameter.name not in {"rate", "use_sim_time"}:
+                reason = f"'{parameter.name}' is read when the node starts: restart the node to change it"
+                return SetParametersResult(successful=False, reason=reason)
+        for parameter in parameters:
+            if parameter.name == "rate":
+                self.period = 1.0 / parameter.value
+                self.timer.timer_period_ns = int(self.period * 1e9)
+        return SetParametersResult(successful=True)
 
     def lengths(self, name: str, default: list[float]) -> list[float]:
         """Declare a parameter that is a list of lengths, with as many entries as its default."""

@@ -18,9 +18,11 @@ Parameters:
 
 import math
 import sys
+from typing import Any
 
 import rclpy
 from geometry_msgs.msg import TransformStamped
+from rcl_interfaces.msg import SetParametersResult
 from rclpy.exceptions import NameValidationException, ParameterException
 from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
@@ -63,7 +65,22 @@ class DynamicFramePublisher(Node):
         self.sim_time = 0.0
         self.last_tick: Time | None = None
         self.last_joint_state: Time | None = None
+        self.add_on_set_parameters_callback(self.change_parameters)
         self.get_logger().info("Dynamic TF broadcaster started")
+
+    def change_parameters(self, parameters: list[Any]) -> SetParametersResult:
+        """Apply a new rate. The node reads its other parameters only when it starts, so their changes are refused."""
+        for parameter in parameters:
+            if parameter.name == "rate" and not parameter.value > 0.0:
+                return SetParametersResult(successful=False, reason="the rate must be greater than 0 Hz")
+            if parameter.name not in {"rate", "use_sim_time"}:
+                reason = f"'{parameter.name}' is read when the node starts: restart the node to change it"
+                return SetParametersResult(successful=False, reason=reason)
+        for parameter in parameters:
+            if parameter.name == "rate":
+                self.period = 1.0 / parameter.value
+                self.timer.timer_period_ns = int(self.period * 1e9)
+        return SetParametersResult(successful=True)
 
     def simulate_and_broadcast(self) -> None:
         """Simulate the motion of the joints and broadcast it, unless a robot publishes joint states."""

@@ -25,6 +25,7 @@ from numpy.typing import NDArray
 
 import rclpy
 from geometry_msgs.msg import TransformStamped
+from rcl_interfaces.msg import SetParametersResult
 from rclpy.duration import Duration
 from rclpy.exceptions import NameValidationException, ParameterException
 from rclpy.executors import ExternalShutdownException
@@ -73,7 +74,16 @@ class SensorTransformNode(Node):
         self.scan_sub = self.create_subscription(LaserScan, scan_topic, self.scan_callback, qos)
         cloud_topic = self.declare_parameter("cloud_topic", "/scan_base_frame").value
         self.points_pub = self.create_publisher(PointCloud2, cloud_topic, 10)
+        self.add_on_set_parameters_callback(self.refuse_change)
         self.get_logger().info("Sensor transform node started")
+
+    def refuse_change(self, parameters: list[Any]) -> SetParametersResult:
+        """Refuse changes of the parameters, which the node reads only when it starts."""
+        for parameter in parameters:
+            if parameter.name != "use_sim_time":
+                reason = f"'{parameter.name}' is read when the node starts: restart the node to change it"
+                return SetParametersResult(successful=False, reason=reason)
+        return SetParametersResult(successful=True)
 
     def scan_callback(self, msg: LaserScan) -> None:
         """Add a scan to the queue, then process the queue."""

@@ -21,11 +21,13 @@ Parameters:
 import math
 import sys
 from array import array
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 import rclpy
+from rcl_interfaces.msg import SetParametersResult
 from rclpy.exceptions import NameValidationException, ParameterException
 from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
@@ -68,7 +70,22 @@ class SimulatedLidar(Node):
         topic = self.declare_parameter("scan_topic", "/scan").value
         self.scan_pub = self.create_publisher(LaserScan, topic, 10)
         self.timer = self.create_timer(self.period, self.publish_scan)
+        self.add_on_set_parameters_callback(self.change_parameters)
         self.get_logger().info("Simulated lidar started")
+
+    def change_parameters(self, parameters: list[Any]) -> SetParametersResult:
+        """Apply a new rate. The node reads its other parameters only when it starts, so their changes are refused."""
+        for parameter in parameters:
+            if parameter.name == "rate" and not parameter.value > 0.0:
+                return SetParametersResult(successful=False, reason="the rate must be greater than 0 Hz")
+            if parameter.name not in {"rate", "use_sim_time"}:
+                reason = f"'{parameter.name}' is read when the node starts: restart the node to change it"
+                return SetParametersResult(successful=False, reason=reason)
+        for parameter in parameters:
+            if parameter.name == "rate":
+                self.period = 1.0 / parameter.value
+                self.timer.timer_period_ns = int(self.period * 1e9)
+        return SetParametersResult(successful=True)
 
     def publish_scan(self) -> None:
         """Publish a scan from the current pose of the lidar."""

@@ -14,9 +14,11 @@ Parameters (translations in metres, rotations as quaternions x, y, z, w):
 
 import math
 import sys
+from typing import Any
 
 import rclpy
 from geometry_msgs.msg import TransformStamped
+from rcl_interfaces.msg import SetParametersResult
 from rclpy.exceptions import NameValidationException, ParameterException
 from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
@@ -44,7 +46,16 @@ class StaticFramePublisher(Node):
             self.make_mount("lidar", base, [0.0, 0.0, 0.5], NO_ROTATION),
         ]
         self.tf_broadcaster.sendTransform(transforms)
+        self.add_on_set_parameters_callback(self.refuse_change)
         self.get_logger().info(f"Published {len(transforms)} static transforms")
+
+    def refuse_change(self, parameters: list[Any]) -> SetParametersResult:
+        """Refuse changes of the parameters, which the node reads only when it starts."""
+        for parameter in parameters:
+            if parameter.name != "use_sim_time":
+                reason = f"'{parameter.name}' is read when the node starts: restart the node to change it"
+                return SetParametersResult(successful=False, reason=reason)
+        return SetParametersResult(successful=True)
 
     def make_mount(self, sensor: str, parent: str, translation: list[float], rotation: list[float]) -> TransformStamped:
         """Create the transform of a sensor mount. The arguments are the defaults of its parameters."""

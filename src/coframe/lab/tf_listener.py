@@ -14,9 +14,11 @@ Parameters:
 
 import sys
 from collections.abc import Sequence
+from typing import Any
 
 import rclpy
 from geometry_msgs.msg import PointStamped, PoseStamped
+from rcl_interfaces.msg import SetParametersResult
 from rclpy.duration import Duration
 from rclpy.exceptions import NameValidationException, ParameterException
 from rclpy.executors import ExternalShutdownException
@@ -42,7 +44,21 @@ class TransformListenerNode(Node):
         topic = self.declare_parameter("pose_topic", "/end_effector_pose").value
         self.pose_pub = self.create_publisher(PoseStamped, topic, 10)
         self.timer = self.create_timer(1.0 / rate, self.query_transforms)
+        self.add_on_set_parameters_callback(self.change_parameters)
         self.get_logger().info("Transform listener started")
+
+    def change_parameters(self, parameters: list[Any]) -> SetParametersResult:
+        """Apply a new rate. The node reads its other parameters only when it starts, so their changes are refused."""
+        for parameter in parameters:
+            if parameter.name == "rate" and not parameter.value > 0.0:
+                return SetParametersResult(successful=False, reason="the rate must be greater than 0 Hz")
+            if parameter.name not in {"rate", "use_sim_time"}:
+                reason = f"'{parameter.name}' is read when the node starts: restart the node to change it"
+                return SetParametersResult(successful=False, reason=reason)
+        for parameter in parameters:
+            if parameter.name == "rate":
+                self.timer.timer_period_ns = int(1e9 / parameter.value)
+        return SetParametersResult(successful=True)
 
     def query_transforms(self) -> None:
         """Publish the latest pose of the end effector.

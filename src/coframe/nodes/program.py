@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Final
 import rclpy
 from coframe.errors import CoframeError
 
-# rclpy.exceptions has this exception in coframe only.
-from rclpy._rclpy_pybind11 import RCLError
+# rclpy.exceptions has these exceptions in coframe only.
+from rclpy._rclpy_pybind11 import RCLError, UnknownROSArgsError
 from rclpy.exceptions import NameValidationException, ParameterException
 from rclpy.executors import ExternalShutdownException
 from rclpy.utilities import remove_ros_args
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 __all__ = ["NODE_ERRORS", "initialized", "program", "spin_until_shutdown"]
 
 # What invalid ROS arguments, names and parameters of a node raise.
-NODE_ERRORS: Final = (NameValidationException, ParameterException, RCLError)
+NODE_ERRORS: Final = (NameValidationException, ParameterException, RCLError, UnknownROSArgsError)
 
 
 @contextlib.contextmanager

@@ -8,14 +8,17 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Final
 
 from rclpy import _yaml
-from rclpy.exceptions import RCLInvalidROSArgsError, UnknownROSArgsError
+from rclpy.exceptions import NameValidationException, RCLInvalidROSArgsError, UnknownROSArgsError, _with_hint
 from rclpy.impl.logging_severity import LoggingSeverity
+from rclpy.validate_namespace import validate_namespace
+from rclpy.validate_node_name import validate_node_name
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
 _START: Final = "--ros-args"
 _END: Final = "--"
+_DEPRECATED_REMAP: Final = re.compile(r"(?!\d)(?:\w+:)?[~/]?[\w{}]+(?:/[\w{}]+)*:=[~/]?[\w{}/]+")
 _SWITCHES: Final = ("stdout-logs", "rosout-logs", "external-lib-logs")
 
 
@@ -55,19 +58,24 @@ class LoggingArguments:
     levels: dict[str, LoggingSeverity] = field(default_factory=dict)
     stdout: bool = True
     rosout: bool = True
+    config_file: str | None = None
 
 
 @dataclass
 class Arguments:
-    """Parsed ROS arguments."""
+    """Parsed ROS arguments.
+
+    `deprecated_remaps` are the remapping rules without `--ros-args`, which ROS 2 still obeys.
+    """
 
     remaps: list[Remap] = field(default_factory=list)
     parameters: list[ParameterOverride] = field(default_factory=list)
     logging: LoggingArguments = field(default_factory=LoggingArguments)
+    deprecated_remaps: list[str] = field(default_factory=list)
 
 
 def parse(args: list[str]) -> Arguments:
-    """Parse a command line. Arguments outside of `--ros-args ... --` are ignored.
+    """Parse a command line. Of the arguments outside of `--ros-args ... --`, only remapping rules are used.
 
     Raises:
         RCLInvalidROSArgsError: A rule is malformed, or an option has no argument.
@@ -79,7 +87,11 @@ def parse(args: list[str]) -> Arguments:
         words = iter(section)
         unknown.extend(word for word in words if not _parse_word(word, words, result))
     if unknown:
-        raise UnknownROSArgsError(f"Found unknown ROS arguments: {unknown}")
+        raise _with_hint(
+            UnknownROSArgsError(str(unknown)),
+            "These arguments after --ros-args are unknown. Write the program's own arguments before --ros-args.",
+        )
+    result.deprecated_remaps = [word for word in remove(args) if _parse_deprecated_remap(word, result)]
     return result
 
 
@@ -113,32 +125,35 @@ def _sections(args: list[str]) -> Iterator[list[str]]:
 
 def _parse_word(word: str, rest: Iterator[str], result: Arguments) -> bool:
     if word in {"-r", "--remap"}:
-        result.remaps.append(_parse_remap(_argument_of(word, rest)))
+        result.remaps.append(_parse_remap(_argument_of(word, "remap rule", rest), word))
     elif word in {"-p", "--param"}:
-        result.parameters.append(_parse_parameter(_argument_of(word, rest)))
+        result.parameters.append(_parse_parameter(_argument_of(word, "parameter override rule", rest), word))
     elif word == "--params-file":
-        values = _yaml.load_parameters(_argument_of(word, rest))
-        result.parameters.extend(ParameterOverride(*value) for value in values)
+        result.parameters.extend(_parse_parameter_file(_argument_of(word, "file path", rest)))
     elif word == "--log-level":
-        _parse_log_level(_argument_of(word, rest), result.logging)
-    elif word in {"--log-config-file", "-e", "--enclave"}:
-        _argument_of(word, rest)  # Log files and security enclaves are not supported, so the argument is ignored.
+        _parse_log_level(_argument_of(word, "log level", rest), result.logging)
+    elif word == "--log-config-file":
+        result.logging.config_file = _argument_of(word, "file path", rest)
+    elif word in {"-e", "--enclave"}:
+        _argument_of(word, "enclave path", rest)  # Security enclaves are not supported, so the argument is ignored.
     elif word.startswith("--enable-") and word[len("--enable-") :] in _SWITCHES:
         _switch(word[len("--enable-") :], result.logging, on=True)
     elif word.startswith("--disable-") and word[len("--disable-") :] in _SWITCHES:
         _switch(word[len("--disable-") :], result.logging, on=False)
     elif ":=" in word and not word.startswith("-"):
-        result.remaps.append(_parse_remap(word))
+        result.remaps.append(_parse_remap(word, "--remap"))
     else:
         return False
     return True
 
 
-def _argument_of(flag: str, rest: Iterator[str]) -> str:
+def _argument_of(flag: str, what: str, rest: Iterator[str]) -> str:
     try:
         return next(rest)
     except StopIteration:
-        raise RCLInvalidROSArgsError(f"Failed to parse ROS arguments: {flag} needs an argument") from None
+        found = "provided" if what.endswith(("path", "level")) else "found"
+        error = RCLInvalidROSArgsError(f"Couldn't parse trailing {flag} flag. No {what} {found}.")
+        raise _with_hint(error, f"Write {flag} ARGUMENT.") from None
 
 
 def _switch(name: str, logging: LoggingArguments, *, on: bool) -> None:
@@ -148,34 +163,76 @@ def _switch(name: str, logging: LoggingArguments, *, on: bool) -> None:
         logging.rosout = on
 
 
-def _split_rule(rule: str, flag: str) -> tuple[str | None, str, str]:
+def _split_rule(rule: str) -> tuple[str | None, str, str]:
     """Return node, left side and right side of `[node:]left:=right`."""
     left, separator, right = rule.partition(":=")
     if not separator or not left:
-        raise RCLInvalidROSArgsError(f"Failed to parse ROS arguments: {flag} {rule!r} does not have the form from:=to")
+        raise ValueError("it does not have the form from:=to")
     node: str | None = None
     if match := re.match(r"([A-Za-z_]\w*):(?!//)", left):
         node, left = match[1], left[match.end() :]
     return node, left, right
 
 
-def _parse_remap(rule: str) -> Remap:
-    node, match, replacement = _split_rule(rule, "--remap")
+def _parse_remap(rule: str, flag: str) -> Remap:
+    try:
+        return _remap_of(rule)
+    except (ValueError, NameValidationException) as error:
+        raise RCLInvalidROSArgsError(f"Couldn't parse remap rule: '{flag} {rule}'. Error: {error}") from None
+
+
+def _remap_of(rule: str) -> Remap:
+    node, match, replacement = _split_rule(rule)
     if match in {"__node", "__name"}:
+        validate_node_name(replacement)
         return Remap(node, "name", match, replacement)
     if match == "__ns":
+        validate_namespace(replacement)
         return Remap(node, "namespace", match, replacement)
     if not replacement:
-        raise RCLInvalidROSArgsError(f"Failed to parse ROS arguments: --remap {rule!r} has no value after :=")
+        raise ValueError("it has no value after :=")
     for scheme, kind in (("rostopic://", "topic"), ("rosservice://", "service")):
         if match.startswith(scheme):
             return Remap(node, kind, match[len(scheme) :], replacement)
     return Remap(node, "any", match, replacement)
 
 
-def _parse_parameter(rule: str) -> ParameterOverride:
-    node, name, text = _split_rule(rule, "--param")
+def _parse_deprecated_remap(word: str, result: Arguments) -> bool:
+    """Add the rule of a word outside of `--ros-args`. Return False if the word is not a rule."""
+    if not _DEPRECATED_REMAP.fullmatch(word):
+        return False
+    try:
+        result.remaps.append(_remap_of(word))
+    except (ValueError, NameValidationException):
+        return False
+    return True
+
+
+def _parse_parameter(rule: str, flag: str) -> ParameterOverride:
+    try:
+        return _parameter_of(rule)
+    except ValueError as error:
+        text = f"Couldn't parse parameter override rule: '{flag} {rule}'. Error: {error}"
+        raise RCLInvalidROSArgsError(text) from None
+
+
+def _parameter_of(rule: str) -> ParameterOverride:
+    node, name, text = _split_rule(rule)
+    if not text:
+        raise ValueError("it has no value after :=. An empty string is written as x:=\"''\"")
+    if re.match(r"[\d./]", name) or name.endswith("."):
+        raise ValueError("the name of a parameter starts with a letter, and its parts are separated by dots")
     return ParameterOverride(f"/**/{node}" if node else "/**", name, _yaml.parse_value(text))
+
+
+def _parse_parameter_file(path: str) -> list[ParameterOverride]:
+    try:
+        return [ParameterOverride(*value) for value in _yaml.load_parameters(path)]
+    except (OSError, ValueError) as error:
+        text = "Error opening YAML file" if isinstance(error, OSError) else str(error)
+        hint = f"{error.strerror}: {path}" if isinstance(error, OSError) else "The format is that of `ros2 param dump`."
+        problem = RCLInvalidROSArgsError(f"Couldn't parse params file: '--params-file {path}'. Error: {text}")
+        raise _with_hint(problem, hint) from None
 
 
 def _parse_log_level(text: str, logging: LoggingArguments) -> None:
@@ -185,10 +242,10 @@ def _parse_log_level(text: str, logging: LoggingArguments) -> None:
     try:
         level = LoggingSeverity[level_name.upper()]
     except KeyError:
-        raise RCLInvalidROSArgsError(
-            f"Failed to parse ROS arguments: unknown log level in --log-level {text!r}. "
-            "Known levels: debug, info, warn, error, fatal"
-        ) from None
+        error = RCLInvalidROSArgsError(
+            f"Couldn't parse log level: '--log-level {text}'. Error: Argument does not use a valid severity level"
+        )
+        raise _with_hint(error, "Known levels: debug, info, warn, error, fatal.") from None
     if name:
         logging.levels[name] = level
     else:

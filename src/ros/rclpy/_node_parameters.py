@@ -3,11 +3,14 @@
 
 from __future__ import annotations
 
+import difflib
 import threading
+import warnings
 from collections.abc import Callable, Sequence
-from typing import Any, Final
+from typing import Any
 
-from rcl_interfaces.msg import ParameterDescriptor, SetParametersResult
+from rcl_interfaces.msg import ListParametersResult, ParameterDescriptor, ParameterEvent, SetParametersResult
+from rclpy._parameter_ranges import RELATIVE_TOLERANCE, change_fault, range_fault
 from rclpy.exceptions import (
     InvalidParameterTypeException,
     InvalidParameterValueException,
@@ -15,12 +18,14 @@ from rclpy.exceptions import (
     ParameterImmutableException,
     ParameterNotDeclaredException,
     ParameterUninitializedException,
+    _with_hint,
 )
 from rclpy.parameter import PARAMETER_SEPARATOR_STRING, Parameter, parameter_value_to_python
 from rclpy.validate_parameter_name import validate_parameter_name
 
+PreSetCallback = Callable[[list["Parameter[Any]"]], list["Parameter[Any]"]]
 SetCallback = Callable[[list["Parameter[Any]"]], SetParametersResult]
-_DEFAULT_STEP_TOLERANCE: Final = 1e-9
+PostSetCallback = Callable[[list["Parameter[Any]"]], None]
 
 
 class NodeParameters:
@@ -30,7 +35,12 @@ class NodeParameters:
         overrides: Values from the command line and the constructor, which override the declared defaults.
         allow_undeclared: Whether undeclared parameters may be used.
         declare_overrides: Whether to declare all overrides.
+
+    Attributes:
+        PARAM_REL_TOL: Relative tolerance of the ends and steps of floating-point ranges.
     """
+
+    PARAM_REL_TOL = RELATIVE_TOLERANCE
 
     def __init__(
         self, overrides: dict[str, Parameter[Any]], *, allow_undeclared: bool, declare_overrides: bool
@@ -38,7 +48,9 @@ class NodeParameters:
         self.__lock = threading.RLock()
         self.__parameters: dict[str, Parameter[Any]] = {}
         self.__descriptors: dict[str, ParameterDescriptor] = {}
+        self.__pre_set_callbacks: list[PreSetCallback] = []
         self.__callbacks: list[SetCallback] = []
+        self.__post_set_callbacks: list[PostSetCallback] = []
         self.__overrides = overrides
         self.__allow_undeclared = allow_undeclared
         if declare_overrides:
@@ -71,10 +83,12 @@ class NodeParameters:
         """
         validate_parameter_name(name)
         if descriptor is None:
+            if value is None:
+                _warn_of_missing_default(name)
             descriptor = ParameterDescriptor(dynamic_typing=value is None)
         with self.__lock:
             if self.has_parameter(name):
-                raise ParameterAlreadyDeclaredException(name)
+                raise ParameterAlreadyDeclaredException([name])
             parameter, expected = self.__initial(name, value, ignore_override=ignore_override)
             if not descriptor.dynamic_typing:
                 if expected is Parameter.Type.NOT_SET:
@@ -82,7 +96,7 @@ class NodeParameters:
                 if parameter.type_ not in {expected, Parameter.Type.NOT_SET}:
                     raise InvalidParameterTypeException(parameter, expected.name)
             descriptor.name = name
-            descriptor.type = int(parameter.type_ if descriptor.dynamic_typing else expected)
+            descriptor.type = (parameter.type_ if descriptor.dynamic_typing else expected).value
             self.__descriptors[name] = descriptor
             result = self.__apply([parameter], is_declaration=True)
             if not result.successful:
@@ -127,7 +141,7 @@ class NodeParameters:
         """
         with self.__lock:
             if not self.has_parameter(name):
-                raise ParameterNotDeclaredException(name)
+                raise self.__not_declared(name)
             if self.__descriptors[name].read_only:
                 raise ParameterImmutableException(name)
             del self.__parameters[name]
@@ -149,7 +163,7 @@ class NodeParameters:
             if parameter is None:
                 if self.__allow_undeclared:
                     return Parameter(name)
-                raise ParameterNotDeclaredException(name)
+                raise self.__not_declared(name)
             if parameter.type_ is Parameter.Type.NOT_SET and not self.__descriptors[name].dynamic_typing:
                 raise ParameterUninitializedException(name)
             return parameter
@@ -173,8 +187,12 @@ class NodeParameters:
         """
         parameter = self.__parameters.get(name)
         if parameter is None and not self.__allow_undeclared:
-            raise ParameterNotDeclaredException(name)
+            raise self.__not_declared(name)
         return Parameter.Type.NOT_SET if parameter is None else parameter.type_
+
+    def get_parameter_types(self, names: list[str]) -> list[Parameter.Type]:
+        """Return the types of several parameters; see `get_parameter_type`."""
+        return [self.get_parameter_type(name) for name in names]
 
     def get_parameters_by_prefix(self, prefix: str) -> dict[str, Parameter[Any]]:
         """Return all parameters with a prefix, by their names without the prefix."""
@@ -187,6 +205,18 @@ class NodeParameters:
                 if name.startswith(prefix)
             }
 
+    def list_parameters(self, prefixes: list[str], depth: int = 0) -> ListParametersResult:
+        """Return the names of the declared parameters, and their prefixes.
+
+        Args:
+            prefixes: Prefixes of the names, without the last dot. An empty list: all parameters.
+            depth: Number of levels below a prefix that are included. 0: all levels.
+        """
+        with self.__lock:
+            names = [name for name in self.__parameters if _is_listed(name, prefixes, depth)]
+        found = {name.rpartition(PARAMETER_SEPARATOR_STRING)[0] for name in names} - {""}
+        return ListParametersResult(names=names, prefixes=sorted(found))
+
     def set_parameters(self, parameter_list: list[Parameter[Any]]) -> list[SetParametersResult]:
         """Set parameters one after another.
 
@@ -198,7 +228,7 @@ class NodeParameters:
         """
         with self.__lock:
             self.__check_declared(parameter_list)
-            return [self.__apply([parameter]) for parameter in parameter_list]
+            return [self.__set([parameter]) for parameter in parameter_list]
 
     def set_parameters_atomically(self, parameter_list: list[Parameter[Any]]) -> SetParametersResult:
         """Set all parameters, or no parameter if one is rejected.
@@ -208,7 +238,7 @@ class NodeParameters:
         """
         with self.__lock:
             self.__check_declared(parameter_list)
-            return self.__apply(parameter_list)
+            return self.__set(parameter_list)
 
     def add_on_set_parameters_callback(self, callback: SetCallback) -> None:
         """Add a callback that receives a list of parameters before they are set and returns a SetParametersResult."""
@@ -222,6 +252,30 @@ class NodeParameters:
         """
         self.__callbacks.remove(callback)
 
+    def add_pre_set_parameters_callback(self, callback: PreSetCallback) -> None:
+        """Add a callback that receives the parameters to set and returns those to set instead."""
+        self.__pre_set_callbacks.insert(0, callback)
+
+    def remove_pre_set_parameters_callback(self, callback: PreSetCallback) -> None:
+        """Remove a callback.
+
+        Raises:
+            ValueError: The callback was not added.
+        """
+        self.__pre_set_callbacks.remove(callback)
+
+    def add_post_set_parameters_callback(self, callback: PostSetCallback) -> None:
+        """Add a callback that receives the parameters that were set."""
+        self.__post_set_callbacks.insert(0, callback)
+
+    def remove_post_set_parameters_callback(self, callback: PostSetCallback) -> None:
+        """Remove a callback.
+
+        Raises:
+            ValueError: The callback was not added.
+        """
+        self.__post_set_callbacks.remove(callback)
+
     def describe_parameter(self, name: str) -> ParameterDescriptor:
         """Return the descriptor of a parameter.
 
@@ -232,7 +286,7 @@ class NodeParameters:
         if descriptor is None:
             if self.__allow_undeclared:
                 return ParameterDescriptor(name=name)
-            raise ParameterNotDeclaredException(name)
+            raise self.__not_declared(name)
         return descriptor
 
     def describe_parameters(self, names: list[str]) -> list[ParameterDescriptor]:
@@ -257,15 +311,15 @@ class NodeParameters:
         """
         with self.__lock:
             if not self.has_parameter(name):
-                raise ParameterNotDeclaredException(name)
+                raise self.__not_declared(name)
             before = self.__descriptors[name]
             if before.read_only:
                 raise ParameterImmutableException(name)
             descriptor.name, descriptor.type = name, before.type
             parameter = self.__parameters[name]
-            if alternative_value is not None and _range_fault(parameter, descriptor):
+            if alternative_value is not None and range_fault(parameter, descriptor):
                 parameter = Parameter(name, value=parameter_value_to_python(alternative_value))
-            if fault := _range_fault(parameter, descriptor):
+            if fault := range_fault(parameter, descriptor):
                 raise InvalidParameterValueException(name, parameter.value, fault)
             self.__descriptors[name] = descriptor
             self.__parameters[name] = parameter
@@ -285,72 +339,92 @@ class NodeParameters:
     def __check_declared(self, parameters: list[Parameter[Any]]) -> None:
         for parameter in parameters:
             if not isinstance(parameter, Parameter):
-                raise TypeError(f"parameter must be instance of type '{Parameter!r}', got {parameter!r}")
+                error = TypeError(f"parameter must be instance of type '{Parameter!r}'")
+                raise _with_hint(error, f"Got {parameter!r}.")
         unknown = [parameter.name for parameter in parameters if not self.has_parameter(parameter.name)]
         if unknown and not self.__allow_undeclared:
-            raise ParameterNotDeclaredException(unknown)
+            raise _with_hint(ParameterNotDeclaredException(unknown), self.__suggestion(unknown[0]))
+
+    def __not_declared(self, name: str) -> ParameterNotDeclaredException:
+        return _with_hint(ParameterNotDeclaredException(name), self.__suggestion(name))
+
+    def __suggestion(self, name: str) -> str:
+        close = difflib.get_close_matches(name, self.__parameters, n=1)
+        declared = f"Did you mean '{close[0]}'?" if close else f"Declared: {', '.join(sorted(self.__parameters))}."
+        return f"Call declare_parameter('{name}', ...) first. {declared}"
+
+    def __set(self, parameters: list[Parameter[Any]]) -> SetParametersResult:
+        for pre_set in list(self.__pre_set_callbacks):
+            parameters = pre_set(parameters)
+        if self.__pre_set_callbacks:
+            if not parameters:
+                reason = (
+                    "parameter list cannot be empty, this might be due to pre_set_parameters_callback modifying the "
+                )
+                return SetParametersResult(successful=False, reason=f"{reason}original parameters list.")
+            self.__check_declared(parameters)
+        return self.__apply(parameters)
 
     def __apply(self, parameters: list[Parameter[Any]], *, is_declaration: bool = False) -> SetParametersResult:
         for parameter in parameters:
             descriptor = self.__descriptors.get(parameter.name)
             if descriptor is None:
                 continue
-            fault = _range_fault(parameter, descriptor)
+            fault = range_fault(parameter, descriptor)
             if not is_declaration:
-                fault = _change_fault(parameter, descriptor) or fault
+                fault = change_fault(parameter, descriptor) or fault
             if fault:
                 return SetParametersResult(successful=False, reason=fault)
         for callback in list(self.__callbacks):
             result = callback(parameters)
             if not result.successful:
                 return result
+        event = ParameterEvent()
         for parameter in parameters:
-            self.__store(parameter, is_declaration=is_declaration)
+            self.__store(parameter, event, is_declaration=is_declaration)
+        self._Coframe__publish_parameter_event(event)
+        for post_set in list(self.__post_set_callbacks):
+            post_set(parameters)
         return SetParametersResult(successful=True)
 
-    def __store(self, parameter: Parameter[Any], *, is_declaration: bool) -> None:
+    def __store(self, parameter: Parameter[Any], event: ParameterEvent, *, is_declaration: bool) -> None:
+        name, before = parameter.name, self.__parameters.get(parameter.name)
         if parameter.type_ is Parameter.Type.NOT_SET and not is_declaration:
-            self.__parameters.pop(parameter.name, None)
-            self.__descriptors.pop(parameter.name, None)
+            if before is not None:
+                event.deleted_parameters.append(before.to_parameter_msg())
+            self.__parameters.pop(name, None)
+            self.__descriptors.pop(name, None)
             return
-        descriptor = self.__descriptors.setdefault(
-            parameter.name, ParameterDescriptor(name=parameter.name, dynamic_typing=True)
-        )
+        descriptor = self.__descriptors.setdefault(name, ParameterDescriptor(name=name, dynamic_typing=True))
         if descriptor.dynamic_typing:
-            descriptor.type = int(parameter.type_)
-        self.__parameters[parameter.name] = parameter
+            descriptor.type = parameter.type_.value
+        is_new = before is None or before.type_ is Parameter.Type.NOT_SET
+        (event.new_parameters if is_new else event.changed_parameters).append(parameter.to_parameter_msg())
+        self.__parameters[name] = parameter
         self._Coframe__on_parameter_set(parameter)
 
     def _Coframe__on_parameter_set(self, parameter: Parameter[Any]) -> None:
         """Handle a new value of a parameter. Subclasses override this."""
 
-
-def _change_fault(parameter: Parameter[Any], descriptor: ParameterDescriptor) -> str:
-    """Return why a declared parameter must not be changed to this value, or an empty string if it may."""
-    if descriptor.read_only:
-        return f"Trying to set a read-only parameter: {parameter.name}."
-    if not descriptor.dynamic_typing and parameter.type_ != descriptor.type:
-        expected = Parameter.Type(descriptor.type).name
-        return f"Wrong parameter type, expected '{expected}' got '{parameter.type_.name}'"
-    return ""
+    def _Coframe__publish_parameter_event(self, event: ParameterEvent) -> None:
+        """Publish new, changed and deleted parameters. Subclasses override this."""
 
 
-def _range_fault(parameter: Parameter[Any], descriptor: ParameterDescriptor) -> str:
-    """Return why a value is out of the range of the descriptor, or an empty string if it is in range."""
-    ranges: list[Any]
-    if parameter.type_ is Parameter.Type.INTEGER:
-        ranges, tolerance = list(descriptor.integer_range), 0.0
-    elif parameter.type_ is Parameter.Type.DOUBLE:
-        ranges, tolerance = list(descriptor.floating_point_range), _DEFAULT_STEP_TOLERANCE
-    else:
-        return ""
-    value = parameter.value
-    for limits in ranges:
-        low, high, step = limits.from_value, limits.to_value, limits.step
-        if not low - tolerance <= value <= high + tolerance:
-            return f"Parameter {parameter.name} out of range. Min: {low}, Max: {high}, value: {value}"
-        steps = (value - low) / step if step else 0.0
-        is_end = abs(value - high) <= tolerance
-        if step and not is_end and abs(steps - round(steps)) > tolerance:
-            return f"The parameter value for {parameter.name} must be a multiple of the step {step} from {low}"
-    return ""
+def _warn_of_missing_default(name: str) -> None:
+    warnings.warn(
+        f"when declaring parameter named '{name}', declaring a parameter only providing its name is deprecated. "
+        "Pass a default value, a Parameter.Type, or a descriptor with dynamic_typing=True.",
+        stacklevel=3,
+    )
+
+
+def _is_listed(name: str, prefixes: Sequence[str], depth: int) -> bool:
+    """Return whether a name has one of the prefixes and is at most `depth` levels below it (0: any level)."""
+    for prefix in prefixes or [""]:
+        start = prefix + PARAMETER_SEPARATOR_STRING if prefix else ""
+        if name != prefix and not name.startswith(start):
+            continue
+        rest = name.removeprefix(start)
+        if not depth or rest.count(PARAMETER_SEPARATOR_STRING) < depth:
+            return True
+    return False

@@ -8,8 +8,6 @@ from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
-from rclpy.exceptions import RCLInvalidROSArgsError
-
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
@@ -37,8 +35,21 @@ def parse_value(text: str) -> Any:
     """Return the typed value of the text after `name:=`: a word, a quoted string, or a list in square brackets."""
     text = text.strip()
     if text.startswith("[") and text.endswith("]"):
-        return list(_parse_items(text[1:-1]))
+        return _checked_list(list(_parse_items(text[1:-1])))
     return _parse_word(text)
+
+
+def _checked_list(values: list[Any]) -> list[Any]:
+    """Return the list if its values have one type.
+
+    Raises:
+        ValueError: They have several types.
+    """
+    for value in values:
+        if type(value) is not type(values[0]):
+            kind = {bool: "bool", int: "integer", float: "double", str: "string"}[type(value)]
+            raise ValueError(f"Sequence should be of same type. Value type '{kind}' do not belong at line_num 1")
+    return values
 
 
 def _parse_items(text: str) -> Iterator[Any]:
@@ -46,7 +57,7 @@ def _parse_items(text: str) -> Iterator[Any]:
     while position < len(text):
         item = _ITEM.match(text, position)
         if item is None or item.end() == position:
-            raise RCLInvalidROSArgsError(f"Failed to parse ROS arguments: [{text}] is not a list of values")
+            raise ValueError(f"[{text}] is not a list of values")
         if item[1]:
             yield _parse_word(item[1])
         position = item.end()
@@ -67,17 +78,18 @@ def load_parameters(path: str) -> Iterator[tuple[str, str, Any]]:
         Tuples (pattern of node names, name of the parameter, value).
 
     Raises:
-        RCLInvalidROSArgsError: The file does not exist or is not a parameter file, or PyYAML is not installed.
+        OSError: The file cannot be read.
+        ValueError: It is not a parameter file, or PyYAML is not installed.
     """
     try:
         yaml = import_module("yaml")
     except ImportError:
-        raise RCLInvalidROSArgsError("--params-file needs PyYAML: pip install pyyaml") from None
+        raise ValueError("reading it needs PyYAML: pip install pyyaml") from None
     try:
         root = yaml.compose(Path(path).read_text(encoding="utf-8"), yaml.SafeLoader)
-        yield from _nodes(_python_of(root), "", path)
-    except (OSError, UnicodeDecodeError, yaml.YAMLError) as error:
-        raise RCLInvalidROSArgsError(f"Failed to parse ROS arguments: --params-file {path}: {error}") from error
+        yield from _nodes(_python_of(root), "")
+    except yaml.YAMLError as error:
+        raise ValueError(str(error)) from error
 
 
 def _python_of(node: Any) -> Any:
@@ -91,18 +103,15 @@ def _python_of(node: Any) -> Any:
     return node.value if node.style else parse_scalar(node.value)
 
 
-def _nodes(tree: Any, prefix: str, path: str) -> Iterator[tuple[str, str, Any]]:
+def _nodes(tree: Any, prefix: str) -> Iterator[tuple[str, str, Any]]:
     if not isinstance(tree, dict):
-        raise RCLInvalidROSArgsError(
-            f"Failed to parse ROS arguments: --params-file {path}: expected node names with `ros__parameters:` "
-            f"below them, found {tree!r}"
-        )
+        raise ValueError(f"expected node names with `ros__parameters:` below them, found {tree!r}")  # noqa: TRY004
     for key, value in tree.items():
         if key == "ros__parameters":
             for name, parameter in _flatten(value, ""):
                 yield prefix or "/**", name, parameter
         else:
-            yield from _nodes(value, f"{prefix}/{key.strip('/')}", path)
+            yield from _nodes(value, f"{prefix}/{key.strip('/')}")
 
 
 def _flatten(tree: Any, prefix: str) -> Iterator[tuple[str, Any]]:

@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING
 from rclpy import _arguments
 from rclpy import logging as ros_logging
 from rclpy._wakeup import Wakeup
+from rclpy.exceptions import RCLError, RCLInvalidROSArgsError, _with_hint
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -68,7 +69,7 @@ class Context:
                 raise RuntimeError("Context.init() must only be called once")
             if domain_id is not None and domain_id < 0:
                 raise RuntimeError(f"Domain id ({domain_id}) should not be lower than zero.")
-            self._Coframe__arguments = _arguments.parse(sys.argv if args is None else args)
+            self._Coframe__arguments = _parse_arguments(sys.argv if args is None else args)
             self.__domain_id = _default_domain_id() if domain_id is None else domain_id
             if initialize_logging:
                 ros_logging._configure(self._Coframe__arguments.logging)
@@ -105,7 +106,7 @@ class Context:
             TypeError: `callback` is not callable.
         """
         if not callable(callback):
-            raise TypeError(f"callback should be a callable, got {type(callback)}")
+            raise TypeError("callback should be a callable, got {}", type(callback))
         if hasattr(callback, "__self__") and hasattr(callback, "__func__"):
             self.__shutdown_callbacks.append(weakref.WeakMethod(callback))
         else:
@@ -164,6 +165,26 @@ class Context:
         atexit.unregister(_shut_down_at_exit)
         atexit.register(_shut_down_at_exit)
         return participant
+
+
+def _parse_arguments(args: list[str]) -> _arguments.Arguments:
+    try:
+        arguments = _arguments.parse(args)
+    except RCLInvalidROSArgsError as error:
+        # Upstream raises this class for the arguments of a process and RCLInvalidROSArgsError for those of a node.
+        raise _with_hint(RCLError(f"failed to initialize rcl: {error}"), getattr(error, "hint", "")) from None
+    if arguments.logging.config_file is not None:
+        raise _with_hint(
+            RCLError(
+                "failed to initialize logging: spdlog logging backend doesn't currently support external configuration"
+            ),
+            "Use --log-level, for example `--log-level debug` or `--log-level my_node:=debug`.",
+        )
+    for rule in arguments.deprecated_remaps:
+        ros_logging.get_logger("rcl").warning(
+            f"Found remap rule '{rule}'. This syntax is deprecated. Use '--ros-args --remap {rule}' instead."
+        )
+    return arguments
 
 
 def _default_domain_id() -> int:

@@ -1,13 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Exceptions raised by rclpy.
+"""Exceptions raised by rclpy. Those of upstream's native module are defined in `rclpy._rclpy_pybind11`.
 
 Exception
 ├── NotInitializedException            a context was used before rclpy.init() or after its shutdown
 ├── NoTypeSupportImportedException     a type is not a ROS message, service or action type
-├── RCLError                           an operation of the ROS client library failed (a RuntimeError)
-│   └── RCLInvalidROSArgsError         arguments after --ros-args are malformed
-│       └── UnknownROSArgsError        arguments after --ros-args are unknown
-├── InvalidHandle                      a destroyed node, publisher or other entity was used
 ├── NameValidationException            a name is not valid
 │   ├── InvalidNamespaceException
 │   ├── InvalidNodeNameException
@@ -18,20 +14,68 @@ Exception
 │   ├── ParameterAlreadyDeclaredException
 │   ├── InvalidParameterException
 │   ├── InvalidParameterValueException
-│   │   └── InvalidParameterTypeException
+│   ├── InvalidParameterTypeException
 │   ├── ParameterImmutableException
 │   └── ParameterUninitializedException
 └── ROSInterruptException              a shutdown interrupted a sleep
+
+The texts and arguments of the exceptions are upstream's. What coframe adds is in `hint`, which a traceback shows.
 """
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
+
+from rclpy._rclpy_pybind11 import (
+    InvalidHandle,
+    NodeNameNonExistentError,
+    RCLError,
+    RCLInvalidROSArgsError,
+    RMWError,
+    UnknownROSArgsError,
+    UnsupportedEventTypeError,
+)
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Sequence
 
     from rclpy.parameter import Parameter
+
+ErrorT = TypeVar("ErrorT", bound=BaseException)
+
+__all__ = [
+    "InvalidHandle",
+    "InvalidNamespaceException",
+    "InvalidNodeNameException",
+    "InvalidParameterException",
+    "InvalidParameterTypeException",
+    "InvalidParameterValueException",
+    "InvalidServiceNameException",
+    "InvalidTopicNameException",
+    "NameValidationException",
+    "NoTypeSupportImportedException",
+    "NodeNameNonExistentError",
+    "NotInitializedException",
+    "ParameterAlreadyDeclaredException",
+    "ParameterException",
+    "ParameterImmutableException",
+    "ParameterNotDeclaredException",
+    "ParameterUninitializedException",
+    "RCLError",
+    "RCLInvalidROSArgsError",
+    "RMWError",
+    "ROSInterruptException",
+    "UnknownROSArgsError",
+    "UnsupportedEventTypeError",
+]
+
+
+def _with_hint(error: ErrorT, hint: str) -> ErrorT:
+    """Return the error with a hint, which a traceback shows below the text (Python 3.11 and later)."""
+    error.hint = hint  # type: ignore[attr-defined]
+    if hint and hasattr(error, "add_note"):
+        error.add_note(f"Hint: {hint}")
+    return error
 
 
 class NotInitializedException(Exception):
@@ -43,22 +87,6 @@ class NotInitializedException(Exception):
 
 class NoTypeSupportImportedException(Exception):
     """A type is not a ROS message, service or action type."""
-
-
-class RCLError(RuntimeError):
-    """An operation of the ROS client library failed."""
-
-
-class RCLInvalidROSArgsError(RCLError):
-    """Arguments after `--ros-args` are malformed."""
-
-
-class UnknownROSArgsError(RCLInvalidROSArgsError):
-    """Arguments after `--ros-args` are unknown."""
-
-
-class InvalidHandle(Exception):
-    """A destroyed node, publisher, subscription or other entity was used."""
 
 
 class NameValidationException(Exception):
@@ -119,23 +147,27 @@ class ParameterException(Exception):
         parameters: Name or names of the parameters.
     """
 
-    def __init__(self, error_msg: str, parameters: str | Iterable[str], *args: object) -> None:
-        names = [parameters] if isinstance(parameters, str) else list(parameters)
-        super().__init__(f"{error_msg}: {names}", *args)
-        self.parameters = names
+    def __init__(self, error_msg: str, parameters: str | Sequence[str], *args: object) -> None:
+        super().__init__(error_msg, parameters, *args)
+
+    @property
+    def parameters(self) -> list[str]:
+        """The names of the parameters."""
+        names = self.args[1] if len(self.args) > 1 else []
+        return [names] if isinstance(names, str) else list(names)
 
 
 class ParameterNotDeclaredException(ParameterException):
     """An undeclared parameter was used."""
 
-    def __init__(self, parameters: str | Iterable[str], *args: object) -> None:
+    def __init__(self, parameters: str | Sequence[str], *args: object) -> None:
         super().__init__("Invalid access to undeclared parameter(s)", parameters, *args)
 
 
 class ParameterAlreadyDeclaredException(ParameterException):
     """A parameter was declared a second time."""
 
-    def __init__(self, parameters: str | Iterable[str], *args: object) -> None:
+    def __init__(self, parameters: str | Sequence[str], *args: object) -> None:
         super().__init__("Parameter(s) already declared", parameters, *args)
 
 
@@ -156,15 +188,12 @@ class InvalidParameterValueException(ParameterException):
     """
 
     def __init__(self, parameter: str, value: object, reason: str = "", *args: object) -> None:
-        super().__init__("Invalid parameter value", parameter, *args)
+        super().__init__(f"Invalid parameter value ({value}) for parameter. Reason: {reason}", parameter, *args)
         self.value = value
         self.reason = reason
 
-    def __str__(self) -> str:
-        return f"Invalid parameter value ({self.value}) for parameter '{self.parameters[0]}'. Reason: {self.reason}"
 
-
-class InvalidParameterTypeException(InvalidParameterValueException):
+class InvalidParameterTypeException(ParameterException):
     """The type of a value differs from the declared type of the parameter.
 
     Args:
@@ -173,11 +202,17 @@ class InvalidParameterTypeException(InvalidParameterValueException):
     """
 
     def __init__(self, desired_parameter: Parameter[Any], expected_type: str, *args: object) -> None:
-        reason = (
+        text = (
             f"Trying to set parameter '{desired_parameter.name}' to '{desired_parameter.value}' of type "
             f"'{desired_parameter.type_.name}', expecting type '{expected_type}'"
         )
-        super().__init__(desired_parameter.name, desired_parameter.value, reason, *args)
+        Exception.__init__(self, text, *args)
+        self.__name = desired_parameter.name
+
+    @property
+    def parameters(self) -> list[str]:
+        """The name of the parameter."""
+        return [self.__name]
 
 
 class ParameterImmutableException(ParameterException):
@@ -190,8 +225,14 @@ class ParameterImmutableException(ParameterException):
 class ParameterUninitializedException(ParameterException):
     """A parameter that was declared with only a type has no value yet."""
 
-    def __init__(self, parameter: str, *args: object) -> None:
-        super().__init__("The parameter is not initialized", parameter, *args)
+    def __init__(self, parameter_name: str, *args: object) -> None:
+        Exception.__init__(self, f"The parameter '{parameter_name}' is not initialized", *args)
+        self.__name = parameter_name
+
+    @property
+    def parameters(self) -> list[str]:
+        """The name of the parameter."""
+        return [self.__name]
 
 
 class ROSInterruptException(Exception):

@@ -3,7 +3,8 @@
 
 from __future__ import annotations
 
-from rclpy.exceptions import InvalidTopicNameException
+import re
+
 from rclpy.validate_namespace import validate_namespace
 from rclpy.validate_node_name import validate_node_name
 from rclpy.validate_topic_name import validate_topic_name
@@ -21,7 +22,8 @@ def expand_topic_name(topic_name: str, node_name: str, node_namespace: str) -> s
         The fully qualified name, for example `/robot1/arm/state`.
 
     Raises:
-        InvalidTopicNameException: The name is not valid or contains an unknown substitution.
+        InvalidTopicNameException: The name is not valid.
+        ValueError: The name contains an unknown substitution.
     """
     validate_topic_name(topic_name)
     validate_node_name(node_name)
@@ -32,6 +34,6 @@ def expand_topic_name(topic_name: str, node_name: str, node_namespace: str) -> s
         name = f"{prefix}/{node_name}{name[1:]}"
     for key, value in (("node", node_name), ("ns", prefix), ("namespace", prefix)):
         name = name.replace("{" + key + "}", value)
-    if "{" in name:
-        raise InvalidTopicNameException(topic_name, "unknown substitution", topic_name.index("{"))
+    if unknown := re.search(r"{\w*}", name):
+        raise ValueError(f"topic name '{topic_name}' is invalid: unknown substitution: {unknown[0]}")
     return name if name.startswith("/") else f"{prefix}/{name}"

@@ -3,7 +3,12 @@
 
 from __future__ import annotations
 
+import os
+from pathlib import Path
+
 from rclpy._arguments import LoggingArguments
+from rclpy._rclpy_pybind11 import RCUtilsError
+from rclpy.exceptions import _with_hint
 from rclpy.impl.console import console
 from rclpy.impl.logging_severity import LoggingSeverity
 from rclpy.impl.rcutils_logger import RcutilsLogger
@@ -13,6 +18,7 @@ __all__ = [
     "clear_config",
     "get_logger",
     "get_logger_effective_level",
+    "get_logging_directory",
     "get_logging_severity_from_string",
     "initialize",
     "set_logger_level",
@@ -60,7 +66,18 @@ def get_logging_severity_from_string(log_severity: str) -> LoggingSeverity:
         return LoggingSeverity[log_severity.upper()]
     except KeyError:
         names = ", ".join(LoggingSeverity.__members__)
-        raise RuntimeError(f"Unknown logging severity {log_severity!r}. Known severities: {names}.") from None
+        error = RCUtilsError("Failed to get severity name")
+        raise _with_hint(error, f"{log_severity!r} is not one of {names}.") from None
+
+
+def get_logging_directory() -> Path:
+    """Return the folder of ROS's log files: ROS_LOG_DIR, `log` in ROS_HOME, or `~/.ros/log`.
+
+    coframe writes no log files. Programs that do so themselves use this folder.
+    """
+    if folder := os.environ.get("ROS_LOG_DIR"):
+        return Path(folder).expanduser()
+    return Path(os.environ.get("ROS_HOME") or "~/.ros").expanduser() / "log"
 
 
 def initialize() -> None:

@@ -10,6 +10,7 @@ import threading
 import weakref
 from typing import TYPE_CHECKING, Any, TypeVar
 
+from rcl_interfaces.msg import ParameterEvent
 from rclpy import _arguments
 from rclpy._arguments import Arguments
 from rclpy._node_graph import NodeGraph
@@ -26,7 +27,12 @@ from rclpy.impl.rcutils_logger import RcutilsLogger
 from rclpy.parameter import Parameter
 from rclpy.parameter_service import ParameterService
 from rclpy.publisher import Publisher
-from rclpy.qos import QoSProfile, as_qos_profile, qos_profile_services_default
+from rclpy.qos import (
+    QoSProfile,
+    as_qos_profile,
+    qos_profile_parameter_events,
+    qos_profile_services_default,
+)
 from rclpy.qos_overriding_options import QoSOverridingOptions, apply_qos_overrides
 from rclpy.service import Service
 from rclpy.subscription import Subscription
@@ -115,6 +121,9 @@ class Node(NodeParameters, NodeGraph):
         self.__time_source = TimeSource(node=self)
         self.__time_source.attach_clock(self.__clock)
         try:
+            self.__parameter_events = self.create_publisher(
+                ParameterEvent, "/parameter_events", qos_profile_parameter_events
+            )
             NodeParameters.__init__(
                 self,
                 overrides,
@@ -517,6 +526,11 @@ class Node(NodeParameters, NodeGraph):
     def _Coframe__on_parameter_set(self, parameter: Parameter[Any]) -> None:
         if parameter.name == USE_SIM_TIME_NAME:
             self.__time_source.ros_time_is_active = parameter.value is True
+
+    def _Coframe__publish_parameter_event(self, event: ParameterEvent) -> None:
+        event.node = self.get_fully_qualified_name()
+        event.stamp = self.__clock.now().to_msg()
+        self.__parameter_events.publish(event)
 
     def __get_executor(self) -> Executor | None:
         return self.executor

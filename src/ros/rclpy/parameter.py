@@ -4,12 +4,13 @@
 from __future__ import annotations
 
 import array
-from enum import IntEnum
+from enum import Enum, IntEnum
 from typing import Any, Final, Generic, TypeVar
 
 from rcl_interfaces.msg import Parameter as ParameterMsg
 from rcl_interfaces.msg import ParameterType, ParameterValue
 from rclpy import _yaml
+from rclpy.exceptions import _with_hint
 
 T = TypeVar("T")
 
@@ -44,6 +45,10 @@ class Parameter(Generic[T]):
         DOUBLE_ARRAY = ParameterType.PARAMETER_DOUBLE_ARRAY
         STRING_ARRAY = ParameterType.PARAMETER_STRING_ARRAY
 
+        # Upstream's types are not numbers, so that texts contain their names.
+        __str__ = Enum.__str__
+        __format__ = Enum.__format__
+
         @classmethod
         def from_parameter_value(cls, parameter_value: Any) -> Parameter.Type:
             """Return the parameter type of a Python value. An empty list is a byte array, as in upstream rclpy.
@@ -54,9 +59,12 @@ class Parameter(Generic[T]):
             for kind in cls:
                 if kind.check(parameter_value):
                     return kind
-            raise TypeError(
-                f"The given value is not one of the allowed types '{parameter_value}'. A list needs elements of one "
-                "type: bool, int, float, str or bytes of length 1."
+            is_list = isinstance(parameter_value, list | tuple | array.array)
+            error = TypeError(
+                f"The given value is not {'a list of ' * is_list}one of the allowed types '{parameter_value}'."
+            )
+            raise _with_hint(
+                error, "Use a bool, int, float or str, or a list of one of these types or of bytes of length 1."
             )
 
         def check(self, parameter_value: Any) -> bool:
@@ -84,7 +92,10 @@ class Parameter(Generic[T]):
     @classmethod
     def from_parameter_msg(cls, param_msg: ParameterMsg) -> Parameter[Any]:
         """Create a parameter from an `rcl_interfaces/Parameter`."""
-        return cls(param_msg.name, Parameter.Type(param_msg.value.type), parameter_value_to_python(param_msg.value))
+        kind = _type_of(param_msg.value)
+        return cls(
+            param_msg.name, kind, getattr(param_msg.value, _VALUE_FIELDS[kind]) if kind in _VALUE_FIELDS else None
+        )
 
     @property
     def name(self) -> str:
@@ -103,7 +114,7 @@ class Parameter(Generic[T]):
 
     def get_parameter_value(self) -> ParameterValue:
         """Return the value as an `rcl_interfaces/ParameterValue`."""
-        message = ParameterValue(type=int(self.type_))
+        message = ParameterValue(type=self.type_.value)
         if (field := _VALUE_FIELDS.get(self.type_)) is not None:
             setattr(message, field, self.value)
         return message
@@ -115,7 +126,7 @@ class Parameter(Generic[T]):
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Parameter):
             return NotImplemented
-        return (self.name, self.type_, self.value) == (other.name, other.type_, other.value)
+        return self.to_parameter_msg() == other.to_parameter_msg()
 
     __hash__ = None  # type: ignore[assignment]
 
@@ -150,10 +161,9 @@ def _is_sequence_of(kind: type, value: Any) -> bool:
 
 def get_parameter_value(string_value: str) -> ParameterValue:
     """Return the typed value of a string, parsed as on the command line."""
-    value = _yaml.parse_value(string_value)
     try:
-        return Parameter("", value=value).get_parameter_value()
-    except TypeError:
+        return Parameter("", value=_yaml.parse_value(string_value)).get_parameter_value()
+    except (TypeError, ValueError):
         return Parameter("", Parameter.Type.STRING, string_value).get_parameter_value()
 
 
@@ -163,14 +173,60 @@ def parameter_value_to_python(parameter_value: ParameterValue) -> Any:
     Raises:
         RuntimeError: The message has an unknown parameter type.
     """
-    try:
-        kind = Parameter.Type(parameter_value.type)
-    except ValueError:
-        raise RuntimeError(f"Unexpected parameter type {parameter_value.type}.") from None
+    kind = _type_of(parameter_value)
     if kind is Parameter.Type.NOT_SET:
         return None
     value = getattr(parameter_value, _VALUE_FIELDS[kind])
     return list(value) if kind in _ITEM_TYPES else value
 
 
-__all__ = ["PARAMETER_SEPARATOR_STRING", "Parameter", "get_parameter_value", "parameter_value_to_python"]
+def parameter_dict_from_yaml_file(
+    parameter_file: str,
+    use_wildcard: bool = False,
+    target_nodes: list[str] | None = None,
+    namespace: str = "",
+) -> dict[str, ParameterMsg]:
+    """Return the parameters of a YAML file as messages, by their names.
+
+    Args:
+        parameter_file: Path of the file, which has the format of `--params-file`.
+        use_wildcard: Whether to include the parameters of all nodes (`/**`).
+        target_nodes: Fully qualified names of the nodes whose parameters are read. None: all nodes of the file.
+        namespace: Prefix of the returned names, without the dot.
+
+    Raises:
+        RuntimeError: The file does not exist, is not a parameter file, or has no parameters of the nodes.
+    """
+    found: dict[str, ParameterMsg] = {}
+    nodes = {pattern: name for name in target_nodes or [] for pattern in (name, name.lstrip("/"), f"/{name}")}
+    try:
+        entries = list(_yaml.load_parameters(parameter_file))
+    except (OSError, ValueError) as error:
+        raise RuntimeError(f"cannot read the parameters of {parameter_file}: {error}") from error
+    for pattern, name, value in entries:
+        is_wildcard = pattern == "/**"
+        if (is_wildcard and use_wildcard) or (not is_wildcard and (target_nodes is None or pattern in nodes)):
+            full = f"{namespace}{PARAMETER_SEPARATOR_STRING}{name}" if namespace else name
+            found[full] = Parameter(full, value=value).to_parameter_msg()
+    if not found:
+        raise RuntimeError(f"Param file does not contain any valid parameters for {target_nodes or 'any node'}")
+    return found
+
+
+def _type_of(parameter_value: ParameterValue) -> Parameter.Type:
+    try:
+        return Parameter.Type(parameter_value.type)
+    except ValueError:
+        raise RuntimeError(f"Unexpected parameter type {parameter_value.type}.") from None
+
+
+__all__ = [
+    "PARAMETER_SEPARATOR_STRING",
+    "Parameter",
+    "ParameterMsg",
+    "ParameterType",
+    "ParameterValue",
+    "get_parameter_value",
+    "parameter_dict_from_yaml_file",
+    "parameter_value_to_python",
+]

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from rcl_interfaces.msg import ListParametersResult, ParameterValue, SetParametersResult
+from rcl_interfaces.msg import SetParametersResult
 from rcl_interfaces.srv import (
     DescribeParameters,
     GetParameters,
@@ -15,7 +15,7 @@ from rcl_interfaces.srv import (
     SetParametersAtomically,
 )
 from rclpy.exceptions import ParameterNotDeclaredException, ParameterUninitializedException
-from rclpy.parameter import PARAMETER_SEPARATOR_STRING, Parameter
+from rclpy.parameter import Parameter
 from rclpy.qos import qos_profile_parameters
 
 if TYPE_CHECKING:
@@ -44,31 +44,32 @@ class ParameterService:
     def _describe(self, request: Any, response: Any) -> Any:
         try:
             response.descriptors = self._node.describe_parameters(list(request.names))
-        except ParameterNotDeclaredException:
+        except ParameterNotDeclaredException as error:
+            self._node.get_logger().warning(f"Failed to describe parameters: {error}")
             response.descriptors = []  # Upstream rclpy also returns an empty list.
         return response
 
     def _get(self, request: Any, response: Any) -> Any:
-        response.values = [self._value(name) for name in request.names]
-        return response
-
-    def _value(self, name: str) -> ParameterValue:
         try:
-            return self._node.get_parameter(name).get_parameter_value()
-        except (ParameterNotDeclaredException, ParameterUninitializedException):
-            return ParameterValue()
+            response.values = [
+                parameter.get_parameter_value() for parameter in self._node.get_parameters(list(request.names))
+            ]
+        except (ParameterNotDeclaredException, ParameterUninitializedException) as error:
+            # Upstream returns no values as well, although it knows those of the other names.
+            self._node.get_logger().warning(f"Failed to get parameters: {error}")
+            response.values = []
+        return response
 
     def _get_types(self, request: Any, response: Any) -> Any:
         try:
-            response.types = [int(self._node.get_parameter_type(name)) for name in request.names]
-        except ParameterNotDeclaredException:
+            response.types = [kind.value for kind in self._node.get_parameter_types(list(request.names))]
+        except ParameterNotDeclaredException as error:
+            self._node.get_logger().warning(f"Failed to get parameter types: {error}")
             response.types = []
         return response
 
     def _list(self, request: Any, response: Any) -> Any:
-        names = [name for name in self._node.get_parameters_by_prefix("") if _is_listed(name, request)]
-        prefixes = {name.rpartition(PARAMETER_SEPARATOR_STRING)[0] for name in names} - {""}
-        response.result = ListParametersResult(names=names, prefixes=sorted(prefixes))
+        response.result = self._node.list_parameters(list(request.prefixes), request.depth)
         return response
 
     def _set(self, request: Any, response: Any) -> Any:
@@ -87,14 +88,3 @@ class ParameterService:
         except ParameterNotDeclaredException as error:
             response.result = SetParametersResult(successful=False, reason=str(error))
         return response
-
-
-def _is_listed(name: str, request: Any) -> bool:
-    """Return whether a name has one of the prefixes and is at most `depth` levels below it (0: any level)."""
-    for prefix in request.prefixes or [""]:
-        rest = name if not prefix else name.removeprefix(prefix + PARAMETER_SEPARATOR_STRING)
-        if prefix and rest == name and name != prefix:
-            continue
-        if not request.depth or rest.count(PARAMETER_SEPARATOR_STRING) < request.depth:
-            return True
-    return False

@@ -6,12 +6,45 @@ from __future__ import annotations
 from enum import Enum, IntEnum
 from typing import TYPE_CHECKING, Any, Final
 
+from rclpy._qos_compatibility import QoSCompatibility, qos_check_compatible
 from rclpy.duration import Duration
 
 if TYPE_CHECKING:
     from typing_extensions import Self
 
     from coframe.wire import QoS as WireQoS
+
+
+__all__ = [
+    "DurabilityPolicy",
+    "Duration",
+    "HistoryPolicy",
+    "InvalidQoSProfileException",
+    "LivelinessPolicy",
+    "QoSCompatibility",
+    "QoSDurabilityPolicy",
+    "QoSHistoryPolicy",
+    "QoSLivelinessPolicy",
+    "QoSPolicyEnum",
+    "QoSPolicyKind",
+    "QoSPresetProfiles",
+    "QoSProfile",
+    "QoSReliabilityPolicy",
+    "ReliabilityPolicy",
+    "as_qos_profile",
+    "qos_check_compatible",
+    "qos_policy_name_from_kind",
+    "qos_profile_action_status_default",
+    "qos_profile_best_available",
+    "qos_profile_default",
+    "qos_profile_parameter_events",
+    "qos_profile_parameters",
+    "qos_profile_rosout_default",
+    "qos_profile_sensor_data",
+    "qos_profile_services_default",
+    "qos_profile_system_default",
+    "qos_profile_unknown",
+]
 
 
 class InvalidQoSProfileException(Exception):
@@ -132,6 +165,10 @@ _POLICIES: Final[dict[str, Any]] = {
 }
 
 
+# The depth of profiles whose history does not use it, as in upstream.
+_DEFAULT_DEPTH: Final = 10
+
+
 class QoSProfile:
     """A complete set of QoS policies. Profiles with equal policies are equal.
 
@@ -160,8 +197,8 @@ class QoSProfile:
     __slots__ = tuple(f"_{policy}" for policy in _POLICIES)
 
     def __init__(self, **kwargs: Any) -> None:
-        unknown = kwargs.keys() - _POLICIES.keys()
-        assert not unknown, f"Invalid arguments passed to constructor: {unknown}"
+        unknown = {name: value for name, value in kwargs.items() if name not in _POLICIES}
+        assert not unknown, f"Invalid arguments passed to constructor: {unknown.keys()}"
         if "history" not in kwargs:
             if "depth" not in kwargs:
                 raise InvalidQoSProfileException("History and/or depth settings are required.")
@@ -169,7 +206,7 @@ class QoSProfile:
         if kwargs["history"] == HistoryPolicy.KEEP_LAST and "depth" not in kwargs:
             raise InvalidQoSProfileException("History set to KEEP_LAST without a depth setting.")
         defaults = {
-            "depth": 0,
+            "depth": _DEFAULT_DEPTH,
             "reliability": ReliabilityPolicy.RELIABLE,
             "durability": DurabilityPolicy.VOLATILE,
             "lifespan": Duration(),
@@ -212,8 +249,7 @@ def _checked_property(policy: str, kind: type[Any]) -> property:
 
     def set_(self: QoSProfile, value: Any) -> None:
         accepted = int if issubclass(kind, IntEnum) else kind
-        assert isinstance(value, accepted), f"{policy} must be a {kind.__name__}, not a {type(value).__name__}."
-        assert policy != "depth" or value >= 0, f"depth must not be negative, got {value}."
+        assert isinstance(value, accepted), f"{policy} must be of type {kind.__name__}, not {type(value).__name__}."
         object.__setattr__(self, f"_{policy}", kind(value) if issubclass(kind, IntEnum) else value)
 
     return property(get, set_, doc=f"The QoS policy `{policy}`.")
@@ -242,12 +278,14 @@ def as_qos_profile(qos: QoSProfile | int) -> QoSProfile:
 qos_profile_default: Final = QoSProfile(history=HistoryPolicy.KEEP_LAST, depth=10)
 qos_profile_unknown: Final = QoSProfile(
     history=HistoryPolicy.UNKNOWN,
+    depth=0,
     reliability=ReliabilityPolicy.UNKNOWN,
     durability=DurabilityPolicy.UNKNOWN,
     liveliness=LivelinessPolicy.UNKNOWN,
 )
 qos_profile_system_default: Final = QoSProfile(
     history=HistoryPolicy.SYSTEM_DEFAULT,
+    depth=0,
     reliability=ReliabilityPolicy.SYSTEM_DEFAULT,
     durability=DurabilityPolicy.SYSTEM_DEFAULT,
 )
@@ -294,30 +332,11 @@ class QoSPresetProfiles(Enum):
         return cls[name.upper()].value
 
 
-class QoSCompatibility(IntEnum):
-    """Compatibility of the profiles of a publisher and a subscription."""
+def qos_policy_name_from_kind(policy_kind: QoSPolicyKind | int) -> str:
+    """Return the name of a policy as upstream's C library writes it, for example `DURABILITY_QOS_POLICY`.
 
-    OK = 0
-    WARNING = 1
-    ERROR = 2
-
-
-def qos_check_compatible(publisher_qos: QoSProfile, subscription_qos: QoSProfile) -> tuple[QoSCompatibility, str]:
-    """Return whether the profiles are compatible, and the reasons if they are not.
-
-    Args:
-        publisher_qos: Profile offered by the publisher.
-        subscription_qos: Profile requested by the subscription.
+    Raises:
+        ValueError: There is no such policy.
     """
-    reasons = []
-    if (
-        publisher_qos.reliability is ReliabilityPolicy.BEST_EFFORT
-        and subscription_qos.reliability is ReliabilityPolicy.RELIABLE
-    ):
-        reasons.append("ERROR: Best effort publisher and reliable subscription;")
-    if (
-        publisher_qos.durability is DurabilityPolicy.VOLATILE
-        and subscription_qos.durability is DurabilityPolicy.TRANSIENT_LOCAL
-    ):
-        reasons.append("ERROR: Volatile publisher and transient local subscription;")
-    return (QoSCompatibility.ERROR if reasons else QoSCompatibility.OK), "".join(reasons)
+    kind = QoSPolicyKind(policy_kind)
+    return "INVALID_QOS_POLICY" if kind is QoSPolicyKind.INVALID else f"{kind.name}_QOS_POLICY"

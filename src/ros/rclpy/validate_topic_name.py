@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import re
 
-from rclpy.exceptions import InvalidServiceNameException, InvalidTopicNameException, NameValidationException
+from rclpy.exceptions import InvalidServiceNameException, InvalidTopicNameException, NameValidationException, RCLError
 
 TOPIC_SEPARATOR_STRING = "/"
 
@@ -16,7 +16,14 @@ def validate_topic_name(name: str, *, is_service: bool = False) -> bool:
     Raises:
         InvalidTopicNameException: The topic name is not valid.
         InvalidServiceNameException: The service name is not valid.
+        RCLError: The name is None.
+        TypeError: The name is not a string.
     """
+    if name is None:
+        raise RCLError("failed to validate name: topic_name argument is null")
+    if not isinstance(name, str):
+        what = "service" if is_service else "topic"
+        raise TypeError(f"The name of a {what} must be a string, got {name!r}.")
     if fault := _fault(name):
         text, index = fault
         kind: type[InvalidServiceNameException | InvalidTopicNameException]
@@ -36,7 +43,6 @@ def _fault(name: str) -> tuple[str, int] | None:
             "topic name must not contain characters other than alphanumerics, '_', '~', '{', or '}'",
         ),
         (r"(?<=.)~", "topic name must not have tilde (~) unless it is the first character"),
-        (r"(?<=^~)[^/]", "topic name must not have a tilde (~) that is not followed by a forward slash (/)"),
         (r"(?<=/)/", "topic name must not contain repeated '/'"),
         (r"((?<=^)|(?<=/))\d", "topic name token must not start with a number"),
         (r"(?<={)\d", "substitution name must not start with a number"),

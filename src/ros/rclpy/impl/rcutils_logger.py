@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Final
 
 from rclpy.constants import S_TO_NS
+from rclpy.exceptions import _with_hint
 from rclpy.impl.console import Record, console
 from rclpy.impl.logging_severity import LoggingSeverity
 
@@ -20,7 +21,7 @@ if TYPE_CHECKING:
 
     from rclpy.clock import Clock
 
-_OPTIONS: Final = ("once", "throttle_duration_sec", "throttle_time_source_type", "skip_first")
+_OPTIONS: Final = ("throttle_duration_sec", "throttle_time_source_type", "skip_first", "once")
 
 
 @dataclass
@@ -70,7 +71,7 @@ class RcutilsLogger:
             ValueError: The name is empty.
         """
         if not name:
-            raise ValueError("Child logger name must not be None or empty.")
+            raise ValueError("Child logger name must not be empty.")
         return self.__children.setdefault(name, RcutilsLogger(f"{self.name}.{name}" if self.name else name))
 
     def set_level(self, level: int) -> None:
@@ -89,7 +90,7 @@ class RcutilsLogger:
         """Log a message.
 
         Args:
-            message: The text.
+            message: The text, a string.
             severity: A LoggingSeverity.
             name: Name to log under instead of the logger's own name.
             **kwargs: Filters of this call site: `once=True`, `skip_first=True`, or `throttle_duration_sec=` (seconds),
@@ -99,15 +100,18 @@ class RcutilsLogger:
             Whether the message was logged.
 
         Raises:
-            TypeError: An option is unknown or incomplete.
+            TypeError: The message is not a string, or an option is unknown or incomplete.
             ValueError: The call site changed its severity, name or filters.
         """
         severity = LoggingSeverity(severity)
         name = name or self.name
         if console.effective_level(name) > severity:
             return False
+        if not isinstance(message, str | bytes | None):
+            error = TypeError(f"The message must be a string, got {message!r}.")
+            raise _with_hint(error, "Write str(...) or an f-string. ROS 2 does not convert messages either.")
         frame = _caller()
-        if kwargs and not self.__call_site(frame, severity, name, kwargs).should_log():
+        if not self.__call_site(frame, severity, name, kwargs).should_log():
             return False
         console.emit(Record(time.time_ns(), severity, name, str(message), frame.f_code, frame.f_lineno))
         return True
@@ -152,7 +156,7 @@ class RcutilsLogger:
         if site.name != name:
             raise ValueError("Logger name cannot be changed between calls.")
         if site.options.keys() != options.keys():
-            raise ValueError("Logging filters cannot be changed between calls.")
+            raise ValueError("Requested logging filters cannot be changed between calls.")
         return site
 
 

@@ -1,0 +1,6 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Name under which libraries import upstream's native module; see `rclpy._rclpy_pybind11`."""
+
+from rclpy import _rclpy_pybind11 as rclpy_implementation
+
+__all__ = ["rclpy_implementation"]
