@@ -16,6 +16,10 @@ if TYPE_CHECKING:
 MAX_DOMAIN_ID = 232
 MAX_PARTICIPANT_INDEX = 99
 
+# Large messages are sent in fragments, and a reader requests up to 256 lost ones at a time. Fragments about as large as
+# the datagrams of Cyclone DDS (14720 bytes) need a tenth of the requests: Fast DDS receives 40 MB in 1 s, not in 12 s.
+_FRAGMENT_SIZE = "<FragmentSize>14000B</FragmentSize>"
+
 _RANGES = ("OFF", "LOCALHOST", "SUBNET", "SYSTEM_DEFAULT")
 _PEER = re.compile(r"[A-Za-z0-9_.:%\-]+")
 _LOOPBACK = re.compile(r"localhost|127(\.\d+){3}|::1")
@@ -111,7 +115,7 @@ def cyclone_config(environment: Mapping[str, str] = os.environ) -> str:
     elif allowed == "SUBNET" and (peers := static_peers(environment)):
         discovery = _peers(peers)
     xml = (
-        f'<CycloneDDS><Domain id="any"><General>{general}</General>'
+        f'<CycloneDDS><Domain id="any"><General>{_FRAGMENT_SIZE}{general}</General>'
         f"<Discovery>{discovery}</Discovery></Domain></CycloneDDS>"
     )
     user = environment.get("CYCLONEDDS_URI", "").strip()

@@ -6,7 +6,7 @@ from __future__ import annotations
 import time
 from typing import TYPE_CHECKING
 
-from coframe.wire import names
+from coframe.wire import names, vendors
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -61,6 +61,8 @@ def mismatch_text(own: LocalEndpoint, peer: DiscoveredEndpoint, node: str | None
             f"{who} {their_verb} {names.ros_type(peer.type)} on {topic}, but this {role} {our_verb} {own_type}: "
             "no messages will arrive. Use the same message type, or another topic name."
         )
+    if reason == "services":
+        return _services_text(own, peer, who)
     if reason == "other":
         what = _OTHER_POLICIES.get(own.refused_policy, f"definition of {own_type}")
         return (
@@ -73,6 +75,18 @@ def mismatch_text(own: LocalEndpoint, peer: DiscoveredEndpoint, node: str | None
     else:
         problem = f"offers {offered} on {topic}, but this subscription requests {requested}"
     return f"{who} {problem}: no messages will arrive. {advice}"
+
+
+def _services_text(own: LocalEndpoint, peer: DiscoveredEndpoint, who: str) -> str:
+    """Return the warning for a node whose DDS implementation sends requests and replies in another way."""
+    service, used = names.any_ros_name(own.topic), vendors.vendor(peer.guid)
+    serves = names.ros_topic(own.topic, "reply" if own.is_writer else "request") is not None
+    effect = "its calls of {} do not arrive" if serves else "its service {} cannot be called"
+    return (
+        f"{who} uses {used}, so {effect.format(service)}: services, actions and parameters need the same middleware on "
+        f"both sides, and coframe uses {vendors.CYCLONE}. Start that node with RMW_IMPLEMENTATION=rmw_cyclonedds_cpp. "
+        "Topics and transforms work."
+    )
 
 
 class MismatchMonitor:
@@ -103,7 +117,9 @@ class MismatchMonitor:
         now = time.monotonic()
         for own, peer, reason in self._pairs(endpoints):
             node = self._graph.owner(peer.guid)
-            key = (names.any_ros_name(own.topic), node or peer.guid, reason)
+            # A node has many services, but only one middleware.
+            about = "" if reason == "services" else names.any_ros_name(own.topic)
+            key = (about, node or peer.guid, reason)
             if key in self._warned:
                 continue
             suspect = (own.guid, peer.guid, reason)
@@ -121,8 +137,12 @@ class MismatchMonitor:
             peers = (readers if own.is_writer else writers).get(own.topic, {})
             matched = own.matched_handles()
             for handle, peer in peers.items():
+                if handle in matched:
+                    if not names.is_topic(own.topic) and not vendors.shares_services(peer.guid):
+                        yield own, peer, "services"
+                    continue
                 # A pair within this process is reported once, from the side of the subscription.
-                if handle in matched or (own.is_writer and peer.guid in own_guids):
+                if own.is_writer and peer.guid in own_guids:
                     continue
                 pair = (own.description, peer) if own.is_writer else (peer, own.description)
                 for reason in mismatch_reasons(*pair) or ["other"]:

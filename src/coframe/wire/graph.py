@@ -122,6 +122,12 @@ class Graph:
         with self._lock:
             return {handle: reader for handle, reader in self._readers.items() if reader.topic == topic}
 
+    def writer(self, handle: int) -> DiscoveredEndpoint | None:
+        """Return a writer by its handle; None if it has left."""
+        if handle not in self._writers:
+            self.refresh()
+        return self._writers.get(handle)
+
     def by_topic(self, *, writers: bool) -> dict[str, dict[int, DiscoveredEndpoint]]:
         """Return all writers or all readers by DDS topic and handle, without processing discovery messages."""
         grouped: dict[str, dict[int, DiscoveredEndpoint]] = {}

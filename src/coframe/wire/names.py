@@ -30,6 +30,11 @@ def ros_topic(name: str, kind: Kind = "topic") -> str | None:
     return None
 
 
+def is_topic(name: str) -> bool:
+    """Return whether a DDS topic is that of a ROS topic, and not of a service."""
+    return ros_topic(name) is not None
+
+
 def dds_type(ros_type: str) -> str:
     """Return the DDS type of a ROS type: "tf2_msgs::msg::dds_::TFMessage_" for "tf2_msgs/msg/TFMessage"."""
     *package, name = ros_type.split("/")

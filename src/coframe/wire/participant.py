@@ -21,6 +21,7 @@ from coframe.wire.endpoints import GraphNode, LocalEndpoint, Publisher, RawPubli
 from coframe.wire.graph import DiscoveredEndpoint, EndpointInfo, Graph
 from coframe.wire.qos import GRAPH_WRITER, TF, TF_STATIC_READER, QoS
 from coframe.wire.rejected_transforms import RejectedTransformMonitor
+from coframe.wire.service_endpoints import ServicePublisher, ServiceSubscription
 from coframe.wire.static_broadcaster import SharedStaticPublisher, StaticBroadcaster
 from coframe.wire.tf_reader import NO_AUTHORITY, TfReader
 from coframe.wire.warn_once import WarnOnce
@@ -146,15 +147,22 @@ class Participant:
             message_type: The message class. For requests and replies, the caller writes the 16-byte ROS header
                 (client identifier, sequence number) between the encapsulation and the message.
             qos: The offered quality of service.
-            kind: "topic", "request" or "reply".
+            kind: "topic", "request" or "reply". The type and the bytes of requests and replies are not checked.
             user_data: The DDS user data, which subscribers can read before the first message.
 
         Raises:
             WireError: DDS cannot create the publisher.
         """
-        of_transforms = types.ros_type(message_type) == _TF_TYPE
+        ros_type = types.ros_type(message_type)
+        if kind != "topic":
+            name, type_name, entity = self._unchecked_topic(topic, ros_type, kind)
+            native = _create(
+                lambda: _core.Writer(self._native.entity, entity, _native_qos(qos), user_data, True), topic
+            )
+            return ServicePublisher(native, node, name, type_name, qos, self._graph)
+        of_transforms = ros_type == _TF_TYPE
         name, type_name, entity = (
-            self._unchecked_topic(topic, _TF_TYPE) if of_transforms else self._topic_of(topic, message_type, kind)
+            self._unchecked_topic(topic, _TF_TYPE) if of_transforms else self._topic_of(topic, message_type)
         )
         native = _create(
             lambda: _core.Writer(self._native.entity, entity, _native_qos(qos), user_data, of_transforms), topic
@@ -180,14 +188,18 @@ class Participant:
             message_type: The message class.
             qos: The requested quality of service.
             on_data: An event that is set whenever messages arrive.
-            kind: "topic", "request" or "reply".
+            kind: "topic", "request" or "reply". The type and the bytes of requests and replies are not checked.
             adapts: Whether the caller replaces the subscription when publishers offer less than `qos`. If so, no
                 warning about incompatible QoS is logged.
 
         Raises:
             WireError: DDS cannot create the subscription.
         """
-        name, type_name, entity = self._topic_of(topic, message_type, kind)
+        if kind != "topic":
+            name, type_name, entity = self._unchecked_topic(topic, types.ros_type(message_type), kind)
+            native = _create(lambda: _core.Reader(self._native.entity, entity, _native_qos(qos), "", on_data), topic)
+            return ServiceSubscription(native, node, name, type_name, qos, self._graph)
+        name, type_name, entity = self._topic_of(topic, message_type)
         native = _create(lambda: _core.Reader(self._native.entity, entity, _native_qos(qos), "", on_data), topic)
         return Subscription(native, node, name, type_name, qos, adapts=adapts)
 
@@ -384,10 +396,10 @@ class Participant:
         """Return whether this process was forked from the one that created the participant."""
         return self._process != os.getpid()
 
-    def _topic_of(self, topic: str, message_type: type, kind: Kind) -> tuple[str, str, int]:
+    def _topic_of(self, topic: str, message_type: type) -> tuple[str, str, int]:
         """Return the name of the DDS topic, the name of its type, and its handle."""
-        name = names.dds_topic(topic, kind)
-        data_type = types.dds_type(message_type, kind)
+        name = names.dds_topic(topic)
+        data_type = types.dds_type(message_type)
         return name, data_type.__idl_typename__, self._topic(name, data_type)
 
     def _topic(self, name: str, data_type: Any) -> int:
@@ -397,9 +409,9 @@ class Participant:
                 self._topics[key] = types.create_topic(self._native.entity, name, data_type)
             return self._topics[key]
 
-    def _unchecked_topic(self, topic: str, ros_type: str) -> tuple[str, str, int]:
+    def _unchecked_topic(self, topic: str, ros_type: str, kind: Kind = "topic") -> tuple[str, str, int]:
         """Return what `_topic_of` returns, for endpoints that validate the bytes themselves or only forward them."""
-        name, type_name = names.dds_topic(topic), names.dds_type(ros_type)
+        name, type_name = names.dds_topic(topic, kind), names.dds_type(ros_type)
         with self._lock:
             if (name, type_name) not in self._unchecked_topics:
                 entity = types.create_unchecked_topic(self._native.entity, name, type_name)

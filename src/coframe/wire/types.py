@@ -4,15 +4,12 @@
 from __future__ import annotations
 
 from functools import cache
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from coframe import _core
 from coframe.errors import WireError
 from coframe.wire import names
 from coframe.wire.discovery_info import MAX_NAME
-
-if TYPE_CHECKING:
-    from coframe.wire.names import Kind
 
 # The basic types of `SLOT_TYPES` that have another name in cyclonedds.
 _BASIC = {"octet": "byte", "char": "uint8", "float": "float32", "double": "float64"}
@@ -20,24 +17,20 @@ _BASIC_PYTHON = {"boolean": bool}
 
 
 @cache
-def dds_type(message_type: type, kind: Kind = "topic") -> Any:
-    """Return the DDS type of a message class. For requests and replies, it includes the header that ROS adds.
+def dds_type(message_type: type) -> Any:
+    """Return the DDS type of a message class.
 
     Raises:
         WireError: The message has a field of a type that cyclonedds does not support.
     """
-    types = _idl_types()
     fields: dict[str, Any] = {}
-    if kind != "topic":
-        # rmw_cyclonedds matches replies with requests by the client and the sequence number.
-        fields |= {"client_guid": types.uint64, "sequence_number": types.int64}
     field_names = message_type.get_fields_and_field_types()  # type: ignore[attr-defined]
     slots = message_type.SLOT_TYPES  # type: ignore[attr-defined]
     for name, slot in zip(field_names, slots, strict=True):
         fields[name] = _field_type(slot, f"{ros_type(message_type)}.{name}")
     if not fields:
         # DDS does not allow an empty structure, so ROS adds this member.
-        fields["structure_needs_at_least_one_member"] = types.uint8
+        fields["structure_needs_at_least_one_member"] = _idl_types().uint8
     return _struct(names.dds_type(ros_type(message_type)), fields)
 
 

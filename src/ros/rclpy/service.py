@@ -4,10 +4,12 @@
 from __future__ import annotations
 
 import inspect
+import logging
 import time
 from functools import partial
 from typing import TYPE_CHECKING, Any, Final
 
+from coframe.errors import DecodeError
 from coframe.messages import codec
 from rclpy import _request_header
 
@@ -19,6 +21,8 @@ if TYPE_CHECKING:
     from rclpy._request_header import RequestHeader
     from rclpy.callback_groups import CallbackGroup
     from rclpy.qos import QoSProfile
+
+_logger = logging.getLogger("coframe.wire")
 
 # A client may match the server before the server matches the client. A reply sent before that is lost.
 _MATCH_TIMEOUT_S: Final = 0.1
@@ -78,12 +82,19 @@ class Service:
     def _Coframe__take(self) -> Callable[[], Any] | None:
         requests = self.__requests
         for sample in [] if requests is None else requests.take(limit=1):
-            if (parts := _request_header.split(sample.data)) is not None:
-                return partial(self._Coframe__answer, *parts)
+            parts = _request_header.split(sample.data)
+            if parts is None:
+                continue
+            header, cdr = parts
+            try:
+                request = codec.deserialize(cdr, self.srv_type.Request)
+            except DecodeError as error:
+                _logger.warning("A request of %s was ignored: %s", self.srv_name, error)
+                continue
+            return partial(self._Coframe__answer, header, request)
         return None
 
-    async def _Coframe__answer(self, header: RequestHeader, cdr: bytes) -> None:
-        request = codec.deserialize(cdr, self.srv_type.Request)
+    async def _Coframe__answer(self, header: RequestHeader, request: Any) -> None:
         response = self.callback(request, self.srv_type.Response())
         if inspect.iscoroutine(response):
             response = await response
@@ -97,5 +108,5 @@ class DeferredResponseService(Service):
     pending at the same time.
     """
 
-    def _Coframe__answer(self, header: RequestHeader, cdr: bytes) -> Any:
-        return self.callback(codec.deserialize(cdr, self.srv_type.Request), header)
+    def _Coframe__answer(self, header: RequestHeader, request: Any) -> Any:
+        return self.callback(request, header)

@@ -1,0 +1,157 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Neighbours on Fast DDS, the default middleware of ROS 2: a C++ program on Debian's libfastrtps-dev."""
+
+import shutil
+import subprocess
+import sys
+import textwrap
+from pathlib import Path
+
+import pytest
+
+pytestmark = pytest.mark.slow
+
+SOURCE = Path(__file__).with_name("fast_dds.cpp")
+
+# Runs in the network of the test, with the path of the program as argument.
+PRELUDE = """
+import array, subprocess, sys, time
+import coframe
+from coframe.messages import find, serialize
+from coframe.wire import Participant, QoS
+from coframe.wire.discovery_info import NodeInfo, encode_info
+
+def eventually(condition):
+    deadline = time.monotonic() + 20
+    while not condition():
+        assert time.monotonic() < deadline, "timed out after 20 s"
+        time.sleep(0.01)
+
+class FastDds:
+    def __init__(self, domain):
+        self.process = subprocess.Popen([sys.argv[1], str(domain)], stdin=-1, stdout=-1, text=True)
+        self.guid = self.read("guid")
+
+    def read(self, what):
+        first, *rest = self.process.stdout.readline().split()
+        assert first == what, (first, rest)
+        return bytes.fromhex(rest[0]) if what == "guid" else rest
+
+    def ask(self, what, *words):
+        print(*words, file=self.process.stdin, flush=True)
+        return self.read(what)
+
+    def announce(self, name, readers=(), writers=()):
+        graph_type = "rmw_dds_common::msg::dds_::ParticipantEntitiesInfo_"
+        self.ask("guid", "writer", "ros_discovery_info", graph_type, "transient")
+        info = encode_info(self.guid, [NodeInfo("/", name, tuple(readers), tuple(writers))], 24)
+        self.ask("written", "write", "ros_discovery_info", info.hex())
+"""
+
+
+@pytest.fixture(scope="module")
+def program(tmp_path_factory):
+    """The path of the program on Fast DDS."""
+    compiler = shutil.which("g++") or pytest.skip("the program on Fast DDS needs g++")
+    target = tmp_path_factory.mktemp("fast_dds") / "fast_dds"
+    options = ["-std=c++17", "-o", target, SOURCE, "-lfastrtps", "-lfastcdr"]
+    built = subprocess.run([compiler, *options], capture_output=True, text=True, check=False)
+    if "No such file" in built.stderr:
+        pytest.skip("Fast DDS is not installed: apt-get install libfastrtps-dev")
+    assert built.returncode == 0, built.stderr
+    return target
+
+
+@pytest.fixture
+def run(program, network, domain_id):  # noqa: ARG001 - sets the domain
+    """Return a function that runs code with coframe in the network of the test, and returns its stderr."""
+
+    def in_network(code):
+        command = network.command(sys.executable, "-c", PRELUDE + textwrap.dedent(code), program)
+        result = subprocess.run(command, capture_output=True, text=True, timeout=60, check=False)
+        assert result.returncode == 0, result.stderr
+        return result.stderr
+
+    return in_network
+
+
+def test_a_large_cloud_arrives(run):
+    run(
+        """
+        participant = Participant.get()
+        node = participant.add_node("/", "camera")
+        cloud_type = find("sensor_msgs/msg/PointCloud2")
+        publisher = participant.publisher(node, "/cloud", cloud_type, QoS())
+        fast = FastDds(participant.domain_id)
+        fast.ask("guid", "reader", "rt/cloud", "sensor_msgs::msg::dds_::PointCloud2_", "volatile")
+        eventually(lambda: publisher.matched and fast.ask("matched", "matched", "rt/cloud") == ["1"])
+        data = serialize(cloud_type(data=array.array("B", bytes(range(200)) * 200_000)))
+        for _ in range(3):
+            publisher.write(data)
+        begun = time.monotonic()
+        for _ in range(3):
+            _, size, checksum, _ = fast.read("received")
+            assert (int(size), int(checksum)) == (len(data), sum(data))
+        assert time.monotonic() - begun < 20
+        participant.close()
+        """
+    )
+
+
+def test_late_static_transforms_arrive_before_why_answers(run):
+    run(
+        """
+        from typer.testing import CliRunner
+        from coframe.cli.app import app
+        stamped = find("geometry_msgs/msg/TransformStamped")(child_frame_id="camera_link")
+        stamped.header.frame_id = "base_link"
+        message = find("tf2_msgs/msg/TFMessage")(transforms=[stamped])
+        fast = FastDds(coframe.wire.config.domain_id())
+        guid = fast.ask("guid", "writer", "rt/tf_static", "tf2_msgs::msg::dds_::TFMessage_", "transient")
+        fast.announce("calibration", writers=[guid])
+        fast.ask("written", "write", "rt/tf_static", serialize(message).hex())
+        for _ in range(3):
+            result = CliRunner().invoke(app, ["why", "base_link", "camera_link"])
+            assert result.exit_code == 0, result.output
+            assert "/calibration" in result.stdout
+        """
+    )
+
+
+def test_services_are_reported_and_never_ready(run):
+    """A server and a client on Fast DDS: one warning each, no request is decoded, and DDS prints nothing."""
+    errors = run(
+        """
+        import rclpy
+        from std_srvs.srv import SetBool
+        rclpy.init()
+        node = rclpy.create_node("robot")
+        fast = FastDds(coframe.wire.config.domain_id())
+        endpoints = [
+            fast.ask("guid", kind, topic, f"std_srvs::srv::dds_::SetBool_{part}_", "volatile")
+            for kind, topic, part in (
+                ("reader", "rq/lightRequest", "Request"),
+                ("writer", "rr/lightReply", "Response"),
+                ("writer", "rq/motorRequest", "Request"),
+                ("reader", "rr/motorReply", "Response"),
+            )
+        ]
+        fast.announce("lamp", [endpoints[0], endpoints[3]], [endpoints[1], endpoints[2]])
+        asked = []
+        client = node.create_client(SetBool, "light")
+        server = node.create_service(SetBool, "motor", lambda request, response: asked.append(request) or response)
+        eventually(lambda: fast.ask("matched", "matched", "rq/motorRequest") == ["1"])
+        eventually(lambda: fast.ask("matched", "matched", "rr/lightReply") == ["1"])
+        assert not client.wait_for_service(timeout_sec=1.0)
+        # A request of Fast DDS, which has no header in front; a second one that is long enough to have one.
+        for request in ("0001000001000000", "00010000" + "01" * 20):
+            fast.ask("written", "write", "rq/motorRequest", request)
+        for _ in range(30):
+            rclpy.spin_once(node, timeout_sec=0.1)
+        assert asked == []
+        rclpy.shutdown()
+        """
+    )
+    assert errors.count("Node /lamp uses Fast DDS, so its ") == 1, errors
+    assert "Start that node with RMW_IMPLEMENTATION=rmw_cyclonedds_cpp." in errors
+    assert "deserialization" not in errors
