@@ -7,6 +7,7 @@ import time
 
 import pytest
 
+import rclpy
 from rclpy.callback_groups import MutuallyExclusiveCallbackGroup, ReentrantCallbackGroup
 from rclpy.context import Context
 from rclpy.executors import (
@@ -394,3 +395,33 @@ def test_groups_contain_their_entities(node):
     timer = node.create_timer(1.0, lambda: None, group)
     assert group.has_entity(timer)
     assert not node.default_callback_group.has_entity(timer)
+
+
+def test_rate_in_a_loop_with_spin_once(context, node):
+    """The loop of the official URDF tutorial: the rate's timer ends `spin_once`, and `sleep` does not wait again."""
+    rate = node.create_rate(50)
+    executor = SingleThreadedExecutor(context=context)
+    start = time.monotonic()
+    for _ in range(5):
+        rclpy.spin_once(node, executor=executor)
+        rate.sleep()
+    assert 0.08 < time.monotonic() - start < 1
+    assert len(list(node.timers)) == 1
+    assert node.destroy_rate(rate)
+    assert list(node.timers) == []
+    with pytest.raises(RuntimeError, match="Rate cannot sleep because it has been destroyed"):
+        rate.sleep()
+
+
+def test_rate_beside_a_spinning_thread(context, node):
+    executor = SingleThreadedExecutor(context=context)
+    executor.add_node(node)
+    thread = threading.Thread(target=executor.spin)
+    thread.start()
+    rate = node.create_rate(50)
+    start = time.monotonic()
+    for _ in range(5):
+        rate.sleep()
+    assert 0.07 < time.monotonic() - start < 1
+    executor.shutdown()
+    thread.join()

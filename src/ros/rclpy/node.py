@@ -17,7 +17,7 @@ from rclpy._node_graph import NodeGraph
 from rclpy._node_parameters import NodeParameters
 from rclpy._remapping import NameResolver, remap_node
 from rclpy._rosout import RosoutPublisher
-from rclpy.callback_groups import CallbackGroup, MutuallyExclusiveCallbackGroup
+from rclpy.callback_groups import CallbackGroup, MutuallyExclusiveCallbackGroup, ReentrantCallbackGroup
 from rclpy.client import Client
 from rclpy.clock import Clock, ROSClock
 from rclpy.constants import S_TO_NS
@@ -101,6 +101,7 @@ class Node(NodeParameters, NodeGraph):
             kind: [] for kind in (Timer, Subscription, GuardCondition, Client, Service, Publisher, Rate)
         }
         self.__waitables: tuple[Waitable, ...] = ()
+        self.__timers_of_rates: dict[Rate, Timer] = {}
         self.__default_callback_group = MutuallyExclusiveCallbackGroup()
         self.__logger = RcutilsLogger(self.get_fully_qualified_name().lstrip("/").replace("/", "."))
         self.__clock = ROSClock()
@@ -457,9 +458,11 @@ class Node(NodeParameters, NodeGraph):
         if frequency <= 0:
             raise ValueError("frequency must be > 0")
         self.__check_not_destroyed()
-        group, period_ns = self.__default_callback_group, int(S_TO_NS / frequency)
-        timer = Timer(None, group, period_ns, clock or self.__clock, context=self.context)
-        return self.__add(Rate(timer, context=self.context))
+        # A group of its own, so that the callbacks of the node do not delay the end of a period.
+        timer = self.create_timer(1 / frequency, _do_nothing, ReentrantCallbackGroup(), clock)
+        rate = self.__add(Rate(timer, context=self.context))
+        self.__timers_of_rates[rate] = timer
+        return rate
 
     def destroy_publisher(self, publisher: Publisher) -> bool:
         """Destroy a publisher. Return False if it does not belong to this node."""
@@ -487,7 +490,8 @@ class Node(NodeParameters, NodeGraph):
 
     def destroy_rate(self, rate: Rate) -> bool:
         """Destroy a rate. Return False if it does not belong to this node."""
-        return self.__remove(rate)
+        timer = self.__timers_of_rates.pop(rate, None)
+        return self.__remove(rate) and timer is not None and self.__remove(timer)
 
     def destroy_node(self) -> None:
         """Destroy all entities of the node and remove it from the graph. Repeated calls have no effect."""
@@ -577,6 +581,10 @@ class Node(NodeParameters, NodeGraph):
 def _check_callback(callback: object) -> None:
     if not callable(callback):
         raise TypeError(f"The callback must be a function, not {callback!r}. Pass the function without calling it.")
+
+
+def _do_nothing() -> None:
+    """Do nothing at the end of a rate's period, except that `spin_once` returns."""
 
 
 def _no_executor() -> None:

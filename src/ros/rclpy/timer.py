@@ -6,6 +6,7 @@
 
 from __future__ import annotations
 
+import threading
 import time
 from typing import TYPE_CHECKING, Any
 
@@ -46,6 +47,8 @@ class Timer:
         self.__period_ns = int(timer_period_ns)
         self.__is_canceled = False
         self.__is_destroyed = False
+        self.__lock = threading.Lock()
+        self._Coframe__ended_periods = 0
         self.__start()
 
     @property
@@ -83,7 +86,7 @@ class Timer:
 
     def is_ready(self) -> bool:
         """Return whether a call is due."""
-        return not self.__is_stopped and self._Coframe__until_next_ns() <= 0
+        return not self._Coframe__is_stopped and self._Coframe__until_next_ns() <= 0
 
     def time_since_last_call(self) -> int:
         """Return the nanoseconds since the last call, or since the start."""
@@ -105,7 +108,7 @@ class Timer:
         self.__next_ns = self.__last_ns + self.__period_ns
 
     @property
-    def __is_stopped(self) -> bool:
+    def _Coframe__is_stopped(self) -> bool:
         return self.__is_canceled or self.__is_destroyed
 
     def _Coframe__now_ns(self) -> int:
@@ -120,56 +123,67 @@ class Timer:
             self.__start()
 
     def _Coframe__remaining_ns(self) -> int | None:
-        if self.__is_stopped:
+        if self._Coframe__is_stopped:
             return None
         remaining = self._Coframe__until_next_ns()
         # A simulated clock advances when a message arrives, which also sets the wakeup.
         return None if self._Coframe__is_simulated and remaining > 0 else remaining
 
     def _Coframe__take(self) -> Callable[[], Any] | None:
-        if not self.is_ready():
-            return None
-        self._Coframe__advance()
-        return self.callback
+        return self.callback if self._Coframe__end_period() else None
 
-    def _Coframe__advance(self) -> None:
-        """Schedule the next call. Missed periods are skipped."""
-        now = self._Coframe__now_ns()
-        self.__last_ns = now
-        self.__next_ns += self.__period_ns
-        if self.__next_ns < now:
-            late = now - self.__next_ns
-            self.__next_ns = (
-                now if self.__period_ns == 0 else self.__next_ns + (late // self.__period_ns + 1) * self.__period_ns
-            )
+    def _Coframe__end_period(self) -> bool:
+        """Schedule the next call if one is due now. Missed periods are skipped."""
+        with self.__lock:
+            if not self.is_ready():
+                return False
+            now = self._Coframe__now_ns()
+            self.__last_ns = now
+            self.__next_ns += self.__period_ns
+            if self.__next_ns < now:
+                late = now - self.__next_ns
+                self.__next_ns = (
+                    now if self.__period_ns == 0 else self.__next_ns + (late // self.__period_ns + 1) * self.__period_ns
+                )
+            self._Coframe__ended_periods += 1
+            return True
 
 
 class Rate:
     """Rate that sleeps to run a loop at a frequency. Create it with `Node.create_rate`.
 
-    The node needs to be spinning only if a simulator sets the clock.
+    Its timer belongs to the node, so `rclpy.spin_once(node)` returns at the end of each period. `sleep()` returns at
+    once if the executor has ended the period already. Without a spinning node it sleeps itself, unless a simulator
+    sets the clock.
     """
 
     def __init__(self, timer: Timer, *, context: Context) -> None:
         self.__timer = timer
         self.__context = context
+        self.__ended_periods = timer._Coframe__ended_periods
 
     def sleep(self) -> None:
         """Sleep until the end of the current period.
 
         Raises:
             ROSInterruptException: The context was shut down.
+            RuntimeError: The rate was destroyed.
         """
-        while (remaining := self.__timer._Coframe__until_next_ns()) > 0:
+        timer, ended = self.__timer, self.__ended_periods
+        while True:
             if not self.__context.ok():
                 raise ROSInterruptException
-            clock = self.__timer.clock
-            # A Time must not be negative, and now + remaining never is.
-            clock._Coframe__sleep(
-                Time(nanoseconds=clock._Coframe__now_ns() + remaining, clock_type=clock.clock_type), self.__context
-            )
-        self.__timer._Coframe__advance()
+            if timer._Coframe__is_stopped:
+                raise RuntimeError("Rate cannot sleep because it has been destroyed")
+            if timer._Coframe__ended_periods != ended or timer._Coframe__end_period():
+                break
+            if (remaining := timer._Coframe__until_next_ns()) > 0:
+                clock = timer.clock
+                # A Time must not be negative, and now + remaining never is.
+                until = Time(nanoseconds=clock._Coframe__now_ns() + remaining, clock_type=clock.clock_type)
+                clock._Coframe__sleep(until, self.__context)
+        self.__ended_periods = timer._Coframe__ended_periods
 
     def destroy(self) -> None:
-        """Destroy the rate."""
+        """Destroy the rate. Prefer `Node.destroy_rate`."""
         self.__timer.destroy()
