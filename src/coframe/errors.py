@@ -14,6 +14,7 @@
         ├── ViewerError(RuntimeError)           the viewer could not be started, or cannot show a file
         ├── DecodeError(ValueError)             bytes that do not match their type
         ├── RobotDescriptionError(ValueError)   a robot description that is invalid
+        ├── InterfaceError(ValueError, LookupError)  a .msg, .srv, .action or .idl file that is invalid
         ├── PackageError(LookupError)           a package, or a file in one, that does not exist
         ├── FrozenFileError(ValueError)         a file that is not a frozen buffer, or is damaged
         ├── RecordingError(ValueError)          a recording without any readable data
@@ -53,6 +54,7 @@ __all__ = [
     "ExtrapolationException",
     "FrameMismatchException",
     "FrozenFileError",
+    "InterfaceError",
     "InvalidArgumentException",
     "LookupException",
     "PackageError",
@@ -284,12 +286,12 @@ class DecodeError(_HintedError, ValueError):
     """Bytes that do not match their type; the text gives the type, the position and the expected value."""
 
 
-class RobotDescriptionError(_HintedError, ValueError):
-    """A robot description that is invalid or contradicts itself.
+class _FileError(_HintedError, ValueError):
+    """Base class of errors in a text file.
 
     Attributes:
         line: Line number, counted from 1; None if the problem has no single line.
-        file: Name of the file; None for a description that was given as text.
+        file: Name of the file; None for a text that does not come from a file.
     """
 
     def __init__(self, text: str, *, line: int | None = None, file: str | None = None, hint: str = "") -> None:
@@ -300,6 +302,17 @@ class RobotDescriptionError(_HintedError, ValueError):
     def __str__(self) -> str:
         places = [self.file or "", f"line {self.line}" if self.line is not None else ""]
         return ": ".join(filter(None, [", ".join(filter(None, places)), str(self.args[0])]))
+
+
+class RobotDescriptionError(_FileError):
+    """A robot description that is invalid or contradicts itself; ``file`` and ``line`` are where, or None."""
+
+
+class InterfaceError(_FileError, LookupError):
+    """A definition of a message, service or action that is invalid; ``file`` and ``line`` are where, or None.
+
+    It is a LookupError as well, because the type that the definition describes cannot be found.
+    """
 
 
 class PackageError(_HintedError, LookupError):

@@ -8,6 +8,8 @@ import sys
 from pathlib import Path
 from typing import Final
 
+from coframe import interface_imports
+
 # The packages that share message classes and nodes. Packages that only use them, such as tf2_sensor_msgs, are not here:
 # they work with the side that provides these.
 PACKAGES: Final = (
@@ -61,6 +63,8 @@ def foreign_packages(path: tuple[str, ...]) -> dict[str, str]:
 def check(importing: str, path: list[str] | None = None) -> None:
     """Raise ImportError if coframe's ROS packages would be mixed with those of a ROS installation.
 
+    Otherwise, users' interface packages can be imported from now on.
+
     Args:
         importing: Name of coframe's ROS package that is being imported.
         path: Folders in search order; None means `sys.path`.
@@ -70,6 +74,7 @@ def check(importing: str, path: list[str] | None = None) -> None:
     """
     found = foreign_packages(tuple(sys.path if path is None else path))
     if not found:
+        interface_imports.install()
         return
     names = ", ".join(sorted(found))
     folders = ", ".join(sorted(set(found.values())))

@@ -25,6 +25,7 @@ ERRORS = {
     "ExtrapolationException",
     "FrameMismatchException",
     "FrozenFileError",
+    "InterfaceError",
     "InvalidArgumentException",
     "LookupException",
     "PackageError",

@@ -13,6 +13,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from coframe.errors import CoframeError, InterfaceError
+from coframe.messages.class_limits import check_limits
 from coframe.messages.compounds import member_messages
 from coframe.messages.constructors import default_assignments
 from coframe.messages.definition import AbstractNestedType, AbstractType, NamespacedType
@@ -24,9 +26,28 @@ if TYPE_CHECKING:
 
     from coframe.messages.parser import Field, Structure
 
-__all__ = ["create_classes"]
+__all__ = ["FieldError", "create_classes"]
+
+_DEEPEST = 64  # messages inside each other
 
 _lock = threading.RLock()
+_in_progress: list[str] = []
+
+
+class FieldError(CoframeError, ValueError):
+    """A field that cannot be created.
+
+    Attributes:
+        field: The name of the field.
+        problem: What is wrong.
+        missing: The name of a type that does not exist; "" if the problem is another one.
+    """
+
+    def __init__(self, field: str, problem: str, missing: str = "") -> None:
+        super().__init__(f"field {field!r}: {problem}")
+        self.field = field
+        self.problem = problem
+        self.missing = missing
 
 
 def create_classes(package: str, kind: str, name: str, parts: Sequence[Structure]) -> None:
@@ -37,6 +58,9 @@ def create_classes(package: str, kind: str, name: str, parts: Sequence[Structure
         kind: ``msg``, ``srv`` or ``action``.
         name: The name of the message, service or action.
         parts: The structures of the definition: 1 for a message, 2 for a service, 3 for an action.
+
+    Raises:
+        FieldError: The type of a field does not exist, contains the message itself, or is too large.
     """
     with _lock:
         if f"{package}/{kind}/{name}" in classes:
@@ -50,6 +74,11 @@ def create_classes(package: str, kind: str, name: str, parts: Sequence[Structure
 
 
 def _create_message(ros_type: str, name: str, structure: Structure) -> None:
+    _in_progress.append(ros_type)
+    try:
+        inner = _inner_classes(structure.fields)
+    finally:
+        _in_progress.pop()
     MessageType(
         name,
         (Message,),
@@ -58,26 +87,55 @@ def _create_message(ros_type: str, name: str, structure: Structure) -> None:
             "ROS_TYPE": ros_type,
             "SLOT_TYPES": tuple(field.type for field in structure.fields),
             "__slots__": [f"_{field.name}" for field in structure.fields],
-            "__init__": _constructor(ros_type, structure.fields),
+            "__init__": _constructor(ros_type, structure.fields, inner),
             **{constant.name: constant.value for constant in structure.constants},
             **{f"{f.name.upper()}__DEFAULT": f.default for f in structure.fields if f.default is not None},
         },
     )
 
 
-def _constructor(ros_type: str, fields: list[Field]) -> Any:
-    names: dict[str, Any] = {"array": array, "np": np, "set_fields": Message.__init__}
-
-    def class_name(type_: NamespacedType) -> str:
-        full_name = type_.namespaced_name()
-        names["__".join(full_name)] = find("/".join(full_name))
-        return "__".join(full_name)
-
+def _inner_classes(fields: list[Field]) -> dict[str, type]:
+    """Return the classes of the messages in a message, by the names that its constructor uses for them."""
+    inner: dict[str, type] = {}
     for field in fields:
-        inner = _value_type(field.type)
-        if isinstance(inner, NamespacedType):
-            class_name(inner)  # A type that does not exist is an error now, not when a value is first assigned.
-    lines = [*default_assignments(fields, class_name), "if fields:", "    set_fields(self, **fields)"]
+        type_: Any = _value_type(field.type)
+        try:
+            if isinstance(type_, NamespacedType):
+                inner[_class_name(type_)] = _find_inner(_ros_type(type_))
+            check_limits([field.type])
+        except InterfaceError:
+            raise  # It is about the inner message, and names its file.
+        except LookupError as error:
+            raise FieldError(field.name, str(error), _ros_type(type_)) from None
+        except ValueError as error:
+            raise FieldError(field.name, str(error)) from None
+    try:
+        check_limits([field.type for field in fields])
+    except ValueError as error:
+        raise FieldError(fields[-1].name, str(error)) from None
+    return inner
+
+
+def _find_inner(ros_type: str) -> Any:
+    if ros_type in _in_progress:
+        chain = " > ".join([*_in_progress[_in_progress.index(ros_type) :], ros_type])
+        raise ValueError(f"a message cannot contain itself: {chain}")
+    if len(_in_progress) > _DEEPEST:
+        raise ValueError(f"more than {_DEEPEST} messages inside each other")
+    return find(ros_type)
+
+
+def _ros_type(type_: NamespacedType) -> str:
+    return "/".join(type_.namespaced_name())
+
+
+def _class_name(type_: NamespacedType) -> str:
+    return "__".join(type_.namespaced_name())
+
+
+def _constructor(ros_type: str, fields: list[Field], inner: dict[str, type]) -> Any:
+    names: dict[str, Any] = {"array": array, "np": np, "set_fields": Message.__init__, **inner}
+    lines = [*default_assignments(fields, _class_name), "if fields:", "    set_fields(self, **fields)"]
     source = "\n    ".join(["def __init__(self, **fields):", *lines])
     exec(compile(source, f"<constructor of {ros_type}>", "exec"), names)  # noqa: S102 - names are checked by the parser
     return names["__init__"]

@@ -39,7 +39,8 @@ class Message(metaclass=MessageType):
             return  # A subclass that a user has derived from a message class.
         fields = {slot[1:]: type_ for slot, type_ in zip(cls.__slots__, cls.SLOT_TYPES, strict=True)}
         for name, type_ in fields.items():
-            setattr(cls, name, attribute(name, type_, cls.__dict__[f"_{name}"]))
+            # Not setattr(): fields of IDL files may have names in capital letters.
+            type.__setattr__(cls, name, attribute(name, type_, cls.__dict__[f"_{name}"]))
         cls._fields_and_field_types = {name: describe(type_) for name, type_ in fields.items()}
         conversions = {name: constructor_conversion(type_) for name, type_ in fields.items()}
         cls.__conversions = {name: convert for name, convert in conversions.items() if convert}

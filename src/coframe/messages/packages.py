@@ -1,18 +1,26 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Interface packages whose classes are created from their definitions when they are first used."""
+"""Interface packages whose classes are created from their definitions when they are first used.
+
+They are the user's own packages, and those that coframe contains as data. A user's package takes precedence.
+"""
 
 from __future__ import annotations
 
 import functools
+import re
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from coframe.interfaces import sources
+from coframe.interfaces.definition_files import Definition, definitions_in, read
 from coframe.messages import archive, registry
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Mapping
 
-__all__ = ["Exports", "InterfacePackage", "exports", "shipped", "shipped_exports"]
+    from coframe.messages.parser import Structure
+
+__all__ = ["Exports", "InterfacePackage", "exports", "find_package", "load_package", "shipped", "shipped_exports"]
 
 _SHIPPED = Path(__file__).parent / "shipped"
 
@@ -22,20 +30,52 @@ class InterfacePackage:
 
     Attributes:
         name: The name of the package.
-        definitions: The text of each definition, by a name such as ``msg/Pose``.
+        folder: The folder of the package; None for a package that coframe contains.
     """
 
-    def __init__(self, name: str, definitions: dict[str, str]) -> None:
+    def __init__(self, name: str, definitions: Mapping[str, Definition | Path], folder: Path | None = None) -> None:
         self.name = name
-        self.definitions = definitions
+        self.folder = folder
+        self._definitions = definitions
 
     def kinds(self) -> list[str]:
         """Return the kinds of definitions that the package has: some of ``msg``, ``srv`` and ``action``."""
-        return list(dict.fromkeys(name.partition("/")[0] for name in self.definitions))
+        return list(dict.fromkeys(name.partition("/")[0] for name in self._definitions))
 
     def names(self, kind: str) -> list[str]:
         """Return the names of the messages, services or actions."""
-        return [name.partition("/")[2] for name in self.definitions if name.startswith(f"{kind}/")]
+        return [name.partition("/")[2] for name in self._definitions if name.startswith(f"{kind}/")]
+
+    def definition(self, kind: str, name: str) -> Definition:
+        """Return the definition of a message, service or action.
+
+        Raises:
+            InterfaceError: Its file cannot be read.
+            KeyError: The package does not have it.
+        """
+        definition = self._definitions[f"{kind}/{name}"]
+        return read(definition) if isinstance(definition, Path) else definition
+
+    def parse(self, kind: str, name: str) -> list[Structure]:
+        """Return the structures of a message, service or action.
+
+        Raises:
+            InterfaceError: The definition is invalid.
+            KeyError: The package does not have it.
+        """
+        from coframe.errors import InterfaceError  # noqa: PLC0415 - until a class is used, none of these is needed
+        from coframe.messages.compounds import PARTS  # noqa: PLC0415
+        from coframe.messages.idl import parse_idl  # noqa: PLC0415
+        from coframe.messages.parser import check_message_name, parse  # noqa: PLC0415
+
+        definition = self.definition(kind, name)
+        try:
+            check_message_name(name)
+        except ValueError as error:
+            raise InterfaceError(str(error), file=definition.file) from None
+        if definition.is_idl:
+            return parse_idl(definition.text, self.name, kind, name, file=definition.file)
+        return parse(definition.text, self.name, PARTS[kind], file=definition.file)
 
     def create(self, kind: str, name: str) -> None:
         """Create and register the classes of a definition; do nothing if the package does not have it.
@@ -43,24 +83,81 @@ class InterfacePackage:
         Args:
             kind: ``msg``, ``srv`` or ``action``.
             name: The name of a definition, or of a message that belongs to it, such as ``Trigger_Request``.
-        """
-        from coframe.messages.class_factory import create_classes  # noqa: PLC0415 - until a class is used, not needed
-        from coframe.messages.compounds import PARTS  # noqa: PLC0415
-        from coframe.messages.parser import parse  # noqa: PLC0415
 
-        main = name.partition("_")[0]
-        text = self.definitions.get(f"{kind}/{main}")
-        if text is not None:
-            create_classes(self.name, kind, main, parse(text, self.name, PARTS[kind]))
+        Raises:
+            InterfaceError: The definition, or one that it uses, is invalid.
+        """
+        from coframe.errors import InterfaceError  # noqa: PLC0415
+        from coframe.messages.class_factory import FieldError, create_classes  # noqa: PLC0415
+
+        if f"{kind}/{name}" not in self._definitions:
+            name = name.partition("_")[0]
+        if f"{kind}/{name}" not in self._definitions:
+            return
+        parts = self.parse(kind, name)
+        try:
+            create_classes(self.name, kind, name, parts)
+        except FieldError as error:
+            text, file = self.definition(kind, name)
+            raise InterfaceError(
+                f"field {error.field!r}: {error.problem}",
+                file=file,
+                line=_line_of(error.field, text),
+                hint=_elsewhere(error.missing),
+            ) from None
+
+
+def _elsewhere(ros_type: str) -> str:
+    """Return a hint at packages that have a type of the same name as one that does not exist; "" if there is none."""
+    _, _, name = ros_type.rpartition("/")
+    found = [package for package in map(shipped, shipped_names()) if package and name in package.names("msg")]
+    names = " or ".join(f"{package.name}/{name}" for package in found[:3])
+    return f"Did you mean {names}?" if names else ""
+
+
+def _line_of(field: str, text: str) -> int | None:
+    word = re.compile(rf"\s{field}\b")
+    return next((number for number, line in enumerate(text.splitlines(), 1) if word.search(line)), None)
+
+
+_found: dict[str, InterfacePackage | None] = {}
+
+
+def find_package(name: str) -> InterfacePackage | None:
+    """Return the user's package with a name, or the one that coframe contains; None if there is none."""
+    if name not in _found:
+        folder = sources.find_folder(name)
+        _found[name] = shipped(name) if folder is None else load_package(name, folder)
+    return _found[name]
+
+
+def load_package(name: str, folder: Path) -> InterfacePackage:
+    """Return the package in a folder, whose types are found by their names from now on."""
+    known = _found.get(name)
+    if known is None or known.folder != folder:
+        known = _found[name] = InterfacePackage(name, definitions_in(folder), folder)
+    return known
+
+
+def forget() -> None:
+    """Search packages again when they are needed next, because files or settings may have changed."""
+    _found.clear()
+    sources.forget()
 
 
 @functools.cache
-def shipped(package: str) -> InterfacePackage | None:
+def shipped(name: str) -> InterfacePackage | None:
     """Return an interface package that coframe contains, None if coframe does not have it."""
-    path = _SHIPPED / f"{package}.txt"
+    path = _SHIPPED / f"{name}.txt"
     if not path.is_file():
         return None
-    return InterfacePackage(package, archive.unpack(path.read_text("utf-8")))
+    texts = archive.unpack(path.read_text("utf-8"))
+    return InterfacePackage(name, {key: Definition(text) for key, text in texts.items()})
+
+
+def shipped_names() -> list[str]:
+    """Return the names of all interface packages that coframe contains."""
+    return sorted(path.stem for path in _SHIPPED.glob("*.txt"))
 
 
 class Exports(NamedTuple):
@@ -87,7 +184,9 @@ def exports(package: InterfacePackage, kind: str) -> Exports:
 
 
 def shipped_exports(package: str, kind: str) -> Exports:
-    """Return the exports of a package that coframe contains."""
-    found = shipped(package)
+    """Return the exports of a package that coframe contains, or of the user's package with the same name."""
+    found = find_package(package)
+    if found is None or kind not in found.kinds():
+        found = shipped(package)
     assert found is not None, package
     return exports(found, kind)

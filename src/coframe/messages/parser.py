@@ -3,10 +3,10 @@
 
 from __future__ import annotations
 
-import ast
 import re
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
+from coframe.errors import InterfaceError
 from coframe.messages.definition import (
     AbstractNestableType,
     AbstractType,
@@ -20,15 +20,40 @@ from coframe.messages.definition import (
     UnboundedString,
     UnboundedWString,
 )
+from coframe.messages.literals import literal
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
 
 # Type names in .msg files that have another name in IDL. rosidl maps `char` to a number.
 _IDL_NAMES = {"bool": "boolean", "byte": "octet", "char": "uint8", "float32": "float", "float64": "double"}
 _INTEGERS = {f"{sign}int{bits}" for sign in ("", "u") for bits in (8, 16, 32, 64)}
+# Names of types that ROS 1, Python, C++ and IDL have.
+_ELSEWHERE = {
+    "time": "builtin_interfaces/Time",
+    "duration": "builtin_interfaces/Duration",
+    "boolean": "bool",
+    "octet": "byte",
+    "double": "float64",
+    "float": "float32 or float64",
+    "int": "int32 or int64",
+    "long": "int64",
+    "short": "int16",
+    "unsigned": "uint32",
+    "str": "string",
+}
 
 _LINE = re.compile(
-    r"(?P<type>[\w/]+(?:<=\d+)?)(?P<many>\[(?:<=)?\d*\])?\s+(?P<name>\w+)\s*(?P<equals>=)?\s*(?P<value>.*)"
+    r"(?P<type>[\w/]+(?:<=\d+)?)(?P<many>\[(?:<=)?\d*\])?\s+(?P<name>\w+)\s*(?P<equals>=)?\s*(?P<value>.*)", re.ASCII
 )
-_SEPARATOR = re.compile(r"^---[ \t]*$", re.MULTILINE)
+_SEPARATOR = re.compile(r"---[ \t]*")
+_PACKAGE = re.compile(r"[a-z](?:_?[a-z0-9])*")
+_FIELD = re.compile(r"[a-z](?:_?[a-z0-9])*")
+_CONSTANT = re.compile(r"[A-Z](?:_?[A-Z0-9])*")
+_MESSAGE = re.compile(r"[A-Z][A-Za-z0-9]*")
+# Names that message classes use themselves.
+_RESERVED = {"get_fields_and_field_types", "fields_and_field_types", "SLOT_TYPES", "ROS_TYPE"}
+_MOST_VALUES = 2**32 - 1  # CDR counts values with 32 bits.
 
 
 class Field(NamedTuple):
@@ -55,49 +80,91 @@ class Structure(NamedTuple):
     comment: str
 
 
-def parse(text: str, package: str, parts: int = 1) -> list[Structure]:
+def parse(text: str, package: str, parts: int = 1, *, file: str | None = None) -> list[Structure]:
     """Parse the text of a definition file.
 
     Args:
         text: The content of the file.
         package: The package of type names without a package.
         parts: The number of structures: 1 for a message, 2 for a service, 3 for an action.
+        file: The name of the file, for error messages.
 
     Raises:
-        ValueError: A line is not valid, or the number of parts is different.
+        InterfaceError: A line is not valid, or the number of parts is different.
     """
-    pieces = _SEPARATOR.split(text)
+    pieces: list[list[tuple[int, str]]] = [[]]
+    for number, line in enumerate(text.splitlines(), 1):
+        if _SEPARATOR.fullmatch(line):
+            pieces.append([])
+        else:
+            pieces[-1].append((number, line))
     if len(pieces) != parts:
-        raise ValueError(f"expected {parts} parts separated by '---', found {len(pieces)}")
-    return [_parse_structure(piece, package) for piece in pieces]
+        raise InterfaceError(f"expected {parts} parts separated by '---', found {len(pieces)}", file=file)
+    return [_parse_structure(piece, package, file) for piece in pieces]
 
 
-def _parse_structure(text: str, package: str) -> Structure:
-    structure = Structure([], [], _opening_comment(text))
-    for line in text.splitlines():
+def check_message_name(name: str) -> None:
+    """Raise ValueError if a message, service or action cannot have this name."""
+    if not _MESSAGE.fullmatch(name):
+        raise ValueError(f"the name {name!r} must begin with a capital letter and contain only letters and digits")
+
+
+def add_unique(names: set[str], name: str) -> None:
+    """Add the name of a field or constant; raise ValueError if the message has it already, or cannot have it."""
+    if name in names:
+        raise ValueError(f"the name {name!r} is used twice")
+    if name in _RESERVED:
+        raise ValueError(f"the name {name!r} is reserved for an attribute of message classes")
+    names.add(name)
+
+
+def _parse_structure(lines: Iterable[tuple[int, str]], package: str, file: str | None) -> Structure:
+    structure = Structure([], [], _opening_comment(line for _, line in lines))
+    names: set[str] = set()
+    for number, line in lines:
         content = without_comment(line)
         if not content:
             continue
-        match = _LINE.fullmatch(content)
-        if match is None:
-            raise ValueError(f"not a field or constant: {line!r}")
-        value_type = _nestable(match["type"], package)
-        if match["equals"]:
-            structure.constants.append(Constant(match["name"], value_type, _literal(match["value"], value_type)))
-            continue
-        field_type = _nested(value_type, match["many"]) if match["many"] else value_type
-        default = _literal(match["value"], value_type) if match["value"] else None
-        structure.fields.append(Field(match["name"], field_type, default))
+        try:
+            member = _parse_line(content, package)
+            add_unique(names, member.name)
+        except ValueError as error:
+            raise InterfaceError(f"{error}, in: {_shortened(content)}", line=number, file=file) from None
+        (structure.fields if isinstance(member, Field) else structure.constants).append(member)  # type: ignore[arg-type]
     return structure
 
 
-def _opening_comment(text: str) -> str:
-    lines: list[str] = []
-    for line in text.strip().splitlines():
-        if not line.startswith("#"):
+def _parse_line(content: str, package: str) -> Field | Constant:
+    match = _LINE.fullmatch(content)
+    if match is None:
+        raise ValueError("not a field such as 'float64 x' or a constant such as 'uint8 RED=1'")
+    name = match["name"]
+    value_type = _nestable(match["type"], package)
+    if match["equals"]:
+        if match["many"] or isinstance(value_type, NamespacedType):
+            raise ValueError("a constant must be a number, a boolean or a string")
+        if not _CONSTANT.fullmatch(name):
+            raise ValueError(f"the name of a constant has capital letters, digits and single underscores, not {name!r}")
+        return Constant(name, value_type, literal(match["value"], value_type))
+    if not _FIELD.fullmatch(name):
+        raise ValueError(f"the name of a field has small letters, digits and single underscores, not {name!r}")
+    field_type = _nested(value_type, match["many"]) if match["many"] else value_type
+    return Field(name, field_type, literal(match["value"], field_type) if match["value"] else None)
+
+
+def _shortened(text: str) -> str:
+    longest = 120
+    return text if len(text) <= longest else f"{text[:longest]}..."
+
+
+def _opening_comment(lines: Iterable[str]) -> str:
+    comments: list[str] = []
+    for line in lines:
+        if line.startswith("#"):
+            comments.append(line.lstrip("# ").rstrip())
+        elif line.strip() or comments:
             break
-        lines.append(line.lstrip("# ").rstrip())
-    return " ".join(lines)
+    return " ".join(comments)
 
 
 def without_comment(line: str) -> str:
@@ -105,17 +172,28 @@ def without_comment(line: str) -> str:
     return re.sub(r"""^((?:[^#"']|"[^"]*"|'[^']*')*)#.*$""", r"\1", line).strip()
 
 
+def bounded_size(digits: str) -> int:
+    """Return the size of an array or the bound of a sequence or string."""
+    size = int(digits) if len(digits) < len(str(_MOST_VALUES)) + 1 else _MOST_VALUES + 1
+    if not 1 <= size <= _MOST_VALUES:
+        raise ValueError(f"a size must be from 1 to {_MOST_VALUES}, not {digits}")
+    return size
+
+
 def _nestable(name: str, package: str) -> AbstractNestableType:
     name, _, bound = name.partition("<=")
     if name == "string":
-        return BoundedString(int(bound)) if bound else UnboundedString()
+        return BoundedString(bounded_size(bound)) if bound else UnboundedString()
     if name == "wstring":
-        return BoundedWString(int(bound)) if bound else UnboundedWString()
+        return BoundedWString(bounded_size(bound)) if bound else UnboundedWString()
     if bound:
         raise ValueError(f"only strings can have a bound, not {name}")
     if name in _IDL_NAMES or name in _INTEGERS:
         return BasicType(_IDL_NAMES.get(name, name))
     owner, _, message = name.rpartition("/")
+    if not (_MESSAGE.fullmatch(message) and _PACKAGE.fullmatch(owner or package)):
+        known = f"; use {_ELSEWHERE[name]}" if name in _ELSEWHERE else ""
+        raise ValueError(f"no type {name!r}{known}")
     return NamespacedType((owner or package, "msg"), message)
 
 
@@ -124,18 +202,5 @@ def _nested(value_type: AbstractNestableType, brackets: str) -> AbstractType:
     if not size:
         return UnboundedSequence(value_type)
     if size.startswith("<="):
-        return BoundedSequence(value_type, int(size[2:]))
-    return Array(value_type, int(size))
-
-
-def _literal(text: str, type_: AbstractNestableType) -> Any:
-    if text.startswith("["):
-        return [_literal(item.strip(), type_) for item in text[1:-1].split(",") if item.strip()]
-    if not isinstance(type_, BasicType):
-        return ast.literal_eval(text) if text[:1] in {'"', "'"} else text
-    if type_.typename == "boolean":
-        return text.lower() in {"true", "1"}
-    if type_.typename in {"float", "double"}:
-        return float(text)
-    number = int(text, 0)
-    return bytes([number]) if type_.typename == "octet" else number
+        return BoundedSequence(value_type, bounded_size(size[2:]))
+    return Array(value_type, bounded_size(size))

@@ -46,9 +46,9 @@ def _load(package: str, kind: str, name: str) -> bool:
             raise
     else:
         return True
-    from coframe.messages.packages import shipped  # noqa: PLC0415 - it imports this module
+    from coframe.messages.packages import find_package  # noqa: PLC0415 - it imports this module
 
-    found = shipped(package)
+    found = find_package(package)
     if found is None or kind not in found.kinds():
         return False
     found.create(kind, name)

@@ -1,0 +1,149 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Where users' interface packages are found.
+
+In this order: the paths in ``COFRAME_INTERFACES``, the paths added with ``coframe interfaces add``, the workspace of
+the running script and of the current directory, and the prefixes of a sourced ROS workspace (``AMENT_PREFIX_PATH``).
+"""
+
+from __future__ import annotations
+
+import functools
+import os
+from pathlib import Path
+from typing import TYPE_CHECKING, NamedTuple
+
+from coframe.interfaces.definition_files import has_definitions, package_name
+from coframe.interfaces.user_folders import added_paths
+from coframe.interfaces.workspace import start_folders, workspace_root
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator
+
+__all__ = ["ENVIRONMENT", "Source", "find_folder", "forget", "package_folders", "sources"]
+
+ENVIRONMENT = "COFRAME_INTERFACES"
+_PREFIXES = "AMENT_PREFIX_PATH"
+_MOST_FOLDERS = 5_000  # per source; a search must end, whatever a link or a mistyped path points to
+_DEEPEST = 8
+_SKIPPED = {"build", "install", "log", "node_modules", "__pycache__", "venv", "site-packages", "msg", "srv", "action"}
+_IGNORE_MARKERS = {"COLCON_IGNORE", "AMENT_IGNORE", "CATKIN_IGNORE"}
+
+_indexes: dict[tuple[Path, int], dict[str, Path]] = {}
+
+
+class Source(NamedTuple):
+    """A folder in which packages are searched.
+
+    Attributes:
+        origin: Why it is searched, in words for the user.
+        folder: The folder.
+        depth: How many levels below the folder packages can be.
+    """
+
+    origin: str
+    folder: Path
+    depth: int
+
+
+def sources() -> list[Source]:
+    """Return all folders in which packages are searched, in order."""
+    variables = tuple(os.environ.get(name, "") for name in (ENVIRONMENT, _PREFIXES))
+    return _sources(tuple(start_folders()), *variables)
+
+
+@functools.lru_cache(maxsize=16)
+def _sources(starts: tuple[Path, ...], given: str, prefixes: str) -> list[Source]:
+    found = [Source(ENVIRONMENT, path, _DEEPEST) for path in _paths(given)]
+    found += [Source("coframe interfaces add", path, _DEEPEST) for path in added_paths()]
+    for start in starts:
+        found.append(Source("folder of the script", start, 1))
+        root = workspace_root(start)
+        if root is not None:
+            found.append(Source("workspace", root, _DEEPEST))
+    found += [Source(_PREFIXES, path / "share", 1) for path in _paths(prefixes)]
+    first: dict[tuple[Path, int], Source] = {}
+    for source in found:
+        first.setdefault((source.folder, source.depth), source)
+    return list(first.values())
+
+
+def find_folder(package: str) -> Path | None:
+    """Return the folder of a user's interface package; None if there is none."""
+    for source in sources():
+        if source.origin == _PREFIXES:
+            folder = source.folder / package  # An installation names folders after packages, and can have thousands.
+            if has_definitions(folder):
+                return folder
+            continue
+        folder_of = _index(source).get(package)
+        if folder_of is not None:
+            return folder_of
+    return None
+
+
+def package_folders(source: Source) -> dict[str, Path]:
+    """Return the folder of each interface package in a source, by its name."""
+    return dict(_index(source))
+
+
+def forget() -> None:
+    """Search again when the next package is needed, because files or settings may have changed."""
+    _indexes.clear()
+    _sources.cache_clear()
+
+
+def _paths(text: str) -> list[Path]:
+    return [Path(path).absolute() for path in text.split(os.pathsep) if path]
+
+
+def _index(source: Source) -> dict[str, Path]:
+    key = (source.folder, source.depth)
+    if key not in _indexes:
+        index: dict[str, Path] = {}
+        for folder in _package_candidates(source.folder, source.depth):
+            name = package_name(folder) if has_definitions(folder) else None
+            if name is not None:
+                index.setdefault(name, folder)
+        _indexes[key] = index
+    return _indexes[key]
+
+
+def _package_candidates(root: Path, depth: int) -> Iterator[Path]:
+    """Yield folders that may be packages, level by level; the folders inside a package are not searched."""
+    level, left = [root], _MOST_FOLDERS
+    for _ in range(depth + 1):
+        below: list[Path] = []
+        for folder in level:
+            left -= 1
+            if left < 0:
+                return
+            entries = _entries(folder)
+            names = {entry.name for entry in entries}
+            if names & _IGNORE_MARKERS:
+                continue
+            if "package.xml" in names or names & {"msg", "srv", "action"}:
+                yield folder
+            if "package.xml" not in names:
+                below += _folders(entries)
+        level = below
+
+
+def _entries(folder: Path) -> list[os.DirEntry[str]]:
+    try:
+        with os.scandir(folder) as entries:
+            return sorted(entries, key=lambda entry: entry.name)
+    except OSError:
+        return []
+
+
+def _folders(entries: Iterable[os.DirEntry[str]]) -> list[Path]:
+    return [Path(entry.path) for entry in entries if _is_searched(entry)]
+
+
+def _is_searched(entry: os.DirEntry[str]) -> bool:
+    if entry.name in _SKIPPED or entry.name.startswith("."):
+        return False
+    try:
+        return entry.is_dir()
+    except OSError:
+        return False

@@ -1,0 +1,44 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Folders and files that coframe keeps for the user: added interface packages, and stubs for editors."""
+
+from __future__ import annotations
+
+import os
+import sys
+from pathlib import Path
+
+__all__ = ["added_paths", "set_added_paths", "settings_file", "stub_folder"]
+
+
+def settings_file() -> Path:
+    """Return the file with the paths that ``coframe interfaces add`` has added, one in each line."""
+    return _folder("XDG_CONFIG_HOME", "APPDATA", ".config", "Library/Application Support") / "interfaces.txt"
+
+
+def stub_folder() -> Path:
+    """Return the folder of the stubs of users' interface packages, for the settings of an editor."""
+    return _folder("XDG_CACHE_HOME", "LOCALAPPDATA", ".cache", "Library/Caches") / "stubs"
+
+
+def added_paths() -> list[Path]:
+    """Return the paths that the user has added."""
+    try:
+        lines = settings_file().read_text("utf-8").splitlines()
+    except (OSError, UnicodeDecodeError):
+        return []
+    return [Path(line) for line in lines if line.strip()]
+
+
+def set_added_paths(paths: list[Path]) -> None:
+    """Write the paths that the user has added."""
+    file = settings_file()
+    file.parent.mkdir(parents=True, exist_ok=True)
+    file.write_text("".join(f"{path}\n" for path in paths), encoding="utf-8")
+
+
+def _folder(xdg: str, windows: str, linux: str, macos: str) -> Path:
+    given = os.environ.get(xdg) or (os.environ.get(windows) if sys.platform == "win32" else None)
+    if given:
+        return Path(given) / "coframe"
+    below = macos if sys.platform == "darwin" else linux
+    return Path(os.path.expanduser("~")) / below / "coframe"  # noqa: PTH111 - Path.home() can fail
