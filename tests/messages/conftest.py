@@ -61,7 +61,7 @@ def random_value(type_: Any, rng: random.Random) -> Any:
     if isinstance(type_, NamespacedType):
         return build(find("/".join(type_.namespaced_name())), rng)
     if not isinstance(type_, BasicType):
-        return rng.choice(TEXTS)
+        return rng.choice(TEXTS)[: getattr(type_, "maximum_size", None)]
     return random_basic(type_.typename, rng)
 
 

@@ -169,7 +169,7 @@ def _opening_comment(lines: Iterable[str]) -> str:
 
 def without_comment(line: str) -> str:
     """Return the line up to a ``#`` that is not inside a quoted string."""
-    return re.sub(r"""^((?:[^#"']|"[^"]*"|'[^']*')*)#.*$""", r"\1", line).strip()
+    return re.sub(r"""^((?:[^#"']|"(?:[^"\\]|\\.)*"|'(?:[^'\\]|\\.)*')*)#.*$""", r"\1", line).strip()
 
 
 def bounded_size(digits: str) -> int:
