@@ -185,7 +185,7 @@ module demo_msgs {
       const int32 WORST = -3;
     };
     @verbatim (language="comment", text=
-      "A report." "\n"
+      "A report." "\\n"
       "Of two lines.")
     struct Report {
       @verbatim (language="comment", text=

@@ -23,7 +23,7 @@ __all__ = ["ENVIRONMENT", "Source", "find_folder", "forget", "package_folders", 
 
 ENVIRONMENT = "COFRAME_INTERFACES"
 _PREFIXES = "AMENT_PREFIX_PATH"
-_MOST_FOLDERS = 5_000  # per source; a search must end, whatever a link or a mistyped path points to
+_MOST_FOLDERS = 5_000  # per source; a search must end, also where a link or a mistyped path leads to a whole disk
 _DEEPEST = 8
 _SKIPPED = {"build", "install", "log", "node_modules", "__pycache__", "venv", "site-packages", "msg", "srv", "action"}
 _IGNORE_MARKERS = {"COLCON_IGNORE", "AMENT_IGNORE", "CATKIN_IGNORE"}
