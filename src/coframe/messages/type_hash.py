@@ -90,7 +90,7 @@ def type_hash(interface: type) -> str:
 
 
 @cache
-def _hash(interface: type[Message | Service | Action]) -> str:
+def _hash(interface: Any) -> str:
     described = _description(interface)
     referenced = ", ".join(described.referenced[name] for name in sorted(described.referenced))
     text = f'{{"type_description": {described.text}, "referenced_type_descriptions": [{referenced}]}}'
@@ -98,7 +98,7 @@ def _hash(interface: type[Message | Service | Action]) -> str:
 
 
 @cache
-def _description(interface: type[Message | Service | Action]) -> _Description:
+def _description(interface: Any) -> _Description:
     name = interface.ROS_TYPE
     if issubclass(interface, Message):
         return _described(name, _message_fields(interface))
