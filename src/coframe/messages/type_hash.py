@@ -69,7 +69,8 @@ class _Description(NamedTuple):
     referenced: dict[str, str]
 
 
-def type_hash(interface: type) -> str:
+@cache
+def type_hash(interface: Any) -> str:
     """Return the type hash of a message, service or action class: ``RIHS01_`` and 64 hexadecimal digits.
 
     Args:
@@ -86,11 +87,6 @@ def type_hash(interface: type) -> str:
     """
     if not isinstance(interface, type) or not issubclass(interface, (Message, Service, Action)):
         raise TypeError(f"expected a message, service or action class, not {interface!r}")
-    return _hash(interface)
-
-
-@cache
-def _hash(interface: Any) -> str:
     described = _description(interface)
     referenced = ", ".join(described.referenced[name] for name in sorted(described.referenced))
     text = f'{{"type_description": {described.text}, "referenced_type_descriptions": [{referenced}]}}'
@@ -119,8 +115,9 @@ def _description(interface: Any) -> _Description:
 
 def _message_fields(message: type[Message]) -> dict[str, AbstractType]:
     fields = dict(zip(message.get_fields_and_field_types(), message.SLOT_TYPES, strict=True))
-    # C has no empty structures, so rosidl adds this member.
-    return fields or {"structure_needs_at_least_one_member": _UINT8}
+    if not fields:  # C has no empty structures, so rosidl adds this member.
+        return {"structure_needs_at_least_one_member": _UINT8}
+    return fields
 
 
 def _described_service(name: str) -> _Description:
