@@ -85,12 +85,16 @@ def type_hash(interface: Any) -> str:
         >>> type_hash(find("std_msgs/msg/String"))
         'RIHS01_df668c740482bbd48fb39d76a70dfd4bd59db1288021743503259e948f6b1a18'
     """
-    if not isinstance(interface, type) or not issubclass(interface, (Message, Service, Action)):
+    if not _is_interface(interface):
         raise TypeError(f"expected a message, service or action class, not {interface!r}")
     described = _description(interface)
     referenced = ", ".join(described.referenced[name] for name in sorted(described.referenced))
     text = f'{{"type_description": {described.text}, "referenced_type_descriptions": [{referenced}]}}'
     return _PREFIX + hashlib.sha256(text.encode()).hexdigest()
+
+
+def _is_interface(interface: Any) -> bool:
+    return isinstance(interface, type) and issubclass(interface, (Message, Service, Action))
 
 
 @cache
