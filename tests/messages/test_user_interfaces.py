@@ -4,6 +4,7 @@
 import importlib.util
 import os
 import random
+import re
 import subprocess
 import sys
 import textwrap
@@ -215,7 +216,7 @@ def test_installed_idl_files_give_the_bytes_of_rosbags(
 ) -> None:
     cls = define("demo_msgs/msg/Report", msg_Report=INSTALLED)
     assert (cls.OK, cls.WORST, cls.__doc__) == (0, -3, "A report. Of two lines.")
-    store.register(get_types_from_idl(INSTALLED))
+    store.register(get_types_from_idl(re.sub("#include.*", "", INSTALLED)))  # rosbags does not read this line here.
     rng = random.Random(4)
     for _ in range(20):
         message = random_message(cls, rng)
