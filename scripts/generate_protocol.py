@@ -142,7 +142,10 @@ def typescript(version: str) -> str:
         PREAMBLE,
         *(
             _alias(name)
-            for name in ("ViewerMode", "FrameActivity", "DisplayState", "Severity", "FindingsState", "ColorBy")
+            for name in (
+                *("ViewerMode", "FrameActivity", "DisplayState", "Severity", "FindingsState", "ColorBy"),
+                *("LogLevel", "CompletionKind"),
+            )
         ),
         *(_interface(one) for one in all_records),
         _union("ServerMessage", SERVER),

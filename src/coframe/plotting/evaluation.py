@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -12,10 +12,8 @@ from coframe.analysis.clocks import clock_of
 from coframe.bags.namespaces import TopicFilter
 from coframe.bags.transforms import ingest_for
 from coframe.errors import DecodeError, PlotError
-from coframe.formatting import listed
 from coframe.messages.slices import Slices
 from coframe.plotting.expressions import (
-    ANGLES,
     Expression,
     FieldExpression,
     PoseExpression,
@@ -24,6 +22,7 @@ from coframe.plotting.expressions import (
     parse_expression,
 )
 from coframe.plotting.figure import Series
+from coframe.plotting.values import NoElementError, axis_title, coordinate, field_value, rates
 from coframe.time import SECOND
 
 if TYPE_CHECKING:
@@ -33,14 +32,13 @@ if TYPE_CHECKING:
 
     from coframe.bags import Recording
     from coframe.bags.storage import Channel
-    from coframe.transform import Transform
+    from coframe.buffer import Buffer
 
     Stamped = tuple[NDArray[np.int64], NDArray[np.float64]]
 
-__all__ = ["evaluate"]
+__all__ = ["check_edge", "evaluate"]
 
 _BATCH = 5_000  # messages
-_WINDOW = SECOND  # of rates
 _REPORTED = 500  # messages between two reports of the progress
 _MANY = 12  # names in a hint
 
@@ -102,19 +100,10 @@ def _evaluate(expression: Expression, recording: Recording, report: Callable[[st
 def _pose_curve(expression: PoseExpression, recording: Recording) -> Series:
     poses = recording.buffer.trajectory(expression.target, expression.source)
     stamps = np.asarray(poses.stamps, dtype=np.int64)
-    values = _coordinate(poses, expression.quantity)
+    values = coordinate(poses, expression.quantity)
     if len(stamps) == 1 and stamps[0] == 0:  # All edges are static.
         stamps, values = np.array(recording.span, dtype=np.int64), np.repeat(values, 2)
-    panel = "angle [rad]" if expression.quantity in ANGLES else "position [m]"
-    return Series(expression.text, stamps, values, panel)
-
-
-def _coordinate(poses: Transform, quantity: str) -> NDArray[np.float64]:
-    if quantity in ANGLES:
-        return poses.rpy[:, ANGLES.index(quantity)]
-    if quantity == "distance":
-        return np.asarray(np.linalg.norm(poses.translation, axis=1))
-    return poses.translation[:, "xyz".index(quantity)]
+    return Series(expression.text, stamps, values, axis_title(expression))
 
 
 def _field_curve(
@@ -126,11 +115,11 @@ def _field_curve(
     missing = damaged = 0
     for done, message in enumerate(recording.messages(topic), start=1):
         try:
-            value = _field(message.message, expression, message.type)
+            value = field_value(message.message, expression, message.type)
         except DecodeError:
             damaged += 1
             continue
-        except _NoElementError:
+        except NoElementError:
             missing += 1
             value = float("nan")
         stamps.append(message.stamp)
@@ -139,69 +128,13 @@ def _field_curve(
             report(expression.text, done, total)
     if values and missing == len(values):
         raise PlotError(f"{expression.text}: no message on {topic} has an element with this index")
-    names = [step for step in expression.path if isinstance(step, str)]
-    group = names[-2:-1] or names[-1:]
     return Series(
         expression.text,
         np.array(stamps, dtype=np.int64),
         np.array(values, dtype=np.float64),
-        group[0] if isinstance(expression.path[-1], str) else names[-1],
+        axis_title(expression),
         damaged + missing,
     )
-
-
-class _NoElementError(Exception):
-    """A sequence in a message is too short for the index."""
-
-
-def _field(message: Any, expression: FieldExpression, type_: str) -> float:
-    if isinstance(message, bytes):
-        raise PlotError(f"{expression.text}: the messages have the type {type_}, whose definition is not known")
-    value, written = message, expression.topic
-    for step in expression.path:
-        value = _step(value, step, written, expression)
-        written += f"[{step}]" if isinstance(step, int) else f".{step}"
-    if isinstance(value, bool | int | float | np.number | np.bool_):
-        return float(value)
-    if isinstance(value, str):
-        raise PlotError(f"{expression.text} is text, not a number: {value[:40]!r}")
-    names = _names(value)
-    if names:
-        hint = f"Choose a field: {listed(f'{written}.{name}' for name in names)}."
-        raise PlotError(f"{expression.text} is a message, not a number", hint=hint)
-    raise PlotError(f"{expression.text} is a sequence, not a number", hint=f"Choose an element, such as {written}[0].")
-
-
-def _step(value: Any, step: str | int, written: str, expression: FieldExpression) -> Any:
-    if isinstance(step, int):
-        if isinstance(value, str) or not hasattr(value, "__getitem__") or isinstance(value, dict):
-            raise PlotError(f"{expression.text}: {written} is not a sequence, so it has no element {step}")
-        try:
-            return value[step]
-        except IndexError:
-            raise _NoElementError from None
-    names = _names(value)
-    if step not in names:
-        if not names and hasattr(value, "__len__") and not isinstance(value, str):
-            raise PlotError(
-                f"{expression.text}: {written} is a sequence, which has no field {step!r}",
-                hint=f"Choose an element, such as {written}[0].{step}.",
-            )
-        known = f"Fields: {', '.join(names[:_MANY])}{', ...' if len(names) > _MANY else ''}." if names else ""
-        raise PlotError(f"{expression.text}: {written} has no field {step!r}", hint=did_you_mean(step, names) + known)
-    return value[step] if isinstance(value, dict) else getattr(value, step)
-
-
-def _names(value: Any) -> list[str]:
-    """Return the names of the fields of a message of ROS, JSON or protobuf; none for other values."""
-    if isinstance(value, dict):
-        return list(map(str, value))
-    if hasattr(value, "get_fields_and_field_types"):
-        return list(value.get_fields_and_field_types())
-    descriptor = getattr(value, "DESCRIPTOR", None)
-    if descriptor is not None:
-        return [each.name for each in descriptor.fields]
-    return list(getattr(value, "__dataclass_fields__", ()))
 
 
 def _timing_curve(
@@ -217,29 +150,16 @@ def _timing_curve(
                 "therefore no delay",
                 hint=f"Their rate can be plotted: {topic}.rate.",
             )
-        values = _delays(expression, recording, stamps, received) if delays else _rates(received)
+        values = _delays(expression, recording, stamps, received) if delays else rates(received)
     else:
-        _check_edge(expression, recording)
+        check_edge(expression, recording.buffer)
         if delays:
             stamps, received = _received_transforms(expression, recording, report)
             values = _delays(expression, recording, stamps, received)
         else:
             stamps = _edge_stamps(recording, *expression.edge)
-            values = _rates(stamps)
-    return Series(expression.text, stamps, values, "delay [s]" if delays else "rate [Hz]")
-
-
-def _rates(times: NDArray[np.int64]) -> NDArray[np.float64]:
-    """Return the mean rate before each of the sorted times; NaN until enough time has passed.
-
-    The mean begins at the last message that is at least a second older, so that a burst after a pause has no high rate.
-    """
-    window = min(_WINDOW, int(times[-1] - times[0]) // 2) if times.size else 0
-    first = np.searchsorted(times, times - window, side="right") - 1
-    elapsed = (times - times[np.maximum(first, 0)]) / SECOND
-    rates: NDArray[np.float64] = np.full(len(times), np.nan)
-    np.divide(np.arange(len(times)) - first, elapsed, out=rates, where=(first >= 0) & (elapsed > 0))
-    return rates
+            values = rates(stamps)
+    return Series(expression.text, stamps, values, axis_title(expression))
 
 
 def _delays(
@@ -261,10 +181,14 @@ def _delays(
     return np.asarray(((simulated if clock == "simulated" else received) - stamps) / SECOND)
 
 
-def _check_edge(expression: TimingExpression, recording: Recording) -> None:
-    """Raise a PlotError unless the frames are parent and child of an edge with stamps."""
+def check_edge(expression: TimingExpression, buffer: Buffer) -> None:
+    """Check that the frames are parent and child of an edge with stamps.
+
+    Raises:
+        PlotError: They are not.
+        TransformException: A frame does not exist, or the frames are not connected.
+    """
     parent, child = expression.edge or ("", "")
-    buffer = recording.buffer
     parents = {edge.child: edge for edge in buffer.edges()}
     if child in parents and parents[child].parent == parent:
         if parents[child].static:

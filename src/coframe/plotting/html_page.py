@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from coframe.plotting.figure import COLOURS
+from coframe.plotting.thinning import extremes
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -52,26 +53,10 @@ def as_html(figure: Figure) -> str:
 
 
 def _points(x: NDArray[np.float64], values: NDArray[np.float64]) -> dict[str, Any]:
-    thinned_x, thinned = _thinned(x, values)
+    kept = extremes(values, MOST_POINTS)
+    thinned_x, thinned = x[kept], values[kept]
     return {
         "x": thinned_x.round(9).tolist(),
         "y": [value if np.isfinite(value) else None for value in thinned.tolist()],
         "of": len(values) if len(thinned) < len(values) else 0,
     }
-
-
-def _thinned(x: NDArray[np.float64], values: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Keep the smallest and the largest value of each of many equal parts, so that no peak is lost."""
-    if len(values) <= MOST_POINTS:
-        return x, values
-    size = -(-len(values) * 2 // MOST_POINTS)
-    starts = np.arange(0, len(values), size)
-    kept = []
-    for start in starts.tolist():
-        part = values[start : start + size]
-        if np.isnan(part).all():
-            kept.append(start)
-            continue
-        kept += [start + int(np.nanargmin(part)), start + int(np.nanargmax(part))]
-    chosen = np.unique(np.array([0, *kept, len(values) - 1]))
-    return x[chosen], values[chosen]

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 from coframe.errors import ViewerError
 from coframe.viewer.findings import FindingsWatcher
+from coframe.viewer.panels import Panels
 from coframe.viewer.replay.page import DEFAULT_SETTINGS, FRAME_TIMEOUT, ReplayRequest, ReplaySettings
 from coframe.viewer.robots.descriptions import ROBOT_DESCRIPTION, RobotDescriptions
 from coframe.viewer.robots.joints import JOINT_STATES, JointPublisher
@@ -66,6 +67,7 @@ class ViewerState:
         self.descriptions = RobotDescriptions(robot, _description_topics(rviz), self.meshes)
         self.scene = Scene(source.buffer, ages=source.mode == "live")
         self.findings = FindingsWatcher()
+        self.panels = Panels(source)
         self.rviz = rviz.with_fixed_frame(fixed) if rviz is not None and fixed else rviz
         self._joint_states = joint_states
         self.fixed = fixed or (rviz.fixed_frame if rviz is not None else "")
@@ -83,6 +85,8 @@ class ViewerState:
     def set_source(self, source: Source) -> None:
         """Show another source; all clients start from scratch."""
         self._close_tools()
+        self.panels.close()
+        self.panels = Panels(source)
         self.source = source
         self.scene = Scene(source.buffer, ages=source.mode == "live")
         self.origin = time.time_ns()
@@ -158,6 +162,7 @@ class ViewerState:
         for topic in list(self._open):
             self._open.pop(topic).messages.close()
         self.findings.close()
+        self.panels.close()
         self.executor.shutdown(wait=True, cancel_futures=True)
         self._close_tools()
         self.descriptions.close()

@@ -354,6 +354,15 @@ class Participant:
                 found[topic] = {handle: self._graph.describe(writer) for handle, writer in writers.items()}
         return found
 
+    def endpoints(self, *, writers: bool) -> dict[str, list[tuple[DiscoveredEndpoint, EndpointInfo]]]:
+        """Return all publishers or all subscriptions by the ROS name of their topic."""
+        self._graph.refresh()
+        found = {}
+        for name, endpoints in self._graph.by_topic(writers=writers).items():
+            if (topic := names.ros_topic(name)) is not None:
+                found[topic] = [(endpoint, self._graph.describe(endpoint)) for endpoint in endpoints.values()]
+        return found
+
     def subscribers(self, topic: str, *, kind: Kind = "topic") -> list[EndpointInfo]:
         """Return the subscriptions to a topic, given its ROS name."""
         return self._describe(self._graph.readers(names.dds_topic(topic, kind)))

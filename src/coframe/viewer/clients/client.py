@@ -114,6 +114,7 @@ class Client:
         rate = self.state.frame_rate
         self.due = (math.floor(now * rate) + 1) / rate
         self.state.publish_joints()
+        self._viewer.panels.poll()
         if self._ready and self._socket.is_clear:
             self._viewer.refresh()
             self._send_updates(now)

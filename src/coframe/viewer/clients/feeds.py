@@ -11,8 +11,10 @@ from __future__ import annotations
 import math
 import time
 from functools import partial
-from typing import TYPE_CHECKING, NamedTuple, Protocol
+from typing import TYPE_CHECKING
 
+from coframe.viewer.clients.panel_feeds import panel_feeds
+from coframe.viewer.clients.update import Feed, Update
 from coframe.viewer.displays.display import Status
 from coframe.viewer.findings import finding_rows
 from coframe.viewer.protocol.encoding import encode, encode_frames
@@ -32,14 +34,14 @@ from coframe.viewer.scene.scene import LocalOrigin
 from coframe.viewer.scene.statistics import frame_rows
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Hashable, Iterator
+    from collections.abc import Iterator
 
     from coframe.viewer.clients.state import ClientState
     from coframe.viewer.findings import FindingsReport
     from coframe.viewer.protocol.encoding import EntryPose
     from coframe.viewer.robots.descriptions import Description, DescriptionProblem
 
-__all__ = ["FRAMES", "HELLO", "TOPICS", "Feed", "Update", "make_feeds"]
+__all__ = ["FRAMES", "HELLO", "TOPICS", "make_feeds"]
 
 # The keys that the client treats specially.
 HELLO, TOPICS, FRAMES = "hello", "topics", "frames"
@@ -50,33 +52,6 @@ SLOW_PERIOD = 0.25
 STATISTICS_PERIOD, STATISTICS_SHARE = 1.0, 0.003
 # Seconds between frame updates while nothing changes.
 IDLE_PERIOD = 1.0
-
-
-class Update(NamedTuple):
-    """The newest message about one subject.
-
-    Attributes:
-        key: The subject; None for a message that is sent in any case.
-        version: A value that changes with the message.
-        encode: Return the message.
-    """
-
-    key: Hashable
-    version: object
-    encode: Callable[[], str | bytes | bytearray]
-
-
-class Feed(Protocol):
-    """A source of updates for one client.
-
-    Attributes:
-        due: When the feed is to be checked for updates again, on the monotonic clock.
-    """
-
-    due: float
-
-    def updates(self, now: float) -> Iterator[Update]:
-        """Yield the newest messages at a time of the monotonic clock."""
 
 
 class _Feed:
@@ -270,6 +245,7 @@ def make_feeds(client: ClientState) -> list[Feed]:
         StatisticsFeed(client),
         RobotsFeed(client),
         FindingsFeed(client),
+        *panel_feeds(client),
         FramesFeed(client),
     ]
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from coframe.doctor.codes import codes, page
 from coframe.errors import ViewerError, WireError
+from coframe.viewer.clients.panel_requests import PANEL_HANDLERS
 from coframe.viewer.displays import Options
 from coframe.viewer.protocol import messages
 from coframe.viewer.protocol.messages import CodePage, Published, ReplayPrepared, Rviz, Saved, Timeline
@@ -238,4 +239,5 @@ _HANDLERS: dict[type, Callable[[ClientState, Any], Awaitable[ServerMessage | Non
     messages.Step: _step,
     messages.Subscribe: _subscribe,
     messages.Unsubscribe: _unsubscribe,
+    **PANEL_HANDLERS,
 }

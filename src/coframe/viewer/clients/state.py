@@ -9,6 +9,7 @@ import itertools
 from typing import TYPE_CHECKING
 
 from coframe.errors import WireError
+from coframe.viewer.clients.panels import ClientPanels
 from coframe.viewer.clients.playback_clock import PlaybackClock
 from coframe.viewer.displays.display import Display
 from coframe.viewer.protocol.requests import BadRequestError
@@ -60,6 +61,7 @@ class ClientState:
         requested_fixed: The requested fixed frame; "" selects the root of the largest tree.
         origin: The origin of the client's times, in nanoseconds.
         subscriptions: The subscribed displays by the client's id.
+        panels: What the panels show.
     """
 
     def __init__(self, viewer: ViewerState) -> None:
@@ -71,6 +73,7 @@ class ClientState:
         self.requested_fixed = viewer.fixed
         self.origin = viewer.origin
         self.subscriptions: dict[int, Subscription] = {}
+        self.panels = ClientPanels(viewer)
         self._joints: dict[int, JointPublisher] = {}
 
     @property
@@ -119,6 +122,7 @@ class ClientState:
     def restart(self) -> None:
         """Start again after a change of the source or the origin: close all displays, to be opened again later."""
         self.origin = self.viewer.origin
+        self.panels.close()
         for subscription in self.subscriptions.values():
             self._close(subscription)
             subscription.serial = next(_serial_numbers)
@@ -154,6 +158,7 @@ class ClientState:
 
     def close(self) -> None:
         """Close all displays and publishers."""
+        self.panels.close()
         for number in list(self.subscriptions):
             self.unsubscribe(number)
         for number in list(self._joints):

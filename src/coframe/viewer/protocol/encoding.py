@@ -14,6 +14,8 @@ from coframe.viewer.protocol.messages import (
     BinaryKind,
     CloudFlag,
     CloudHeader,
+    CurveRecord,
+    CurvesHeader,
     EntryRecord,
     FramesHeader,
     GridHeader,
@@ -30,9 +32,11 @@ if TYPE_CHECKING:
     from coframe.viewer.protocol.messages import ServerMessage, ShapesDescription
 
 __all__ = [
+    "CurvePoints",
     "EntryPose",
     "encode",
     "encode_cloud",
+    "encode_curves",
     "encode_frames",
     "encode_grid",
     "encode_image",
@@ -47,6 +51,7 @@ _CLOUD = Layout(CloudHeader)
 _GRID = Layout(GridHeader)
 _SHAPES = Layout(ShapesHeader)
 _IMAGE = Layout(ImageHeader)
+_CURVES, _CURVE = Layout(CurvesHeader), Layout(CurveRecord)
 _NO_POSE = (float("nan"),) * 7
 
 
@@ -58,9 +63,27 @@ class EntryPose(NamedTuple):
     pose: NDArray[np.float64] | None
 
 
+class CurvePoints(NamedTuple):
+    """New points of a curve, which replace all earlier ones if ``reset`` is set: (N,) nanoseconds and (N,) values."""
+
+    curve: int
+    reset: bool
+    times: NDArray[np.int64]
+    values: NDArray[np.float64]
+
+
 def encode(message: ServerMessage) -> str:
     """Return a text message."""
     return json.dumps(message, separators=(",", ":"), allow_nan=False)
+
+
+def encode_curves(curves: Sequence[CurvePoints], origin: int) -> bytes:
+    """Return new points of curves; their times become relative to an origin in nanoseconds."""
+    parts: list[Any] = [_CURVES.pack(BinaryKind.CURVES, len(curves))]
+    parts += [_CURVE.pack(one.curve, one.reset, len(one.times), 0) for one in curves]
+    for one in curves:
+        parts += [(one.times - origin).astype("<f8").tobytes(), one.values.astype("<f8").tobytes()]
+    return b"".join(parts)
 
 
 def encode_frames(

@@ -45,12 +45,15 @@ MAX_KEPT_MESSAGES = 1000
 MAX_POINTS = 4_000_000
 MAX_DECAY = 3600.0
 """Seconds."""
+MAX_CURVE_POINTS = 20_000
 
 ViewerMode: TypeAlias = Literal["live", "recording", "buffer", "replay"]
 FrameActivity: TypeAlias = Literal["static", "fresh", "stale", "gone"]
 DisplayState: TypeAlias = Literal["ok", "waiting", "error"]
 Severity: TypeAlias = Literal["error", "warning", "note"]
 FindingsState: TypeAlias = Literal["none", "waiting", "ready", "failed"]
+LogLevel: TypeAlias = Literal["debug", "info", "warning", "error", "fatal"]
+CompletionKind: TypeAlias = Literal["expression", "topic"]
 ColorBy: TypeAlias = Literal["axis", "intensity", "rgb", "distance", "flat"]
 AxisName: TypeAlias = Literal["x", "y", "z"]
 
@@ -326,6 +329,116 @@ class CodePage(TypedDict):
     text: str
 
 
+class CurveStatus(TypedDict):
+    """The status of a curve. ``axis`` is the title of its axis: curves with the same title share a plot.
+
+    ``points`` is the number of points that exist; fewer are sent if they are thinned.
+    """
+
+    type: Literal["curve"]
+    id: int
+    state: DisplayState
+    text: str
+    hint: str
+    axis: str
+    points: int
+
+
+class InspectedField(TypedDict):
+    """A field of an inspected message, in the order in which it is shown.
+
+    ``path`` begins with the topic; it is an expression for a curve if ``is_number``. ``depth`` is 0 for the fields of
+    the message itself.
+    """
+
+    path: str
+    depth: int
+    name: str
+    type: str
+    text: str
+    is_number: bool
+
+
+class Inspection(TypedDict):
+    """The newest message of the inspected topic at the displayed time; sent when it changes.
+
+    ``rate`` is in Hz. ``publishers`` are the names of their nodes, which recordings do not contain.
+    """
+
+    type: Literal["inspection"]
+    topic: str
+    message_type: str
+    state: DisplayState
+    text: str
+    stamp: float | None
+    rate: float | None
+    publishers: list[str]
+    fields: list[InspectedField]
+
+
+class LogEntry(TypedDict):
+    """A log message; ``place`` is the file, the function and the line that logged it."""
+
+    stamp: float
+    level: LogLevel
+    node: str
+    text: str
+    place: str
+
+
+class LogEntries(TypedDict):
+    """New log messages. ``reset`` discards earlier ones; ``omitted`` counts those that were not sent."""
+
+    type: Literal["log"]
+    reset: bool
+    text: str
+    omitted: int
+    entries: list[LogEntry]
+
+
+class GraphNode(TypedDict):
+    """A node; ``infrastructure`` nodes are hidden by default."""
+
+    name: str
+    infrastructure: bool
+
+
+class GraphTopic(TypedDict):
+    """A topic and its message types; ``infrastructure`` topics are hidden by default."""
+
+    topic: str
+    types: list[str]
+    infrastructure: bool
+
+
+class GraphLink(TypedDict):
+    """A publisher or a subscription: indices into the nodes and the topics, and why it does not match others, or ""."""
+
+    node: int
+    topic: int
+    publishes: bool
+    qos: str
+    problem: str
+
+
+class NodeGraph(TypedDict):
+    """The nodes and topics; sent when they change. ``text`` gives the reason if there are none."""
+
+    type: Literal["graph"]
+    text: str
+    nodes: list[GraphNode]
+    topics: list[GraphTopic]
+    links: list[GraphLink]
+
+
+class Completions(TypedDict):
+    """The answer to ``complete``: texts with which the text can continue."""
+
+    type: Literal["completions"]
+    id: int
+    items: list[str]
+
+
 class Saved(TypedDict):
     """The answer to ``save_rviz``: the text of the .rviz file."""
 
@@ -368,6 +481,11 @@ ServerMessage: TypeAlias = (
     | Timeline
     | Findings
     | CodePage
+    | CurveStatus
+    | Inspection
+    | LogEntries
+    | NodeGraph
+    | Completions
     | Saved
     | ReplayPrepared
     | Published
@@ -575,6 +693,64 @@ class Explain:
 
 
 @dataclass(frozen=True)
+class CurveRequest:
+    """A curve under an id of the page's choice; the expression is one of ``coframe plot``."""
+
+    id: Id
+    expression: str
+
+
+@dataclass(frozen=True)
+class SetCurves:
+    """Sets the curves that the page shows; curves that are not listed any more are removed.
+
+    Attributes:
+        curves: The curves.
+        span: The part of a recording that the page shows; None for all of it.
+        points: The largest number of points of a curve; the smallest and largest values of longer curves are kept.
+    """
+
+    type: ClassVar[str] = "curves"
+    curves: list[CurveRequest]
+    span: tuple[Nanoseconds, Nanoseconds] | None = None
+    points: Annotated[int, Clamp(100, MAX_CURVE_POINTS)] = 4000
+
+
+@dataclass(frozen=True)
+class Inspect:
+    """Inspects the messages of a topic instead of those of the previous one; "" ends it."""
+
+    type: ClassVar[str] = "inspect"
+    topic: str
+
+
+@dataclass(frozen=True)
+class ShowLog:
+    """Requests the log messages and all further ones, or ends this."""
+
+    type: ClassVar[str] = "log"
+    shown: bool
+
+
+@dataclass(frozen=True)
+class ShowGraph:
+    """Requests the graph of nodes and topics and its changes, or ends this."""
+
+    type: ClassVar[str] = "graph"
+    shown: bool
+
+
+@dataclass(frozen=True)
+class Complete:
+    """Requests texts with which the beginning of an expression or of a topic's name can continue."""
+
+    type: ClassVar[str] = "complete"
+    id: Id
+    kind: CompletionKind
+    text: str
+
+
+@dataclass(frozen=True)
 class Ready:
     """Confirms that the last frame update was drawn, so that the next one may follow; ``drawn`` is its time."""
 
@@ -600,6 +776,11 @@ ClientMessage: TypeAlias = (
     | SetFrameTimeout
     | SetFrameRate
     | Explain
+    | SetCurves
+    | Inspect
+    | ShowLog
+    | ShowGraph
+    | Complete
     | Ready
 )
 
@@ -622,6 +803,7 @@ class BinaryKind(IntEnum):
     GRID = 3
     SHAPES = 4
     IMAGE = 5
+    CURVES = 6
 
 
 class FrameState(IntEnum):
@@ -725,6 +907,25 @@ class ImageHeader(NamedTuple):
     stamp: Float64
 
 
+class CurvesHeader(NamedTuple):
+    """New points of curves. Followed by one `CurveRecord` per curve, then the points of each curve in this order.
+
+    The points of a curve are float64 times in nanoseconds relative to the origin, then float64 values; NaN is a gap.
+    """
+
+    kind: UInt32
+    curves: UInt32
+
+
+class CurveRecord(NamedTuple):
+    """The number of points of a curve. They replace all earlier points if ``reset`` is 1, and follow them otherwise."""
+
+    curve: UInt32
+    reset: UInt32
+    points: UInt32
+    reserved: UInt32
+
+
 BINARY_RECORDS: tuple[type[Any], ...] = (
     FramesHeader,
     EntryRecord,
@@ -732,6 +933,8 @@ BINARY_RECORDS: tuple[type[Any], ...] = (
     GridHeader,
     ShapesHeader,
     ImageHeader,
+    CurvesHeader,
+    CurveRecord,
 )
 BINARY_ENUMS: tuple[type[IntEnum], ...] = (BinaryKind, FrameState, CloudFlag, ImageFormat)
 

@@ -14,7 +14,7 @@ from http import HTTPStatus
 from typing import TYPE_CHECKING, Any
 from urllib.parse import parse_qsl, unquote, urlsplit
 
-from coframe.errors import ViewerError
+from coframe.errors import PlotError, ViewerError
 from coframe.viewer.replay.page import ReplayContent, replay_page
 from coframe.viewer.robots.meshes import MESH_TYPES, MeshError
 from coframe.viewer.server.http import STATIC, AccessPolicy, file_response, page_file, response, text_response
@@ -154,6 +154,8 @@ class ViewerServer:
             return self._answer_rviz()
         if path == "/replay":
             return await self._answer_replay(parts.query)
+        if path == "/curves.csv":
+            return self._answer_curves(parts.query)
         return self._answer_page(path, request.headers.get("If-None-Match"))
 
     async def _in_thread(self, make_response: Callable[..., Response], *args: Any) -> Response:
@@ -196,6 +198,16 @@ class ViewerServer:
             return text_response(HTTPStatus.BAD_REQUEST, f"{error} {error.hint}".strip(), policy)
         attachment = {"Content-Disposition": 'attachment; filename="coframe-replay.html"'}
         return response(HTTPStatus.OK, page, "text/html; charset=utf-8", policy, attachment)
+
+    def _answer_curves(self, query: str) -> Response:
+        policy = self._access.content_security
+        expressions = [value for key, value in parse_qsl(query) if key == "curve"]
+        try:
+            text = self._state.panels.curves.as_csv(expressions)
+        except PlotError as error:
+            return text_response(HTTPStatus.BAD_REQUEST, f"{error} {error.hint}".strip(), policy)
+        attachment = {"Content-Disposition": 'attachment; filename="coframe-curves.csv"'}
+        return response(HTTPStatus.OK, text.encode(), "text/csv; charset=utf-8", policy, attachment)
 
     def _answer_page(self, path: str, known_tag: str | None) -> Response:
         file = page_file("index.html" if path == "/" else path, self._static)

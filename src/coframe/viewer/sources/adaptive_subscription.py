@@ -32,12 +32,16 @@ class AdaptiveSubscription:
     Args:
         offers: Return what the publishers of the topic offer now.
         subscribe: Subscribe to the topic with a quality of service.
+        depth: How many messages are kept until they are taken.
 
     Raises:
         WireError: DDS rejects the subscription.
     """
 
-    def __init__(self, offers: Callable[[], Iterable[QoS]], subscribe: Callable[[QoS], Subscription]) -> None:
+    def __init__(
+        self, offers: Callable[[], Iterable[QoS]], subscribe: Callable[[QoS], Subscription], depth: int = _DEPTH
+    ) -> None:
+        self._depth = depth
         self._offers = offers
         self._subscribe = subscribe
         self._open: dict[bool, Subscription] = {}  # By whether it requests what was published before.
@@ -75,9 +79,9 @@ class AdaptiveSubscription:
         keeping = [offer for offer in offers if offer.reliable and offer.transient_local]
         others = [offer for offer in offers if not (offer.reliable and offer.transient_local)]
         if keeping:
-            self._request(QoS(_DEPTH, transient_local=True))
+            self._request(QoS(self._depth, transient_local=True))
         if others:
-            self._request(QoS(_DEPTH, reliable=all(offer.reliable for offer in others)))
+            self._request(QoS(self._depth, reliable=all(offer.reliable for offer in others)))
 
     def _request(self, request: QoS) -> None:
         previous = self._open.get(request.transient_local)

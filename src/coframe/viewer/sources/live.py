@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import time
 import weakref
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from coframe.time import MINUTE, SECOND
 from coframe.viewer.sources.adaptive_subscription import AdaptiveSubscription
@@ -16,6 +16,7 @@ from coframe.viewer.sources.topic_messages import LiveMessages
 if TYPE_CHECKING:
     from collections.abc import Generator
 
+    from coframe.bags import Recording
     from coframe.connection import Connection
     from coframe.doctor import Report
     from coframe.wire.endpoints import Subscription
@@ -23,9 +24,6 @@ if TYPE_CHECKING:
 
 __all__ = ["LiveSource"]
 
-# Types that the viewer subscribes to without displaying them.
-OTHER_TYPES = ("std_msgs/msg/String",)
-_TYPES = frozenset({*DISPLAY_OF_TYPE, *OTHER_TYPES})
 # The doctor examines the last ten seconds. The first report takes a while, because half a window may look like a fault.
 _WINDOW = 10 * SECOND
 _FIRST_REPORT, _REPORT_PERIOD = 5.0, 2.0
@@ -44,6 +42,7 @@ class LiveSource:
     """
 
     mode: Mode = "live"
+    recording: Recording | None = None
     span: tuple[int, int] | None = None
 
     def __init__(self, connection: Connection, *, own: bool = False) -> None:
@@ -66,19 +65,18 @@ class LiveSource:
 
     def open(self, topic: str) -> LiveMessages | None:
         """Subscribe to a topic so that messages of all its publishers are received."""
-        # Imported here because only the displays of messages need the message classes.
-        from coframe.messages import find  # noqa: PLC0415
-
         participant = self._connection.participant
-        ros_type = next((one.ros_type for one in participant.publishers(topic) if one.ros_type in _TYPES), None)
-        if ros_type is None:
+        types = (one.ros_type for one in participant.publishers(topic))
+        known = ((ros_type, cls) for ros_type in types if (cls := _message_class(ros_type)) is not None)
+        ros_type, message_class = next(known, ("", None))
+        if message_class is None:
             return None
 
         def offers() -> list[QoS]:
             return [one.qos for one in participant.publishers(topic) if one.ros_type == ros_type]
 
         def subscribe(qos: QoS) -> Subscription:
-            return participant.subscription(self._connection.node, topic, find(ros_type), qos, adapts=True)
+            return participant.subscription(self._connection.node, topic, message_class, qos, adapts=True)
 
         subscription = AdaptiveSubscription(offers, subscribe)
         self._subscriptions.add(subscription)
@@ -126,3 +124,14 @@ class LiveSource:
         """Close the connection if the source owns it."""
         if self._own:
             self._connection.close()
+
+
+def _message_class(ros_type: str) -> Any:
+    """Return the class of a type; None if it is not known."""
+    # Imported here because only the displays of messages need the message classes.
+    from coframe.messages import find  # noqa: PLC0415
+
+    try:
+        return find(ros_type)
+    except LookupError:
+        return None

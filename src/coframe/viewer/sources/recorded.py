@@ -46,6 +46,7 @@ class RecordedSource:
         first, last = recording.span
         self.span: tuple[int, int] | None = (first, last) if last > first else None
         self._recording = recording
+        self.recording: Recording | None = recording
         self._own = own
 
     def topics(self) -> list[Topic]:

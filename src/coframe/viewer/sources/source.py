@@ -11,6 +11,7 @@ if TYPE_CHECKING:
     from collections.abc import Generator
 
     from coframe import Buffer
+    from coframe.bags import Recording
     from coframe.connection import Connection
     from coframe.doctor import Report
     from coframe.viewer.sources.topic_messages import TopicMessages
@@ -27,7 +28,8 @@ class Source(Protocol):
         mode: The kind of source.
         title: The title of the browser tab.
         buffer: The transforms.
-        connection: The connection on which joint states can be published; None if there is none.
+        connection: The connection to the ROS graph; None if there is none.
+        recording: The recording; None if there is none.
         span: The first and the last stamp in nanoseconds; None if the transforms determine it.
     """
 
@@ -35,6 +37,7 @@ class Source(Protocol):
     title: str
     buffer: Buffer
     connection: Connection | None
+    recording: Recording | None
     span: tuple[int, int] | None
 
     def topics(self) -> list[Topic]:
@@ -67,6 +70,7 @@ class BufferSource:
     """
 
     connection: Connection | None = None
+    recording: Recording | None = None
     span: tuple[int, int] | None = None
 
     def __init__(self, buffer: Buffer, title: str = "coframe", mode: Mode = "buffer") -> None:

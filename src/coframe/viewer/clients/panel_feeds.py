@@ -1,0 +1,227 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The feeds of the panels beside the scene; a panel that is closed costs nothing."""
+
+from __future__ import annotations
+
+import logging
+from functools import partial
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from coframe.errors import CoframeError
+from coframe.viewer.clients.update import Feed, Update
+from coframe.viewer.protocol.encoding import CurvePoints, encode, encode_curves
+from coframe.viewer.protocol.messages import CurveStatus, Inspection, LogEntries, LogEntry
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from coframe.viewer.clients.panels import ClientPanels, ShownCurve
+    from coframe.viewer.clients.state import ClientState
+    from coframe.viewer.panels.own_messages import LogLine
+    from coframe.viewer.protocol.messages import DisplayState, InspectedField
+    from coframe.viewer.sources.topic_messages import StampedMessage, TopicMessages
+
+__all__ = ["panel_feeds"]
+
+_logger = logging.getLogger("coframe.viewer")
+
+# Seconds between updates.
+_CURVES_PERIOD, _INSPECTION_PERIOD, _LOG_PERIOD, _GRAPH_PERIOD, _CLOSED_PERIOD = 0.1, 0.2, 0.2, 0.5, 0.25
+_LATE_PERIOD = 1.0  # seconds between attempts to open a topic that does not exist
+_MAX_LINES = 1000  # log messages of one update
+_RATE_MESSAGES = 200  # messages whose times determine the rate
+
+
+class _PanelFeed:
+    """A feed that does nothing while its panel is closed."""
+
+    def __init__(self, client: ClientState) -> None:
+        self.due = 0.0
+        self._client = client
+
+    @property
+    def _panels(self) -> ClientPanels:
+        return self._client.panels
+
+
+class CurvesFeed(_PanelFeed):
+    """The points and statuses of all curves."""
+
+    def updates(self, now: float) -> Iterator[Update]:
+        """Yield the statuses, and new points of all curves in one message."""
+        shown = self._panels.curves
+        self.due = now + (_CURVES_PERIOD if shown else _CLOSED_PERIOD)
+        if not shown:
+            return
+        parts = []
+        for number, one in shown.items():
+            status = one.curve.status
+            version = (one.expression, status, one.curve.axis)
+            yield Update(("curve", number), version, partial(self._encode_status, number, one))
+            points = self._new_points(number, one)
+            if points is not None:
+                parts.append(points)
+        if parts:
+            yield Update(None, None, partial(encode_curves, parts, self._client.origin))
+
+    def _encode_status(self, number: int, one: ShownCurve) -> str:
+        state, text, hint, points = one.curve.status
+        axis = one.curve.axis
+        return encode(CurveStatus(type="curve", id=number, state=state, text=text, hint=hint, axis=axis, points=points))
+
+    def _new_points(self, number: int, one: ShownCurve) -> CurvePoints | None:
+        """Return the points that the client does not have; None if there are none."""
+        curve, span = one.curve, self._panels.span
+        is_recorded = self._client.viewer.source.recording is not None
+        reset = one.version != curve.version or (is_recorded and one.span != span)
+        if span is None or not (reset or curve.total > one.seen):
+            return None
+        points = curve.points(0 if reset else one.seen, span)
+        one.version, one.seen, one.span = curve.version, curve.total, span
+        return CurvePoints(number, reset, points.times, points.values)
+
+
+class _Inspected(NamedTuple):
+    state: DisplayState
+    text: str
+    stamp: int | None
+    fields: list[InspectedField]
+
+
+class InspectionFeed(_PanelFeed):
+    """The newest message of the inspected topic at the displayed time."""
+
+    def __init__(self, client: ClientState) -> None:
+        super().__init__(client)
+        self._late_due = 0.0
+
+    def updates(self, now: float) -> Iterator[Update]:
+        """Yield the message."""
+        panels = self._panels
+        self.due = now + (_INSPECTION_PERIOD if panels.topic else _CLOSED_PERIOD)
+        if not panels.topic:
+            return
+        if panels.inspected is None and now >= self._late_due:
+            self._late_due = now + _LATE_PERIOD
+            panels.open_inspected()
+        messages, at = panels.inspected, self._client.at
+        found = None if messages is None else messages.at(at)
+        version = (panels.serial, messages is None, None if found is None else found.key, self._publishers())
+        yield Update("inspection", version, partial(self._encode, messages, found, at))
+
+    def _encode(self, messages: TopicMessages | None, message: StampedMessage | None, at: int) -> str:
+        state, text, stamp, fields = self._read(messages, message)
+        return encode(
+            Inspection(
+                type="inspection",
+                topic=self._panels.topic,
+                message_type="" if messages is None else messages.type,
+                state=state,
+                text=text,
+                stamp=None if stamp is None else float(stamp - self._client.origin),
+                rate=None if messages is None or message is None else _rate(messages, at),
+                publishers=list(self._publishers()),
+                fields=fields,
+            )
+        )
+
+    def _read(self, messages: TopicMessages | None, message: StampedMessage | None) -> _Inspected:
+        from coframe.viewer.panels.message_fields import message_rows  # noqa: PLC0415 - needs the message classes
+
+        topic = self._panels.topic
+        if messages is None:
+            return _Inspected("waiting", self._why_missing(topic), None, [])
+        if message is None:
+            when = "yet" if self._client.at == 0 else "before this time"
+            return _Inspected("waiting", f"no message {when}", None, [])
+        try:
+            content: Any = message.read()
+            if isinstance(content, bytes):
+                text = f"{len(content)} bytes; the definition of {messages.type} is not known"
+                return _Inspected("error", text, message.time, [])
+            return _Inspected("ok", "", message.time, message_rows(topic, content))
+        except (CoframeError, ValueError) as error:
+            return _Inspected("error", f"the message cannot be read: {error}", message.time, [])
+        except Exception as error:  # A message may contain anything, which must not stop the viewer.
+            _logger.exception("a message could not be inspected")
+            return _Inspected("error", f"the message cannot be read: {type(error).__name__}: {error}", message.time, [])
+
+    def _why_missing(self, topic: str) -> str:
+        connection = self._client.viewer.source.connection
+        if self._panels.problem:
+            return self._panels.problem
+        if connection is None:
+            return f"there are no messages on {topic}"
+        types = [one.ros_type for one in connection.participant.publishers(topic)]
+        return f"the definition of {types[0]} is not known" if types else f"no node publishes {topic}"
+
+    def _publishers(self) -> tuple[str, ...]:
+        connection = self._client.viewer.source.connection
+        if connection is None:
+            return ()
+        publishers = connection.participant.publishers(self._panels.topic)
+        return tuple(sorted({f"{one.namespace.rstrip('/')}/{one.node}" for one in publishers}))
+
+
+class LogFeed(_PanelFeed):
+    """The log messages that the client does not have."""
+
+    def updates(self, now: float) -> Iterator[Update]:
+        """Yield new messages."""
+        panels = self._panels
+        self.due = now + (_LOG_PERIOD if panels.shows_log else _CLOSED_PERIOD)
+        if not panels.shows_log:
+            return
+        log = self._client.viewer.panels.log
+        yield Update("log text", log.text, partial(self._encode, 0))
+        if log.total > (panels.log_seen or 0):
+            yield Update(None, None, partial(self._encode, _MAX_LINES))
+
+    def _encode(self, most: int) -> str:
+        panels, log, origin = self._panels, self._client.viewer.panels.log, self._client.origin
+        reset = panels.log_seen is None
+        seen = panels.log_seen or 0
+        omitted = max(0, log.total - seen - len(log.lines)) if most else 0
+        lines = log.since(seen, most)
+        panels.log_seen = seen + omitted + len(lines)
+        return encode(
+            LogEntries(
+                type="log",
+                reset=reset,
+                text=log.text,
+                omitted=omitted,
+                entries=[_entry(line, origin) for line in lines],
+            )
+        )
+
+
+class GraphFeed(_PanelFeed):
+    """The graph of nodes and topics."""
+
+    def updates(self, now: float) -> Iterator[Update]:
+        """Yield the graph."""
+        shown = self._panels.shows_graph
+        self.due = now + (_GRAPH_PERIOD if shown else _CLOSED_PERIOD)
+        if shown:
+            graph = self._client.viewer.panels.graph
+            yield Update("graph", (id(graph), graph.version), lambda: encode(graph.graph))
+
+
+def panel_feeds(client: ClientState) -> list[Feed]:
+    """Return the feeds of the panels of a client."""
+    return [CurvesFeed(client), InspectionFeed(client), LogFeed(client), GraphFeed(client)]
+
+
+def _entry(line: LogLine, origin: int) -> LogEntry:
+    stamp = float(line.stamp - origin)
+    return LogEntry(stamp=stamp, level=line.level, node=line.node, text=line.text, place=line.place)
+
+
+def _rate(messages: TopicMessages, at: int) -> float | None:
+    """Return the mean rate in the second before a time; None with fewer than two messages."""
+    from coframe.plotting.values import rates  # noqa: PLC0415 - only an inspected topic needs it
+
+    times = messages.times()
+    end = len(times) if at == 0 else int(times.searchsorted(at, side="right"))
+    found = rates(times[max(0, end - _RATE_MESSAGES) : end])
+    return float(found[-1]) if len(found) and found[-1] == found[-1] else None

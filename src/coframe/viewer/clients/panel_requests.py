@@ -1,0 +1,61 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The requests of the panels beside the scene."""
+
+from __future__ import annotations
+
+import asyncio
+from typing import TYPE_CHECKING, Any
+
+from coframe.viewer.protocol import messages
+from coframe.viewer.protocol.messages import Completions
+from coframe.viewer.protocol.requests import BadRequestError
+
+if TYPE_CHECKING:
+    from collections.abc import Awaitable, Callable
+
+    from coframe.viewer.clients.state import ClientState
+    from coframe.viewer.protocol.messages import ServerMessage
+
+__all__ = ["PANEL_HANDLERS"]
+
+_MAX_TEXT = 1000
+
+
+async def _set_curves(client: ClientState, request: messages.SetCurves) -> None:
+    from coframe.viewer.panels.curve import CurveSpan  # noqa: PLC0415 - only curves need it
+
+    first, last = (None, None) if request.span is None else (round(at) + client.origin for at in request.span)
+    client.panels.set_curves(request.curves, CurveSpan(first, last, request.points))
+
+
+async def _inspect(client: ClientState, request: messages.Inspect) -> None:
+    client.panels.inspect(request.topic)
+
+
+async def _show_log(client: ClientState, request: messages.ShowLog) -> None:
+    client.panels.show_log(shown=request.shown)
+
+
+async def _show_graph(client: ClientState, request: messages.ShowGraph) -> None:
+    client.panels.show_graph(shown=request.shown)
+
+
+async def _complete(client: ClientState, request: messages.Complete) -> Completions:
+    from coframe.viewer.panels.completion import complete_expression, complete_topic  # noqa: PLC0415 - see above
+
+    if len(request.text) > _MAX_TEXT:
+        raise BadRequestError(f"a text to be completed has at most {_MAX_TEXT} characters")
+    complete = complete_expression if request.kind == "expression" else complete_topic
+    viewer = client.viewer
+    loop = asyncio.get_running_loop()
+    items = await loop.run_in_executor(viewer.executor, complete, viewer.source, request.text)
+    return Completions(type="completions", id=request.id, items=items)
+
+
+PANEL_HANDLERS: dict[type, Callable[[ClientState, Any], Awaitable[ServerMessage | None]]] = {
+    messages.Complete: _complete,
+    messages.Inspect: _inspect,
+    messages.SetCurves: _set_curves,
+    messages.ShowGraph: _show_graph,
+    messages.ShowLog: _show_log,
+}

@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Texts with which an expression, or the name of a topic, can continue."""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING, Any
+
+from coframe.errors import CoframeError
+from coframe.messages import find
+from coframe.plotting.expressions import POSE_QUANTITIES, TIMINGS
+from coframe.viewer.panels.message_fields import field_paths
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from coframe.viewer.sources.source import Source
+
+__all__ = ["complete_expression", "complete_topic", "topic_types"]
+
+_MAX_ITEMS = 60
+_SEPARATOR = re.compile(r"->|→|:")
+
+
+def complete_expression(source: Source, text: str) -> list[str]:
+    """Return texts that begin with a text, or contain it, and are expressions or their beginnings."""
+    if text.startswith("/"):
+        return _complete_topic_expression(source, text)
+    separator = _SEPARATOR.search(text)
+    frames = source.buffer.frame_names()
+    if separator is None:
+        return _matching((f"{frame}:" for frame in frames), text)
+    target, rest = text[: separator.end()], text[separator.end() :]
+    named = max((frame for frame in frames if rest.startswith(f"{frame}.")), key=len, default=None)
+    if named is None:
+        return _matching((f"{target}{frame}." for frame in frames), text)
+    return _matching((f"{target}{named}.{quantity}" for quantity in (*POSE_QUANTITIES, *TIMINGS)), text)
+
+
+def complete_topic(source: Source, text: str) -> list[str]:
+    """Return the topics whose names begin with a text or contain it."""
+    return _matching(topic_types(source), text)
+
+
+def topic_types(source: Source) -> dict[str, str]:
+    """Return all topics with their types."""
+    if source.recording is not None:
+        return {topic.name: topic.type for topic in source.recording.topics.values()}
+    if source.connection is not None:
+        return {topic: types[0] for topic, types in source.connection.participant.topics().items()}
+    return {}
+
+
+def _complete_topic_expression(source: Source, text: str) -> list[str]:
+    types = topic_types(source)
+    topic, dot, path = text.partition(".")
+    if not dot or topic not in types:
+        return _matching((f"{name}." for name in types), text)
+    message = _example(source, topic, types[topic])
+    fields = [] if message is None else field_paths(message, path)
+    return _matching((f"{topic}.{each}" for each in (*fields, *TIMINGS)), text)
+
+
+def _example(source: Source, topic: str, ros_type: str) -> Any:
+    """Return a message of the type of a topic; None if the type is not known."""
+    try:
+        recording = source.recording
+        message = find(ros_type)() if recording is None else next(recording.messages(topic)).message
+    except (StopIteration, LookupError, CoframeError):
+        return None
+    return None if isinstance(message, bytes) else message
+
+
+def _matching(candidates: Iterable[str], text: str) -> list[str]:
+    """Return the candidates that begin with the text, then those that contain it."""
+    wanted = text.lower()
+    names = sorted(set(candidates))
+    first = [name for name in names if name.lower().startswith(wanted)]
+    other = [name for name in names if wanted in name.lower() and not name.lower().startswith(wanted)]
+    return (first + other)[:_MAX_ITEMS]
