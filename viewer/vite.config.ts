@@ -11,6 +11,14 @@ three.js,
 ${readFileSync("node_modules/three/LICENSE", "utf8").trim()}
 */`;
 
+const PANES_NOTICE = `/*!
+The panels of coframe's viewer, Apache-2.0. They contain:
+uPlot,
+${readFileSync("node_modules/uplot/LICENSE", "utf8").trim()}
+dagre,
+${readFileSync("node_modules/@dagrejs/dagre/LICENSE", "utf8").trim()}
+*/`;
+
 /** Inlines the script and the style sheet, so that a replay is a single file that opens from disk. */
 function oneFile(): Plugin {
   return {
@@ -85,7 +93,7 @@ export default defineConfig(({ mode }) => {
       rollupOptions: {
         output: {
           codeSplitting: !replay,
-          postBanner: ({ name }) => (replay || name === "page" ? NOTICE : ""),
+          postBanner: ({ name }) => (name === "panes" ? PANES_NOTICE : replay || name === "page" ? NOTICE : ""),
           entryFileNames: "assets/viewer.js",
           chunkFileNames: "assets/[name].js",
           assetFileNames: "assets/viewer[extname]",

@@ -454,6 +454,8 @@ class Buffer(_core.Buffer):
         if self.latest_common_time(target, source) == 0:
             return 0, 0
         self._lookup_rows(target, source, ends, np.empty((2, 7)), None, None, "clip", 1)
+        if ends[0] == np.iinfo(np.int64).min + 1:  # Both names are those of one frame: there are no edges.
+            return 0, 0
         return int(ends[0]), int(ends[1])
 
     def wait(

@@ -47,6 +47,8 @@ class Tab:
         self.socket = self._connection.__enter__()  # close() exits it.
         self.last = {}
         self.received = []
+        self.curves = {}  # Times and values, (2, N), by the id of the curve.
+        self.statuses = {}  # The last status of each curve.
         self.drawings = {}  # Decoded binary messages by display and sequence.
 
     def send(self, kind, **fields):
@@ -62,10 +64,14 @@ class Tab:
             record = SERVER_MESSAGES[kind]
             record.check(content, kind)
             assert content.keys() <= {field.name for field in record.fields}, "the protocol has no such field"
+            if kind == "curve":
+                self.statuses[content["id"]] = content
         else:
             kind, content = decode(message)
             if kind == "frames":
                 self.send("ready", drawn=None if np.isnan(content.time) else content.time)
+            elif kind == "curves":
+                self._add_points(content)
             else:
                 self.drawings[content.display, content.sequence] = content
         self.last[kind] = content
@@ -92,6 +98,24 @@ class Tab:
     def frame_update(self, condition=lambda _update: True):
         return self.wait("frames", condition)
 
+    def _add_points(self, curves):
+        for number, reset, points in curves:
+            before = np.empty((2, 0)) if reset else self.curves[number]
+            self.curves[number] = np.concatenate([before, points], axis=1)
+
+    def until_curve(self, number, condition=lambda points: points.size):
+        """Read until the points of a curve meet a condition, and return its times in nanoseconds and its values."""
+        while not (number in self.curves and condition(self.curves[number])):
+            self.wait("curves")
+        times, values = self.curves[number]
+        return times.astype(np.int64) + int(self.has("hello")["origin"]), values
+
+    def until_status(self, number, text):
+        """Read until the status of a curve contains a text, and return its state."""
+        while text not in self.statuses.get(number, {}).get("text", ""):
+            self.wait("curve")
+        return self.statuses[number]["state"]
+
     def world(self, update, name):
         """Return a frame's pose in the fixed frame, (7,) float64."""
         index = next(i for i, frame in enumerate(self.last["tree"]["frames"]) if frame["name"] == name)
@@ -108,6 +132,7 @@ class Tab:
 
 FRAMES, ENTRY = Layout(messages.FramesHeader), Layout(messages.EntryRecord)
 CLOUD, GRID = Layout(messages.CloudHeader), Layout(messages.GridHeader)
+CURVES, CURVE = Layout(messages.CurvesHeader), Layout(messages.CurveRecord)
 SHAPES, IMAGE = Layout(messages.ShapesHeader), Layout(messages.ImageHeader)
 
 
@@ -116,6 +141,8 @@ def decode(data):
     (kind,) = struct.unpack_from("<I", data)
     if kind == messages.BinaryKind.FRAMES:
         return "frames", decode_frames(data)
+    if kind == messages.BinaryKind.CURVES:
+        return "curves", decode_curves(data)
     display, sequence = struct.unpack_from("<II", data, 4)
     content = SimpleNamespace(display=display, sequence=sequence, size=len(data))
     if kind == messages.BinaryKind.CLOUD:
@@ -145,6 +172,19 @@ def decode(data):
     SHAPES_BY_KIND[content.head["kind"]].check(content.head, "shapes")
     content.payload = np.frombuffer(data, "<f4", offset=SHAPES.size + length)
     return "shapes", content
+
+
+def decode_curves(data):
+    """Return the id, the reset flag and the points, (2, N), of each curve."""
+    count = CURVES.unpack(data).curves
+    records = [CURVE.unpack(data, CURVES.size + CURVE.size * i) for i in range(count)]
+    at, found = CURVES.size + CURVE.size * count, []
+    for one in records:
+        points = np.frombuffer(data, "<f8", 2 * one.points, at).reshape(2, -1)
+        found.append((one.curve, bool(one.reset), points))
+        at += points.nbytes
+    assert len(data) == at
+    return found
 
 
 def decode_frames(data):

@@ -2,6 +2,7 @@
 /** Builds the page, and passes the messages of the source to the model, whose events update all parts. */
 
 import { Bar } from "./panels/bar";
+import { DockLauncher } from "./dock/launcher";
 import { Displays } from "./displays/manager";
 import { DisplaysPanel } from "./panels/displays";
 import { byId } from "./util/dom";
@@ -48,6 +49,12 @@ export function showPage(source: Source): void {
     panel.setTitle("findings", findings.length ? `Findings ${findings.length}` : "Findings"),
   );
   const timeline = new Timeline(byId("timeline"), model);
+  const dock = new DockLauncher(byId("dock"), model, async () => {
+    // A replay has no server that could fill the panels; its page does not contain them.
+    if (import.meta.env.MODE === "replay") throw new Error("A replay has no panels.");
+    const { makeDock } = await import("./panes");
+    return (root, onChange) => makeDock(root, model, theme, onChange);
+  });
   const overlay = new Overlay(byId("overlay"), byId("notice"), model, view);
   const toolbar = new Toolbar(byId("overlay"), model, view, toolSettings);
   new Inspector(byId("inspector"), model, view);
@@ -72,6 +79,7 @@ export function showPage(source: Source): void {
     { key: "h", text: "Hide the selected frame", act: () => hideSelected() },
     { key: "/", text: "Search frames", act: () => (panel.open("frames"), tree.focusSearch()) },
     { key: "b", text: "Show or hide the panel", act: () => panel.toggle() },
+    ...(source.live ? dock.shortcuts() : []),
     { key: "d", text: "Dark or light theme", act: () => theme.toggleDark() },
     { key: "s", text: "Save an image", act: () => void saveImage(view, model) },
     { key: "Escape", shown: "Esc", text: "Deselect or cancel the tool", act: () => deselect() },
@@ -88,9 +96,11 @@ export function showPage(source: Source): void {
       togglePanel: () => panel.toggle(),
       saveImage: () => void saveImage(view, model),
       saveReplay: () => replays.open(),
+      panes: source.live ? dock.menu() : [],
     },
     source.live,
   );
+  if (source.live) dock.restore();
   exposeProbe(model, view, displays);
 
   function hideSelected(): void {
@@ -147,15 +157,25 @@ export function showPage(source: Source): void {
       case "published":
       case "replay":
       case "saved":
+      case "curve":
+      case "inspection":
+      case "log":
+      case "graph":
+      case "completions":
         model.emit(message.type, message as never);
         break;
       case "problem":
         toast(String(message.text), message.hint);
+        model.report(message);
         break;
     }
   }
 
   function receiveBinary(message: BinaryMessage): void {
+    if (message.kind === "curves") {
+      model.emit("curves", message);
+      return;
+    }
     if (message.kind !== "frames") {
       model.emit("message", message);
       return;

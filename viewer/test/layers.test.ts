@@ -4,7 +4,21 @@ import { dirname, join, relative } from "node:path";
 import { describe, expect, it } from "vitest";
 
 /** The folders of src, from the lowest layer to the highest. Modules import from their own layer and lower ones only. */
-const LAYERS = ["generated", "util", "protocol", "model", "replay", "scene", "displays", "panels"];
+const LAYERS = [
+  "generated",
+  "util",
+  "protocol",
+  "model",
+  "replay",
+  "scene",
+  "displays",
+  "dock",
+  "plots",
+  "message_inspector",
+  "log",
+  "node_graph",
+  "panels",
+];
 const SRC = join(import.meta.dirname, "../src");
 
 function layer(path: string): number {

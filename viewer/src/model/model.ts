@@ -6,10 +6,16 @@ import type { Mark } from "./marks";
 import type {
   ClientMessage,
   CodePage,
+  Completions,
+  Curves,
+  CurveStatus,
   DisplayMessage,
   DisplayStatus,
   Findings,
   Hello,
+  Inspection,
+  LogEntries,
+  NodeGraph,
   Problem,
   Published,
   Relation,
@@ -42,6 +48,16 @@ export interface ModelEvents {
   published: Published;
   replay: ReplayPrepared;
   saved: Saved;
+  curve: CurveStatus;
+  curves: Curves;
+  inspection: Inspection;
+  log: LogEntries;
+  graph: NodeGraph;
+  completions: Completions;
+  /** A request of a part of the page to plot an expression. */
+  plot: string;
+  /** A request of a part of the page to inspect a topic. */
+  inspect: string;
   connected: boolean;
   fixed: string;
   selection: Selection;
@@ -64,6 +80,7 @@ export interface Clock {
 
 /** During playback, the time of frame updates is used again this long after a seek. */
 const SEEK_MS = 1000;
+const MAX_PROBLEMS = 200;
 /** Times are relative to an origin and have the precision of a float64. */
 const TIME_TOLERANCE_NS = 1000;
 
@@ -137,6 +154,8 @@ export class Model extends Emitter<ModelEvents> {
   hidden = new Set<string>();
   solo: string | null = null;
   clock: Clock = { live: true, playing: false, speed: 1, loop: null };
+  /** The last problems that the server has reported. */
+  readonly problems: Problem[] = [];
   /** The number of invalid messages received. */
   invalidMessages = 0;
   /** The last seek that is not yet visible in frame updates: its time, and when it was requested. */
@@ -208,6 +227,13 @@ export class Model extends Emitter<ModelEvents> {
       this.seek = { at: Math.round(at), since: performance.now() };
       this.send({ type: "time", mode: "at", at: Math.round(at), playing, speed, loop });
     }
+  }
+
+  /** Stores and announces a problem. */
+  report(problem: Problem): void {
+    this.problems.push(problem);
+    if (this.problems.length > MAX_PROBLEMS) this.problems.shift();
+    this.emit("problem", problem);
   }
 
   /** Steps to the next or previous message, which the source determines; cancels a pending seek. */

@@ -6,6 +6,8 @@ import * as format from "../util/format";
 import type { Model } from "../model/model";
 import { remember, remembered } from "../util/storage";
 
+type MenuItem = readonly [text: string, detail: string, act: () => void];
+
 export interface BarActions {
   toggleTheme(): void;
   toggleDistinct(): void;
@@ -13,6 +15,8 @@ export interface BarActions {
   togglePanel(): void;
   saveImage(): void;
   saveReplay(): void;
+  /** The panels beside the scene. */
+  panes: readonly MenuItem[];
 }
 
 export class Bar {
@@ -46,6 +50,7 @@ export class Bar {
       h("span", { class: "spacer" }),
       h("label", {}, h("span", {}, "Fixed Frame"), this.fixed),
       this.pill,
+      ...(actions.panes.length ? [menu("chart", "Panels", actions.panes)] : []),
       menu("download", "Export", [
         ["Image (PNG)", "The scene as it is displayed", actions.saveImage],
         ...(live
@@ -104,11 +109,7 @@ export class Bar {
   }
 }
 
-function menu(
-  iconName: "download" | "sun",
-  label: string,
-  items: readonly (readonly [text: string, detail: string, act: () => void])[],
-): HTMLElement {
+function menu(iconName: "chart" | "download" | "sun", label: string, items: readonly MenuItem[]): HTMLElement {
   const list = h("div", { class: "menu-list", role: "menu", hidden: true });
   const open = (shown: boolean): void => {
     list.hidden = !shown;

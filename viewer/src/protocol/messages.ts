@@ -11,6 +11,8 @@ import {
   CloudFlag,
   ImageFormat,
   readCloudHeader,
+  readCurveRecord,
+  readCurvesHeader,
   readEntryRecord,
   readFramesHeader,
   readGridHeader,
@@ -97,7 +99,21 @@ export interface Shapes {
   payload: Float32Array;
 }
 
-export type BinaryMessage = FrameUpdate | DisplayMessage;
+/** New points of one curve; they replace earlier ones if `reset` is set. */
+export interface CurvePoints {
+  id: number;
+  reset: boolean;
+  /** Nanoseconds relative to hello.origin. */
+  times: Float64Array;
+  values: Float64Array;
+}
+
+export interface Curves {
+  kind: "curves";
+  curves: CurvePoints[];
+}
+
+export type BinaryMessage = FrameUpdate | DisplayMessage | Curves;
 export type DisplayMessage = Cloud | Grid | Shapes | Image;
 
 /** Reads fields one after another; throws a ProtocolError if the data ends too early. */
@@ -139,6 +155,12 @@ class Reader implements FieldReader {
     return new Float32Array(this.buffer.slice(start, start + count * 4));
   }
 
+  doubles(count: number): Float64Array {
+    const start = this.take(count * 8);
+    if (start % 8 === 0) return new Float64Array(this.buffer, start, count);
+    return new Float64Array(this.buffer.slice(start, start + count * 8));
+  }
+
   bytes(count: number): Uint8Array<ArrayBuffer> {
     return new Uint8Array(this.buffer, this.take(count), count);
   }
@@ -160,6 +182,7 @@ export function decode(buffer: ArrayBuffer): BinaryMessage {
   if (kind === BinaryKind.grid) return decodeGrid(new Reader(buffer, "grid"));
   if (kind === BinaryKind.shapes) return decodeShapes(new Reader(buffer, "shapes"));
   if (kind === BinaryKind.image) return decodeImage(new Reader(buffer, "image"));
+  if (kind === BinaryKind.curves) return decodeCurves(new Reader(buffer, "curves"));
   throw new ProtocolError(`a binary message of unknown kind ${kind}`);
 }
 
@@ -210,6 +233,19 @@ function decodeImage(reader: Reader): Image {
   const raw = format === ImageFormat.grey ? width * height : format === ImageFormat.rgb ? 3 * width * height : null;
   const data = reader.bytes(raw ?? reader.rest());
   return { kind: "image", id, sequence, width, height, format, step: Math.max(1, flags >>> 8), stamp, data };
+}
+
+function decodeCurves(reader: Reader): Curves {
+  const { curves: count } = readCurvesHeader(reader);
+  const records = [];
+  for (let i = 0; i < count; i++) records.push(readCurveRecord(reader));
+  const curves = records.map(({ curve, reset, points }) => ({
+    id: curve,
+    reset: reset === 1,
+    times: reader.doubles(points),
+    values: reader.doubles(points),
+  }));
+  return { kind: "curves", curves };
 }
 
 /** Rows of a payload; empty if the pair is outside of it. */

@@ -20,6 +20,8 @@ interface Properties {
   placeholder?: string;
   tabindex?: string;
   accept?: string;
+  list?: string;
+  autocomplete?: string;
   aria?: Record<string, string>;
   data?: Record<string, string>;
   on?: { [K in keyof HTMLElementEventMap]?: (event: HTMLElementEventMap[K]) => void };
@@ -73,6 +75,9 @@ const ICONS = {
   download: "M7.2 2h1.6v6.2l2.3-2.3 1.1 1.1L8 11.2 3.8 7l1.1-1.1 2.3 2.3zM2.5 12.5h11V14h-11z",
   target:
     "M7.3 1h1.4v2.1A5 5 0 0 1 12.9 7.3H15v1.4h-2.1a5 5 0 0 1-4.2 4.2V15H7.3v-2.1a5 5 0 0 1-4.2-4.2H1V7.3h2.1a5 5 0 0 1 4.2-4.2zM8 4.5a3.5 3.5 0 1 0 0 7 3.5 3.5 0 0 0 0-7zM8 6.7a1.3 1.3 0 1 1 0 2.6 1.3 1.3 0 0 1 0-2.6z",
+  chart: "M2.5 2H4v10.5h10V14H2.5zM5.2 10.2 8 6l2.3 2.4 2.6-4 1.2.8-3.6 5.6-2.4-2.4-1.7 2.6z",
+  minus: "M3 7.2h10v1.6H3z",
+  link: "M6.7 9.3 9.3 6.7M6.2 4.2l1-1a3 3 0 0 1 4.3 0l1.3 1.3a3 3 0 0 1 0 4.3l-1 1-1.1-1.1 1-1a1.5 1.5 0 0 0 0-2.1l-1.3-1.3a1.5 1.5 0 0 0-2.1 0l-1 1zm3.6 7.6-1 1a3 3 0 0 1-4.3 0l-1.3-1.3a3 3 0 0 1 0-4.3l1-1 1.1 1.1-1 1a1.5 1.5 0 0 0 0 2.1l1.3 1.3a1.5 1.5 0 0 0 2.1 0l1-1zM6.1 10.9l-1-1 4.8-4.8 1 1z",
   octagon: "M5.2 1.5h5.6l3.7 3.7v5.6l-3.7 3.7H5.2l-3.7-3.7V5.2zM7.2 4v5.2h1.6V4zM7.2 10.4V12h1.6v-1.6z",
   triangle: "M8 1.5 15 14H1zM7.3 5.8v4h1.4v-4zM7.3 10.8v1.4h1.4v-1.4z",
   disc: "M8 2a6 6 0 1 1 0 12A6 6 0 0 1 8 2zM7.2 4.4V6h1.6V4.4zM7.2 7v4.6h1.6V7z",

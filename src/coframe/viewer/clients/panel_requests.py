@@ -45,7 +45,7 @@ async def _complete(client: ClientState, request: messages.Complete) -> Completi
 
     if len(request.text) > _MAX_TEXT:
         raise BadRequestError(f"a text to be completed has at most {_MAX_TEXT} characters")
-    complete = complete_expression if request.kind == "expression" else complete_topic
+    complete = complete_expression if request.subject == "expression" else complete_topic
     viewer = client.viewer
     loop = asyncio.get_running_loop()
     items = await loop.run_in_executor(viewer.executor, complete, viewer.source, request.text)

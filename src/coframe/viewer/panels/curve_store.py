@@ -3,17 +3,14 @@
 
 from __future__ import annotations
 
-import csv
-import io
 import time
 from concurrent.futures import ThreadPoolExecutor
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from coframe.errors import PlotError
 from coframe.plotting.expressions import FieldExpression, PoseExpression, parse_expression
 from coframe.viewer.panels.curve import FailedCurve, RecordedCurve
+from coframe.viewer.panels.curve_table import CurveTable
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -72,8 +69,8 @@ class CurveStore:
         for curve in self._curves.values():
             curve.poll()
 
-    def as_csv(self, texts: Iterable[str]) -> str:
-        """Return the points of curves as CSV: one row per stamp in nanoseconds, one column per curve.
+    def table(self, texts: Iterable[str]) -> CurveTable:
+        """Return all points of curves.
 
         Raises:
             PlotError: A curve is not shown on any page.
@@ -82,17 +79,7 @@ class CurveStore:
         missing = [text for text in texts if text not in self._curves]
         if missing or not texts:
             raise PlotError(f"{', '.join(missing) or 'no curve'} is not shown", hint="Add the curve to the plot first.")
-        points = [self._curves[text].all_points() for text in texts]
-        stamps = np.unique(np.concatenate([each.times for each in points]))
-        rows = np.full((len(stamps), len(points)), np.nan)
-        for column, each in enumerate(points):
-            rows[np.searchsorted(stamps, each.times), column] = each.values
-        output = io.StringIO()
-        writer = csv.writer(output, lineterminator="\n")
-        writer.writerow(["stamp_ns", *texts])
-        for stamp, row in zip(stamps.tolist(), rows.tolist(), strict=True):
-            writer.writerow([stamp, *("" if value != value else repr(value) for value in row)])  # noqa: PLR0124 - NaN
-        return output.getvalue()
+        return CurveTable({text: self._curves[text].all_points() for text in texts})
 
     def close(self) -> None:
         """Close all curves and end the thread that evaluates them."""

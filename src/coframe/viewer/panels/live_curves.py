@@ -48,7 +48,7 @@ class LiveCurve:
     def status(self) -> CurveStatus:
         """The status."""
         if self._problem is not None:
-            return self._problem._replace(points=len(self.ring))
+            return self._problem
         return CurveStatus("ok" if self.ring.total else "waiting", "" if self.ring.total else "no data yet")
 
     @property

@@ -746,7 +746,7 @@ class Complete:
 
     type: ClassVar[str] = "complete"
     id: Id
-    kind: CompletionKind
+    subject: CompletionKind
     text: str
 
 

@@ -152,10 +152,8 @@ class ViewerServer:
             return await self._in_thread(self._answer_mesh, path.removeprefix("/mesh/"))
         if path == "/rviz":
             return self._answer_rviz()
-        if path == "/replay":
-            return await self._answer_replay(parts.query)
-        if path == "/curves.csv":
-            return self._answer_curves(parts.query)
+        if path in {"/replay", "/curves.csv"}:
+            return await (self._answer_replay if path == "/replay" else self._answer_curves)(parts.query)
         return self._answer_page(path, request.headers.get("If-None-Match"))
 
     async def _in_thread(self, make_response: Callable[..., Response], *args: Any) -> Response:
@@ -199,11 +197,12 @@ class ViewerServer:
         attachment = {"Content-Disposition": 'attachment; filename="coframe-replay.html"'}
         return response(HTTPStatus.OK, page, "text/html; charset=utf-8", policy, attachment)
 
-    def _answer_curves(self, query: str) -> Response:
+    async def _answer_curves(self, query: str) -> Response:
         policy = self._access.content_security
         expressions = [value for key, value in parse_qsl(query) if key == "curve"]
         try:
-            text = self._state.panels.curves.as_csv(expressions)
+            table = self._state.panels.curves.table(expressions)
+            text = await self._loop.run_in_executor(self._state.executor, table.as_csv)
         except PlotError as error:
             return text_response(HTTPStatus.BAD_REQUEST, f"{error} {error.hint}".strip(), policy)
         attachment = {"Content-Disposition": 'attachment; filename="coframe-curves.csv"'}

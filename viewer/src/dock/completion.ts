@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+/** An input whose text the server completes, with the keyboard behaviour of a combobox. */
+
+import { h, shorten } from "../util/dom";
+import type { Model } from "../model/model";
+import type { CompletionKind } from "../protocol/messages";
+
+let lastId = 0;
+
+export class CompletedInput {
+  readonly element: HTMLElement;
+  readonly input: HTMLInputElement;
+  private readonly list: HTMLElement;
+  private items: string[] = [];
+  private chosen = -1;
+  private requested = 0;
+
+  /** `act` is called with the text when the user presses Enter or chooses a complete item. */
+  constructor(
+    private readonly model: Model,
+    private readonly kind: CompletionKind,
+    label: string,
+    placeholder: string,
+    private readonly act: (text: string) => void,
+  ) {
+    const id = `completion-${kind}`;
+    this.list = h("ul", { class: "completions", id, role: "listbox", hidden: true });
+    this.input = h("input", {
+      type: "text",
+      placeholder,
+      autocomplete: "off",
+      role: "combobox",
+      aria: { label, controls: id, expanded: "false", autocomplete: "list" },
+    });
+    this.input.spellcheck = false;
+    this.element = h("div", { class: "completed-input" }, this.input, this.list);
+    this.input.addEventListener("input", () => this.request());
+    this.input.addEventListener("focus", () => this.request());
+    this.input.addEventListener("blur", () => this.show([]));
+    this.input.addEventListener("keydown", (event) => this.key(event));
+    model.on("completions", ({ id, items }) => {
+      if (id === this.requested && document.activeElement === this.input) this.show(items);
+    });
+  }
+
+  private request(): void {
+    this.requested = ++lastId;
+    this.model.send({ type: "complete", id: this.requested, subject: this.kind, text: this.input.value });
+  }
+
+  private show(items: string[]): void {
+    this.items = items.length === 1 && items[0] === this.input.value ? [] : items;
+    this.chosen = -1;
+    this.list.hidden = this.items.length === 0;
+    this.input.setAttribute("aria-expanded", String(!this.list.hidden));
+    this.input.removeAttribute("aria-activedescendant");
+    this.list.replaceChildren(
+      ...this.items.map((item, i) => {
+        const option = h("li", { id: `${this.list.id}-${i}`, role: "option" }, shorten(item, 120));
+        option.addEventListener("pointerdown", (event) => {
+          event.preventDefault(); // The input keeps the focus.
+          this.accept(item);
+        });
+        return option;
+      }),
+    );
+  }
+
+  private key(event: KeyboardEvent): void {
+    event.stopPropagation();
+    if (event.key === "ArrowDown" || event.key === "ArrowUp") {
+      event.preventDefault();
+      if (this.items.length) this.choose(this.chosen + (event.key === "ArrowDown" ? 1 : -1));
+    } else if (event.key === "Tab" && this.chosen >= 0) {
+      event.preventDefault();
+      this.accept(this.items[this.chosen] ?? "");
+    } else if (event.key === "Enter") {
+      const item = this.items[this.chosen];
+      if (item !== undefined) this.accept(item);
+      else this.finish();
+    } else if (event.key === "Escape") {
+      if (this.list.hidden) this.input.blur();
+      this.show([]);
+    }
+  }
+
+  private choose(i: number): void {
+    this.chosen = (i + this.items.length) % this.items.length;
+    [...this.list.children].forEach((option, k) => option.setAttribute("aria-selected", String(k === this.chosen)));
+    const option = this.list.children[this.chosen];
+    option?.scrollIntoView({ block: "nearest" });
+    this.input.setAttribute("aria-activedescendant", option?.id ?? "");
+  }
+
+  /** Takes an item. One that ends with a separator is only the beginning of an expression. */
+  private accept(item: string): void {
+    this.input.value = item;
+    if (this.kind === "expression" && /[.:]$/.test(item)) this.request();
+    else this.finish();
+  }
+
+  private finish(): void {
+    const text = this.input.value.trim();
+    this.requested = 0;
+    this.show([]);
+    if (text) this.act(text);
+  }
+}

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+/** The panels below or beside the scene. Those that are closed do nothing. */
+
+import { h, iconButton } from "../util/dom";
+import { remember, remembered } from "../util/storage";
+
+const PHONE = "(max-width: 760px)";
+const MIN_SIZE_PX = 120;
+/** The share of the window that the scene keeps. */
+const SCENE_SHARE = 0.25;
+
+export interface Pane {
+  readonly id: string;
+  readonly title: string;
+  readonly body: HTMLElement;
+  /** Controls in the head of the panel. */
+  readonly controls: HTMLElement[];
+  open(): void;
+  close(): void;
+}
+
+export class Dock {
+  private readonly sections = new Map<string, HTMLElement>();
+  private readonly handle = h("div", { class: "dock-handle", aria: { hidden: "true" } });
+
+  constructor(
+    private readonly root: HTMLElement,
+    private readonly panes: readonly Pane[],
+    private readonly onChange: (shown: string[]) => void,
+  ) {
+    for (const pane of panes) this.sections.set(pane.id, this.section(pane));
+    root.append(this.handle, ...this.sections.values());
+    this.setSide(remembered("dock-side", false));
+    this.listen();
+  }
+
+  isShown(id: string): boolean {
+    return this.sections.get(id)?.hidden === false;
+  }
+
+  show(id: string, shown: boolean): void {
+    const pane = this.panes.find((one) => one.id === id);
+    const section = this.sections.get(id);
+    if (!pane || !section || shown === this.isShown(id)) return;
+    // There is room for one panel on a phone.
+    if (shown && matchMedia(PHONE).matches) for (const other of this.panes) this.show(other.id, false);
+    section.hidden = !shown;
+    this.root.hidden = ![...this.sections.values()].some((one) => !one.hidden);
+    if (shown) pane.open();
+    else pane.close();
+    this.onChange(this.panes.map((one) => one.id).filter((one) => this.isShown(one)));
+  }
+
+  toggleSide(): void {
+    this.setSide(!document.body.classList.contains("dock-side"));
+  }
+
+  private setSide(side: boolean): void {
+    document.body.classList.toggle("dock-side", side);
+    remember("dock-side", side);
+    this.setSize(remembered(side ? "dock-width" : "dock-height", side ? 460 : 300));
+  }
+
+  private section(pane: Pane): HTMLElement {
+    const head = h(
+      "header",
+      { class: "pane-head" },
+      h("h2", { id: `pane-title-${pane.id}` }, pane.title),
+      ...pane.controls,
+      iconButton("close", `Close: ${pane.title}`, () => this.show(pane.id, false)),
+    );
+    return h(
+      "section",
+      { class: "pane", id: `pane-${pane.id}`, hidden: true, aria: { labelledby: `pane-title-${pane.id}` } },
+      head,
+      pane.body,
+    );
+  }
+
+  private setSize(size: number): void {
+    const side = document.body.classList.contains("dock-side");
+    const most = (1 - SCENE_SHARE) * (side ? innerWidth : innerHeight);
+    const limited = Math.max(MIN_SIZE_PX, Math.min(most, size));
+    document.documentElement.style.setProperty(side ? "--dock-width" : "--dock-height", `${limited}px`);
+  }
+
+  private listen(): void {
+    const { handle } = this;
+    const sizeAt = (event: PointerEvent): number => {
+      const bounds = this.root.getBoundingClientRect();
+      return document.body.classList.contains("dock-side")
+        ? bounds.right - event.clientX
+        : bounds.bottom - event.clientY;
+    };
+    handle.addEventListener("pointerdown", (event) => {
+      handle.setPointerCapture(event.pointerId);
+      const move = (at: PointerEvent): void => this.setSize(sizeAt(at));
+      handle.addEventListener("pointermove", move);
+      handle.addEventListener(
+        "pointerup",
+        (at) => {
+          handle.removeEventListener("pointermove", move);
+          const side = document.body.classList.contains("dock-side");
+          remember(side ? "dock-width" : "dock-height", sizeAt(at));
+        },
+        { once: true },
+      );
+    });
+  }
+}

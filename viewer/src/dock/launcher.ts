@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+/** Opens the panels beside the scene. Their code is loaded when the first one opens. */
+
+import type { Model } from "../model/model";
+import { link, linked } from "../util/link";
+import { remember, remembered } from "../util/storage";
+import { toast } from "../util/toast";
+import type { Dock } from "./dock";
+
+export type PaneId = "plots" | "message" | "log" | "graph";
+
+/** Makes the dock; `onChange` is called with the ids of the open panels. */
+export type MakeDock = (root: HTMLElement, onChange: (shown: string[]) => void) => Dock;
+
+const PANES: readonly (readonly [id: PaneId, text: string, detail: string, key: string])[] = [
+  ["plots", "Plots", "Poses, fields, rates and delays over time", "c"],
+  ["message", "Message inspector", "The fields of the newest message", "i"],
+  ["log", "Log", "Messages on /rosout", "e"],
+  ["graph", "Nodes and topics", "Who publishes and subscribes to what", "g"],
+];
+
+export class DockLauncher {
+  private dock: Promise<Dock> | null = null;
+
+  constructor(
+    private readonly root: HTMLElement,
+    model: Model,
+    private readonly load: () => Promise<MakeDock>,
+  ) {
+    model.on("plot", () => this.show("plots"));
+    model.on("inspect", () => this.show("message"));
+  }
+
+  /** Opens the panels of the link or of the last session. */
+  restore(): void {
+    const wanted = linked("panel").length ? linked("panel") : remembered<string[]>("panes", []);
+    if (linked("plot").length && !wanted.includes("plots")) wanted.push("plots");
+    for (const [id] of PANES) if (wanted.includes(id)) this.show(id);
+  }
+
+  menu(): (readonly [text: string, detail: string, act: () => void])[] {
+    return [
+      ...PANES.map(([id, text, detail, key]) => [text, `${detail}. Key: ${key}`, () => this.toggle(id)] as const),
+      ["Below or beside the scene", "Where these panels are", () => this.use((dock) => dock.toggleSide())],
+    ];
+  }
+
+  shortcuts(): { key: string; text: string; act: () => void }[] {
+    return PANES.map(([id, text, , key]) => ({ key, text, act: () => this.toggle(id) }));
+  }
+
+  private show(id: PaneId): void {
+    this.use((dock) => dock.show(id, true));
+  }
+
+  private toggle(id: PaneId): void {
+    this.use((dock) => dock.show(id, !dock.isShown(id)));
+  }
+
+  private use(act: (dock: Dock) => void): void {
+    this.dock ??= this.load().then((makeDock) =>
+      makeDock(this.root, (shown) => {
+        remember("panes", shown);
+        link("panel", shown);
+      }),
+    );
+    this.dock.then(act).catch((error: unknown) => {
+      this.dock = null;
+      toast("The panels cannot be loaded. Is the server still running?", String(error));
+    });
+  }
+}

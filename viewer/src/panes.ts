@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+/** The panels beside the scene; a script of its own, which is loaded when the first of them opens. */
+
+import { Dock } from "./dock/dock";
+import { LogPane } from "./log/pane";
+import { MessagePane } from "./message_inspector/pane";
+import type { Model } from "./model/model";
+import { GraphPane } from "./node_graph/pane";
+import { PlotsPane } from "./plots/pane";
+import type { Theme } from "./util/theme";
+
+export function makeDock(root: HTMLElement, model: Model, theme: Theme, onChange: (shown: string[]) => void): Dock {
+  const panes = [new PlotsPane(model, theme), new MessagePane(model), new LogPane(model), new GraphPane(model)];
+  return new Dock(root, panes, onChange);
+}

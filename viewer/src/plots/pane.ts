@@ -1,0 +1,349 @@
+// SPDX-License-Identifier: Apache-2.0
+/** Curves over time: live as they arrive, or of a whole recording. */
+
+import "uplot/dist/uPlot.min.css";
+import { CompletedInput } from "../dock/completion";
+import type { Pane } from "../dock/dock";
+import type { Model } from "../model/model";
+import { copyText, h, iconButton, select, setText, shorten } from "../util/dom";
+import * as format from "../util/format";
+import { link, linked } from "../util/link";
+import { remember, remembered } from "../util/storage";
+import type { Theme } from "../util/theme";
+import { toast } from "../util/toast";
+import { Chart, valueText, type ChartStyle } from "./chart";
+import { Curve } from "./curve";
+import { saveCsv, savePng } from "./export";
+import { shownRange, WINDOWS, zoomed, type Range } from "./range";
+
+const MAX_CURVES = 32;
+const DRAW_INTERVAL_MS = 100;
+const REQUEST_DELAY_MS = 150;
+const MIN_CHART_PX = 110;
+/** Those of `coframe plot`: each has a contrast of at least 3.5 with a white and with a dark background. */
+const COLOURS = ["#2f7de1", "#d9542b", "#1f9a5b", "#a45ee0", "#a17a12", "#d6497f", "#128f9e", "#7b7f87"];
+
+export class PlotsPane implements Pane {
+  readonly id = "plots";
+  readonly title = "Plots";
+  readonly body: HTMLElement;
+  readonly controls: HTMLElement[];
+  private readonly input: CompletedInput;
+  private readonly list = h("ul", { class: "curves", id: "curves", aria: { label: "Curves" } });
+  private readonly area = h("div", { class: "charts", id: "charts" });
+  private readonly window: HTMLSelectElement;
+  private readonly values = new Map<number, HTMLElement>();
+  private curves: Curve[] = [];
+  private charts: Chart[] = [];
+  private nextId = 1;
+  private isOpen = false;
+  private seconds: number;
+  private zoom: Range | null = null;
+  /** The part of a recording that was requested; null for all of it. */
+  private fetched: Range | null = null;
+  private hovered: number | null = null;
+  private drawn = 0;
+  private drawTimer = 0;
+  private requestTimer = 0;
+
+  constructor(
+    private readonly model: Model,
+    theme: Theme,
+  ) {
+    this.seconds = Number(linked("window")[0] ?? remembered("plot-window", -1));
+    const expressions = linked("plot").length ? linked("plot") : remembered<string[]>("plots", []);
+    for (const expression of expressions.slice(0, MAX_CURVES)) this.insert(expression);
+    this.input = new CompletedInput(
+      model,
+      "expression",
+      "Expression to plot",
+      "odom:base_link.x, /scan.ranges[0], /tf.rate …",
+      (text) => this.addTyped(text),
+    );
+    this.window = select("Window", [], "", (value) => this.setWindow(Number(value)));
+    this.controls = [
+      this.window,
+      iconButton("plus", "Zoom in", () => this.zoomBy(0.5)),
+      iconButton("minus", "Zoom out", () => this.zoomBy(2)),
+      iconButton("fit", "Show the whole window (double-click)", () => this.setZoom(null)),
+      iconButton("link", "Copy a link to these plots", () => void this.copyLink()),
+      h("button", { type: "button", class: "small", on: { click: () => saveCsv(this.curves) } }, "CSV"),
+      h("button", { type: "button", class: "small", on: { click: () => void this.savePng() } }, "PNG"),
+    ];
+    this.body = h(
+      "div",
+      { class: "plots" },
+      h("div", { class: "plots-side" }, this.input.element, this.list),
+      this.area,
+    );
+    model.on("plot", (expression) => this.add(expression));
+    model.on("curve", (status) => {
+      const curve = this.curves.find(({ id }) => id === status.id);
+      if (!curve) return;
+      const moved = curve.status?.axis !== status.axis;
+      curve.status = status;
+      if (moved) this.rebuild();
+      else this.showList();
+    });
+    model.on("curves", ({ curves }) => {
+      for (const points of curves) this.curves.find(({ id }) => id === points.id)?.receive(points);
+      this.schedule();
+    });
+    model.on("frames", () => this.schedule());
+    model.on("clock", () => this.schedule());
+    model.on("hello", () => this.start());
+    theme.onChange(() => this.isOpen && this.rebuild());
+    new ResizeObserver(() => this.schedule()).observe(this.area);
+  }
+
+  open(): void {
+    this.isOpen = true;
+    this.start();
+    if (!this.curves.length) this.input.input.focus();
+  }
+
+  close(): void {
+    this.isOpen = false;
+    this.model.send({ type: "curves", curves: [] });
+    this.rebuild();
+  }
+
+  private get recorded(): boolean {
+    return this.model.hello?.mode === "recording";
+  }
+
+  /** Requests everything again: the server forgets its curves with each `hello`. */
+  private start(): void {
+    if (!this.isOpen || !this.model.hello) return;
+    const windows = this.recorded ? [[0, "Whole recording"] as const, ...WINDOWS] : WINDOWS;
+    if (!windows.some(([seconds]) => seconds === this.seconds)) this.seconds = this.recorded ? 0 : 10;
+    this.window.replaceChildren(...windows.map(([seconds, text]) => new Option(text, String(seconds))));
+    this.window.value = String(this.seconds);
+    this.zoom = this.fetched = null;
+    this.curves = this.curves.map((curve) => this.copy(curve));
+    this.rebuild();
+    this.request();
+  }
+
+  private copy(curve: Curve): Curve {
+    const copy = new Curve(this.nextId++, curve.expression, curve.colour);
+    copy.visible = curve.visible;
+    return copy;
+  }
+
+  private addTyped(text: string): void {
+    this.add(text);
+    this.input.input.value = "";
+  }
+
+  private add(expression: string): void {
+    if (this.curves.some((curve) => curve.expression === expression)) return;
+    if (this.curves.length >= MAX_CURVES) {
+      toast(`The plots show at most ${MAX_CURVES} curves.`, "Remove a curve first.");
+      return;
+    }
+    this.insert(expression);
+    this.changed();
+  }
+
+  private insert(expression: string): void {
+    const used = new Set(this.curves.map(({ colour }) => colour));
+    let colour = 0;
+    while (used.has(colour)) colour++;
+    this.curves.push(new Curve(this.nextId++, expression, colour));
+  }
+
+  private remove(curve: Curve): void {
+    this.curves = this.curves.filter((one) => one !== curve);
+    this.changed();
+  }
+
+  private changed(): void {
+    const expressions = this.curves.map(({ expression }) => expression);
+    remember("plots", expressions);
+    link("plot", expressions);
+    this.rebuild();
+    this.request();
+  }
+
+  private setWindow(seconds: number): void {
+    this.seconds = seconds;
+    remember("plot-window", seconds);
+    link("window", [String(seconds)]);
+    this.setZoom(null);
+  }
+
+  private setZoom(range: Range | null): void {
+    this.zoom = range;
+    if (this.recorded) this.requestSoon();
+    this.schedule();
+  }
+
+  private zoomBy(factor: number): void {
+    const range = this.range();
+    if (range) this.setZoom(zoomed(range, factor));
+  }
+
+  private range(): Range | null {
+    const { span, playhead, clock } = this.model;
+    return shownRange({ span, playhead, live: clock.live, recorded: this.recorded }, this.seconds, this.zoom);
+  }
+
+  private requestSoon(): void {
+    clearTimeout(this.requestTimer);
+    this.requestTimer = window.setTimeout(() => this.request(), REQUEST_DELAY_MS);
+  }
+
+  /** Requests the curves; of a recording, the displayed part and as much again on both sides. */
+  private request(): void {
+    if (!this.isOpen) return;
+    const range = this.range();
+    const whole = !this.recorded || !range || (!this.zoom && this.seconds === 0);
+    this.fetched = whole ? null : zoomed(range, 3);
+    const points = Math.max(1000, 2 * this.area.clientWidth) * (whole ? 1 : 3);
+    this.model.send({
+      type: "curves",
+      curves: this.curves.map(({ id, expression }) => ({ id, expression })),
+      span: this.fetched,
+      points,
+    });
+  }
+
+  /** Makes the plots again: one for each title of an axis. */
+  private rebuild(): void {
+    for (const chart of this.charts) chart.destroy();
+    const titles = new Map<string, Curve[]>();
+    for (const curve of this.isOpen ? this.curves : []) {
+      const title = curve.status?.axis;
+      if (title) titles.set(title, [...(titles.get(title) ?? []), curve]);
+    }
+    const style = this.style();
+    this.charts = [...titles].map(
+      ([title, curves]) =>
+        new Chart(shorten(title, 40), curves, style, {
+          zoom: (range) => this.setZoom(range),
+          reset: () => this.setZoom(null),
+          seek: (time) => this.model.setClock({ live: false, playing: false }, time),
+          hover: (time) => this.hover(time),
+          timeText: (time, digits) => this.timeText(time, digits),
+        }),
+    );
+    this.area.replaceChildren(...this.charts.map((chart) => chart.element));
+    this.showList();
+    this.schedule();
+  }
+
+  private style(): ChartStyle {
+    const style = getComputedStyle(document.documentElement);
+    const read = (name: string): string => style.getPropertyValue(name).trim();
+    return { text: read("--muted"), line: read("--line"), cursor: read("--text"), colours: COLOURS };
+  }
+
+  private timeText(time: number, digits: number): string {
+    const text = format.stamp(this.model.origin, time);
+    if (text.endsWith(" s")) return `${Number.parseFloat(text).toFixed(digits)}`;
+    return digits ? text.slice(0, 9 + Math.min(3, digits)) : text.slice(0, 8);
+  }
+
+  /** Draws at most ten times per second, and only while the panel is open. */
+  private schedule(): void {
+    if (!this.isOpen || this.drawTimer) return;
+    const wait = Math.max(0, DRAW_INTERVAL_MS - (performance.now() - this.drawn));
+    this.drawTimer = window.setTimeout(() => {
+      this.drawTimer = 0;
+      this.drawn = performance.now();
+      if (this.isOpen && !document.hidden) this.draw();
+    }, wait);
+  }
+
+  private draw(): void {
+    const range = this.range();
+    if (!range) return;
+    const { fetched } = this;
+    if (fetched && (range[0] < fetched[0] || range[1] > fetched[1])) this.requestSoon();
+    const width = this.area.clientWidth;
+    const room = this.area.clientHeight / Math.max(1, this.charts.length);
+    const height = Math.max(MIN_CHART_PX, Math.floor(room) - 2);
+    if (width < 80) return;
+    for (const chart of this.charts) chart.draw(range, this.model.playhead, width, height);
+    this.showValues();
+  }
+
+  private hover(time: number | null): void {
+    if (time === this.hovered) return;
+    this.hovered = time;
+    this.showValues();
+  }
+
+  private showValues(): void {
+    const time = this.hovered ?? this.model.playhead;
+    for (const curve of this.curves) {
+      const cell = this.values.get(curve.id);
+      // Live, the newest values are a little older or newer than the playhead.
+      const at = this.hovered === null && this.model.clock.live ? Infinity : time;
+      if (cell) setText(cell, valueText(curve.valueAt(at)));
+    }
+  }
+
+  private showList(): void {
+    this.values.clear();
+    this.list.replaceChildren(...this.curves.map((curve) => this.row(curve)));
+    this.showValues();
+  }
+
+  private row(curve: Curve): HTMLElement {
+    const { status, expression } = curve;
+    const name = shorten(expression, 80);
+    const swatch = h("i", { class: "swatch", aria: { hidden: "true" } });
+    swatch.style.background = COLOURS[curve.colour % COLOURS.length] ?? "";
+    const value = h("span", { class: "numbers curve-value" });
+    this.values.set(curve.id, value);
+    const show = h(
+      "button",
+      {
+        type: "button",
+        class: "curve-name",
+        title: `${expression.slice(0, 300)}\nShow or hide`,
+        aria: { pressed: String(curve.visible) },
+        on: { click: () => this.toggleCurve(curve) },
+      },
+      swatch,
+      h("span", { class: "mono" }, name),
+    );
+    const text = status && (status.state !== "ok" || status.text) ? `${status.text} ${status.hint}`.trim() : "";
+    return h(
+      "li",
+      { class: "curve", data: { state: status?.state ?? "waiting", expression: expression.slice(0, 300) } },
+      show,
+      value,
+      iconButton("close", `Remove ${name}`, () => this.remove(curve)),
+      text ? h("p", { class: "curve-problem" }, shorten(text, 400)) : null,
+    );
+  }
+
+  private toggleCurve(curve: Curve): void {
+    curve.visible = !curve.visible;
+    this.rebuild();
+  }
+
+  private async copyLink(): Promise<void> {
+    link(
+      "plot",
+      this.curves.map(({ expression }) => expression),
+    );
+    link("window", [String(this.seconds)]);
+    link("panel", [this.id]);
+    const ok = await copyText(location.href);
+    toast(
+      ok ? "Copied a link to these plots." : "The browser does not allow this page to use the clipboard.",
+      null,
+      "info",
+    );
+  }
+
+  private savePng(): Promise<void> {
+    const style = getComputedStyle(document.documentElement);
+    const colours = ["--panel", "--text"].map((name) => style.getPropertyValue(name).trim());
+    return this.charts.length ? savePng(this.charts, COLOURS, colours) : Promise.resolve();
+  }
+}
