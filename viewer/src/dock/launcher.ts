@@ -16,7 +16,7 @@ const PANES: readonly (readonly [id: PaneId, text: string, detail: string, key: 
   ["plots", "Plots", "Poses, fields, rates and delays over time", "c"],
   ["message", "Message inspector", "The fields of the newest message", "i"],
   ["log", "Log", "Messages on /rosout", "e"],
-  ["graph", "Nodes and topics", "Who publishes and subscribes to what", "g"],
+  ["graph", "Nodes and topics", "Who publishes and subscribes to what", "r"],
 ];
 
 export class DockLauncher {
