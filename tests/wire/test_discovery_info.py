@@ -30,12 +30,12 @@ def test_the_identifiers_of_each_distribution(distro, size):
 @given(GUIDS, NODES)
 @pytest.mark.parametrize("size", [16, 24])
 def test_both_identifier_sizes_are_decoded(size, guid, nodes):
-    assert decode_info(encode_info(guid, nodes, size)) == (guid, nodes)
+    assert decode_info(encode_info(guid, nodes, size)) == (guid, nodes, size)
 
 
 def test_big_endian():
     message = b"\0\0\0\0" + bytes(range(16)) + b"\0\0\0\1" + b"\0\0\0\2/\0\0\0" + b"\0\0\0\2a\0\0\0" + bytes(8)
-    assert decode_info(message) == (bytes(range(16)), [NodeInfo("/", "a")])
+    assert decode_info(message) == (bytes(range(16)), [NodeInfo("/", "a")], 16)
 
 
 @given(st.binary(max_size=200))

@@ -11,14 +11,19 @@ import struct
 from typing import TYPE_CHECKING, NamedTuple
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Collection, Mapping
 
 TOPIC = "ros_discovery_info"
 MAX_NAME = 256  # bytes of a namespace or a name
 
+# In the user data of a writer on this topic: its form depends on the readers, so no other process should adapt to it.
+ADAPTS = "coframe=adapts;"
+
 _LONG_GID_DISTROS = ("foxy", "galactic", "humble")
 _GUID_SIZE = 16
+_MOST_NAMES = 10  # in a warning
 _GID_SIZES = (24, 16)  # the longer form is the GUID, padded with zeros
+_USED_BY = {24: "ROS 2 Humble or earlier", 16: "ROS 2 Iron or later"}
 
 
 class NodeInfo(NamedTuple):
@@ -30,10 +35,47 @@ class NodeInfo(NamedTuple):
     writers: tuple[bytes, ...] = ()
 
 
+class ParticipantInfo(NamedTuple):
+    """The contents of a message: the participant, its nodes, and the size of an identifier in bytes."""
+
+    participant: bytes
+    nodes: list[NodeInfo]
+    gid_size: int
+
+
 def gid_size(environment: Mapping[str, str]) -> int:
     """Return the size of a published identifier in bytes: 24 up to Humble and if ROS_DISTRO is unset, else 16."""
     distro = environment.get("ROS_DISTRO", "").strip().lower() or "humble"
     return 24 if distro in _LONG_GID_DISTROS else 16
+
+
+def choose_gid_size(preferred: int, others: Collection[int]) -> int:
+    """Return the size of the identifiers to publish: that of the other participants if they agree, else the preferred.
+
+    Args:
+        preferred: The size to use if there are no others or if they differ, from `gid_size`.
+        others: The sizes that other participants publish.
+    """
+    sizes = set(others)
+    return sizes.pop() if len(sizes) == 1 else preferred
+
+
+def unseen_text(size: int, others: Mapping[int, Collection[str]]) -> str:
+    """Return the warning if some participants cannot read identifiers of `size` bytes; "" if all can.
+
+    Args:
+        size: The size that this process publishes.
+        others: The nodes of the other participants, by the size that these publish.
+    """
+    unable = [other for other in others if other != size]
+    if not unable:
+        return ""
+    nodes = ", ".join(sorted(others[unable[0]])[:_MOST_NAMES]) or "without a name"
+    return (
+        f"Nodes of {_USED_BY[unable[0]]} ({nodes}) cannot list the nodes of this process, because nodes of "
+        f"{_USED_BY[size]} are in the same domain and the two describe nodes differently. Topics and services work. "
+        "Use another ROS_DOMAIN_ID for one of them, or set ROS_DISTRO to choose whose tools list this process."
+    )
 
 
 def encode_info(participant: bytes, nodes: list[NodeInfo], size: int) -> bytes:
@@ -58,8 +100,8 @@ def encode_info(participant: bytes, nodes: list[NodeInfo], size: int) -> bytes:
     return b"\0\1\0\0" + bytes(body)
 
 
-def decode_info(message: bytes) -> tuple[bytes, list[NodeInfo]] | None:
-    """Return the GUID of the participant and its nodes from a message with either identifier size; None if invalid."""
+def decode_info(message: bytes) -> ParticipantInfo | None:
+    """Return the contents of a message with either identifier size; None if it is invalid."""
     if len(message) < 4 or message[0] != 0 or message[1] not in (0, 1):
         return None
     order = "<" if message[1] else ">"
@@ -67,9 +109,9 @@ def decode_info(message: bytes) -> tuple[bytes, list[NodeInfo]] | None:
     return next((info for info in decoded if info is not None), None)
 
 
-def _decode(body: bytes, order: str, size: int) -> tuple[bytes, list[NodeInfo]] | None:
+def _decode(body: bytes, order: str, size: int) -> ParticipantInfo | None:
     try:
-        return _Cursor(body, order, size).info()
+        return ParticipantInfo(*_Cursor(body, order, size).info(), size)
     except ValueError:
         return None
 
@@ -114,7 +156,10 @@ class _Cursor:
         return data[:-1].decode()
 
     def _guid(self) -> bytes:
-        return self._take(self._gid_size)[:_GUID_SIZE]
+        gid = self._take(self._gid_size)
+        if any(gid[_GUID_SIZE:]):
+            raise ValueError("the padding of an identifier is not zero")
+        return gid[:_GUID_SIZE]
 
     def _guids(self) -> tuple[bytes, ...]:
         return tuple(self._guid() for _ in range(self._number(len(self._body) // self._gid_size)))

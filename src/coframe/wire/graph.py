@@ -10,8 +10,9 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from coframe import _core
 from coframe.wire import names
-from coframe.wire.discovery_info import TOPIC, NodeInfo, decode_info
+from coframe.wire.discovery_info import ADAPTS, TOPIC, NodeInfo, decode_info
 from coframe.wire.qos import QoS
+from coframe.wire.user_data import type_hash_of
 
 if TYPE_CHECKING:
     from coframe.wire.names import Kind
@@ -33,6 +34,7 @@ class EndpointInfo:
         ros_type: The ROS type, such as "tf2_msgs/msg/TFMessage".
         qos: The offered or requested quality of service. DDS discovery does not always contain the depth.
         guid: The DDS GUID, 16 bytes.
+        type_hash: The hash of the message definition, "RIHS01_..."; "" if it is not announced, as in Humble.
     """
 
     node: str
@@ -40,6 +42,7 @@ class EndpointInfo:
     ros_type: str
     qos: QoS
     guid: bytes
+    type_hash: str = ""
 
 
 class DiscoveredEndpoint(NamedTuple):
@@ -63,6 +66,7 @@ class Graph:
         self._writer_reader = _core.EndpointReader(participant, _core.PUBLICATIONS, changed)
         self._reader_reader = _core.EndpointReader(participant, _core.SUBSCRIPTIONS, changed)
         self._nodes: dict[bytes, list[NodeInfo]] = {}
+        self._gid_sizes: dict[bytes, int] = {}
         self._owners: dict[bytes, NodeInfo] = {}
         self._writers: dict[int, DiscoveredEndpoint] = {}
         self._readers: dict[int, DiscoveredEndpoint] = {}
@@ -98,6 +102,21 @@ class Graph:
         self.refresh()
         with self._lock:
             return [(node.namespace, node.name) for nodes in self._nodes.values() for node in nodes]
+
+    def gid_sizes(self) -> dict[int, list[str]]:
+        """Return the sizes of identifiers that participants of other implementations publish, with their nodes."""
+        with self._lock:
+            adapting = {
+                writer.participant
+                for writer in self._writers.values()
+                if writer.topic == TOPIC and ADAPTS.encode() in writer.user_data
+            }
+            found: dict[int, list[str]] = {}
+            for participant, size in self._gid_sizes.items():
+                if participant not in adapting:
+                    nodes = self._nodes[participant]
+                    found.setdefault(size, []).extend(names.full_name(node.namespace, node.name) for node in nodes)
+        return found
 
     def types(self, kinds: tuple[Kind, ...]) -> dict[str, list[str]]:
         """Return the topics or services of these kinds with their ROS types."""
@@ -145,6 +164,7 @@ class Graph:
             ros_type=names.ros_type(endpoint.type),
             qos=endpoint.qos,
             guid=endpoint.guid,
+            type_hash=type_hash_of(endpoint.user_data),
         )
 
     def owner(self, guid: bytes) -> str | None:
@@ -163,8 +183,8 @@ class Graph:
         while messages := self._info_reader.take(_BATCH):
             for message, _, _ in messages:
                 if (info := decode_info(message)) is not None:
-                    participant, nodes = info
-                    self._nodes[participant] = nodes
+                    self._nodes[info.participant] = info.nodes
+                    self._gid_sizes[info.participant] = info.gid_size
                     changed = True
         return changed
 
@@ -190,3 +210,4 @@ class Graph:
     def _remove_departed(self) -> None:
         participants = {writer.participant for writer in self._writers.values() if writer.topic == TOPIC}
         self._nodes = {guid: nodes for guid, nodes in self._nodes.items() if guid in participants}
+        self._gid_sizes = {guid: size for guid, size in self._gid_sizes.items() if guid in participants}

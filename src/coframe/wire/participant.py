@@ -15,7 +15,15 @@ from coframe.frame_names import naming_problems
 from coframe.time import SECOND
 from coframe.wire import config, dds, names, types
 from coframe.wire.batch_subscription import BatchSubscription
-from coframe.wire.discovery_info import MAX_NAME, TOPIC, encode_info, gid_size
+from coframe.wire.discovery_info import (
+    ADAPTS,
+    MAX_NAME,
+    TOPIC,
+    choose_gid_size,
+    encode_info,
+    gid_size,
+    unseen_text,
+)
 from coframe.wire.endpoint_mismatch import MismatchMonitor
 from coframe.wire.endpoints import GraphNode, LocalEndpoint, Publisher, RawPublisher, Subscription
 from coframe.wire.graph import DiscoveredEndpoint, EndpointInfo, Graph
@@ -24,6 +32,7 @@ from coframe.wire.rejected_transforms import RejectedTransformMonitor
 from coframe.wire.service_endpoints import ServicePublisher, ServiceSubscription
 from coframe.wire.static_broadcaster import SharedStaticPublisher, StaticBroadcaster
 from coframe.wire.tf_reader import NO_AUTHORITY, TfReader
+from coframe.wire.user_data import TF_MESSAGE, endpoint_user_data
 from coframe.wire.warn_once import WarnOnce
 
 if TYPE_CHECKING:
@@ -34,7 +43,6 @@ if TYPE_CHECKING:
 
 _logger = logging.getLogger("coframe.wire")
 
-_TF_TYPE = "tf2_msgs/msg/TFMessage"
 _ENCLAVE = "enclave=/;"  # the user data that every ROS participant has
 
 
@@ -58,15 +66,15 @@ class Participant:
         self._unchecked_topics: dict[tuple[str, str], int] = {}
         self._nodes: list[GraphNode] = []
         self._statics: dict[str, SharedStaticPublisher] = {}
-        self._gid_size = gid_size(os.environ)
+        self._gid_size = self._preferred_gid_size = gid_size(os.environ)
 
         graph_topic = self._topic(TOPIC, types.graph_type())
-        self._info_writer = _core.Writer(self._native.entity, graph_topic, _native_qos(GRAPH_WRITER), "")
+        self._info_writer = _core.Writer(self._native.entity, graph_topic, _native_qos(GRAPH_WRITER), ADAPTS)
         self._wake = _core.Event()
         self._graph = Graph(self._native.entity, graph_topic, self._wake)
         self._mismatches = MismatchMonitor(self._graph, self._warn)
         self._rejections = RejectedTransformMonitor(self._graph, self._warn)
-        self._warn_of_name = WarnOnce(self._warn)
+        self._warn_once = WarnOnce(self._warn)
         self._watchers: list[_core.Event] = []
         self._warning_callbacks: list[Callable[[str], None]] = []
         self._closing = False
@@ -154,18 +162,17 @@ class Participant:
             WireError: DDS cannot create the publisher.
         """
         ros_type = types.ros_type(message_type)
+        data = endpoint_user_data(ros_type, user_data)
         if kind != "topic":
             name, type_name, entity = self._unchecked_topic(topic, ros_type, kind)
-            native = _create(
-                lambda: _core.Writer(self._native.entity, entity, _native_qos(qos), user_data, True), topic
-            )
+            native = _create(lambda: _core.Writer(self._native.entity, entity, _native_qos(qos), data, True), topic)
             return ServicePublisher(native, node, name, type_name, qos, self._graph)
-        of_transforms = ros_type == _TF_TYPE
+        of_transforms = ros_type == TF_MESSAGE
         name, type_name, entity = (
-            self._unchecked_topic(topic, _TF_TYPE) if of_transforms else self._topic_of(topic, message_type)
+            self._unchecked_topic(topic, TF_MESSAGE) if of_transforms else self._topic_of(topic, message_type)
         )
         native = _create(
-            lambda: _core.Writer(self._native.entity, entity, _native_qos(qos), user_data, of_transforms), topic
+            lambda: _core.Writer(self._native.entity, entity, _native_qos(qos), data, of_transforms), topic
         )
         return Publisher(native, node, name, type_name, qos)
 
@@ -195,12 +202,14 @@ class Participant:
         Raises:
             WireError: DDS cannot create the subscription.
         """
+        ros_type = types.ros_type(message_type)
+        data = endpoint_user_data(ros_type)
         if kind != "topic":
-            name, type_name, entity = self._unchecked_topic(topic, types.ros_type(message_type), kind)
-            native = _create(lambda: _core.Reader(self._native.entity, entity, _native_qos(qos), "", on_data), topic)
+            name, type_name, entity = self._unchecked_topic(topic, ros_type, kind)
+            native = _create(lambda: _core.Reader(self._native.entity, entity, _native_qos(qos), data, on_data), topic)
             return ServiceSubscription(native, node, name, type_name, qos, self._graph)
         name, type_name, entity = self._topic_of(topic, message_type)
-        native = _create(lambda: _core.Reader(self._native.entity, entity, _native_qos(qos), "", on_data), topic)
+        native = _create(lambda: _core.Reader(self._native.entity, entity, _native_qos(qos), data, on_data), topic)
         return Subscription(native, node, name, type_name, qos, adapts=adapts)
 
     def raw_publisher(self, node: GraphNode, topic: str, ros_type: str, qos: QoS) -> RawPublisher:
@@ -216,7 +225,8 @@ class Participant:
             WireError: DDS cannot create the publisher.
         """
         name, type_name, entity = self._unchecked_topic(topic, ros_type)
-        native = _create(lambda: _core.Writer(self._native.entity, entity, _native_qos(qos), "", True), topic)
+        data = endpoint_user_data(ros_type)
+        native = _create(lambda: _core.Writer(self._native.entity, entity, _native_qos(qos), data, True), topic)
         return RawPublisher(native, node, name, type_name, qos)
 
     def raw_subscription(
@@ -244,7 +254,8 @@ class Participant:
             WireError: DDS cannot create the subscription.
         """
         name, type_name, entity = self._unchecked_topic(topic, ros_type)
-        native = _create(lambda: _core.Reader(self._native.entity, entity, _native_qos(qos), "", on_data), topic)
+        data = endpoint_user_data(ros_type)
+        native = _create(lambda: _core.Reader(self._native.entity, entity, _native_qos(qos), data, on_data), topic)
         return Subscription(native, node, name, type_name, qos, adapts=adapts)
 
     def batch_subscription(
@@ -264,8 +275,9 @@ class Participant:
             WireError: DDS cannot create the subscription.
         """
         name, type_name, entity = self._unchecked_topic(topic, ros_type)
+        data = endpoint_user_data(ros_type)
         native = _create(
-            lambda: _core.Tap(self._native.entity, entity, _native_qos(qos), "", max_bytes, capacity), topic
+            lambda: _core.Tap(self._native.entity, entity, _native_qos(qos), data, max_bytes, capacity), topic
         )
         return BatchSubscription(native, node, name, type_name, qos)
 
@@ -295,11 +307,12 @@ class Participant:
             WireError: DDS cannot create the subscription.
         """
         chosen = qos or (TF_STATIC_READER if static else TF)
-        name, type_name, entity = self._unchecked_topic(topic, _TF_TYPE)
+        name, type_name, entity = self._unchecked_topic(topic, TF_MESSAGE)
         source = NO_AUTHORITY if authority is None else authority
+        data = endpoint_user_data(TF_MESSAGE)
         native = _create(
             lambda: _core.TfReader(
-                self._native.entity, entity, _native_qos(chosen), "", buffer, static, source, renaming
+                self._native.entity, entity, _native_qos(chosen), data, buffer, static, source, renaming
             ),
             topic,
         )
@@ -466,16 +479,26 @@ class Participant:
                 node = self._graph.writer_node(statistics.writer) or "an unnamed node"
                 examples = statistics.slashed, statistics.prefixed, statistics.plain
                 for problem in naming_problems(f"{node} on {topic}", *examples):
-                    self._warn_of_name(problem, problem)
+                    self._warn_once(problem, problem)
 
     def _graph_changed(self) -> None:
         with self._lock:
             watchers = list(self._watchers)
         for event in watchers:
             event.set()
+        self._adapt_announcement()
         for endpoint in self._endpoints():
             if isinstance(endpoint, TfReader):
                 endpoint.name_writers(self._graph)
+
+    def _adapt_announcement(self) -> None:
+        """Publish the nodes of this process in the form that the other participants can read."""
+        others = self._graph.gid_sizes()
+        size = choose_gid_size(self._preferred_gid_size, others)
+        if size != self._gid_size:
+            self._gid_size = size
+            self.announce()
+        self._warn_once("identifiers", unseen_text(size, others))
 
     def _end(self) -> None:
         del self._instances[self.domain_id]
