@@ -3,13 +3,13 @@
 
 from math import cos, inf, isclose, pi, sin
 
-from hypothesis import given
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 import angles
 
 ANGLES = st.floats(-20.0, 20.0) | st.sampled_from([0.0, pi, -pi, 2 * pi, pi / 2])
-NORMAL = st.floats(-3.1, 3.1)
+NORMAL = st.integers(-3100, 3100).map(lambda number: number / 1000)
 
 
 def same(first, second):
@@ -29,9 +29,11 @@ def test_angles_keep_their_direction(first, second):
     assert isclose(abs(distance) + abs(other), 2 * pi)
 
 
+@settings(max_examples=300)
 @given(NORMAL, NORMAL, NORMAL, NORMAL)
 def test_rotations_within_limits(start, end, left, right):
     low, high = min(left, right), max(left, right)
+    assume(low < high)
     valid, rotation = angles.shortest_angular_distance_with_limits(start, end, low, high)
     assert valid == (low <= start <= high and low <= end <= high)
     assert same(start + rotation, end)
