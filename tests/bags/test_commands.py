@@ -52,6 +52,22 @@ def test_times_keep_their_nanoseconds(bag, text, stamp):
     assert found["quaternion"] == pytest.approx(expected.quaternion.tolist(), abs=1e-14)
 
 
+def test_end_is_the_latest_common_time(tmp_path):
+    """Each transform is a message of its own, so one edge always ends before the recording does."""
+    rows = [
+        ("/tf", START + i, recordings.cdr("odom", "base", coframe.Transform([i, 0, 0]), START + i)) for i in range(3)
+    ]
+    rows.append(("/tf", START + 9, recordings.cdr("base", "arm", coframe.Transform(), START + 1)))
+    rows.append(("/tf", START + 9, recordings.cdr("base", "arm", coframe.Transform(), START + 9)))
+    path = recordings.write_mcap(tmp_path / "separate.mcap", rows=rows)
+    code, out, error = run("lookup", path, "odom", "arm", "--at", "end", "--json")
+    assert code == 0, error
+    assert json.loads(out)["stamp_ns"] == START + 2
+    assert run("why", path, "odom", "arm", "--at", "end")[0] == 0
+    code, out, error = run("lookup", path, "odom", "arm", "--at", "end", "--fixed", "odom", "--source-time", "end")
+    assert code == 0, error
+
+
 @pytest.mark.parametrize(
     ("text", "reason"),
     [

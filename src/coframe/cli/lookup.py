@@ -28,7 +28,7 @@ from coframe.cli.options import (
     reject_namespace_of_live_graph,
 )
 from coframe.cli.output import awaited_statics_text, fail
-from coframe.cli.recordings import check_has_transforms, open_recording, parse_time
+from coframe.cli.recordings import check_has_transforms, open_recording, parse_lookup_time
 from coframe.errors import ExtrapolationException, TransformException
 from coframe.formatting import seconds
 from coframe.time import SECOND
@@ -62,7 +62,7 @@ def lookup(
             "--at",
             "-t",
             metavar="TIME",
-            help=f"Time of the lookup: {TIMES}; live also 'now'. [default: the latest common time]",
+            help=f"Time of the lookup: {TIMES}; live also 'now'. [default: 'end', the latest common time]",
             show_default=False,
         ),
     ] = None,
@@ -115,10 +115,10 @@ def lookup(
             with open_recording(Path(bags[0]), namespace, tf_topic, tf_static_topic, prefix, keep) as recording:
                 check_has_transforms(recording)
                 try:
-                    found = transform(recording.buffer, lambda option, text: parse_time(option, text, recording))
+                    found = transform(recording.buffer, lambda option, text: parse_lookup_time(option, text, recording))
                 except ExtrapolationException as error:
                     available = _available_span(recording, {target, source, fixed or source})
-                    when = None if at is None else parse_time("--at", at, recording)
+                    when = None if at is None else parse_lookup_time("--at", at, recording)
                     fail(str(error), available or recording.buffer.why(target, source, when).hint)
         else:
             reject_namespace_of_live_graph(namespace)

@@ -74,6 +74,11 @@ def parse_time(option: str, text: str, recording: Recording) -> int:
     return time_point
 
 
+def parse_lookup_time(option: str, text: str, recording: Recording) -> int:
+    """Return the time of a lookup; "end" is 0, the latest common time of its frames, as recordings end with others."""
+    return 0 if text.strip() == "end" else parse_time(option, text, recording)
+
+
 def grouped_by_topic(sentences: list[str]) -> list[str]:
     """Return sentences that begin with a topic, such as "/tf: ...", with equal ones as one about several topics."""
     topics: dict[str, list[str]] = {}

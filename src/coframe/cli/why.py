@@ -36,7 +36,7 @@ from coframe.cli.options import (
     reject_namespace_of_live_graph,
 )
 from coframe.cli.output import awaited_statics_text, fail, printable, with_doctor_command
-from coframe.cli.recordings import check_has_transforms, open_recording, parse_time
+from coframe.cli.recordings import check_has_transforms, open_recording, parse_lookup_time
 from coframe.doctor import Observation, diagnose
 from coframe.doctor.recorded import collecting
 from coframe.doctor.rendering.plain import as_data
@@ -105,7 +105,7 @@ def why(
             "--at",
             "-t",
             metavar="TIME",
-            help=f"Time of the lookup: {TIMES}; live also 'now'. [default: the latest common time]",
+            help=f"Time of the lookup: {TIMES}; live also 'now'. [default: 'end', the latest common time]",
             show_default=False,
         ),
     ] = None,
@@ -161,7 +161,7 @@ def _answer_recorded(
     collect = collecting(collectors, renaming(**names._asdict()), recorded_tf_topics(**topics))
     with open_recording(bag, namespace, **topics, **names._asdict(), on_transforms=collect) as recording:
         check_has_transforms(recording)
-        found = recording.buffer.why(target, source, None if at is None else parse_time("--at", at, recording))
+        found = recording.buffer.why(target, source, None if at is None else parse_lookup_time("--at", at, recording))
         seen = [
             Observation(live=False, start=recording.start, end=recording.end, transforms=collectors[name].transforms())
             for name in sorted(collectors)
