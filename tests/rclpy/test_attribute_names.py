@@ -78,9 +78,12 @@ _IN_ROS = {
 _LATER = {
     "Node": {
         *("add_post_set_parameters_callback", "add_pre_set_parameters_callback", "get_fully_qualified_node_names"),
-        *("list_parameters", "remove_post_set_parameters_callback", "remove_pre_set_parameters_callback"),
+        *("count_clients", "count_services", "list_parameters", "wait_for_node"),
+        *("remove_post_set_parameters_callback", "remove_pre_set_parameters_callback"),
     },
     "Subscription": {"get_publisher_count"},
+    "Client": {"service_name"},
+    "Service": {"service_name"},
     "Buffer": {"clock", "jump_handle", "time_jump_callback"},
     "BufferClient": {"lookup_transform_async", "lookup_transform_full_async"},
 }

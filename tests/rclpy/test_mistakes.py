@@ -6,7 +6,6 @@ import pytest
 import rclpy
 from geometry_msgs.msg import PoseStamped
 from rclpy.duration import Duration
-from rclpy.exceptions import NoTypeSupportImportedException
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.time import Time
@@ -42,9 +41,18 @@ def test_callback_that_was_called_instead_of_passed(node):
         node.create_service(Trigger, "trigger", print())
 
 
-def test_message_instance_instead_of_class(node):
-    with pytest.raises(NoTypeSupportImportedException, match="the class PoseStamped, got an instance of it"):
-        node.create_publisher(PoseStamped(), "/pose", 10)
+def test_message_instance_instead_of_class_is_accepted_as_in_ros(node):
+    assert node.create_publisher(PoseStamped(), "/pose", 10).msg_type is PoseStamped
+
+
+def test_types_of_another_kind(node):
+    with pytest.raises(AttributeError, match="type object 'str' has no attribute '_TYPE_SUPPORT'") as caught:
+        node.create_publisher("geometry_msgs/msg/Pose", "/pose", 10)
+    assert caught.value.hint == "Expected a class such as std_msgs.msg.String, got 'geometry_msgs/msg/Pose'."
+    with pytest.raises(RuntimeError, match="this might be a service or action"):
+        node.create_publisher(Trigger, "/pose", 10)
+    with pytest.raises(RuntimeError, match="this might be a message or action"):
+        node.create_client(PoseStamped, "/pose")
 
 
 @pytest.mark.parametrize("kind", [Duration, Time])

@@ -5,16 +5,18 @@ import pytest
 
 import rclpy
 from rclpy.context import Context
+from rclpy.duration import Infinite
 from rclpy.exceptions import (
     InvalidHandle,
     InvalidNodeNameException,
     InvalidParameterTypeException,
     InvalidTopicNameException,
+    NodeNameNonExistentError,
     NotInitializedException,
-    NoTypeSupportImportedException,
 )
 from rclpy.executors import SingleThreadedExecutor
 from std_msgs.msg import String
+from std_srvs.srv import Trigger
 
 
 def test_names(make_node):
@@ -51,9 +53,9 @@ def test_invalid_arguments(make_node):
     node = make_node()
     with pytest.raises(InvalidTopicNameException):
         node.create_publisher(String, "a b", 10)
-    with pytest.raises(NoTypeSupportImportedException):
+    with pytest.raises(AttributeError, match="_TYPE_SUPPORT"):
         node.create_publisher(int, "a", 10)
-    with pytest.raises(NoTypeSupportImportedException):
+    with pytest.raises(RuntimeError, match="this might be a message or action"):
         node.create_service(String, "a", lambda _, response: response)
     with pytest.raises(ValueError, match="frequency must be > 0"):
         node.create_rate(0)
@@ -101,7 +103,36 @@ def test_graph(make_node, wait_until):
     assert "/a/talker" in listener.get_fully_qualified_node_names()
     [info] = listener.get_publishers_info_by_topic("/chatter")
     assert (info.node_name, info.node_namespace, info.topic_type) == ("talker", "/a", "std_msgs/msg/String")
+    assert len(info.endpoint_gid) == 24
+    assert info.qos_profile.deadline == info.qos_profile.lifespan == Infinite
+    assert "\nEndpoint type: PUBLISHER\n" in str(info)
+    assert "\n  History (Depth): KEEP_LAST (10)\n" in str(info)
+    assert [other.endpoint_gid for other in listener.get_publishers_info_by_topic("rt/chatter", no_mangle=True)] == [
+        info.endpoint_gid
+    ]
     assert ("/chatter", ["std_msgs/msg/String"]) in listener.get_publisher_names_and_types_by_node("talker", "/a")
+    with pytest.raises(ValueError, match="topic name 'a b' is invalid"):
+        listener.get_publishers_info_by_topic("a b")
+
+
+def test_graph_of_services(make_node, wait_until):
+    server, user = make_node("server", namespace="/a"), make_node("user")
+    service = server.create_service(Trigger, "~/reset", lambda _, response: response)
+    client = user.create_client(Trigger, "/a/server/reset")
+    assert client.wait_for_service(10)
+    assert (service.srv_name, service.service_name) == ("~/reset", "/a/server/reset")
+    wait_until(lambda: user.count_services("/a/server/reset") == user.count_clients("/a/server/reset") == 1)
+    found = [("/a/server/reset", ["std_srvs/srv/Trigger"])]
+    assert user.get_service_names_and_types_by_node("server", "/a") == found
+    assert user.get_client_names_and_types_by_node("user", "/") == found
+    assert user.get_service_names_and_types_by_node("user", "/") == []
+    assert ("server", "/a", "/") in user.get_node_names_and_namespaces_with_enclaves()
+    assert {"rq/a/server/resetRequest", "rr/a/server/resetReply"} <= dict(user.get_topic_names_and_types(True)).keys()
+    assert user.wait_for_node("/a/server", 5.0)
+    assert not user.wait_for_node("/nobody", 0.0)
+    with pytest.raises(NodeNameNonExistentError, match="nonexistent node") as caught:
+        user.get_publisher_names_and_types_by_node("nobody", "/")
+    assert "/a/server" in caught.value.hint
 
 
 def test_node_with_a_separate_context(domain_id):

@@ -351,6 +351,15 @@ class Participant:
         """
         return self._graph.types(("request", "reply"))
 
+    def dds_topics(self) -> dict[str, list[str]]:
+        """Return all DDS topics and their DDS types, including those of services and of programs without ROS."""
+        self._graph.refresh()
+        found: dict[str, set[str]] = {}
+        for writers in (True, False):
+            for topic, endpoints in self._graph.by_topic(writers=writers).items():
+                found.setdefault(topic, set()).update(endpoint.type for endpoint in endpoints.values())
+        return {topic: sorted(types) for topic, types in sorted(found.items())}
+
     def publishers(self, topic: str, *, kind: Kind = "topic") -> list[EndpointInfo]:
         """Return the publishers on a topic, given its ROS name."""
         return self._describe(self._graph.writers(names.dds_topic(topic, kind)))

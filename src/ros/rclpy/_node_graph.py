@@ -3,14 +3,23 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
-from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
+from rclpy.client import wait_until_ready
+from rclpy.duration import Infinite
+from rclpy.exceptions import NodeNameNonExistentError, RCLError, _with_hint
+from rclpy.qos import DurabilityPolicy, HistoryPolicy, LivelinessPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.topic_endpoint_info import TopicEndpointInfo, TopicEndpointTypeEnum
+from rclpy.type_hash import TypeHash
 
 if TYPE_CHECKING:
     from coframe.wire import EndpointInfo, GraphNode, Participant
     from coframe.wire import QoS as WireQoS
+    from coframe.wire.names import Kind
+    from rclpy.context import Context
+
+NamesAndTypes = list[tuple[str, list[str]]]
+_GID_LENGTH: Final = 24
 
 
 class NodeGraph:
@@ -23,6 +32,15 @@ class NodeGraph:
 
     _Coframe__participant: Participant
     _Coframe__graph_node: GraphNode
+
+    @property
+    def context(self) -> Context:
+        """The context of the node."""
+        raise TypeError(f"{type(self).__name__} has no context")
+
+    def resolve_service_name(self, service: str, *, only_expand: bool = False) -> str:
+        """Return the fully qualified name of a service, remapped unless `only_expand` is set."""
+        raise TypeError(f"{type(self).__name__} cannot resolve {service} (only_expand={only_expand})")
 
     def resolve_topic_name(self, topic: str, *, only_expand: bool = False) -> str:
         """Return the fully qualified name of a topic, remapped unless `only_expand` is set."""
@@ -40,16 +58,18 @@ class NodeGraph:
         """Return the fully qualified names of all nodes."""
         return [f"{namespace.rstrip('/')}/{name}" for namespace, name in self._Coframe__participant.nodes()]
 
+    def get_node_names_and_namespaces_with_enclaves(self) -> list[tuple[str, str, str]]:
+        """Return the names, namespaces and security enclaves of all nodes. Without security, the enclave is "/"."""
+        return [(name, namespace, "/") for name, namespace in self.get_node_names_and_namespaces()]
+
     def get_topic_names_and_types(self, no_demangle: bool = False) -> list[tuple[str, list[str]]]:
         """Return all topics with their types.
 
         Args:
-            no_demangle: Whether to return the DDS names and types, for example `rt/tf`.
+            no_demangle: Whether to return the DDS names and types of all topics, including those of services.
         """
-        topics = sorted(self._Coframe__participant.topics().items())
-        if not no_demangle:
-            return topics
-        return [(f"rt{name}", [_mangle(ros_type) for ros_type in types]) for name, types in topics]
+        participant = self._Coframe__participant
+        return sorted((participant.dds_topics() if no_demangle else participant.topics()).items())
 
     def get_service_names_and_types(self) -> list[tuple[str, list[str]]]:
         """Return all services with their types."""
@@ -64,42 +84,136 @@ class NodeGraph:
         """Return the number of subscriptions of a topic."""
         return len(self._Coframe__participant.subscribers(self.resolve_topic_name(topic_name)))
 
-    def get_publishers_info_by_topic(self, topic_name: str) -> list[TopicEndpointInfo]:
-        """Return information about all publishers of a topic."""
-        endpoints = self._Coframe__participant.publishers(self.resolve_topic_name(topic_name))
+    def count_clients(self, service_name: str) -> int:
+        """Return the number of clients of a service."""
+        return len(self._Coframe__participant.publishers(self.resolve_service_name(service_name), kind="request"))
+
+    def count_services(self, service_name: str) -> int:
+        """Return the number of servers of a service."""
+        return len(self._Coframe__participant.subscribers(self.resolve_service_name(service_name), kind="request"))
+
+    def get_publishers_info_by_topic(self, topic_name: str, no_mangle: bool = False) -> list[TopicEndpointInfo]:
+        """Return information about all publishers of a topic.
+
+        Args:
+            topic_name: Name of the topic.
+            no_mangle: Whether the name is that of a DDS topic, for example `rt/tf`.
+
+        Raises:
+            ValueError: The name is not valid.
+        """
+        topic, kind = self.__topic_and_kind(topic_name, no_mangle=no_mangle)
+        endpoints = self._Coframe__participant.publishers(topic, kind=kind)
         return [_info(endpoint, TopicEndpointTypeEnum.PUBLISHER) for endpoint in endpoints]
 
-    def get_subscriptions_info_by_topic(self, topic_name: str) -> list[TopicEndpointInfo]:
-        """Return information about all subscriptions of a topic."""
-        endpoints = self._Coframe__participant.subscribers(self.resolve_topic_name(topic_name))
+    def get_subscriptions_info_by_topic(self, topic_name: str, no_mangle: bool = False) -> list[TopicEndpointInfo]:
+        """Return information about all subscriptions of a topic; see `get_publishers_info_by_topic`."""
+        topic, kind = self.__topic_and_kind(topic_name, no_mangle=no_mangle)
+        endpoints = self._Coframe__participant.subscribers(topic, kind=kind)
         return [_info(endpoint, TopicEndpointTypeEnum.SUBSCRIPTION) for endpoint in endpoints]
 
-    def get_publisher_names_and_types_by_node(self, node_name: str, node_namespace: str) -> list[tuple[str, list[str]]]:
-        """Return the topics that a node publishes, with their types."""
-        return _types_by_node(
-            {topic: self._Coframe__participant.publishers(topic) for topic in self._Coframe__participant.topics()},
-            node_name,
-            node_namespace,
-        )
+    def get_publisher_names_and_types_by_node(
+        self, node_name: str, node_namespace: str, no_demangle: bool = False
+    ) -> NamesAndTypes:
+        """Return the topics that a node publishes, with their types.
+
+        Args:
+            node_name: Name of the node.
+            node_namespace: Namespace of the node.
+            no_demangle: Whether to return the DDS names and types.
+
+        Raises:
+            NodeNameNonExistentError: There is no such node.
+        """
+        self.__check_node(node_name, node_namespace, "publisher")
+        participant = self._Coframe__participant
+        endpoints = {topic: participant.publishers(topic) for topic in participant.topics()}
+        return _types_by_node(endpoints, node_name, node_namespace, no_demangle=no_demangle)
 
     def get_subscriber_names_and_types_by_node(
-        self, node_name: str, node_namespace: str
-    ) -> list[tuple[str, list[str]]]:
-        """Return the topics that a node subscribes to, with their types."""
-        return _types_by_node(
-            {topic: self._Coframe__participant.subscribers(topic) for topic in self._Coframe__participant.topics()},
-            node_name,
-            node_namespace,
+        self, node_name: str, node_namespace: str, no_demangle: bool = False
+    ) -> NamesAndTypes:
+        """Return the topics that a node subscribes to; see `get_publisher_names_and_types_by_node`."""
+        self.__check_node(node_name, node_namespace, "subscriber")
+        participant = self._Coframe__participant
+        endpoints = {topic: participant.subscribers(topic) for topic in participant.topics()}
+        return _types_by_node(endpoints, node_name, node_namespace, no_demangle=no_demangle)
+
+    def get_service_names_and_types_by_node(self, node_name: str, node_namespace: str) -> NamesAndTypes:
+        """Return the services that a node serves, with their types.
+
+        Raises:
+            NodeNameNonExistentError: There is no such node.
+        """
+        self.__check_node(node_name, node_namespace, "service")
+        participant = self._Coframe__participant
+        endpoints = {name: participant.subscribers(name, kind="request") for name in participant.services()}
+        return _types_by_node(endpoints, node_name, node_namespace)
+
+    def get_client_names_and_types_by_node(self, node_name: str, node_namespace: str) -> NamesAndTypes:
+        """Return the services that a node has clients for, with their types.
+
+        Raises:
+            NodeNameNonExistentError: There is no such node.
+        """
+        self.__check_node(node_name, node_namespace, "client")
+        participant = self._Coframe__participant
+        endpoints = {name: participant.publishers(name, kind="request") for name in participant.services()}
+        return _types_by_node(endpoints, node_name, node_namespace)
+
+    def wait_for_node(self, fully_qualified_node_name: str, timeout: float) -> bool:
+        """Wait until a node is in the graph.
+
+        Args:
+            fully_qualified_node_name: Name of the node with its namespace.
+            timeout: Maximum time to wait in seconds.
+
+        Returns:
+            Whether the node is in the graph.
+        """
+        name = f"/{fully_qualified_node_name.lstrip('/')}"
+        return wait_until_ready(
+            self.context, self._Coframe__participant, lambda: name in self.get_fully_qualified_node_names(), timeout
         )
 
+    def __check_node(self, name: str, namespace: str, kind: str) -> None:
+        namespace = f"/{namespace.strip('/')}"
+        if (name, namespace) not in self.get_node_names_and_namespaces():
+            raise _with_hint(
+                NodeNameNonExistentError(f"cannot get {kind} names and types for nonexistent node"),
+                f"There is no node {namespace.rstrip('/')}/{name}. The nodes: "
+                f"{', '.join(sorted(self.get_fully_qualified_node_names()))}.",
+            )
 
-def _types_by_node(endpoints: dict[str, list[EndpointInfo]], name: str, namespace: str) -> list[tuple[str, list[str]]]:
-    found: list[tuple[str, list[str]]] = []
+    def __topic_and_kind(self, name: str, *, no_mangle: bool) -> tuple[str, Kind]:
+        if no_mangle:
+            from coframe.wire import names  # noqa: PLC0415 - importing rclpy does not need DDS
+
+            kinds: tuple[Kind, ...] = ("topic", "request", "reply")
+            found = ((topic, kind) for kind in kinds if (topic := names.ros_topic(name, kind)) is not None)
+            return next(found, (name, "topic"))
+        try:
+            return self.resolve_topic_name(name), "topic"
+        except RCLError as error:
+            raise _with_hint(
+                ValueError(f"topic name '{name}' is invalid: topic name is invalid"), f"{error}."
+            ) from None
+
+
+def _types_by_node(
+    endpoints: dict[str, list[EndpointInfo]], name: str, namespace: str, *, no_demangle: bool = False
+) -> NamesAndTypes:
+    found: NamesAndTypes = []
+    namespace = f"/{namespace.strip('/')}"
     for topic in sorted(endpoints):
         types = {end.ros_type for end in endpoints[topic] if (end.node, end.namespace) == (name, namespace)}
         if types:
-            found.append((topic, sorted(types)))
-    return found
+            found.append((topic, sorted({_service_type(ros_type) for ros_type in types})))
+    if not no_demangle:
+        return found
+    from coframe.wire import names  # noqa: PLC0415 - importing rclpy does not need DDS
+
+    return [(names.dds_topic(topic), [names.dds_type(ros_type) for ros_type in types]) for topic, types in found]
 
 
 def _info(endpoint: EndpointInfo, kind: TopicEndpointTypeEnum) -> TopicEndpointInfo:
@@ -108,8 +222,9 @@ def _info(endpoint: EndpointInfo, kind: TopicEndpointTypeEnum) -> TopicEndpointI
         node_namespace=endpoint.namespace or "_NODE_NAMESPACE_UNKNOWN_",
         topic_type=endpoint.ros_type,
         endpoint_type=kind,
-        endpoint_gid=list(endpoint.guid),
+        endpoint_gid=list(endpoint.guid.ljust(_GID_LENGTH, b"\0")),
         qos_profile=_profile(endpoint.qos),
+        topic_type_hash=TypeHash.from_text(getattr(endpoint, "type_hash", None)),
     )
 
 
@@ -119,14 +234,13 @@ def _profile(qos: WireQoS) -> QoSProfile:
         depth=qos.depth,
         reliability=ReliabilityPolicy.RELIABLE if qos.reliable else ReliabilityPolicy.BEST_EFFORT,
         durability=DurabilityPolicy.TRANSIENT_LOCAL if qos.transient_local else DurabilityPolicy.VOLATILE,
+        lifespan=Infinite,
+        deadline=Infinite,
+        liveliness=LivelinessPolicy.AUTOMATIC,
+        liveliness_lease_duration=Infinite,
     )
 
 
 def _service_type(ros_type: str) -> str:
-    """Return the service type of a request or response type."""
+    """Return the service type of a request or response type, and the type itself of a message."""
     return ros_type.removesuffix("_Request").removesuffix("_Response")
-
-
-def _mangle(ros_type: str) -> str:
-    *folders, name = ros_type.split("/")
-    return "::".join([*folders, "dds_", f"{name}_"])

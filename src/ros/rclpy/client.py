@@ -16,9 +16,9 @@ from coframe._core import Event
 from coframe.messages import codec
 from coframe.time import MILLISECOND
 from rclpy import _request_header
+from rclpy._destroyable import destroyed
 from rclpy._request_header import RequestHeader
 from rclpy.constants import S_TO_NS
-from rclpy.exceptions import InvalidHandle
 from rclpy.task import Future
 
 if TYPE_CHECKING:
@@ -48,12 +48,14 @@ class Client:
         executor: Callable[[], Executor | None],
         srv_type: Any,
         srv_name: str,
+        service_name: str,
         qos_profile: QoSProfile,
         callback_group: CallbackGroup,
     ) -> None:
         self.context = context
         self.srv_type = srv_type
         self.srv_name = srv_name
+        self.__service_name = service_name
         self.qos_profile = qos_profile
         self.callback_group = callback_group
         self._Coframe__participant = participant
@@ -64,6 +66,11 @@ class Client:
         self.__lock = threading.Lock()
         self.__sequence = 0
         self.__pending: dict[int, tuple[Future[Any], Callable[[Any], Any]]] = {}
+
+    @property
+    def service_name(self) -> str:
+        """The fully qualified name of the service. `srv_name` is the name that was given."""
+        return self.__service_name
 
     def call(self, request: Any, timeout_sec: float | None = None) -> Any:
         """Send a request and wait for the response.
@@ -152,7 +159,7 @@ class Client:
 
     def __require_replies(self) -> WireSubscription:
         if self.__replies is None:
-            raise InvalidHandle(f"cannot use Client of '{self.srv_name}' because destruction was requested")
+            raise destroyed(f"The client of '{self.service_name}'")
         return self.__replies
 
     def _Coframe__remaining_ns(self) -> int | None:
@@ -238,6 +245,8 @@ def wait_until_ready(
 
 
 def _deadline(timeout_sec: float | None) -> int | None:
+    if not isinstance(timeout_sec, int | float | None):
+        raise TypeError(f"timeout_sec must be a number of seconds or None, got {timeout_sec!r}.")
     return None if timeout_sec is None else time.monotonic_ns() + int(timeout_sec * S_TO_NS)
 
 

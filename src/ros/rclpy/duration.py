@@ -45,7 +45,7 @@ class Duration:
     def __eq__(self, other: object) -> bool:
         if isinstance(other, Duration):
             return self.nanoseconds == other.nanoseconds
-        raise TypeError(f"Can't compare duration with object of type: {type(other)}")
+        raise TypeError("Can't compare duration with object of type: ", type(other))
 
     def __ne__(self, other: object) -> bool:
         return not self == other

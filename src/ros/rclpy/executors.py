@@ -426,10 +426,15 @@ class MultiThreadedExecutor(Executor):
     Args:
         num_threads: Size of the pool. None: the number of processors, at least 2.
         context: Context whose shutdown ends the spinning. None: the default context.
+
+    Raises:
+        ValueError: The size is not positive.
     """
 
     def __init__(self, num_threads: int | None = None, *, context: Context | None = None) -> None:
         super().__init__(context=context)
+        if num_threads is not None and num_threads <= 0:
+            raise ValueError("max_workers must be greater than 0")
         self.__num_threads = num_threads or max(os.cpu_count() or 4, 2)
         self.__pool = ThreadPoolExecutor(self.__num_threads, thread_name_prefix="rclpy")
         self.__free = self.__num_threads

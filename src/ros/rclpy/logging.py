@@ -7,7 +7,6 @@ import os
 from pathlib import Path
 
 from rclpy._arguments import LoggingArguments
-from rclpy._rclpy_pybind11 import RCUtilsError
 from rclpy.exceptions import _with_hint
 from rclpy.impl.console import console
 from rclpy.impl.logging_severity import LoggingSeverity
@@ -66,7 +65,7 @@ def get_logging_severity_from_string(log_severity: str) -> LoggingSeverity:
         return LoggingSeverity[log_severity.upper()]
     except KeyError:
         names = ", ".join(LoggingSeverity.__members__)
-        error = RCUtilsError("Failed to get severity name")
+        error = RuntimeError("Failed to get severity name")
         raise _with_hint(error, f"{log_severity!r} is not one of {names}.") from None
 
 

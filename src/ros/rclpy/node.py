@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 from rcl_interfaces.msg import ParameterEvent
 from rclpy import _arguments
 from rclpy._arguments import Arguments
+from rclpy._destroyable import destroyed
 from rclpy._node_graph import NodeGraph
 from rclpy._node_parameters import NodeParameters
 from rclpy._remapping import NameResolver, remap_node
@@ -21,7 +22,7 @@ from rclpy.callback_groups import CallbackGroup, MutuallyExclusiveCallbackGroup,
 from rclpy.client import Client
 from rclpy.clock import Clock, ROSClock
 from rclpy.constants import S_TO_NS
-from rclpy.exceptions import InvalidHandle, NotInitializedException
+from rclpy.exceptions import NameValidationException, NotInitializedException, RCLError, _with_hint
 from rclpy.guard_condition import GuardCondition
 from rclpy.impl.rcutils_logger import RcutilsLogger
 from rclpy.parameter import Parameter
@@ -38,7 +39,7 @@ from rclpy.service import Service
 from rclpy.subscription import Subscription
 from rclpy.time_source import USE_SIM_TIME_NAME, TimeSource
 from rclpy.timer import Rate, Timer
-from rclpy.type_support import check_is_valid_msg_type, check_is_valid_srv_type
+from rclpy.type_support import check_is_valid_srv_type, message_class
 from rclpy.utilities import get_default_context
 from rclpy.validate_namespace import validate_namespace
 from rclpy.validate_node_name import validate_node_name
@@ -164,12 +165,26 @@ class Node(NodeParameters, NodeGraph):
         return f"{self.get_namespace().rstrip('/')}/{self.get_name()}"
 
     def resolve_topic_name(self, topic: str, *, only_expand: bool = False) -> str:
-        """Return the fully qualified name of a topic, remapped unless `only_expand` is set."""
-        return self.__names.resolve(topic, only_expand=only_expand)
+        """Return the fully qualified name of a topic, remapped unless `only_expand` is set.
+
+        Raises:
+            RCLError: The name is not valid.
+        """
+        return self.__resolve(topic, is_service=False, only_expand=only_expand)
 
     def resolve_service_name(self, service: str, *, only_expand: bool = False) -> str:
-        """Return the fully qualified name of a service, remapped unless `only_expand` is set."""
-        return self.__names.resolve(service, is_service=True, only_expand=only_expand)
+        """Return the fully qualified name of a service, remapped unless `only_expand` is set.
+
+        Raises:
+            RCLError: The name is not valid.
+        """
+        return self.__resolve(service, is_service=True, only_expand=only_expand)
+
+    def __resolve(self, name: str, *, is_service: bool, only_expand: bool) -> str:
+        try:
+            return self.__names.resolve(name, is_service=is_service, only_expand=only_expand)
+        except NameValidationException as error:
+            raise _with_hint(RCLError(f"failed to resolve name: {error.error_msg}"), f"The name is {name!r}.") from None
 
     # Properties
 
@@ -260,17 +275,17 @@ class Node(NodeParameters, NodeGraph):
         Raises:
             InvalidQosOverridesError: A parameter value is not valid for its policy.
             InvalidTopicNameException: The topic name is not valid.
-            NoTypeSupportImportedException: `msg_type` is not a message class.
+            AttributeError, RuntimeError: `msg_type` is not a message class.
+            RCLError: The context was shut down.
         """
         del callback_group
-        check_is_valid_msg_type(msg_type)
-        qos = as_qos_profile(qos_profile)
-        self.__check_not_destroyed()
-        name = self.resolve_topic_name(topic)
+        name = self.__names.resolve(topic)
+        msg_type, qos = message_class(msg_type), as_qos_profile(qos_profile)
+        self.__check_usable("publisher")
         if qos_overriding_options is not None:
             qos = apply_qos_overrides(self, "publisher", name, qos, qos_overriding_options)
         wire = self._Coframe__participant.publisher(self._Coframe__graph_node, name, msg_type, qos._Coframe__to_wire())
-        return self.__add(Publisher(wire, msg_type, name, qos, self.context))
+        return self.__add(Publisher(wire, msg_type, topic, name, qos, self.context))
 
     def create_subscription(
         self,
@@ -298,13 +313,13 @@ class Node(NodeParameters, NodeGraph):
         Raises:
             InvalidQosOverridesError: A parameter value is not valid for its policy.
             InvalidTopicNameException: The topic name is not valid.
-            NoTypeSupportImportedException: `msg_type` is not a message class.
+            AttributeError, RuntimeError: `msg_type` is not a message class.
+            RCLError: The context was shut down.
         """
-        check_is_valid_msg_type(msg_type)
+        name = self.__names.resolve(topic)
+        msg_type, qos = message_class(msg_type), as_qos_profile(qos_profile)
         _check_callback(callback)
-        qos = as_qos_profile(qos_profile)
-        self.__check_not_destroyed()
-        name = self.resolve_topic_name(topic)
+        self.__check_usable("subscription")
         if qos_overriding_options is not None:
             qos = apply_qos_overrides(self, "subscription", name, qos, qos_overriding_options)
         wakeup = self.context._Coframe__wakeup.event
@@ -312,7 +327,7 @@ class Node(NodeParameters, NodeGraph):
             self._Coframe__graph_node, name, msg_type, qos._Coframe__to_wire(), on_data=wakeup
         )
         group = self.__group(callback_group)
-        return self.__add(Subscription(wire, msg_type, name, callback, group, qos, raw))
+        return self.__add(Subscription(wire, msg_type, topic, name, callback, group, qos, raw))
 
     def create_client(
         self,
@@ -332,12 +347,13 @@ class Node(NodeParameters, NodeGraph):
 
         Raises:
             InvalidServiceNameException: The service name is not valid.
-            NoTypeSupportImportedException: `srv_type` is not a service class.
+            AttributeError, RuntimeError: `srv_type` is not a service class.
+            RCLError: The context was shut down.
         """
         check_is_valid_srv_type(srv_type)
-        self.__check_not_destroyed()
+        self.__check_usable("client")
         name, qos, graph_node = (
-            self.resolve_service_name(srv_name),
+            self.__names.resolve(srv_name, is_service=True),
             qos_profile._Coframe__to_wire(),
             self._Coframe__graph_node,
         )
@@ -355,6 +371,7 @@ class Node(NodeParameters, NodeGraph):
                 replies,
                 self.__get_executor,
                 srv_type,
+                srv_name,
                 name,
                 qos_profile,
                 group,
@@ -382,7 +399,8 @@ class Node(NodeParameters, NodeGraph):
 
         Raises:
             InvalidServiceNameException: The service name is not valid.
-            NoTypeSupportImportedException: `srv_type` is not a service class.
+            AttributeError, RuntimeError: `srv_type` is not a service class.
+            RCLError: The context was shut down.
         """
         return self._Coframe__create_service(Service, srv_type, srv_name, callback, qos_profile, callback_group)
 
@@ -397,9 +415,9 @@ class Node(NodeParameters, NodeGraph):
     ) -> Service:
         check_is_valid_srv_type(srv_type)
         _check_callback(callback)
-        self.__check_not_destroyed()
+        self.__check_usable("service")
         name, qos, graph_node = (
-            self.resolve_service_name(srv_name),
+            self.__names.resolve(srv_name, is_service=True),
             qos_profile._Coframe__to_wire(),
             self._Coframe__graph_node,
         )
@@ -410,7 +428,7 @@ class Node(NodeParameters, NodeGraph):
             graph_node, name, srv_type.Request, qos, on_data=wakeup, kind="request"
         )
         group = self.__group(callback_group)
-        return self.__add(kind(requests, replies, srv_type, name, callback, group, qos_profile))
+        return self.__add(kind(requests, replies, srv_type, srv_name, name, callback, group, qos_profile))
 
     def create_timer(
         self,
@@ -428,7 +446,7 @@ class Node(NodeParameters, NodeGraph):
             clock: Clock that measures the period. None: the clock of the node.
         """
         _check_callback(callback)
-        self.__check_not_destroyed()
+        self.__check_usable("timer")
         period_ns = int(float(timer_period_sec) * S_TO_NS)
         group = self.__group(callback_group)
         return self.__add(Timer(callback, group, period_ns, clock or self.__clock, context=self.context))
@@ -442,7 +460,7 @@ class Node(NodeParameters, NodeGraph):
             callback: Function or coroutine function that is called after a trigger.
             callback_group: Group of the callback. None: the default group of the node.
         """
-        self.__check_not_destroyed()
+        self.__check_usable("guard_condition")
         return self.__add(GuardCondition(callback, self.__group(callback_group), context=self.context))
 
     def create_rate(self, frequency: float, clock: Clock | None = None) -> Rate:
@@ -541,7 +559,17 @@ class Node(NodeParameters, NodeGraph):
 
     def __check_not_destroyed(self) -> None:
         if self.__is_destroyed:
-            raise InvalidHandle("cannot use Node because destruction was requested")
+            raise destroyed(f"The node {self.get_fully_qualified_name()}")
+
+    def __check_usable(self, entity: str) -> None:
+        """Check that an entity can be created: the node exists, and its context was not shut down."""
+        self.__check_not_destroyed()
+        # After a signal, a program may still create publishers for final messages.
+        if not (self.context.ok() or self.context._Coframe__was_shut_down_by_signal):
+            raise _with_hint(
+                RCLError(f"Failed to create {entity}: rcl node's context is invalid"),
+                "rclpy.shutdown() was called. Create a new node after rclpy.init().",
+            )
 
     def __group(self, group: CallbackGroup | None) -> CallbackGroup:
         return self.__default_callback_group if group is None else group

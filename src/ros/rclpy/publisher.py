@@ -8,8 +8,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from coframe.errors import WireError
 from coframe.messages import codec
-from rclpy.exceptions import InvalidHandle, RCLError
+from rclpy._destroyable import destroyed
+from rclpy.exceptions import RCLError
 
 if TYPE_CHECKING:
     from coframe.wire import Publisher as WirePublisher
@@ -26,6 +28,7 @@ class Publisher:
         wire: WirePublisher | StaticBroadcaster,
         msg_type: type[Any],
         topic: str,
+        topic_name: str,
         qos_profile: QoSProfile,
         context: Context,
     ) -> None:
@@ -33,12 +36,13 @@ class Publisher:
         self.__context = context
         self.msg_type = msg_type
         self.topic = topic
+        self.__topic_name = topic_name
         self.qos_profile = qos_profile
 
     @property
     def topic_name(self) -> str:
-        """The fully qualified name of the topic."""
-        return self.topic
+        """The fully qualified name of the topic. `topic` is the name that was given."""
+        return self.__topic_name
 
     def publish(self, msg: Any) -> None:
         """Publish a message.
@@ -48,7 +52,7 @@ class Publisher:
 
         Raises:
             TypeError: The message has another type.
-            RCLError: The context was shut down.
+            RCLError: The context was shut down, or the bytes are not a message of the publisher's type.
             InvalidHandle: The publisher was destroyed.
         """
         if isinstance(msg, self.msg_type):
@@ -60,7 +64,10 @@ class Publisher:
         # After a signal, a program may still publish final messages, for example to stop the robot.
         if not self.__context.ok() and not self.__context._Coframe__was_shut_down_by_signal:
             raise RCLError("Failed to publish: publisher's context is invalid")
-        self.__require_wire().write(data)
+        try:
+            self.__require_wire().write(data)
+        except WireError as error:
+            raise RCLError(f"Failed to publish: {error}") from error
 
     def get_subscription_count(self) -> int:
         """Return the number of matched subscriptions."""
@@ -78,5 +85,5 @@ class Publisher:
 
     def __require_wire(self) -> WirePublisher | StaticBroadcaster:
         if self.__wire is None:
-            raise InvalidHandle(f"cannot use Publisher of '{self.topic}' because destruction was requested")
+            raise destroyed(f"The publisher of '{self.topic_name}'")
         return self.__wire

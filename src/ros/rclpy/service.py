@@ -37,6 +37,7 @@ class Service:
         replies: WirePublisher,
         srv_type: Any,
         srv_name: str,
+        service_name: str,
         callback: Callable[[Any, Any], Any],
         callback_group: CallbackGroup,
         qos_profile: QoSProfile,
@@ -45,9 +46,15 @@ class Service:
         self.__replies = replies
         self.srv_type = srv_type
         self.srv_name = srv_name
+        self.__service_name = service_name
         self.callback = callback
         self.callback_group = callback_group
         self.qos_profile = qos_profile
+
+    @property
+    def service_name(self) -> str:
+        """The fully qualified name of the service. `srv_name` is the name that was given."""
+        return self.__service_name
 
     def send_response(self, response: Any, header: RequestHeader) -> None:
         """Send the response to a request.
@@ -89,7 +96,7 @@ class Service:
             try:
                 request = codec.deserialize(cdr, self.srv_type.Request)
             except DecodeError as error:
-                _logger.warning("A request of %s was ignored: %s", self.srv_name, error)
+                _logger.warning("A request of %s was ignored: %s", self.service_name, error)
                 continue
             return partial(self._Coframe__answer, header, request)
         return None

@@ -30,6 +30,7 @@ class Subscription:
         wire: WireSubscription | TfReader,
         msg_type: type[Any],
         topic: str,
+        topic_name: str,
         callback: Callable[..., Any],
         callback_group: CallbackGroup,
         qos_profile: QoSProfile,
@@ -39,6 +40,7 @@ class Subscription:
         self.__accepts_info = _accepts_message_info(callback)
         self.msg_type = msg_type
         self.topic = topic
+        self.__topic_name = topic_name
         self.callback = callback
         self.callback_group = callback_group
         self.qos_profile = qos_profile
@@ -46,8 +48,8 @@ class Subscription:
 
     @property
     def topic_name(self) -> str:
-        """The fully qualified name of the topic."""
-        return self.topic
+        """The fully qualified name of the topic. `topic` is the name that was given."""
+        return self.__topic_name
 
     def get_publisher_count(self) -> int:
         """Return the number of matched publishers."""

@@ -95,7 +95,7 @@ class Time:
         if isinstance(other, Time):
             self._check_same_clock(other, "compare")
             return self.nanoseconds == other.nanoseconds
-        raise TypeError(f"Can't compare time with object of type: {type(other)}")
+        raise TypeError("Can't compare time with object of type: ", type(other))
 
     def __ne__(self, other: object) -> bool:
         return not self == other

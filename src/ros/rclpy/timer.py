@@ -10,7 +10,8 @@ import threading
 import time
 from typing import TYPE_CHECKING, Any
 
-from rclpy.exceptions import ROSInterruptException
+from rclpy._destroyable import destroyed
+from rclpy.exceptions import RCLError, ROSInterruptException
 from rclpy.time import Time
 from rclpy.utilities import get_default_context
 
@@ -39,7 +40,11 @@ class Timer:
         context: Context | None = None,
     ) -> None:
         if timer_period_ns < 0:
-            raise ValueError("timer period must not be negative")
+            raise RCLError("failed to create timer: timer period must be non-negative")
+        if timer_period_ns >= 2**63:
+            raise TypeError(
+                f"The period of {timer_period_ns} ns is too large: the maximum is 2**63 - 1 ns, or 292 years."
+            )
         self.callback = callback
         self.callback_group = callback_group
         self.__clock = clock
@@ -72,30 +77,43 @@ class Timer:
 
     def cancel(self) -> None:
         """Stop the callbacks until `reset()`."""
+        self.__check_not_destroyed()
         self.__is_canceled = True
 
     def is_canceled(self) -> bool:
         """Return whether the timer was cancelled."""
+        self.__check_not_destroyed()
         return self.__is_canceled
 
     def reset(self) -> None:
         """Restart the period from now. This also restarts a cancelled timer."""
+        self.__check_not_destroyed()
         self.__start()
         self.__is_canceled = False
         self.__context._Coframe__wakeup.set()
 
     def is_ready(self) -> bool:
         """Return whether a call is due."""
-        return not self._Coframe__is_stopped and self._Coframe__until_next_ns() <= 0
+        self.__check_not_destroyed()
+        return self.__is_due()
 
     def time_since_last_call(self) -> int:
         """Return the nanoseconds since the last call, or since the start."""
+        self.__check_not_destroyed()
         self.__follow_clock()
         return self._Coframe__now_ns() - self.__last_ns
 
     def time_until_next_call(self) -> int | None:
         """Return the nanoseconds until the next call, negative if it is late, or None if the timer is cancelled."""
+        self.__check_not_destroyed()
         return None if self.__is_canceled else self._Coframe__until_next_ns()
+
+    def __is_due(self) -> bool:
+        return not self._Coframe__is_stopped and self._Coframe__until_next_ns() <= 0
+
+    def __check_not_destroyed(self) -> None:
+        if self.__is_destroyed:
+            raise destroyed("The timer")
 
     def _Coframe__until_next_ns(self) -> int:
         """Return the nanoseconds until the next call, even if the timer is cancelled."""
@@ -135,7 +153,7 @@ class Timer:
     def _Coframe__end_period(self) -> bool:
         """Schedule the next call if one is due now. Missed periods are skipped."""
         with self.__lock:
-            if not self.is_ready():
+            if not self.__is_due():
                 return False
             now = self._Coframe__now_ns()
             self.__last_ns = now

@@ -3,12 +3,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import IntEnum
-from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:
-    from rclpy.qos import QoSProfile
+from rclpy.qos import HistoryPolicy, QoSPresetProfiles, QoSProfile
+from rclpy.type_hash import TypeHash
 
 
 class TopicEndpointTypeEnum(IntEnum):
@@ -19,13 +18,53 @@ class TopicEndpointTypeEnum(IntEnum):
     SUBSCRIPTION = 2
 
 
-@dataclass(frozen=True)
+@dataclass(eq=False, repr=False)
 class TopicEndpointInfo:
-    """A publisher or subscription in the graph."""
+    """A publisher or subscription in the graph. `str` returns what `ros2 topic info --verbose` prints.
 
-    node_name: str
-    node_namespace: str
-    topic_type: str
-    endpoint_type: TopicEndpointTypeEnum
-    endpoint_gid: list[int]
-    qos_profile: QoSProfile
+    Attributes:
+        node_name: Name of its node, or `_NODE_NAME_UNKNOWN_`.
+        node_namespace: Namespace of its node, or `_NODE_NAMESPACE_UNKNOWN_`.
+        topic_type: Type of the messages, for example `std_msgs/msg/String`.
+        endpoint_type: Whether it is a publisher or a subscription.
+        endpoint_gid: The 24 bytes of its identifier: the 16 bytes of the DDS GUID and zeros, as in Humble.
+        qos_profile: Its QoS profile. Durations without a limit are `rclpy.duration.Infinite`.
+        topic_type_hash: Hash of the type, which endpoints of ROS 2 Iron and later announce.
+    """
+
+    node_name: str = ""
+    node_namespace: str = ""
+    topic_type: str = ""
+    endpoint_type: TopicEndpointTypeEnum = TopicEndpointTypeEnum.INVALID
+    endpoint_gid: list[int] = field(default_factory=list)
+    qos_profile: QoSProfile = field(default_factory=lambda: QoSPresetProfiles.UNKNOWN.value)
+    topic_type_hash: TypeHash = field(default_factory=TypeHash)
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, TopicEndpointInfo) and str(self) == str(other)
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def __str__(self) -> str:
+        qos = self.qos_profile
+        history = qos.history.name
+        if qos.history is HistoryPolicy.KEEP_LAST:
+            history = f"{history} ({qos.depth})"
+        gid = ".".join(f"{byte:02x}" for byte in self.endpoint_gid)
+        return "\n".join(
+            [
+                f"Node name: {self.node_name}",
+                f"Node namespace: {self.node_namespace}",
+                f"Topic type: {self.topic_type}",
+                f"Endpoint type: {self.endpoint_type.name}",
+                f"GID: {gid}",
+                "QoS profile:",
+                f"  Reliability: {qos.reliability.name}",
+                f"  History (Depth): {history}",
+                f"  Durability: {qos.durability.name}",
+                f"  Lifespan: {qos.lifespan}",
+                f"  Deadline: {qos.deadline}",
+                f"  Liveliness: {qos.liveliness.name}",
+                f"  Liveliness lease duration: {qos.liveliness_lease_duration}",
+            ]
+        )

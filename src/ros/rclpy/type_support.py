@@ -5,38 +5,80 @@ from __future__ import annotations
 
 from typing import Any
 
-from rclpy.exceptions import NoTypeSupportImportedException
+from rclpy.exceptions import NoTypeSupportImportedException, _with_hint
+
+__all__ = [
+    "NoTypeSupportImportedException",
+    "check_for_type_support",
+    "check_is_valid_msg_type",
+    "check_is_valid_srv_type",
+    "message_class",
+]
+
+
+def check_for_type_support(msg_or_srv_type: Any) -> None:
+    """Raise an error unless `msg_or_srv_type` is a message, service or action class of ROS 2.
+
+    Raises:
+        AttributeError: The type is not such a class.
+    """
+    if not hasattr(msg_or_srv_type, "ROS_TYPE"):
+        raise _with_hint(
+            AttributeError(
+                f"type object '{type(msg_or_srv_type).__name__}' has no attribute '_TYPE_SUPPORT' This might be a ROS "
+                "1 message type but it should be a ROS 2 message type. Make sure to source your ROS 2 workspace after "
+                "your ROS 1 workspace."
+            ),
+            f"Expected a class such as std_msgs.msg.String, got {msg_or_srv_type!r}.",
+        )
 
 
 def check_is_valid_msg_type(msg_type: Any) -> None:
     """Raise an error unless `msg_type` is a message class.
 
     Raises:
-        NoTypeSupportImportedException: The type is not such a class.
+        AttributeError: The type is not a class of an interface.
+        RuntimeError: It is a service or action class.
     """
-    _check(msg_type, "SLOT_TYPES", "a message type such as std_msgs.msg.String")
+    check_for_type_support(msg_type)
+    if not hasattr(msg_type, "SLOT_TYPES"):
+        error = RuntimeError(f"The message type provided is not valid ({msg_type}), this might be a service or action")
+        raise _with_hint(error, "Expected a message class such as std_msgs.msg.String.")
+
+
+def message_class(msg_type: Any) -> type[Any]:
+    """Return the message class, also if an instance of it was given, which upstream accepts.
+
+    Raises:
+        AttributeError, RuntimeError: See `check_is_valid_msg_type`.
+    """
+    check_is_valid_msg_type(msg_type)
+    return msg_type if isinstance(msg_type, type) else type(msg_type)
 
 
 def check_is_valid_srv_type(srv_type: Any) -> None:
     """Raise an error unless `srv_type` is a service class.
 
     Raises:
-        NoTypeSupportImportedException: The type is not such a class.
+        AttributeError: The type is not a class of an interface.
+        RuntimeError: It is a message or action class.
     """
-    _check(srv_type, "Request", "a service type such as std_srvs.srv.SetBool")
+    check_for_type_support(srv_type)
+    if not hasattr(srv_type, "Request"):
+        error = RuntimeError(f"The service type provided is not valid ({srv_type}), this might be a message or action")
+        raise _with_hint(error, "Expected a service class such as std_srvs.srv.SetBool.")
 
 
 def check_is_valid_action_type(action_type: Any) -> None:
     """Raise an error unless `action_type` is an action class.
 
     Raises:
-        NoTypeSupportImportedException: The type is not such a class.
+        AttributeError: The type is not a class of an interface.
+        RuntimeError: It is a message or service class.
     """
-    _check(action_type, "Goal", "an action type such as tf2_msgs.action.LookupTransform")
-
-
-def _check(some_type: Any, part: str, expected: str) -> None:
-    if not (hasattr(some_type, "ROS_TYPE") and hasattr(some_type, part)):
-        raise NoTypeSupportImportedException(f"Expected {expected}, got {some_type!r}.")
-    if not isinstance(some_type, type):
-        raise NoTypeSupportImportedException(f"Expected the class {type(some_type).__name__}, got an instance of it.")
+    check_for_type_support(action_type)
+    if not hasattr(action_type, "Goal"):
+        error = RuntimeError(
+            f"The action type provided is not valid ({action_type}), this might be a message or service"
+        )
+        raise _with_hint(error, "Expected an action class such as tf2_msgs.action.LookupTransform.")

@@ -59,7 +59,7 @@ class StaticTransformBroadcaster:
         """Publish one or several transforms with all earlier ones. A new transform replaces that of the same child."""
         transforms = {known.child_frame_id: known for known in self.net_message.transforms}
         # The messages are copied, because callers reuse them for their next transform.
-        added = renamed(as_list(transform), self.__renaming)
+        added = TFMessage(transforms=renamed(as_list(transform), self.__renaming)).transforms
         transforms.update((new.child_frame_id, deepcopy(new)) for new in added)
         self.net_message.transforms = list(transforms.values())
         self._child_frame_ids = set(transforms)
@@ -70,7 +70,7 @@ def _shared_publisher(node: Node, topic: str) -> Publisher:
     qos = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL, history=HistoryPolicy.KEEP_LAST)
     name = node.resolve_topic_name(topic)
     writer = node._Coframe__participant.static_broadcaster(node._Coframe__graph_node, name)
-    return node._Coframe__add_entity(Publisher(writer, TFMessage, name, qos, node.context))
+    return node._Coframe__add_entity(Publisher(writer, TFMessage, topic, name, qos, node.context))
 
 
 def _own(node: Node, topic: str, qos: QoSProfile | int) -> Publisher:

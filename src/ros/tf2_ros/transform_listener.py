@@ -153,7 +153,7 @@ class TransformListener:
         )
         callback = self.static_callback if static else self.callback
         return self.node._Coframe__add_entity(
-            Subscription(reader, TFMessage, topic, callback, self.group, qos, raw=False)
+            Subscription(reader, TFMessage, topic, topic, callback, self.group, qos, raw=False)
         )
 
     def __destroy(self, subscriptions: tuple[Subscription | None, ...]) -> None:

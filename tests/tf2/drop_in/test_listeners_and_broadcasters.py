@@ -207,7 +207,7 @@ def test_attributes_of_listeners(buffer, node, listener):
 def test_attributes_of_buffers(node):
     buffer = tf2_ros.Buffer(node=node)
     assert isinstance(buffer.srv, Service)
-    assert buffer.srv.srv_name == "/tf2_frames"
+    assert buffer.srv.service_name == "/tf2_frames"
     assert buffer.clock is node.get_clock()
     alone = tf2_ros.Buffer()
     assert not hasattr(alone, "srv")

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Final
 
-from rclpy.exceptions import InvalidServiceNameException
+from rclpy.exceptions import RCLError
 from rclpy.qos import QoSProfile
 
 if TYPE_CHECKING:
@@ -33,7 +33,5 @@ def resolve_action_name(node: Node, action_name: str, user: str) -> str:
     """
     try:
         return node.resolve_service_name(action_name)
-    except InvalidServiceNameException as error:
-        raise ValueError(
-            f"Failed to create {user} due to invalid topic name '{action_name}': {error.error_msg}"
-        ) from error
+    except RCLError as error:
+        raise ValueError(f"Failed to create {user} due to invalid topic name '{action_name}': {error}") from error

@@ -105,7 +105,7 @@ class ActionClient:
 
     Raises:
         ValueError: The name is not valid.
-        NoTypeSupportImportedException: `action_type` is not an action class.
+        AttributeError, RuntimeError: `action_type` is not an action class.
     """
 
     def __init__(

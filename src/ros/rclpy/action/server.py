@@ -113,7 +113,7 @@ class ActionServer:
     Raises:
         TypeError: The execute callback is not callable.
         ValueError: The name is not valid.
-        NoTypeSupportImportedException: `action_type` is not an action class.
+        AttributeError, RuntimeError: `action_type` is not an action class.
     """
 
     def __init__(
