@@ -78,7 +78,7 @@ def find_package(name: str, path: Sequence[str] | None = None, _target: object =
         searched = dict.fromkeys(str(source.folder) for source in sources())
         raise ModuleNotFoundError(
             f"No module named {name!r}. coframe does not contain this package, and found no definitions of it in "
-            f"{', '.join(searched)}. If you have its .msg, .srv or .action files, run `coframe interfaces add PATH`, "
+            f"{', '.join(searched)}. If you have its .msg, .srv or .action files, run `coframe interfaces add FOLDER`, "
             f"or set {ENVIRONMENT} to the folder of the package or of its workspace.",
             name=name,
         )

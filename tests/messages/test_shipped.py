@@ -4,6 +4,7 @@
 import importlib
 import inspect
 import pickle
+import re
 import sys
 import threading
 import time
@@ -14,6 +15,7 @@ import pytest
 
 from coframe.messages import find, registry
 from coframe.messages.packages import shipped
+from coframe.messages.type_hash import type_hash
 from sensor_msgs.msg import Image
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -117,3 +119,15 @@ def test_threads_that_use_a_class_first_get_the_same_one(monkeypatch: pytest.Mon
         thread.join()
     assert len(set(got)) == 1
     assert got[0]().image == Image()
+
+
+def test_type_hashes_equal_those_of_rosbags(store: Any) -> None:
+    checked = 0
+    for package in PACKAGES:
+        for path in (ROOT / "interfaces" / package).glob("msg/*.msg"):
+            name = f"{package}/msg/{path.stem}"
+            # rosbags does not know wstring, and has IDL's type char where ROS has uint8.
+            if not name.endswith("/WString") and not re.search(r"\bchar\b", store.generate_msgdef(name)[0]):
+                assert type_hash(find(name)) == store.hash_rihs01(name), name
+                checked += 1
+    assert checked > 200

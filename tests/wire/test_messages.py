@@ -6,8 +6,8 @@ import pytest
 
 from coframe import WireError
 from coframe._core import Event
-from coframe.messages import codec, definition, find
-from coframe.wire import QoS, types
+from coframe.messages import codec, find
+from coframe.wire import QoS
 
 STRING = find("std_msgs/msg/String")
 TF_MESSAGE = find("tf2_msgs/msg/TFMessage")
@@ -203,6 +203,7 @@ def test_service_messages_contain_the_header_of_rmw(participant, node):
         "std_msgs/msg/Char",
         "tf2_msgs/action/LookupTransform_Feedback",
         "action_msgs/msg/GoalStatusArray",
+        "example_interfaces/msg/WString",
     ],
 )
 def test_messages_of_many_types_are_exchanged(name, participant, node):
@@ -212,16 +213,3 @@ def test_messages_of_many_types_are_exchanged(name, participant, node):
     publisher.write(codec.serialize(kind()))
     (sample,) = subscription.take()
     assert codec.deserialize(sample.data, kind) == kind()
-
-
-def test_an_unsupported_field_is_named_in_the_error():
-    class Wide:
-        ROS_TYPE = "test_msgs/msg/Wide"
-        SLOT_TYPES = (definition.UnboundedWString(),)
-
-        @staticmethod
-        def get_fields_and_field_types():
-            return {"text": "wstring"}
-
-    with pytest.raises(WireError, match=r"test_msgs/msg/Wide\.text is a UnboundedWString"):
-        types.dds_type(Wide)

@@ -39,6 +39,7 @@ COMMANDS: dict[str, tuple[str, dict[str, Any]]] = {
         "Run an executable of a package, like ros2 run.",
         {"context_settings": {**_PASSES_WORDS_ON["context_settings"], "allow_interspersed_args": False}},
     ),
+    "interfaces": ("Find, check and add your own .msg, .srv and .action files.", {}),
     "relay": ("Merge the transforms of several robots, or split them.", {}),
     "record": ("Record topics as MCAP files in rosbag2's layout.", {}),
     "play": ("Replay a recording.", {"cls": "PlayCommand"}),

@@ -18,16 +18,12 @@ _BASIC_PYTHON = {"boolean": bool}
 
 @cache
 def dds_type(message_type: type) -> Any:
-    """Return the DDS type of a message class.
-
-    Raises:
-        WireError: The message has a field of a type that cyclonedds does not support.
-    """
+    """Return the DDS type of a message class."""
     fields: dict[str, Any] = {}
     field_names = message_type.get_fields_and_field_types()  # type: ignore[attr-defined]
     slots = message_type.SLOT_TYPES  # type: ignore[attr-defined]
     for name, slot in zip(field_names, slots, strict=True):
-        fields[name] = _field_type(slot, f"{ros_type(message_type)}.{name}")
+        fields[name] = _field_type(slot)
     if not fields:
         # DDS does not allow an empty structure, so ROS adds this member.
         fields["structure_needs_at_least_one_member"] = _idl_types().uint8
@@ -103,22 +99,22 @@ def _topic_error(name: str, why: str) -> WireError:
     return WireError(f"DDS cannot create the topic {name} ({why}).", hint="Check the name of the topic.")
 
 
-def _field_type(slot: Any, where: str) -> Any:
+def _field_type(slot: Any) -> Any:
     from coframe.messages import definition  # noqa: PLC0415 - joining the graph does not need it
 
     types = _idl_types()
     match slot:
         case definition.Array():
-            return types.array[_field_type(slot.value_type, where), slot.size]
+            return types.array[_field_type(slot.value_type), slot.size]
         case definition.BoundedSequence():
-            return types.sequence[_field_type(slot.value_type, where), slot.maximum_size]
+            return types.sequence[_field_type(slot.value_type), slot.maximum_size]
         case definition.UnboundedSequence():
-            return types.sequence[_field_type(slot.value_type, where)]
+            return types.sequence[_field_type(slot.value_type)]
         case _:
-            return _single_type(slot, where)
+            return _single_type(slot)
 
 
-def _single_type(slot: Any, where: str) -> Any:
+def _single_type(slot: Any) -> Any:
     from coframe.messages import definition, registry  # noqa: PLC0415 - joining the graph does not need it
 
     types = _idl_types()
@@ -129,13 +125,13 @@ def _single_type(slot: Any, where: str) -> Any:
             return str
         case definition.BoundedString():
             return types.bounded_str[slot.maximum_size]
-        case definition.NamespacedType():
-            return dds_type(registry.find("/".join(slot.namespaced_name())))
+        # cyclonedds has no wstring. ROS sends a count and 32 bits for each unit, which is the layout of a sequence.
+        case definition.UnboundedWString():
+            return types.sequence[types.uint32]
+        case definition.BoundedWString():
+            return types.sequence[types.uint32, slot.maximum_size]
         case _:
-            raise WireError(
-                f"{where} is a {type(slot).__name__}, which cyclonedds does not support.",
-                hint="Use the type string, which is UTF-8.",
-            )
+            return dds_type(registry.find("/".join(slot.namespaced_name())))
 
 
 def _struct(name: str, fields: dict[str, Any]) -> Any:

@@ -1,0 +1,209 @@
+# SPDX-License-Identifier: Apache-2.0
+"""``coframe interfaces``: the user's packages with messages, services and actions."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from coframe.cli.help_format import PlainCommand, PlainGroup
+from coframe.cli.output import fail, printable, warn
+from coframe.errors import InterfaceError
+from coframe.formatting import count, listed
+from coframe.interfaces.sources import ENVIRONMENT, Source, package_folders, sources
+from coframe.interfaces.user_folders import added_paths, set_added_paths, settings_file, stub_folder
+from coframe.messages.packages import find_package, forget, load_package, shipped_names
+from coframe.messages.registry import find
+from coframe.messages.stub_files import write_stubs
+from coframe.messages.type_hash import type_hash
+
+if TYPE_CHECKING:
+    from coframe.messages.packages import InterfacePackage
+
+__all__ = ["interfaces"]
+
+FolderArgument = Annotated[
+    Path, typer.Argument(metavar="FOLDER", help="Folder of a package, or a folder with packages, such as a src folder.")
+]
+interfaces = typer.Typer(
+    cls=PlainGroup,
+    help=(
+        "Find, check and add your own .msg, .srv, .action and .idl files.\n\n"
+        "Example: coframe interfaces add ~/ros2_ws/src/my_msgs"
+    ),
+    no_args_is_help=True,
+    rich_markup_mode=None,
+)
+
+
+@interfaces.callback()
+def _interfaces() -> None:
+    pass
+
+
+@interfaces.command("list", cls=PlainCommand, short_help="Show your packages and where they were found; check them.")
+def list_packages() -> None:
+    """Show your interface packages, where they were found, and what is wrong with their definitions.
+
+    The exit code is 1 if a definition is invalid.
+
+    Example: coframe interfaces list
+    """
+    errors: list[InterfaceError] = []
+    found: dict[str, Path] = {}
+    for source in sources():
+        for name, folder in _packages_in(source).items():
+            if name in found:
+                continue
+            found[name] = folder
+            typer.echo(printable(f"{name}: {_content(load_package(name, folder))}, in {folder} ({source.origin})"))
+            errors += _invalid(load_package(name, folder))
+    if not found:
+        typer.echo("No packages of yours were found. These folders were searched:")
+        for folder in dict.fromkeys(source.folder for source in sources()):
+            typer.echo(printable(f"  {folder}"))
+        typer.echo(f"Add others with `coframe interfaces add FOLDER`, or set {ENVIRONMENT}.")
+    typer.echo(f"coframe contains {', '.join(name for name in shipped_names() if name not in found)}.")
+    _report(errors)
+
+
+@interfaces.command(cls=PlainCommand, short_help="Show a definition, and the file that it is in.")
+def show(
+    name: Annotated[str, typer.Argument(metavar="NAME", help="A type, such as std_msgs/msg/Header, or a package.")],
+) -> None:
+    """Show the definition of a message, service or action, or the types of a package.
+
+    Example: coframe interfaces show std_msgs/msg/Header
+    """
+    package_name, _, rest = name.partition("/")
+    package = find_package(package_name)
+    if package is None:
+        fail(f"no package {package_name}", "See all packages with `coframe interfaces list`.")
+    types = [f"{kind}/{own}" for kind in package.kinds() for own in package.names(kind)]
+    if not rest:
+        typer.echo("\n".join(f"{package_name}/{own}" for own in types))
+        return
+    matching = [own for own in types if rest in {own, own.partition("/")[2]}]
+    if not matching:
+        fail(f"no type {name}", f"The package has {listed([f'{package_name}/{own}' for own in types])}.")
+    for own in matching:
+        _show(package, own)
+
+
+@interfaces.command(cls=PlainCommand, short_help="Search a folder in every program from now on.")
+def add(path: FolderArgument) -> None:
+    """Search FOLDER for interface packages in every program from now on, and write stubs for editors.
+
+    Example: coframe interfaces add ~/ros2_ws/src/my_msgs
+    """
+    folder = path.expanduser().absolute()
+    if not folder.is_dir():
+        fail(f"no folder {folder}")
+    found = package_folders(Source("", folder, 8))
+    if not found:
+        fail(
+            f"no package with .msg, .srv, .action or .idl files in {folder}",
+            "A package is a folder with these files in folders named msg, srv and action.",
+        )
+    try:
+        set_added_paths(list(dict.fromkeys([*added_paths(), folder])))
+    except OSError as error:
+        fail(f"{settings_file()} cannot be written: {error.strerror}")
+    forget()
+    packages = [load_package(name, found[name]) for name in sorted(found)]
+    for package in packages:
+        typer.echo(printable(f"{package.name}: {_content(package)}, in {package.folder}"))
+    errors = [error for package in packages for error in _invalid(package)]
+    _write_stubs(packages, stub_folder())
+    _report(errors)
+
+
+@interfaces.command(cls=PlainCommand, short_help="Stop searching an added folder.")
+def remove(path: FolderArgument) -> None:
+    """Stop searching a folder that was added.
+
+    Example: coframe interfaces remove ~/ros2_ws/src/my_msgs
+    """
+    folder = path.expanduser().absolute()
+    added = added_paths()
+    if folder not in added:
+        fail(f"{folder} was not added", f"Added: {listed(list(map(str, added)))}." if added else "No folder was added.")
+    try:
+        set_added_paths([other for other in added if other != folder])
+    except OSError as error:
+        fail(f"{settings_file()} cannot be written: {error.strerror}")
+
+
+@interfaces.command(cls=PlainCommand, short_help="Write stubs, so that editors know your messages.")
+def stubs(
+    output: Annotated[
+        Path | None,
+        typer.Option(metavar="FOLDER", help="Folder to write; default: a folder of the user's cache."),
+    ] = None,
+) -> None:
+    """Write stub files of your packages, so that editors and type checkers know the fields of each class.
+
+    Pylance and pyright search a folder named typings in the project without any setting. Run the command again after
+    you have changed a definition.
+
+    Example: coframe interfaces stubs --output typings
+    """
+    found: dict[str, Path] = {}
+    for source in sources():
+        for name, folder in _packages_in(source).items():
+            found.setdefault(name, folder)
+    if not found:
+        fail("no packages of yours were found", "See where they are searched with `coframe interfaces list`.")
+    _report(_write_stubs([load_package(name, found[name]) for name in sorted(found)], output or stub_folder()))
+
+
+def _packages_in(source: Source) -> dict[str, Path]:
+    return dict(sorted(package_folders(source).items()))
+
+
+def _content(package: InterfacePackage) -> str:
+    return ", ".join(f"{len(package.names(kind))} {kind}" for kind in package.kinds())
+
+
+def _invalid(package: InterfacePackage) -> list[InterfaceError]:
+    errors: list[InterfaceError] = []
+    for kind in package.kinds():
+        for name in package.names(kind):
+            try:
+                package.create(kind, name)
+            except InterfaceError as error:
+                errors.append(error)
+    return errors
+
+
+def _write_stubs(packages: list[InterfacePackage], folder: Path) -> list[InterfaceError]:
+    errors: list[InterfaceError] = []
+    try:
+        for package in packages:
+            errors += write_stubs(package, folder)
+    except OSError as error:
+        fail(f"the stubs cannot be written into {folder}: {error.strerror}")
+    typer.echo(f"Stubs of {count(len(packages), 'package')} written into {folder}")
+    typer.echo('Settings: "python.analysis.extraPaths" in VS Code, extraPaths of pyright, mypy_path of mypy.')
+    return errors
+
+
+def _show(package: InterfacePackage, own: str) -> None:
+    kind, _, name = own.partition("/")
+    try:
+        text, file = package.definition(kind, name)
+        hashed = type_hash(find(f"{package.name}/{own}"))
+    except InterfaceError as error:
+        fail(str(error), error.hint)
+    typer.echo(printable(f"# {package.name}/{own}, {file or 'contained in coframe'}"))
+    typer.echo(f"# {hashed}")
+    typer.echo("\n".join(map(printable, text.strip().splitlines())))
+
+
+def _report(errors: list[InterfaceError]) -> None:
+    for text in dict.fromkeys(f"{error}" + (f" ({error.hint})" if error.hint else "") for error in errors):
+        warn(text)
+    if errors:
+        raise typer.Exit(1)

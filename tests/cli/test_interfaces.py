@@ -1,0 +1,112 @@
+# SPDX-License-Identifier: Apache-2.0
+"""`coframe interfaces`: what it prints about packages, definitions and mistakes."""
+
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import pytest
+from typer.testing import CliRunner
+
+from coframe.cli.app import app
+from coframe.messages import packages, registry
+
+
+@pytest.fixture(autouse=True)
+def _workspace(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Any:
+    folder = tmp_path / "ws/src/my_msgs"
+    for name, text in {
+        "package.xml": "<package><name>cli_msgs</name></package>",
+        "msg/Num.msg": "int64 num\nfloat64[3] v\nstd_msgs/Header header\n",
+        "srv/Ask.srv": "string lambda\n---\nNum[] nums\n",
+        "action/Num.action": "---\n---\nuint8 DONE=1\n",
+    }.items():
+        (folder / name).parent.mkdir(parents=True, exist_ok=True)
+        (folder / name).write_text(text)
+    monkeypatch.chdir(tmp_path)
+    for variable in ("XDG_CONFIG_HOME", "XDG_CACHE_HOME"):
+        monkeypatch.setenv(variable, str(tmp_path / variable))
+    for variable in ("COFRAME_INTERFACES", "AMENT_PREFIX_PATH"):
+        monkeypatch.delenv(variable, raising=False)
+    packages.forget()
+    yield
+    packages.forget()
+    for name in [name for name in registry.classes if name.startswith("cli_msgs/")]:
+        del registry.classes[name]
+
+
+def run(*words: str) -> Any:
+    return CliRunner().invoke(app, ["interfaces", *words])
+
+
+def test_added_folders_are_listed_and_removed(tmp_path: Path) -> None:
+    result = run("list")
+    assert "No packages of yours were found" in result.stdout
+    assert f"\n  {tmp_path}\n" in result.stdout
+    assert "visualization_msgs" in result.stdout
+    result = run("add", "ws/src")
+    assert (result.exit_code, result.stderr) == (0, "")
+    assert f"cli_msgs: 1 msg, 1 srv, 1 action, in {tmp_path}/ws/src/my_msgs\n" in result.stdout
+    assert f"Stubs of 1 package written into {tmp_path}/XDG_CACHE_HOME/coframe/stubs\n" in result.stdout
+    listed = f"cli_msgs: 1 msg, 1 srv, 1 action, in {tmp_path}/ws/src/my_msgs (coframe interfaces add)"
+    assert run("list").stdout.startswith(listed)
+    assert run("remove", "ws").stderr == f"coframe: {tmp_path}/ws was not added\n  Added: {tmp_path}/ws/src.\n"
+    assert run("remove", "ws/src").exit_code == 0
+    packages.forget()
+    assert "No packages of yours were found" in run("list").stdout
+
+
+def test_show_prints_definitions_and_what_there_is_instead() -> None:
+    run("add", "ws/src")
+    shown = run("show", "cli_msgs/Num").stdout
+    assert "# cli_msgs/msg/Num, " in shown
+    assert "int64 num\nfloat64[3] v\nstd_msgs/Header header\n" in shown
+    assert "# cli_msgs/action/Num, " in shown
+    shown = run("show", "std_msgs/msg/String").stdout
+    assert shown.splitlines() == [
+        "# std_msgs/msg/String, contained in coframe",
+        "# RIHS01_df668c740482bbd48fb39d76a70dfd4bd59db1288021743503259e948f6b1a18",
+        "string data",
+    ]
+    assert run("show", "cli_msgs").stdout == "cli_msgs/msg/Num\ncli_msgs/srv/Ask\ncli_msgs/action/Num\n"
+    assert run("show", "cli_msgs/Nun").stderr.startswith(
+        "coframe: no type cli_msgs/Nun\n  The package has cli_msgs/msg/Num,"
+    )
+    assert run("show", "moon_msgs").stderr.startswith("coframe: no package moon_msgs\n")
+
+
+def test_invalid_definitions_are_reported_with_file_and_line(tmp_path: Path) -> None:
+    folder = tmp_path / "ws/src/my_msgs/msg"
+    (folder / "Bad.msg").write_text("int num\n")
+    (folder / "Unknown.msg").write_text("uint8 a\nPose pose\n")
+    result = run("add", "ws/src")
+    assert result.exit_code == 1
+    assert f"coframe: {folder}/Bad.msg, line 1: no type 'int'; use int32 or int64, in: int num\n" in result.stderr
+    assert f"coframe: {folder}/Unknown.msg, line 2: field 'pose': no type cli_msgs/msg/Pose" in result.stderr
+    assert "(Did you mean geometry_msgs/Pose or turtlesim/Pose?)" in result.stderr
+    assert run("list").exit_code == 1
+    assert run("add", "nowhere").stderr == f"coframe: no folder {tmp_path}/nowhere\n"
+    (tmp_path / "empty").mkdir()
+    assert "no package with .msg, .srv, .action or .idl files in" in run("add", "empty").stderr
+
+
+def test_mypy_knows_the_fields_from_the_stubs(tmp_path: Path) -> None:
+    run("add", "ws/src")
+    assert run("stubs", "--output", "typings").exit_code == 0
+    lines = [
+        "from cli_msgs.action import Num as CountTo",
+        "from cli_msgs.msg import Num",
+        "from cli_msgs.srv import Ask",
+        "Num(num=1, v=[1.0, 2.0, 3.0]).header.frame_id = 'map'",
+        "Num(number=1)  # wrong",
+        "Num().num = 'one'  # wrong",
+        "x: float = Ask.Response(nums=[Num()]).nums[0].v[0]",
+        "CountTo.Feedback.DONE + 'one'  # wrong",
+    ]
+    (tmp_path / "script.py").write_text("\n".join(lines))
+    command = [sys.executable, "-m", "mypy", "--strict", "--no-error-summary", "--cache-dir", str(tmp_path / "c")]
+    environment = {"MYPYPATH": "typings", "PATH": "/usr/bin:/bin"}
+    done = subprocess.run([*command, "script.py"], capture_output=True, text=True, check=False, env=environment)
+    found = {int(line.split(":")[1]) for line in done.stdout.splitlines() if ": error:" in line}
+    assert found == {5, 6, 8}, done.stdout + done.stderr
