@@ -5,6 +5,7 @@ import math
 
 import numpy as np
 import pytest
+import transforms3d
 from scipy.spatial.transform import Rotation, Slerp
 
 import tf_transformations as tft
@@ -166,3 +167,127 @@ def test_vectors():
     out = np.empty((2, 2))
     tft.unit_vector([[3.0, 4.0], [6.0, 8.0]], axis=1, out=out)
     assert np.allclose(out, [[0.6, 0.8], [0.6, 0.8]])
+
+
+@pytest.fixture
+def vectors():
+    return np.random.default_rng(4).normal(size=(10, 3))
+
+
+def moved(matrix, points):
+    homogeneous = np.column_stack([points, np.ones(len(points))]) @ matrix.T
+    return homogeneous[:, :3] / homogeneous[:, 3:]
+
+
+@pytest.mark.parametrize("kind", ["orthogonal", "parallel", "perspective"])
+def test_projections_lead_to_the_plane_along_the_rays(kind, vectors):
+    point, normal, ray, center = vectors[:4]
+    options = {"parallel": {"direction": ray}, "perspective": {"perspective": center}}.get(kind, {})
+    matrix = tft.projection_matrix(point, normal, **options)
+    points = vectors[4:]
+    found = moved(matrix, points)
+    assert np.allclose((found - point) @ normal, 0.0, atol=1e-9)
+    rays = {"orthogonal": np.tile(normal, (6, 1)), "parallel": np.tile(ray, (6, 1))}.get(kind, points - center)
+    assert np.allclose(np.cross(found - points, rays), 0.0, atol=1e-9)
+    again = tft.projection_from_matrix(matrix)
+    assert tft.is_same_transform(matrix, tft.projection_matrix(*again))
+    if kind == "perspective":
+        pseudo = tft.projection_matrix(point, normal, pseudo=True, **options)
+        assert tft.is_same_transform(pseudo, tft.projection_matrix(*tft.projection_from_matrix(pseudo, pseudo=True)))
+
+
+def test_shears(vectors):
+    point, normal, other = vectors[:3]
+    direction = np.cross(normal, other)
+    matrix = tft.shear_matrix(0.7, direction, point, normal)
+    unit = normal / np.linalg.norm(normal)
+    distances = (vectors - point) @ unit
+    expected = vectors + np.outer(distances * math.tan(0.7), direction / np.linalg.norm(direction))
+    assert np.allclose(moved(matrix, vectors), expected)
+    angle, *others = tft.shear_from_matrix(matrix)
+    assert angle == pytest.approx(0.7)
+    assert np.allclose(tft.shear_matrix(angle, *others), matrix)
+    with pytest.raises(ValueError, match="not orthogonal"):
+        tft.shear_matrix(0.7, normal, point, normal)
+    with pytest.raises(ValueError, match="not a shear"):
+        tft.shear_from_matrix(np.eye(4))
+
+
+def test_view_volumes():
+    limits = (-1.0, 3.0, -2.0, 2.0, 1.0, 10.0)
+    corners = np.array([[-1.0, -2.0, 1.0], [3.0, 2.0, 10.0]])
+    assert np.allclose(moved(tft.clip_matrix(*limits), corners), [[-1, -1, -1], [1, 1, 1]])
+    # In a perspective view, the limits along x and y grow with the distance; x and y change their sign, as upstream.
+    far = moved(tft.clip_matrix(*limits, perspective=True), np.array([[-1.0, -2.0, 1.0], [30.0, 20.0, 10.0]]))
+    assert np.allclose(np.abs(far[:, :2]), 1.0)
+    assert np.allclose(far[:, 2], [-1.0, 1.0])
+    for wrong in ((1, 0, 0, 1, 1, 2), (0, 1, 1, 1, 1, 2), (0, 1, 0, 1, 3, 2)):
+        with pytest.raises(ValueError, match="invalid frustum"):
+            tft.clip_matrix(*wrong)
+    with pytest.raises(ValueError, match="near <= 0"):
+        tft.clip_matrix(0, 1, 0, 1, 0, 1, perspective=True)
+
+
+def test_superimposition_is_that_of_scipy(vectors):
+    others = np.random.default_rng(5).normal(size=(10, 3))
+    matrix = tft.superimposition_matrix(vectors.T, others.T)
+    rotation, _ = Rotation.align_vectors(others - others.mean(axis=0), vectors - vectors.mean(axis=0))
+    assert np.allclose(matrix[:3, :3], rotation.as_matrix())
+    exact = tft.concatenate_matrices(
+        tft.translation_matrix((1, 2, 3)), tft.random_rotation_matrix(), np.diag([2, 2, 2, 1])
+    )
+    found = tft.superimposition_matrix(vectors.T, moved(exact, vectors).T, scaling=True)
+    assert np.allclose(found, exact)
+
+
+def test_cells_of_crystals():
+    matrix = tft.orthogonalization_matrix((10.0, 10.0, 10.0), (90.0, 90.0, 90.0))
+    assert np.allclose(matrix[:3, :3], np.eye(3) * 10)
+    lengths, angles = (9.8, 12.0, 15.5), (87.2, 80.7, 69.7)
+    edges = tft.orthogonalization_matrix(lengths, angles)[:3, :3].T
+    assert np.allclose(np.linalg.norm(edges, axis=1), lengths)
+    cosines = (edges @ edges.T) / np.outer(lengths, lengths)
+    assert np.allclose(np.degrees(np.arccos([cosines[1, 2], cosines[0, 2], cosines[0, 1]])), angles)
+
+
+def test_the_arcball_follows_the_pointer():
+    ball = tft.Arcball()
+    ball.place([100, 100], 100)
+    ball.down([100, 100])
+    ball.drag([150, 100])
+    # The point in front has moved to where the pointer is: halfway to the right edge.
+    assert np.allclose(ball.matrix()[:3, :3] @ [0, 0, 1], Rotation.from_euler("y", 60, degrees=True).apply([0, 0, 1]))
+    ball.next()
+    assert np.allclose(ball.matrix()[:3, :3], Rotation.from_euler("y", 120, degrees=True).as_matrix())
+    ball = tft.Arcball(initial=tft.random_rotation_matrix())
+    start = ball.matrix()
+    ball.place([100, 100], 100)
+    ball.setaxes([1, 0, 0], [0, 1, 0])
+    ball.setconstrain(True)
+    assert ball.getconstrain()
+    ball.down([100, 90])
+    ball.drag([105, 40])
+    turned = Rotation.from_matrix((ball.matrix() @ start.T)[:3, :3]).as_rotvec()
+    assert np.allclose(np.cross(turned, [1, 0, 0]), 0.0, atol=1e-9), "only about the nearest axis"
+    ball.drag([100, 90])
+    assert np.linalg.norm(ball.matrix() - start) < 0.1
+    with pytest.raises(ValueError, match="not a quaternion or matrix"):
+        tft.Arcball(initial=[1, 2, 3])
+
+
+def test_results_are_those_of_transforms3d():
+    random = np.random.default_rng(6)
+    for axes in AXES:
+        angles = random.uniform(-math.pi, math.pi, 3)
+        assert np.allclose(tft.euler_matrix(*angles, axes)[:3, :3], transforms3d.euler.euler2mat(*angles, axes))
+        w, x, y, z = transforms3d.euler.euler2quat(*angles, axes)
+        assert same_rotation(tft.quaternion_from_euler(*angles, axes), (x, y, z, w))
+        matrix = transforms3d.euler.euler2mat(*angles, axes)
+        assert np.allclose(tft.euler_from_matrix(matrix, axes), transforms3d.euler.mat2euler(matrix, axes))
+    first, second = random.normal(size=(2, 4))
+    w, x, y, z = transforms3d.quaternions.qmult(np.roll(first, 1), np.roll(second, 1))
+    assert np.allclose(tft.quaternion_multiply(first, second), (x, y, z, w))
+    axis, point = random.normal(size=(2, 3))
+    assert np.allclose(tft.rotation_matrix(0.3, axis, point), transforms3d.axangles.axangle2aff(axis, 0.3, point=point))
+    assert np.allclose(tft.reflection_matrix(point, axis), transforms3d.reflections.rfnorm2aff(axis, point))
+    assert np.allclose(tft.scale_matrix(1.5, point, axis), transforms3d.zooms.zfdir2aff(1.5, axis, point))

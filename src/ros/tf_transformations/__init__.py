@@ -6,6 +6,12 @@ convention of Euler angles is a string: `s` (static, about the axes of the fixed
 of the body), followed by three axes in the order of the angles. The default `sxyz` is roll, pitch, yaw.
 """
 
+from tf_transformations.arcball import (
+    Arcball,
+    arcball_constrain_to_axis,
+    arcball_map_to_sphere,
+    arcball_nearest_axis,
+)
 from tf_transformations.euler import (
     euler_from_matrix,
     euler_from_quaternion,
@@ -28,6 +34,15 @@ from tf_transformations.matrices import (
     translation_from_matrix,
     translation_matrix,
 )
+from tf_transformations.projections import (
+    clip_matrix,
+    orthogonalization_matrix,
+    projection_from_matrix,
+    projection_matrix,
+    shear_from_matrix,
+    shear_matrix,
+    superimposition_matrix,
+)
 from tf_transformations.quaternions import (
     quaternion_about_axis,
     quaternion_conjugate,
@@ -42,6 +57,11 @@ from tf_transformations.quaternions import (
 from tf_transformations.vectors import random_vector, unit_vector, vector_norm
 
 __all__ = [
+    "Arcball",
+    "arcball_constrain_to_axis",
+    "arcball_map_to_sphere",
+    "arcball_nearest_axis",
+    "clip_matrix",
     "compose_matrix",
     "concatenate_matrices",
     "decompose_matrix",
@@ -51,6 +71,9 @@ __all__ = [
     "identity_matrix",
     "inverse_matrix",
     "is_same_transform",
+    "orthogonalization_matrix",
+    "projection_from_matrix",
+    "projection_matrix",
     "quaternion_about_axis",
     "quaternion_conjugate",
     "quaternion_from_euler",
@@ -68,6 +91,9 @@ __all__ = [
     "rotation_matrix",
     "scale_from_matrix",
     "scale_matrix",
+    "shear_from_matrix",
+    "shear_matrix",
+    "superimposition_matrix",
     "translation_from_matrix",
     "translation_matrix",
     "unit_vector",

@@ -108,10 +108,13 @@ def _distinct(m: Array, axes: _Axes) -> Angles:
 
 
 def _repeated(m: Array, axes: _Axes) -> Angles:
-    """Return the angles of a convention whose first and last axis are equal (proper Euler)."""
+    """Return the angles of a convention whose first and last axis are equal (proper Euler).
+
+    There are two solutions. As in `transforms3d`, the sign of the second angle is that of the axes.
+    """
     i, j, third, sign = axes.i, axes.j, axes.third, axes.sign
     sine = math.hypot(m[i, j], m[i, third])
-    second = math.atan2(sine, m[i, i])
+    second = sign * math.atan2(sine, m[i, i])
     if sine > _EPSILON:
-        return math.atan2(m[i, j], sign * m[i, third]), second, math.atan2(m[j, i], -sign * m[third, i])
-    return math.atan2(-sign * m[j, third], m[j, j]), second, 0.0
+        return sign * math.atan2(m[i, j], m[i, third]), second, sign * math.atan2(m[j, i], -m[third, i])
+    return sign * math.atan2(-m[j, third], m[j, j]), second, 0.0
