@@ -35,7 +35,7 @@ inline constexpr std::int64_t kSignalSliceNs = 50'000'000;
 // Calls `wait(slice_ns)` without the GIL until it returns true or `timeout_ns` (negative: no limit) has passed. Raises
 // the exception of a signal handler, KeyboardInterrupt above all. The caller must hold the GIL.
 template <class Wait>
-bool wait_with_signals(std::int64_t timeout_ns, Wait&& wait) {
+bool wait_with_signals(std::int64_t timeout_ns, Wait&& wait, std::int64_t main_slice_ns = kSignalSliceNs) {
   using clock = std::chrono::steady_clock;
   constexpr std::int64_t kLong = 3'600'000'000'000;
   const auto start = clock::now();
@@ -45,7 +45,7 @@ bool wait_with_signals(std::int64_t timeout_ns, Wait&& wait) {
     return std::clamp<std::int64_t>(timeout_ns - elapsed, 0, kLong);
   };
   // Only the main thread runs signal handlers; other threads need not take the GIL in between.
-  const std::int64_t longest = is_main_thread() ? kSignalSliceNs : kLong;
+  const std::int64_t longest = is_main_thread() ? main_slice_ns : kLong;
   for (;;) {
     bool done;
     {

@@ -19,7 +19,10 @@ void define_event(nb::module_& module) {
       .def(
           "wait",
           [](Event& event, std::optional<std::int64_t> timeout_ns) {
-            return wait_with_signals(timeout_ns.value_or(-1), [&](std::int64_t slice) { return event.wait(slice); });
+            // A signal that arrives immediately before the wait does not end it, so it is divided nevertheless.
+            constexpr std::int64_t kSlice = Event::kEndsAtSignals ? 500'000'000 : kSignalSliceNs;
+            return wait_with_signals(
+                timeout_ns.value_or(-1), [&](std::int64_t slice) { return event.wait(slice); }, kSlice);
           },
           nb::arg("timeout_ns") = nb::none(),
           "Wait until the flag is set and clear it (True), or until timeout_ns has passed (False); None: no limit.");

@@ -43,12 +43,25 @@ using PyEndpointReader = Closing<EndpointReader>;
 using PyTap = Closing<Tap>;
 using PyTfReader = Closing<TfReader>;
 
+// Reads a GUID without the GIL: DDS locks the entity, whose lock a DDS thread may hold.
+template <class Endpoint>
+dds::Guid guid_of(const Endpoint& endpoint) {
+  WithoutGil release;
+  return endpoint.guid();
+}
+
 nb::bytes to_bytes(const dds::Guid& guid) { return nb::bytes(guid.bytes, sizeof guid.bytes); }
 
 template <class Endpoint>
 nb::list matched_handles(const Endpoint& endpoint) {
+  std::vector<dds::Handle> handles;
+  {
+    // DDS locks the endpoint, whose lock a DDS thread may hold.
+    WithoutGil release;
+    handles = endpoint.matched_handles();
+  }
   nb::list list;
-  for (const dds::Handle handle : endpoint.matched_handles()) list.append(handle);
+  for (const dds::Handle handle : handles) list.append(handle);
   return list;
 }
 
@@ -62,7 +75,17 @@ void write_bytes(const PyWriter& writer, nb::bytes message) {
 }
 
 nb::tuple to_tuple(const QosProfile& qos) {
-  return nb::make_tuple(qos.depth, qos.reliable, qos.transient_local, qos.keep_all);
+  return nb::make_tuple(qos.depth, qos.reliable, qos.transient_local, qos.keep_all, qos.manual_liveliness,
+                        qos.deadline_ns, qos.lifespan_ns, qos.lease_ns);
+}
+
+// Returns the counts of a status that has changed since the last call, otherwise None.
+template <class Endpoint>
+nb::object take_status(Endpoint& endpoint, std::size_t kind) {
+  if (kind >= StatusEvents::kKinds) throw nb::value_error("there is no such status");
+  const auto counts = endpoint.events().take(static_cast<StatusEvents::Kind>(kind));
+  if (!counts) return nb::none();
+  return nb::make_tuple((*counts)[0], (*counts)[1], (*counts)[2], (*counts)[3]);
 }
 
 // Large messages are copied without the GIL: a cloud of a million points takes milliseconds.
@@ -139,30 +162,39 @@ void define_participant(nb::module_& wire) {
       .def(nb::init<std::uint32_t, const std::string&, const std::string&>(), nb::arg("domain"), nb::arg("config"),
            nb::arg("user_data"), ReleaseGil())
       .def_prop_ro("entity", &PyParticipant::entity, "DDS's number for the participant; 0 after close.")
-      .def_prop_ro("guid", [](const PyParticipant& self) { return to_bytes(self.guid()); })
+      .def_prop_ro("guid", [](const PyParticipant& self) { return to_bytes(guid_of(self)); })
       .def("close", &PyParticipant::close, ReleaseGil(), "End the participant and DDS's threads.");
 }
 
 void define_writer(nb::module_& wire) {
   nb::class_<PyWriter>(wire, "Writer", "A DDS writer of serialised messages.")
-      .def(nb::init<dds::Entity, dds::Entity, const QosProfile&, const std::string&, bool>(), nb::arg("participant"),
-           nb::arg("topic"), nb::arg("qos"), nb::arg("user_data"), nb::arg("unchecked") = false, ReleaseGil())
+      .def(nb::init<dds::Entity, dds::Entity, const QosProfile&, const std::string&, bool, std::shared_ptr<Event>>(),
+           nb::arg("participant"), nb::arg("topic"), nb::arg("qos"), nb::arg("user_data"),
+           nb::arg("checks_transforms") = false, nb::arg("on_change") = nb::none(), ReleaseGil())
       .def("write", &write_bytes<&Writer::write>, nb::arg("message"), "Send one serialised message without the GIL.")
       .def("forward", &write_bytes<&Writer::forward>, nb::arg("message"),
-           "Send a message of any type on an unchecked topic, without a check of its bytes.")
-      .def_prop_ro("guid", [](const PyWriter& self) { return to_bytes(self.guid()); })
+           "Send a message without a check of its bytes.")
+      .def("assert_liveliness", &PyWriter::assert_liveliness, ReleaseGil(), "Show the readers that the writer is alive.")
+      .def("wait_for_acks", &PyWriter::wait_for_acks, nb::arg("timeout_ns"), ReleaseGil(),
+           "Wait until all reliable readers have received all messages; False after the timeout.")
+      .def("take_status", &take_status<PyWriter>, nb::arg("kind"),
+           "Return the counts of the status DEADLINE_MISSED, ... if it has changed since the last call.")
+      .def_prop_ro("guid", [](const PyWriter& self) { return to_bytes(guid_of(self)); })
       .def_prop_ro("matched", &PyWriter::matched, "How many readers the writer has found.", ReleaseGil())
       .def("matched_handles", &matched_handles<PyWriter>, "The handles of those readers.")
       .def_prop_ro(
           "refused_policy", [](const PyWriter& self) { return self.incompatible().last_policy_id; },
-          "DDS's number of the QoS policy that rejected the last reader; 0: none.")
+          "DDS's number of the QoS policy that rejected the last reader; 0: none.", ReleaseGil())
       .def("close", &PyWriter::close, ReleaseGil());
 }
 
 // The properties of every reader with a `reader()`.
 template <class Reader, class Class>
 void define_reader_properties(Class& cls) {
-  cls.def_prop_ro("guid", [](const Reader& self) { return to_bytes(self.reader().guid()); })
+  cls.def_prop_ro("guid", [](const Reader& self) { return to_bytes(guid_of(self.reader())); })
+      .def(
+          "take_status", [](Reader& self, std::size_t kind) { return take_status(self.reader(), kind); },
+          nb::arg("kind"), "Return the counts of the status DEADLINE_MISSED, ... if it has changed since the last call.")
       .def_prop_ro(
           "matched", [](const Reader& self) { return self.reader().matched(); },
           "How many writers the reader has found.", ReleaseGil())
@@ -171,7 +203,7 @@ void define_reader_properties(Class& cls) {
           "The handles of those writers.")
       .def_prop_ro(
           "refused_policy", [](const Reader& self) { return self.reader().incompatible().last_policy_id; },
-          "DDS's number of the QoS policy that rejected the last writer; 0: none.")
+          "DDS's number of the QoS policy that rejected the last writer; 0: none.", ReleaseGil())
       .def("close", &Reader::close, ReleaseGil(), "End the reader; no callback runs afterwards.");
 }
 
@@ -203,12 +235,15 @@ void define_readers(nb::module_& wire) {
           "__init__",
           [](PyTfReader* self, dds::Entity participant, dds::Entity topic, const QosProfile& qos,
              const std::string& user_data, const BufferObject& buffer, bool is_static, const std::string& authority,
-             const std::optional<Renaming>& renaming) {
+             const std::optional<Renaming>& renaming, std::shared_ptr<Event> on_data) {
             new (self) PyTfReader(participant, topic, qos, user_data, buffer.core, is_static, authority,
-                                  renaming ? std::make_shared<const Renaming>(*renaming) : nullptr);
+                                  renaming ? std::make_shared<const Renaming>(*renaming) : nullptr, std::move(on_data));
           },
           nb::arg("participant"), nb::arg("topic"), nb::arg("qos"), nb::arg("user_data"), nb::arg("buffer"),
-          nb::arg("is_static"), nb::arg("authority"), nb::arg("renaming") = nb::none(), ReleaseGil())
+          nb::arg("is_static"), nb::arg("authority"), nb::arg("renaming") = nb::none(), nb::arg("on_data") = nb::none(),
+          ReleaseGil())
+      .def("arm", &PyTfReader::arm, "Let the next message set the event.")
+      .def_prop_ro("received", &PyTfReader::received, "The number of received messages.")
       .def("name_writer", &PyTfReader::name_writer, nb::arg("writer"), nb::arg("authority"), ReleaseGil(),
            "Store `authority` as the source of this writer's past and future transforms.")
       .def("forget_writer", &PyTfReader::forget_writer, nb::arg("writer"), ReleaseGil(),
@@ -223,8 +258,13 @@ void define_readers(nb::module_& wire) {
            nb::arg("on_change"), ReleaseGil())
       .def("take", &take_endpoints,
            "Return the changes: tuples (handle, alive, guid, participant's guid, topic, type, "
-           "(depth, reliable, transient_local, keep_all), user data).")
+           "(depth, reliable, transient_local, keep_all, manual_liveliness, deadline, lifespan, lease), user data).")
       .def("close", &PyEndpointReader::close, ReleaseGil());
+  wire.attr("DEADLINE_MISSED") = static_cast<std::size_t>(StatusEvents::kDeadlineMissed);
+  wire.attr("LIVELINESS") = static_cast<std::size_t>(StatusEvents::kLiveliness);
+  wire.attr("INCOMPATIBLE_QOS") = static_cast<std::size_t>(StatusEvents::kIncompatibleQos);
+  wire.attr("MATCHED") = static_cast<std::size_t>(StatusEvents::kMatched);
+  wire.attr("SAMPLE_LOST") = static_cast<std::size_t>(StatusEvents::kSampleLost);
   wire.attr("PUBLICATIONS") = dds::kPublicationTopic;
   wire.attr("SUBSCRIPTIONS") = dds::kSubscriptionTopic;
 }
@@ -237,13 +277,23 @@ void define_wire(nb::module_& wire) {
   wire.def("create_unchecked_topic", &dds::create_unchecked_topic, nb::arg("participant"), nb::arg("name"),
            nb::arg("type_name"), ReleaseGil(),
            "Create a topic whose readers check the bytes themselves; return its handle.");
-  nb::class_<QosProfile>(wire, "QosProfile", "The four policies ROS programs set.")
+  nb::class_<QosProfile>(wire, "QosProfile", "The policies that ROS programs set. Durations are in nanoseconds.")
       .def(
           "__init__",
-          [](QosProfile* self, std::int32_t depth, bool reliable, bool transient_local, bool keep_all) {
-            new (self) QosProfile{depth, reliable, transient_local, keep_all};
+          [](QosProfile* self, std::int32_t depth, bool reliable, bool transient_local, bool keep_all,
+             bool manual_liveliness, std::int64_t deadline, std::int64_t lifespan, std::int64_t lease) {
+            new (self) QosProfile{.depth = depth,
+                                  .reliable = reliable,
+                                  .transient_local = transient_local,
+                                  .keep_all = keep_all,
+                                  .manual_liveliness = manual_liveliness,
+                                  .deadline_ns = deadline,
+                                  .lifespan_ns = lifespan,
+                                  .lease_ns = lease};
           },
-          nb::arg("depth"), nb::arg("reliable"), nb::arg("transient_local"), nb::arg("keep_all"));
+          nb::arg("depth"), nb::arg("reliable"), nb::arg("transient_local"), nb::arg("keep_all"),
+          nb::arg("manual_liveliness") = false, nb::arg("deadline") = kInfinite, nb::arg("lifespan") = kInfinite,
+          nb::arg("lease") = kInfinite);
   define_participant(wire);
   define_writer(wire);
   define_readers(wire);

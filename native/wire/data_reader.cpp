@@ -1,18 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "wire/data_reader.hpp"
 
+#include <memory>
+#include <utility>
+
 namespace coframe {
 
 DataReader::DataReader(dds::Entity participant, dds::Entity topic, const dds::Qos* qos, dds::DataCallback on_data,
-                       void* argument) {
+                       void* argument, std::shared_ptr<Event> on_change)
+    : events_(on_change) {
   const dds::Functions& f = dds::functions();
-  // The listener is not passed to dds_create_reader, because a callback that runs before that returns could not yet
-  // take samples.
-  entity_ = dds::check(f.dds_create_reader(participant, topic, qos, nullptr), "create a reader");
-  dds::Listener* listener = f.dds_create_listener(argument);
-  f.dds_lset_data_available(listener, on_data);
-  const dds::Code attached = f.dds_set_listener(entity_, listener);  // copies the listener
-  f.dds_delete_listener(listener);
+  const std::unique_ptr<dds::Listener, void (*)(dds::Listener*)> listener(f.dds_create_listener(argument),
+                                                                          f.dds_delete_listener);
+  if (on_change) events_.add_to_reader(listener.get());
+  // The data callback is not passed to dds_create_reader, because it could not take samples before that returns.
+  entity_ = dds::check(f.dds_create_reader(participant, topic, qos, listener.get()), "create a reader");
+  f.dds_lset_data_available(listener.get(), on_data);
+  const dds::Code attached = f.dds_set_listener(entity_, listener.get());  // copies the listener
   if (attached < 0) {
     close();
     dds::check(attached, "listen for data");

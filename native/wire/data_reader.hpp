@@ -6,15 +6,17 @@
 #include <vector>
 
 #include "wire/dds.hpp"
+#include "wire/status_events.hpp"
 
 namespace coframe {
 
 // Calls `on_data(entity, argument)` on DDS threads, one call at a time, from before the constructor returns until
 // `close` returns. Samples may arrive before the listener is attached, so the owner must check once itself.
+// With `on_change`, status changes are recorded in `events()`.
 class DataReader {
  public:
   DataReader(dds::Entity participant, dds::Entity topic, const dds::Qos* qos, dds::DataCallback on_data,
-             void* argument);
+             void* argument, std::shared_ptr<Event> on_change = nullptr);
   ~DataReader() { close(); }
   DataReader(const DataReader&) = delete;
   DataReader& operator=(const DataReader&) = delete;
@@ -27,8 +29,10 @@ class DataReader {
   std::uint32_t matched() const;
   std::vector<dds::Handle> matched_handles() const;
   dds::IncompatibleQosStatus incompatible() const;
+  StatusEvents& events() { return events_; }
 
  private:
+  StatusEvents events_;
   std::atomic<dds::Entity> entity_ = 0;
 };
 

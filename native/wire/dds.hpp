@@ -64,6 +64,26 @@ struct IncompatibleQosStatus {
   std::uint32_t last_policy_id;
 };
 
+struct DeadlineMissedStatus {
+  std::uint32_t total_count;
+  std::int32_t total_count_change;
+  Handle last_handle;
+};
+
+struct LivelinessChangedStatus {
+  std::uint32_t alive_count;
+  std::uint32_t not_alive_count;
+  std::int32_t alive_count_change;
+  std::int32_t not_alive_count_change;
+  Handle last_handle;
+};
+
+// dds_liveliness_lost_status_t and dds_sample_lost_status_t
+struct LostStatus {
+  std::uint32_t total_count;
+  std::int32_t total_count_change;
+};
+
 // ddsrt_iovec_t
 struct IoVector {
 #ifdef _WIN32
@@ -73,12 +93,6 @@ struct IoVector {
   void* data;
   std::size_t size;
 #endif
-};
-
-// The sample format of the topics that the wheel creates.
-struct SampleContainer {
-  const void* data;
-  std::size_t size;
 };
 
 // dds_topic_descriptor_t: a type as generated code describes it.
@@ -99,6 +113,8 @@ struct TypeDescriptor {
 };
 
 using DataCallback = void (*)(Entity reader, void* argument);
+template <class Status>
+using StatusCallback = void (*)(Entity, Status, void* argument);
 
 inline constexpr Entity kPublicationTopic = 0x7fff0003;   // DDS_BUILTIN_TOPIC_DCPSPUBLICATION
 inline constexpr Entity kSubscriptionTopic = 0x7fff0004;  // DDS_BUILTIN_TOPIC_DCPSSUBSCRIPTION
@@ -106,6 +122,7 @@ inline constexpr Entity kSubscriptionTopic = 0x7fff0004;  // DDS_BUILTIN_TOPIC_D
 enum Durability : std::int32_t { kVolatile = 0, kTransientLocal = 1 };
 enum History : std::int32_t { kKeepLast = 0, kKeepAll = 1 };
 enum Reliability : std::int32_t { kBestEffort = 0, kReliable = 1 };
+enum Liveliness : std::int32_t { kAutomatic = 0, kManualByTopic = 2 };
 enum IgnoreLocal : std::int32_t { kIgnoreNothing = 0, kIgnoreParticipant = 1 };
 inline constexpr std::int32_t kAliveInstance = 16;
 inline constexpr std::int32_t kUnlimited = -1;
@@ -124,7 +141,6 @@ inline constexpr Code kPreconditionNotMet = -4;
   X(Entity, dds_create_writer, (Entity participant, Entity topic, const Qos*, const Listener*))           \
   X(Entity, dds_create_reader, (Entity participant, Entity topic, const Qos*, const Listener*))           \
   X(Code, dds_delete, (Entity))                                                                           \
-  X(Code, dds_write, (Entity writer, const void* sample))                                                 \
   X(Code, dds_writecdr, (Entity writer, Serdata*))                                                        \
   X(Code, dds_get_entity_sertype, (Entity, const Sertype**))                                              \
   X(Code, dds_take, (Entity reader, void** samples, SampleInfo*, std::size_t size, std::uint32_t limit))  \
@@ -141,6 +157,30 @@ inline constexpr Code kPreconditionNotMet = -4;
   X(void, dds_delete_listener, (Listener*))                                                               \
   X(void, dds_lset_data_available, (Listener*, DataCallback))                                             \
   X(Code, dds_set_listener, (Entity, const Listener*))                                                    \
+  X(Code, dds_lset_offered_deadline_missed_arg,                                                           \
+    (Listener*, StatusCallback<DeadlineMissedStatus>, void* argument, bool reset))                        \
+  X(Code, dds_lset_requested_deadline_missed_arg,                                                         \
+    (Listener*, StatusCallback<DeadlineMissedStatus>, void* argument, bool reset))                        \
+  X(Code, dds_lset_offered_incompatible_qos_arg,                                                          \
+    (Listener*, StatusCallback<IncompatibleQosStatus>, void* argument, bool reset))                       \
+  X(Code, dds_lset_requested_incompatible_qos_arg,                                                        \
+    (Listener*, StatusCallback<IncompatibleQosStatus>, void* argument, bool reset))                       \
+  X(Code, dds_lset_liveliness_lost_arg, (Listener*, StatusCallback<LostStatus>, void* argument, bool reset)) \
+  X(Code, dds_lset_liveliness_changed_arg,                                                                \
+    (Listener*, StatusCallback<LivelinessChangedStatus>, void* argument, bool reset))                     \
+  X(Code, dds_lset_sample_lost_arg, (Listener*, StatusCallback<LostStatus>, void* argument, bool reset))  \
+  X(Code, dds_lset_publication_matched_arg,                                                               \
+    (Listener*, StatusCallback<MatchedStatus>, void* argument, bool reset))                               \
+  X(Code, dds_lset_subscription_matched_arg,                                                              \
+    (Listener*, StatusCallback<MatchedStatus>, void* argument, bool reset))                               \
+  X(Code, dds_assert_liveliness, (Entity writer))                                                         \
+  X(Code, dds_wait_for_acks, (Entity writer, std::int64_t timeout_ns))                                    \
+  X(void, dds_qset_deadline, (Qos*, std::int64_t nanoseconds))                                            \
+  X(void, dds_qset_lifespan, (Qos*, std::int64_t nanoseconds))                                            \
+  X(void, dds_qset_liveliness, (Qos*, std::int32_t kind, std::int64_t lease_ns))                          \
+  X(bool, dds_qget_deadline, (const Qos*, std::int64_t* nanoseconds))                                     \
+  X(bool, dds_qget_lifespan, (const Qos*, std::int64_t* nanoseconds))                                     \
+  X(bool, dds_qget_liveliness, (const Qos*, std::int32_t* kind, std::int64_t* lease_ns))                  \
   X(Qos*, dds_create_qos, ())                                                                             \
   X(void, dds_delete_qos, (Qos*))                                                                         \
   X(void, dds_qset_userdata, (Qos*, const void* data, std::size_t size))                                  \

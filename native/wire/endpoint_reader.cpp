@@ -17,10 +17,21 @@ QosProfile read_qos(const dds::Qos* qos) {
   f.dds_qget_durability(qos, &durability);
   f.dds_qget_history(qos, &history, &depth);
   f.dds_qget_reliability(qos, &reliability, &max_blocking_ns);
+  std::int32_t liveliness = dds::kAutomatic;
+  std::int64_t deadline = kInfinite;
+  std::int64_t lifespan = kInfinite;
+  std::int64_t lease = kInfinite;
+  f.dds_qget_liveliness(qos, &liveliness, &lease);
+  f.dds_qget_deadline(qos, &deadline);
+  f.dds_qget_lifespan(qos, &lifespan);
   return {.depth = depth,
           .reliable = reliability == dds::kReliable,
           .transient_local = durability >= dds::kTransientLocal,
-          .keep_all = history == dds::kKeepAll};
+          .keep_all = history == dds::kKeepAll,
+          .manual_liveliness = liveliness != dds::kAutomatic,
+          .deadline_ns = deadline,
+          .lifespan_ns = lifespan,
+          .lease_ns = lease};
 }
 
 std::string read_user_data(const dds::Qos* qos) {

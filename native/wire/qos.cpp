@@ -24,6 +24,9 @@ QosPointer make_qos(const QosProfile& profile, const std::string& user_data) {
   f.dds_qset_history(qos.get(), history, depth);
   f.dds_qset_reliability(qos.get(), profile.reliable ? dds::kReliable : dds::kBestEffort, kMaxBlockingNs);
   f.dds_qset_durability(qos.get(), profile.transient_local ? dds::kTransientLocal : dds::kVolatile);
+  f.dds_qset_deadline(qos.get(), profile.deadline_ns);
+  f.dds_qset_lifespan(qos.get(), profile.lifespan_ns);
+  f.dds_qset_liveliness(qos.get(), profile.manual_liveliness ? dds::kManualByTopic : dds::kAutomatic, profile.lease_ns);
   if (profile.transient_local) {
     // Late joiners receive as many messages as the writer's history holds.
     f.dds_qset_durability_service(qos.get(), 0, history, depth, dds::kUnlimited, dds::kUnlimited, dds::kUnlimited);

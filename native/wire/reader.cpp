@@ -9,7 +9,7 @@ namespace coframe {
 Reader::Reader(dds::Entity participant, dds::Entity topic, const QosProfile& profile, const std::string& user_data,
                std::shared_ptr<Event> on_data_event)
     : event_(std::move(on_data_event)),
-      reader_(participant, topic, make_qos(profile, user_data).get(), &Reader::on_data, this) {
+      reader_(participant, topic, make_qos(profile, user_data).get(), &Reader::on_data, this, event_) {
   if (event_) event_->set();
 }
 

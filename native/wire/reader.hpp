@@ -15,7 +15,7 @@ namespace coframe {
 
 class Reader {
  public:
-  // `on_data` (may be null) is set whenever samples arrive.
+  // `on_data` (may be null) is set whenever samples arrive or a status changes.
   Reader(dds::Entity participant, dds::Entity topic, const QosProfile& profile, const std::string& user_data,
          std::shared_ptr<Event> on_data);
   void close() noexcept { reader_.close(); }
@@ -26,6 +26,7 @@ class Reader {
   bool pending() const { return pending_; }
 
   const DataReader& reader() const { return reader_; }
+  DataReader& reader() { return reader_; }
 
  private:
   static void on_data(dds::Entity, void* self) noexcept;

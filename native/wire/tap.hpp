@@ -35,6 +35,7 @@ class Tap {
   std::uint64_t missed();
 
   const DataReader& reader() const { return reader_; }
+  DataReader& reader() { return reader_; }
 
  private:
   static void on_data(dds::Entity reader, void* self) noexcept;

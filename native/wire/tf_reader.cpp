@@ -20,12 +20,13 @@ std::int64_t now() {
 
 TfReader::TfReader(dds::Entity participant, dds::Entity topic, const QosProfile& profile, const std::string& user_data,
                    std::shared_ptr<Buffer> buffer, bool is_static, const std::string& authority,
-                   std::shared_ptr<const Renaming> renaming)
+                   std::shared_ptr<const Renaming> renaming, std::shared_ptr<Event> on_data_event)
     : buffer_(std::move(buffer)),
       is_static_(is_static),
       authority_(authority),
       renaming_(std::move(renaming)),
-      reader_(participant, topic, make_qos(profile, user_data).get(), &TfReader::on_data, this) {
+      event_(std::move(on_data_event)),
+      reader_(participant, topic, make_qos(profile, user_data).get(), &TfReader::on_data, this, event_) {
   on_data(reader_.entity(), this);  // samples that arrived before the listener was attached
 }
 
@@ -63,6 +64,7 @@ void TfReader::drain(dds::Entity reader) {
   const std::lock_guard lock(mutex_);
   while (dds::take(reader, dds::kBatch, [this](const dds::Sample& sample) { store(sample); }) == dds::kBatch) {
   }
+  if (armed_.exchange(false) && event_) event_->set();
 }
 
 TfReader::Source& TfReader::source_of(dds::Handle writer) {
@@ -86,6 +88,7 @@ void TfReader::store(const dds::Sample& sample) {
   if (stored > 0) stored_at_.store(source.received_at, std::memory_order_release);
   buffer_->notify_ingested(source.stream);
   ++source.messages;
+  ++received_;
   if (!is_static_ && source.stream.newest != 0) {
     source.delay.add(now<std::chrono::system_clock>() - source.stream.newest);
   }

@@ -14,6 +14,7 @@
 #include "core/buffer.hpp"
 #include "core/stamp_delay.hpp"
 #include "wire/data_reader.hpp"
+#include "wire/event.hpp"
 #include "wire/qos.hpp"
 
 namespace coframe {
@@ -31,10 +32,11 @@ class TfReader {
   };
 
   // `authority` is stored as the source of every transform until `name_writer` is called. With a `renaming` (may be
-  // null), frames are renamed.
+  // null), frames are renamed. `on_data` (may be null) is set when a status changes, and by the next message after
+  // `arm`.
   TfReader(dds::Entity participant, dds::Entity topic, const QosProfile& profile, const std::string& user_data,
            std::shared_ptr<Buffer> buffer, bool is_static, const std::string& authority,
-           std::shared_ptr<const Renaming> renaming);
+           std::shared_ptr<const Renaming> renaming, std::shared_ptr<Event> on_data);
   void close() noexcept { reader_.close(); }
 
   // Stores `authority` as the source of this writer's past and future transforms.
@@ -48,7 +50,13 @@ class TfReader {
   // Returns when transforms were last stored, in nanoseconds of the steady clock; 0: never.
   std::int64_t stored_at() const { return stored_at_; }
 
+  // Lets the next message set the event. Without this, messages wake no thread.
+  void arm() { armed_ = true; }
+  // Returns the number of received messages.
+  std::uint64_t received() const { return received_; }
+
   const DataReader& reader() const { return reader_; }
+  DataReader& reader() { return reader_; }
 
  private:
   struct Source {
@@ -72,6 +80,9 @@ class TfReader {
   mutable std::mutex mutex_;                         // protects the sources
   std::unordered_map<dds::Handle, Source> sources_;  // by writer
   std::atomic<std::int64_t> stored_at_ = 0;
+  std::atomic<std::uint64_t> received_ = 0;
+  std::atomic<bool> armed_ = false;
+  const std::shared_ptr<Event> event_;
   DataReader reader_;  // last: its callback uses the members above
 };
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "wire/writer.hpp"
 
+#include <memory>
 #include <stdexcept>
+#include <utility>
 
 #include "core/cdr.hpp"
 
@@ -16,26 +18,26 @@ void check_encapsulation(std::size_t size) {
 }  // namespace
 
 Writer::Writer(dds::Entity participant, dds::Entity topic, const QosProfile& profile, const std::string& user_data,
-               bool unchecked)
-    : unchecked_(unchecked) {
+               bool checks_transforms, std::shared_ptr<Event> on_change)
+    : checks_transforms_(checks_transforms), events_(on_change) {
+  const dds::Functions& f = dds::functions();
   const QosPointer qos = make_qos(profile, user_data);
-  entity_ = dds::check(dds::functions().dds_create_writer(participant, topic, qos.get(), nullptr), "create a writer");
+  const std::unique_ptr<dds::Listener, void (*)(dds::Listener*)> listener(f.dds_create_listener(nullptr),
+                                                                          f.dds_delete_listener);
+  if (on_change) events_.add_to_writer(listener.get());
+  entity_ = dds::check(f.dds_create_writer(participant, topic, qos.get(), listener.get()), "create a writer");
 }
 
 void Writer::write(const void* data, std::size_t size) const {
   check_encapsulation(size);
-  const dds::SampleContainer sample{data, size};
-  dds::check(unchecked_ ? write_unchecked(data, size) : dds::functions().dds_write(entity_, &sample), "write");
+  const bool is_damaged =
+      checks_transforms_ && check_tf_message(static_cast<const std::uint8_t*>(data), size).reason != nullptr;
+  dds::check(is_damaged ? dds::kBadParameter : pass_on(data, size), "write");
 }
 
 void Writer::forward(const void* data, std::size_t size) const {
   check_encapsulation(size);
   dds::check(pass_on(data, size), "write");
-}
-
-dds::Code Writer::write_unchecked(const void* data, std::size_t size) const {
-  const bool is_damaged = check_tf_message(static_cast<const std::uint8_t*>(data), size).reason != nullptr;
-  return is_damaged ? dds::kBadParameter : pass_on(data, size);
 }
 
 dds::Code Writer::pass_on(const void* data, std::size_t size) const {
@@ -77,6 +79,15 @@ dds::IncompatibleQosStatus Writer::incompatible() const {
   dds::IncompatibleQosStatus status{};
   dds::check(dds::functions().dds_get_offered_incompatible_qos_status(entity_, &status), "read the QoS status");
   return status;
+}
+
+void Writer::assert_liveliness() const {
+  dds::check(dds::functions().dds_assert_liveliness(entity_), "assert the liveliness");
+}
+
+bool Writer::wait_for_acks(std::int64_t timeout_ns) const {
+  const dds::Code code = dds::functions().dds_wait_for_acks(entity_, timeout_ns);
+  return code != dds::kTimeout && dds::check(code, "wait for the readers") >= 0;
 }
 
 }  // namespace coframe

@@ -9,22 +9,23 @@
 
 #include "wire/dds.hpp"
 #include "wire/qos.hpp"
+#include "wire/status_events.hpp"
 
 namespace coframe {
 
 class Writer {
  public:
-  // `unchecked`: the topic was created by dds::create_unchecked_topic() for transforms, so this class checks messages
-  // before it sends them.
+  // `checks_transforms`: the messages are transforms, and `write` refuses damaged ones. `on_change` (may be null) is
+  // set when a status changes.
   Writer(dds::Entity participant, dds::Entity topic, const QosProfile& profile, const std::string& user_data,
-         bool unchecked);
+         bool checks_transforms, std::shared_ptr<Event> on_change);
   ~Writer() { close(); }
   Writer(const Writer&) = delete;
   Writer& operator=(const Writer&) = delete;
 
   // Sends one message: 4 bytes of encapsulation, then CDR. Throws std::invalid_argument for less than 4 bytes.
   void write(const void* data, std::size_t size) const;
-  // Sends one message of any type on an unchecked topic without checking its bytes.
+  // Sends one message without checking its bytes.
   void forward(const void* data, std::size_t size) const;
   void close() noexcept;
 
@@ -32,12 +33,17 @@ class Writer {
   std::uint32_t matched() const;
   std::vector<dds::Handle> matched_handles() const;
   dds::IncompatibleQosStatus incompatible() const;
+  StatusEvents& events() { return events_; }
+  // Shows the readers that this writer is alive.
+  void assert_liveliness() const;
+  // Waits until all reliable readers have received all messages. Returns false after the timeout.
+  bool wait_for_acks(std::int64_t timeout_ns) const;
 
  private:
-  dds::Code write_unchecked(const void* data, std::size_t size) const;
   dds::Code pass_on(const void* data, std::size_t size) const;
 
-  const bool unchecked_;
+  const bool checks_transforms_;
+  StatusEvents events_;
   mutable std::mutex closing_;  // held while the type of the topic is used, because close() deletes it
   std::atomic<dds::Entity> entity_ = 0;
 };

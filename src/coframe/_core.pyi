@@ -679,9 +679,25 @@ def create_unchecked_topic(participant: int, name: str, type_name: str) -> int:
     """Create a topic whose readers check the bytes themselves; return its handle."""
 
 class QosProfile:
-    """The four QoS policies that ROS programs set."""
+    """The QoS policies that ROS programs set. Durations are in nanoseconds."""
 
-    def __init__(self, depth: int, reliable: bool, transient_local: bool, keep_all: bool) -> None: ...
+    def __init__(
+        self,
+        depth: int,
+        reliable: bool,
+        transient_local: bool,
+        keep_all: bool,
+        manual_liveliness: bool = False,
+        deadline: int = ...,
+        lifespan: int = ...,
+        lease: int = ...,
+    ) -> None: ...
+
+DEADLINE_MISSED: int
+LIVELINESS: int
+INCOMPATIBLE_QOS: int
+MATCHED: int
+SAMPLE_LOST: int
 
 class DomainParticipant:
     """A DDS domain of this process and a participant in it."""
@@ -700,13 +716,28 @@ class Writer:
     """A DDS writer of serialized messages."""
 
     def __init__(
-        self, participant: int, topic: int, qos: QosProfile, user_data: str, unchecked: bool = False
+        self,
+        participant: int,
+        topic: int,
+        qos: QosProfile,
+        user_data: str,
+        checks_transforms: bool = False,
+        on_change: Event | None = None,
     ) -> None: ...
     def write(self, message: bytes) -> None:
         """Send one serialized message without the GIL."""
 
     def forward(self, message: bytes) -> None:
-        """Send a message of any type on an unchecked topic, without a check of its bytes."""
+        """Send a message without a check of its bytes."""
+
+    def assert_liveliness(self) -> None:
+        """Show the readers that the writer is alive."""
+
+    def wait_for_acks(self, timeout_ns: int) -> bool:
+        """Wait until all reliable readers have received all messages; False after the timeout."""
+
+    def take_status(self, kind: int) -> tuple[int, int, int, int] | None:
+        """Return the counts of the status DEADLINE_MISSED, ... if it has changed since the last call."""
 
     @property
     def guid(self) -> bytes: ...
@@ -735,6 +766,9 @@ class Reader:
     @property
     def pending(self) -> bool:
         """Whether messages may be waiting."""
+
+    def take_status(self, kind: int) -> tuple[int, int, int, int] | None:
+        """Return the counts of the status DEADLINE_MISSED, ... if it has changed since the last call."""
 
     @property
     def guid(self) -> bytes: ...
@@ -771,6 +805,9 @@ class Tap:
     def missed(self) -> int:
         """How many messages arrived while `capacity` messages were waiting."""
 
+    def take_status(self, kind: int) -> tuple[int, int, int, int] | None:
+        """Return the counts of the status DEADLINE_MISSED, ... if it has changed since the last call."""
+
     @property
     def guid(self) -> bytes: ...
     @property
@@ -800,7 +837,15 @@ class TfReader:
         is_static: bool,
         authority: str,
         renaming: Renaming | None = None,
+        on_data: Event | None = None,
     ) -> None: ...
+    def arm(self) -> None:
+        """Let the next message set the event."""
+
+    @property
+    def received(self) -> int:
+        """The number of received messages."""
+
     def writers(self) -> list[tuple[int, int, int, int, int | None, str, str, str]]:
         """Return the statistics of each writer.
 
@@ -819,6 +864,9 @@ class TfReader:
     @property
     def stored_at(self) -> int:
         """When the newest message's transforms were stored, in nanoseconds of the steady clock; 0: never."""
+
+    def take_status(self, kind: int) -> tuple[int, int, int, int] | None:
+        """Return the counts of the status DEADLINE_MISSED, ... if it has changed since the last call."""
 
     @property
     def guid(self) -> bytes: ...

@@ -135,3 +135,15 @@ def test_rosout_can_be_disabled(domain_id, make_node):
     assert "quiet" not in [info.node_name for info in quiet.get_publishers_info_by_topic("/rosout")]
     quiet.destroy_node()
     context.shutdown()
+
+
+def test_a_damaged_message_is_dropped_with_a_warning(context, node, wait_until, capfd):
+    received = []
+    executor = SingleThreadedExecutor(context=context)
+    node.create_subscription(String, "chatter", received.append, 10)
+    publisher = node.create_publisher(String, "chatter", 10)
+    publisher.publish(b"\0\1\0\0\xff\xff\xff\xff")
+    publisher.publish(String(data="whole"))
+    wait_until(lambda: received, lambda: rclpy.spin_once(node, executor=executor, timeout_sec=0.1))
+    assert received == [String(data="whole")]
+    assert "Dropped a message on /chatter: std_msgs/msg/String: at byte" in capfd.readouterr().err

@@ -90,7 +90,7 @@ def test_topics_without_a_ros_type_are_refused(participant, node, eventually, tm
     from coframe.wire import types
 
     entity = participant._native.entity
-    topic = types.create_unchecked_topic(entity, "rt/raw", "NotOfRos")
+    topic = types.create_topic(entity, "rt/raw", "NotOfRos")
     foreign = _core.Writer(entity, topic, _core.QosProfile(1, True, True, False), "")
     publisher = participant.publisher(node, "/words", STRING, QoS())
     with coframe.record(tmp_path / "run") as recorder:

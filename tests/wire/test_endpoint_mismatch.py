@@ -103,29 +103,6 @@ def test_warnings_are_logged_if_there_is_no_callback(participant, node, caplog, 
         eventually(lambda: "offers best-effort" in caplog.text)
 
 
-def test_a_different_definition_of_the_same_type(participant, node, child, warnings, eventually):
-    participant.subscription(node, "/scan", STRING, QoS(), on_data=None)
-    child("""
-        import coframe
-        from coframe.messages import find
-        int32 = find("std_msgs/msg/Int32")
-        class OtherString:
-            ROS_TYPE = "std_msgs/msg/String"
-            SLOT_TYPES = int32.SLOT_TYPES
-            get_fields_and_field_types = int32.get_fields_and_field_types
-        with coframe.connect("other") as ros:
-            publisher = ros.publisher("/scan", OtherString)
-            input()
-    """)
-    eventually(lambda: warnings)
-    assert warnings == [
-        (
-            "Node /other on /scan has a different definition of std_msgs/msg/String from this subscription: "
-            "no messages will arrive. Use the same message definitions and the same quality of service on both sides."
-        )
-    ]
-
-
 def test_matching_endpoints_cause_no_warning(participant, node, child, warnings, eventually):
     subscription = participant.subscription(node, "/scan", STRING, SENSOR, on_data=None)
     other(child)

@@ -93,11 +93,8 @@ def test_a_large_message(participant, node, child):
     assert other.finish() == (0, "")
 
 
-def test_bytes_of_another_type_raise_an_error(participant, node):
+def test_bytes_without_a_header_raise_an_error(participant, node):
     publisher = participant.publisher(node, "/chatter", STRING, QoS())
-    with pytest.raises(WireError, match="Publishing on /chatter failed") as caught:
-        publisher.write(b"\0\1\0\0\xff\xff\xff\xff")
-    assert "must be the CDR serialization of a std_msgs/msg/String" in caught.value.hint
     with pytest.raises(ValueError, match="4 bytes of encapsulation"):
         publisher.write(b"\0\1")
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import importlib.util
 import socket
+from pathlib import Path
 
 from coframe import _core
 from coframe.errors import WireError
@@ -17,17 +18,30 @@ def load() -> None:
     Raises:
         WireError: cyclonedds is not installed or not compatible.
     """
+    path = _library()
     try:
-        from cyclonedds.internal import DDS  # noqa: PLC0415 - optional, and 100 ms
-    except ImportError as error:
-        raise _not_installed() from error
-    try:
-        _core.load_dds(DDS._dll_handle._name)  # noqa: SLF001 - no public attribute has the library's path
+        _core.load_dds(path)
     except RuntimeError as error:
         raise WireError(
             f"The installed cyclonedds is not compatible: {error}.",
             hint="Install the version that coframe requires: pip install 'coframe[dds]'.",
         ) from error
+
+
+def _library() -> str:
+    """Return the path of the DDS library. The package itself is not imported, which would take 100 ms and more."""
+    package = importlib.util.find_spec("cyclonedds")
+    for folder in (package and package.submodule_search_locations) or []:
+        spec = importlib.util.spec_from_file_location("_cyclonedds_library", Path(folder) / "__library__.py")
+        if spec is None or spec.loader is None:
+            continue
+        module = importlib.util.module_from_spec(spec)
+        try:
+            spec.loader.exec_module(module)
+            return str(module.library_path)
+        except (ImportError, OSError, IndexError, AttributeError):
+            continue
+    raise _not_installed()
 
 
 def check() -> None:

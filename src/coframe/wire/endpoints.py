@@ -118,6 +118,17 @@ class LocalEndpoint:
         """The DDS number of the QoS policy that made the last match fail; 0 if no match failed."""
         return 0 if self._closed else self._endpoint.refused_policy
 
+    def take_status(self, kind: int) -> tuple[int, int, int, int] | None:
+        """Return a DDS status if it has changed since the last call.
+
+        Args:
+            kind: `_core.DEADLINE_MISSED`, `LIVELINESS`, `INCOMPATIBLE_QOS`, `MATCHED` or `SAMPLE_LOST`.
+
+        Returns:
+            The members of the status in the order of DDS without handles; 0 stands for members that it does not have.
+        """
+        return None if self._closed else self._endpoint.take_status(kind)
+
     @property
     def closed(self) -> bool:
         """Whether the endpoint is closed."""
@@ -165,6 +176,15 @@ class Publisher(LocalEndpoint):
             self._send(cdr)
         except _core.DdsError as error:
             raise self._write_error(error) from error
+
+    def assert_liveliness(self) -> None:
+        """Show the subscriptions that this publisher is alive."""
+        if not self._closed:
+            self._writer.assert_liveliness()
+
+    def wait_for_acks(self, timeout_ns: int) -> bool:
+        """Wait until all reliable subscriptions have received all messages. Return False after the timeout."""
+        return self._closed or self._writer.wait_for_acks(timeout_ns)
 
     def _send(self, cdr: bytes) -> None:
         self._writer.write(cdr)

@@ -43,6 +43,7 @@ if TYPE_CHECKING:
 
 _logger = logging.getLogger("coframe.wire")
 
+_GRAPH_TYPE = "rmw_dds_common::msg::dds_::ParticipantEntitiesInfo_"
 _ENCLAVE = "enclave=/;"  # the user data that every ROS participant has
 
 
@@ -63,12 +64,11 @@ class Participant:
         self._native = dds.join(domain_id, config.cyclone_config(), _ENCLAVE)
         self._lock = threading.RLock()
         self._topics: dict[tuple[str, str], int] = {}
-        self._unchecked_topics: dict[tuple[str, str], int] = {}
         self._nodes: list[GraphNode] = []
         self._statics: dict[str, SharedStaticPublisher] = {}
         self._gid_size = self._preferred_gid_size = gid_size(os.environ)
 
-        graph_topic = self._topic(TOPIC, types.graph_type())
+        graph_topic = self._topic(TOPIC, _GRAPH_TYPE)
         self._info_writer = _core.Writer(self._native.entity, graph_topic, _native_qos(GRAPH_WRITER), ADAPTS)
         self._wake = _core.Event()
         self._graph = Graph(self._native.entity, graph_topic, self._wake)
@@ -144,7 +144,15 @@ class Participant:
                 self.announce()
 
     def publisher(
-        self, node: GraphNode, topic: str, message_type: type, qos: QoS, *, kind: Kind = "topic", user_data: str = ""
+        self,
+        node: GraphNode,
+        topic: str,
+        message_type: type,
+        qos: QoS,
+        *,
+        kind: Kind = "topic",
+        user_data: str = "",
+        on_change: _core.Event | None = None,
     ) -> Publisher:
         """Create a publisher of `node`.
 
@@ -157,23 +165,20 @@ class Participant:
             qos: The offered quality of service.
             kind: "topic", "request" or "reply". The type and the bytes of requests and replies are not checked.
             user_data: The DDS user data, which subscribers can read before the first message.
+            on_change: An event that is set whenever a status changes (see `LocalEndpoint.take_status`).
 
         Raises:
             WireError: DDS cannot create the publisher.
         """
         ros_type = types.ros_type(message_type)
         data = endpoint_user_data(ros_type, user_data)
-        if kind != "topic":
-            name, type_name, entity = self._unchecked_topic(topic, ros_type, kind)
-            native = _create(lambda: _core.Writer(self._native.entity, entity, _native_qos(qos), data, True), topic)
-            return ServicePublisher(native, node, name, type_name, qos, self._graph)
-        of_transforms = ros_type == TF_MESSAGE
-        name, type_name, entity = (
-            self._unchecked_topic(topic, TF_MESSAGE) if of_transforms else self._topic_of(topic, message_type)
-        )
+        name, type_name, entity = self._topic_of(topic, ros_type, kind)
+        checked = kind == "topic" and ros_type == TF_MESSAGE
         native = _create(
-            lambda: _core.Writer(self._native.entity, entity, _native_qos(qos), data, of_transforms), topic
+            lambda: _core.Writer(self._native.entity, entity, _native_qos(qos), data, checked, on_change), topic
         )
+        if kind != "topic":
+            return ServicePublisher(native, node, name, type_name, qos, self._graph)
         return Publisher(native, node, name, type_name, qos)
 
     def subscription(
@@ -194,7 +199,8 @@ class Participant:
             topic: The fully qualified name of the topic or service.
             message_type: The message class.
             qos: The requested quality of service.
-            on_data: An event that is set whenever messages arrive.
+            on_data: An event that is set whenever messages arrive or a status changes (see
+                `LocalEndpoint.take_status`).
             kind: "topic", "request" or "reply". The type and the bytes of requests and replies are not checked.
             adapts: Whether the caller replaces the subscription when publishers offer less than `qos`. If so, no
                 warning about incompatible QoS is logged.
@@ -204,12 +210,10 @@ class Participant:
         """
         ros_type = types.ros_type(message_type)
         data = endpoint_user_data(ros_type)
-        if kind != "topic":
-            name, type_name, entity = self._unchecked_topic(topic, ros_type, kind)
-            native = _create(lambda: _core.Reader(self._native.entity, entity, _native_qos(qos), data, on_data), topic)
-            return ServiceSubscription(native, node, name, type_name, qos, self._graph)
-        name, type_name, entity = self._topic_of(topic, message_type)
+        name, type_name, entity = self._topic_of(topic, ros_type, kind)
         native = _create(lambda: _core.Reader(self._native.entity, entity, _native_qos(qos), data, on_data), topic)
+        if kind != "topic":
+            return ServiceSubscription(native, node, name, type_name, qos, self._graph)
         return Subscription(native, node, name, type_name, qos, adapts=adapts)
 
     def raw_publisher(self, node: GraphNode, topic: str, ros_type: str, qos: QoS) -> RawPublisher:
@@ -224,9 +228,9 @@ class Participant:
         Raises:
             WireError: DDS cannot create the publisher.
         """
-        name, type_name, entity = self._unchecked_topic(topic, ros_type)
+        name, type_name, entity = self._topic_of(topic, ros_type)
         data = endpoint_user_data(ros_type)
-        native = _create(lambda: _core.Writer(self._native.entity, entity, _native_qos(qos), data, True), topic)
+        native = _create(lambda: _core.Writer(self._native.entity, entity, _native_qos(qos), data), topic)
         return RawPublisher(native, node, name, type_name, qos)
 
     def raw_subscription(
@@ -253,7 +257,7 @@ class Participant:
         Raises:
             WireError: DDS cannot create the subscription.
         """
-        name, type_name, entity = self._unchecked_topic(topic, ros_type)
+        name, type_name, entity = self._topic_of(topic, ros_type)
         data = endpoint_user_data(ros_type)
         native = _create(lambda: _core.Reader(self._native.entity, entity, _native_qos(qos), data, on_data), topic)
         return Subscription(native, node, name, type_name, qos, adapts=adapts)
@@ -274,7 +278,7 @@ class Participant:
         Raises:
             WireError: DDS cannot create the subscription.
         """
-        name, type_name, entity = self._unchecked_topic(topic, ros_type)
+        name, type_name, entity = self._topic_of(topic, ros_type)
         data = endpoint_user_data(ros_type)
         native = _create(
             lambda: _core.Tap(self._native.entity, entity, _native_qos(qos), data, max_bytes, capacity), topic
@@ -291,6 +295,7 @@ class Participant:
         qos: QoS | None = None,
         authority: str | None = "default_authority",
         renaming: _core.Renaming | None = None,
+        on_data: _core.Event | None = None,
     ) -> TfReader:
         """Create a subscription of `node` that stores transforms in `buffer` on the DDS thread, without the GIL.
 
@@ -302,17 +307,18 @@ class Participant:
             qos: The requested quality of service. If None, it is that of tf2's listener.
             authority: The source that the buffer records for the transforms. If None, it is the publishing node.
             renaming: The renaming of frames (see `coframe.frame_names.renaming`). If None, frames keep their names.
+            on_data: An event that is set whenever a status changes, and by the next message after `TfReader.arm`.
 
         Raises:
             WireError: DDS cannot create the subscription.
         """
         chosen = qos or (TF_STATIC_READER if static else TF)
-        name, type_name, entity = self._unchecked_topic(topic, TF_MESSAGE)
+        name, type_name, entity = self._topic_of(topic, TF_MESSAGE)
         source = NO_AUTHORITY if authority is None else authority
         data = endpoint_user_data(TF_MESSAGE)
         native = _create(
             lambda: _core.TfReader(
-                self._native.entity, entity, _native_qos(chosen), data, buffer, static, source, renaming
+                self._native.entity, entity, _native_qos(chosen), data, buffer, static, source, renaming, on_data
             ),
             topic,
         )
@@ -427,27 +433,16 @@ class Participant:
         """Return whether this process was forked from the one that created the participant."""
         return self._process != os.getpid()
 
-    def _topic_of(self, topic: str, message_type: type) -> tuple[str, str, int]:
+    def _topic_of(self, topic: str, ros_type: str, kind: Kind = "topic") -> tuple[str, str, int]:
         """Return the name of the DDS topic, the name of its type, and its handle."""
-        name = names.dds_topic(topic)
-        data_type = types.dds_type(message_type)
-        return name, data_type.__idl_typename__, self._topic(name, data_type)
-
-    def _topic(self, name: str, data_type: Any) -> int:
-        key = (name, data_type.__idl_typename__)
-        with self._lock:
-            if key not in self._topics:
-                self._topics[key] = types.create_topic(self._native.entity, name, data_type)
-            return self._topics[key]
-
-    def _unchecked_topic(self, topic: str, ros_type: str, kind: Kind = "topic") -> tuple[str, str, int]:
-        """Return what `_topic_of` returns, for endpoints that validate the bytes themselves or only forward them."""
         name, type_name = names.dds_topic(topic, kind), names.dds_type(ros_type)
+        return name, type_name, self._topic(name, type_name)
+
+    def _topic(self, name: str, type_name: str) -> int:
         with self._lock:
-            if (name, type_name) not in self._unchecked_topics:
-                entity = types.create_unchecked_topic(self._native.entity, name, type_name)
-                self._unchecked_topics[name, type_name] = entity
-            return name, type_name, self._unchecked_topics[name, type_name]
+            if (name, type_name) not in self._topics:
+                self._topics[name, type_name] = types.create_topic(self._native.entity, name, type_name)
+            return self._topics[name, type_name]
 
     def _describe(self, endpoints: dict[int, DiscoveredEndpoint]) -> list[EndpointInfo]:
         return [self._graph.describe(endpoint) for endpoint in endpoints.values()]
@@ -523,7 +518,16 @@ class Participant:
 
 
 def _native_qos(qos: QoS) -> _core.QosProfile:
-    return _core.QosProfile(qos.depth, qos.reliable, qos.transient_local, qos.keep_all)
+    return _core.QosProfile(
+        qos.depth,
+        qos.reliable,
+        qos.transient_local,
+        qos.keep_all,
+        qos.manual_liveliness,
+        qos.deadline,
+        qos.lifespan,
+        qos.lease,
+    )
 
 
 def _create(make: Callable[[], Any], topic: str) -> Any:

@@ -4,6 +4,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Final
+
+INFINITE: Final = 2**63 - 1  # nanoseconds; the value that DDS and ROS use
 
 
 @dataclass(frozen=True)
@@ -16,6 +19,10 @@ class QoS:
         transient_local: Whether late-joining subscriptions receive the last messages ("transient local"), or not
             ("volatile").
         keep_all: Whether every message is kept until it is delivered.
+        manual_liveliness: Whether the publisher asserts its liveliness itself, rather than its process.
+        deadline: The longest time between two messages, in nanoseconds.
+        lifespan: The time after which a publisher's messages are no longer delivered, in nanoseconds.
+        lease: The time without a sign of life after which a publisher counts as lost, in nanoseconds.
 
     Raises:
         ValueError: The depth is less than 1.
@@ -25,6 +32,10 @@ class QoS:
     reliable: bool = True
     transient_local: bool = False
     keep_all: bool = False
+    manual_liveliness: bool = False
+    deadline: int = INFINITE
+    lifespan: int = INFINITE
+    lease: int = INFINITE
 
     def __post_init__(self) -> None:
         if self.depth < 1:

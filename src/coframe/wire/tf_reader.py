@@ -84,6 +84,15 @@ class TfReader(LocalEndpoint):
         del limit
         return []
 
+    @property
+    def received(self) -> int:
+        """The number of received messages."""
+        return self._reader.received
+
+    def arm(self) -> None:
+        """Let the next message set the event that was passed to `Participant.tf_reader`."""
+        self._reader.arm()
+
     def writer_statistics(self) -> list[WriterStatistics]:
         """Return what was received from each writer, including writers that have left; nothing after `close`."""
         return [] if self._closed else [WriterStatistics(*facts) for facts in self._reader.writers()]

@@ -15,7 +15,6 @@ from collections import deque
 from concurrent.futures import ThreadPoolExecutor
 from typing import TYPE_CHECKING, Any, Final, Protocol
 
-from coframe.time import MILLISECOND
 from rclpy.constants import S_TO_NS
 from rclpy.exceptions import NotInitializedException, RCLError, ROSInterruptException
 from rclpy.task import Future, Task
@@ -31,8 +30,6 @@ if TYPE_CHECKING:
     from rclpy.context import Context
     from rclpy.node import Node
 
-# Period at which `spin_once` checks polled subscriptions, which do not set the wakeup.
-_POLL_PERIOD_NS: Final = 5 * MILLISECOND
 # Errors that a callback may raise when the context is shut down while it runs.
 _SHUTDOWN_ERRORS: Final = (NotInitializedException, RCLError, ROSInterruptException)
 
@@ -78,7 +75,10 @@ class PolledSubscription(Protocol):
     programs call it in a loop and look up transforms in between.
     """
 
-    def _take_one(self) -> bool:
+    def arm(self) -> None:
+        """Let the next message set the context's wakeup. Without this, messages wake no executor."""
+
+    def take_one(self) -> bool:
         """Return whether a message arrived that no `spin_once` has returned for yet, and count it as handled."""
 
 
@@ -285,11 +285,8 @@ class Executor:
             work, next_ns = self.__next_work(nodes)
             if work is not None:
                 return work
-            polled = self._Coframe__polled_subscriptions() if polls_subscriptions else []
-            if any(subscription._take_one() for subscription in polled):
+            if polls_subscriptions and self.__take_polled():
                 raise ConditionReachedException
-            if polled:
-                next_ns = _POLL_PERIOD_NS if next_ns is None else min(next_ns, _POLL_PERIOD_NS)
             if deadline is not None:
                 remaining = deadline - time.monotonic_ns()
                 if remaining <= 0:
@@ -320,8 +317,12 @@ class Executor:
         self.__tasks.append(task)
         self.wake()
 
-    def _Coframe__polled_subscriptions(self) -> list[PolledSubscription]:
-        return [subscription for node in self.get_nodes() for subscription in node._Coframe__polled_subscriptions]
+    def __take_polled(self) -> bool:
+        """Return whether a polled subscription has received a message, otherwise let the next one set the wakeup."""
+        polled = [subscription for node in self.get_nodes() for subscription in node._Coframe__polled_subscriptions]
+        for subscription in polled:
+            subscription.arm()
+        return any(subscription.take_one() for subscription in polled)
 
     def _Coframe__spin_once_unless(
         self, condition: Callable[[], bool], timeout_sec: float | None, *, polls_subscriptions: bool = False

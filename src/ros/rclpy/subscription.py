@@ -6,9 +6,11 @@ from __future__ import annotations
 import inspect
 import time
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Final
 
+from coframe.errors import DecodeError
 from coframe.messages import codec
+from rclpy.logging import get_logger
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -17,6 +19,9 @@ if TYPE_CHECKING:
     from coframe.wire import Subscription as WireSubscription
     from rclpy.callback_groups import CallbackGroup
     from rclpy.qos import QoSProfile
+
+_WARNING_PERIOD_S: Final = 10.0
+_log = get_logger("rclpy")
 
 
 class Subscription:
@@ -71,7 +76,11 @@ class Subscription:
         return partial(self.__deliver, samples[0], time.time_ns()) if samples else None
 
     def __deliver(self, sample: Sample, received: int) -> Any:
-        message = sample.data if self.raw else codec.deserialize(sample.data, self.msg_type)
+        try:
+            message = sample.data if self.raw else codec.deserialize(sample.data, self.msg_type)
+        except DecodeError as error:  # A damaged message of another program must not end this one.
+            _log.warning(f"Dropped a message on {self.topic}: {error}", throttle_duration_sec=_WARNING_PERIOD_S)
+            return None
         if not self.__accepts_info:
             return self.callback(message)
         return self.callback(message, {"source_timestamp": sample.source_timestamp, "received_timestamp": received})

@@ -5,7 +5,7 @@
 
 from collections.abc import Iterable
 from threading import Thread
-from typing import Any, Optional, Union  # noqa: F401 - leaked upstream
+from typing import TYPE_CHECKING, Any, Optional, Union  # noqa: F401 - leaked upstream
 
 import rclpy
 import tf2_py as tf2
@@ -20,6 +20,9 @@ from tf2_ros._renaming import renamed
 from tf2_ros.buffer import Buffer, clear_on_time_jump
 from tf2_ros.static_transform_broadcaster import DEFAULT_STATIC_TF_TOPIC
 from tf2_ros.transform_broadcaster import DEFAULT_TF_TOPIC
+
+if TYPE_CHECKING:
+    from coframe.wire import TfReader
 
 _AUTHORITY = "default_authority"
 _STATIC_QOS = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL, history=HistoryPolicy.KEEP_LAST)
@@ -127,11 +130,12 @@ class TransformListener:
 
     def __subscribe(self) -> None:
         self.__is_listening = True
+        self.__readers: list[TfReader] = []
         is_plain = self.__is_plain()
         listen = self.__listen_natively if is_plain else self.__listen
-        self.__count_arrivals(_Arrivals(self.__buffer) if is_plain else None)
         self.tf_sub = listen(static=False) if False in self.__topics else None
         self.tf_static_sub = listen(static=True)
+        self.__count_arrivals(_Arrivals(self.__readers) if is_plain else None)
 
     def __listen(self, *, static: bool) -> Subscription:
         callback = self.static_callback if static else self.callback
@@ -150,7 +154,9 @@ class TransformListener:
             qos=qos._Coframe__to_wire(),
             authority=_AUTHORITY,
             renaming=self.__renaming,
+            on_data=self.node.context._Coframe__wakeup.event,
         )
+        self.__readers.append(reader)
         callback = self.static_callback if static else self.callback
         return self.node._Coframe__add_entity(
             Subscription(reader, TFMessage, topic, topic, callback, self.group, qos, raw=False)
@@ -197,20 +203,24 @@ class _Arrivals:
     # The depth of the subscription, which also limits the number of messages that an executor can take.
     _DEPTH = 100
 
-    def __init__(self, buffer: tf2.BufferCore) -> None:
-        self._buffer = buffer._Coframe__buffer
-        self._handled = self._count()
+    def __init__(self, readers: "list[TfReader]") -> None:
+        self._readers = readers
+        self._handled = 0
 
-    def _count(self) -> int:
-        return self._buffer.statistics["messages"]
+    def arm(self) -> None:
+        for reader in self._readers:
+            reader.arm()
 
-    def _take_one(self) -> bool:
+    def take_one(self) -> bool:
         count = self._count()
         self._handled = max(self._handled, count - self._DEPTH)
         if self._handled == count:
             return False
         self._handled += 1
         return True
+
+    def _count(self) -> int:
+        return sum(reader.received for reader in self._readers)
 
 
 def _create_internal_node(listener: TransformListener) -> Node:
