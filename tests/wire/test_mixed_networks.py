@@ -36,7 +36,7 @@ class Foreign:
 
     def __init__(self, domain_id, size):
         self.native = _core.DomainParticipant(domain_id, "", "enclave=/;")
-        topic = types.create_topic(self.native.entity, TOPIC, types.graph_type())
+        topic = types.create_topic(self.native.entity, TOPIC, "rmw_dds_common::msg::dds_::ParticipantEntitiesInfo_")
         qos = _core.QosProfile(depth=1, reliable=True, transient_local=True, keep_all=False)
         self.reader = _core.Reader(self.native.entity, topic, qos, "", None)
         self.endpoints = _core.EndpointReader(self.native.entity, _core.PUBLICATIONS, _core.Event())

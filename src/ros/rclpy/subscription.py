@@ -79,7 +79,7 @@ class Subscription:
         try:
             message = sample.data if self.raw else codec.deserialize(sample.data, self.msg_type)
         except DecodeError as error:  # A damaged message of another program must not end this one.
-            _log.warning(f"Dropped a message on {self.topic}: {error}", throttle_duration_sec=_WARNING_PERIOD_S)
+            _log.warning(f"Dropped a message on {self.topic_name}: {error}", throttle_duration_sec=_WARNING_PERIOD_S)
             return None
         if not self.__accepts_info:
             return self.callback(message)
