@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Builds the page, and passes the messages of the source to the model, whose events update all parts. */
 
+import { AdjustPanel } from "./panels/adjust";
 import { Bar } from "./panels/bar";
 import { DockLauncher } from "./dock/launcher";
 import { Displays } from "./displays/manager";
@@ -58,6 +59,7 @@ export function showPage(source: Source): void {
   const overlay = new Overlay(byId("overlay"), byId("notice"), model, view);
   const toolbar = new Toolbar(byId("overlay"), model, view, toolSettings);
   new Inspector(byId("inspector"), model, view);
+  new AdjustPanel(byId("inspector"), model, view, source.live);
 
   const shortcuts = new Shortcuts([
     { key: " ", shown: "Space", text: "Pause or play", act: () => timeline.toggle() },

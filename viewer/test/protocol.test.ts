@@ -27,7 +27,7 @@ describe("frame updates", () => {
     ["u32", 3, 1],
     ["f32", ...POSE, ...POSE, ...POSE.map(() => NaN)],
     ["u8", 0, 1, 3, 0],
-    ["u32", 9, 4],
+    ["u32", 9, 4, 2],
     ["f32", ...POSE],
     ["u32", 1],
   );
@@ -42,7 +42,7 @@ describe("frame updates", () => {
     expect(read.poses[14]).toBeNaN();
     expect(Array.from(read.states)).toEqual([0, 1, 3]);
     expect(read.displays).toHaveLength(1);
-    expect(read.displays[0]).toMatchObject({ id: 9, sequence: 4, ok: false });
+    expect(read.displays[0]).toMatchObject({ id: 9, sequence: 4, frame: 2, ok: false });
   });
 
   it("are rejected if they are too short", () => {

@@ -87,6 +87,51 @@ def test_poses_and_points_are_published_where_the_user_has_pressed(graph, view, 
     assert received["/my_goal"].receive("300ms") is None, "Escape cancels a drag"
 
 
+def test_a_static_transform_is_adjusted_by_hand_and_published(graph, view, open_page):
+    stamped = find("geometry_msgs/msg/PoseStamped")
+    publisher = graph.publisher("/detection", stamped)
+    page = open_page(view(graph, fixed="map").url).drawn()
+    message = stamped()
+    message.header.frame_id = "arm"
+
+    def detected():
+        publisher.publish(message)
+        shown = page.evaluate("coframe.displays").get("Pose", {}).get("messages")
+        return shown and shown[0]["position"]
+
+    page.wait(detected, "the message")
+    page.key("v")
+    page.key("a")
+    page.raw.wait_for_timeout(300)
+    page.row("arm").locator(".name").click()
+    page.click("#adjust button:text('Adjust by hand')")
+    page.raw.wait_for_timeout(300)
+    x, y = pixel(page, (2.0, 2.0, 0.5))
+    metre = pixel(page, (3.0, 2.0, 0.5))[0] - x
+    mouse = page.raw.mouse
+    mouse.move(x + 50, y)
+    mouse.down()
+    mouse.move(x + 90, y, steps=4)
+    mouse.move(x + 50 + 0.5 * metre, y, steps=4)
+    mouse.up()
+    at = page.until("coframe.frames.arm.position[0] > 2.1 && coframe.frames.arm.position")
+    np.testing.assert_allclose(at, [2.5, 2.0, 0.5], atol=0.03)
+    np.testing.assert_allclose(page.wait(detected, "the message"), at, atol=1e-4)
+    assert page.evaluate("coframe.frames.base.position") == [1, 0, 0]
+    assert graph.buffer.lookup("base", "arm").translation[0] == 1.0, "only this page shows it"
+    numbers = r"--x (\S+) --y 2 --z 0.5 --qx 0 --qy 0 --qz 0 --qw 1"
+    command, ros, urdf = page.texts("#adjust .command")
+    found = re.fullmatch(f"coframe static --frame-id base --child-frame-id arm {numbers}", command)
+    assert float(found[1]) == pytest.approx(at[0] - 1.0, abs=1e-5)
+    assert ros.startswith("ros2 run tf2_ros static_transform_publisher --frame-id base --child-frame-id arm --x")
+    assert urdf == f'<origin xyz="{found[1]} 2 0.5" rpy="0 0 0"/>'
+    page.click("#adjust button:text('Publish')")
+    page.wait(lambda: "Published base → arm on /tf_static" in page.text("#toasts"), "the confirmation")
+    page.wait(lambda: abs(graph.buffer.lookup("base", "arm").translation[0] - float(found[1])) < 1e-6, "the transform")
+    page.click("#adjust button:text('Stop adjusting')")
+    page.until("x => Math.abs(coframe.frames.arm.position[0] - x) < 1e-5", at[0])
+
+
 def test_an_option_beats_the_file_and_the_last_session_and_labels_stay_readable(view, open_page, tmp_path):
     buffer = coframe.Buffer(None)
     for frame in ("odom", "base"):

@@ -33,6 +33,8 @@ export type { Vector } from "../util/math";
 export interface DisplayPose {
   id: number;
   sequence: number;
+  /** The index of the message's frame in the tree; -1 if it is unknown. */
+  frame: number;
   /** x, y, z, qx, qy, qz, qw, relative to the origin of the frame update. */
   pose: Float32Array;
   ok: boolean;
@@ -193,8 +195,8 @@ function decodeFrameUpdate(reader: Reader): FrameUpdate {
   reader.align();
   const displays: DisplayPose[] = [];
   for (let i = 0; i < entries; i++) {
-    const { display: id, sequence, pose, missing } = readEntryRecord(reader);
-    displays.push({ id, sequence, pose, ok: missing === 0 });
+    const { display: id, sequence, frame, pose, missing } = readEntryRecord(reader);
+    displays.push({ id, sequence, frame: frame < count ? frame : -1, pose, ok: missing === 0 });
   }
   return { kind: "frames", revision, time, origin, count, poses, states, displays };
 }

@@ -48,7 +48,7 @@ export class ReplayDisplay {
         const moved = compose(base, { position: [x, y, z] as Vector, quaternion });
         pose.set([...moved.position, ...moved.quaternion]);
       }
-      visible.push({ id, sequence: this.sequences[row] as number, pose, ok });
+      visible.push({ id, sequence: this.sequences[row] as number, frame: -1, pose, ok });
     }
     return visible;
   }

@@ -25,6 +25,7 @@ import {
   type DisplayOptions,
   type Vector,
 } from "../protocol/messages";
+import { quoted } from "../util/static_commands";
 import { bytes, DAMAGED, lastUpTo, ReplayDisplay, type PoseAt } from "./displays";
 import type { Source, SourceEvents } from "../protocol/source";
 
@@ -350,9 +351,4 @@ export class ReplaySource implements Source {
       static_command: `coframe static ${flags} --frame-id ${quoted(target)} --child-frame-id ${quoted(source)}`,
     };
   }
-}
-
-/** Quotes a name for a shell, if necessary. */
-function quoted(name: string): string {
-  return /^[\w./-]+$/.test(name) ? name : `'${name.replaceAll("'", `'\\''`)}'`;
 }

@@ -63,6 +63,11 @@ export class Camera {
     this.moveTo(target, height);
   }
 
+  /** Enables or disables the control of the camera by the pointer. */
+  setEnabled(enabled: boolean): void {
+    this.controls[this.mode].enabled = enabled;
+  }
+
   resize(width: number, height: number): void {
     this.width = Math.max(1, width);
     this.height = Math.max(1, height);

@@ -2,6 +2,7 @@
 /** The 3D view: frames, labels, highlights, measurements and clicks. */
 
 import * as THREE from "three";
+import { Adjuster } from "./adjuster";
 import { FramesView, type FrameOptions } from "./frames";
 import { LabelLayer, type Label } from "./labels";
 import { Measure, type MeasuredEnd } from "./measure";
@@ -32,6 +33,7 @@ export class View {
   readonly framePoses = new FramePoses();
   readonly measure: Measure;
   readonly tools: PointerTools;
+  readonly adjuster: Adjuster;
   /** The frame update whose poses are in the scene. */
   shown: FrameUpdate | null = null;
   /** The number of frame updates drawn. */
@@ -72,6 +74,7 @@ export class View {
       () => this.finish(),
     );
     this.tools = new PointerTools(canvas, this);
+    this.adjuster = new Adjuster(model, this.renderer, () => this.refresh());
     this.tools.onChange((tool) => this.measure.setActive(tool === "measure"));
     this.renderer.scene.add(this.frames.object, this.measure.object, this.tools.object);
     this.renderer.compile(this.frames.alwaysDrawn);
@@ -175,7 +178,8 @@ export class View {
     if (!this.changed || !model.frameUpdate) return;
     this.changed = false;
     this.shown = model.frameUpdate;
-    const moved = framePoses.update(model, model.frameUpdate, performance.now());
+    const update = this.adjuster.apply(model.frameUpdate);
+    const moved = framePoses.update(model, update, performance.now());
     if (moved) this.renderer.camera.shift(moved);
     this.frames.object.visible = this.tfShown;
     this.frames.update(framePoses, model.forest, this.tf);
@@ -185,7 +189,8 @@ export class View {
       const position = this.position(this.followed);
       if (position) this.renderer.camera.follow(position);
     }
-    for (const listener of this.posesListeners) listener(framePoses, model.frameUpdate);
+    this.adjuster.place(framePoses);
+    for (const listener of this.posesListeners) listener(framePoses, update);
     if (!this.fitted && (framePoses.drawn.includes(1) || this.bounds.some((bounds) => !bounds().isEmpty()))) {
       this.fitted = true;
       this.fit();
@@ -268,7 +273,7 @@ export class View {
       const bounds = canvas.getBoundingClientRect();
       const frame = this.pick(event.clientX - bounds.left, event.clientY - bounds.top);
       if (this.tools.active) this.use(event, frame);
-      else this.model.select(frame);
+      else if (!this.adjuster.hovered) this.model.select(frame);
     });
   }
 

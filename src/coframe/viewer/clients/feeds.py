@@ -224,7 +224,8 @@ class FramesFeed(_Feed):
         scene = self._viewer.scene
         placed = scene.place(fixed, at, self._client.frame_timeout)
         local = self._origin.localize(placed, scene.structure.indices.get(fixed))
-        return encode_frames(scene.revision, self._time(at), self._origin.xyz, local, placed.states, entries)
+        indices, time_shown = scene.structure.indices, self._time(at)
+        return encode_frames(scene.revision, time_shown, self._origin.xyz, local, placed.states, entries, indices)
 
     def _time(self, at: int) -> float:
         """Return the displayed time relative to the origin; NaN while there is no data."""

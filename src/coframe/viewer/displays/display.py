@@ -62,7 +62,7 @@ class _Entry:
 
     def __init__(self, drawing: Drawing, sequence: int, frame: str) -> None:
         self.drawing = drawing
-        self._frame = frame
+        self.frame = frame
         self.sequence = sequence
         self.sent = False
         self.pose: NDArray[np.float64] | None = None
@@ -80,9 +80,9 @@ class _Entry:
             return True
         try:
             if drawing.locked:
-                found = buffer.lookup(fixed, self._frame, at, extrapolate=_HOLD, hold=True)
+                found = buffer.lookup(fixed, self.frame, at, extrapolate=_HOLD, hold=True)
             else:
-                found = buffer.lookup(fixed, self._frame, drawing.stamp)
+                found = buffer.lookup(fixed, self.frame, drawing.stamp)
         except TransformException as error:
             self.error = error
             return False
@@ -171,7 +171,7 @@ class Display:
 
     def poses(self) -> list[EntryPose]:
         """Return the poses of all visible drawings."""
-        return [EntryPose(self.number, entry.sequence, entry.pose) for entry in self._entries()]
+        return [EntryPose(self.number, entry.sequence, entry.pose, entry.frame) for entry in self._entries()]
 
     def stamps(self) -> list[int | None]:
         """Return the stamps of these poses in nanoseconds; None for drawings without a stamp or that move on."""

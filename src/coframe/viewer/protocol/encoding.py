@@ -11,6 +11,7 @@ import numpy as np
 
 from coframe.viewer.protocol.layout import Layout
 from coframe.viewer.protocol.messages import (
+    NO_FRAME,
     BinaryKind,
     CloudFlag,
     CloudHeader,
@@ -25,7 +26,7 @@ from coframe.viewer.protocol.messages import (
 )
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
 
     from numpy.typing import NDArray
 
@@ -56,11 +57,12 @@ _NO_POSE = (float("nan"),) * 7
 
 
 class EntryPose(NamedTuple):
-    """A displayed message and the pose of its frame, (7,), in the fixed frame; None if there is no transform."""
+    """A displayed message, the pose of its frame, (7,), in the fixed frame, and the frame; None without a transform."""
 
     display: int
     sequence: int
     pose: NDArray[np.float64] | None
+    frame: str = ""
 
 
 class CurvePoints(NamedTuple):
@@ -93,6 +95,7 @@ def encode_frames(
     poses: NDArray[np.float32],
     states: NDArray[np.uint8],
     entries: Sequence[EntryPose],
+    indices: Mapping[str, int],
 ) -> bytes:
     """Return a frame update.
 
@@ -103,6 +106,7 @@ def encode_frames(
         poses: The poses of all frames relative to the local origin, (N, 7).
         states: The `FrameState` of each frame, (N,).
         entries: The displayed messages.
+        indices: The index of each frame by its name.
     """
     parts: list[Any] = [
         _FRAMES.pack(BinaryKind.FRAMES, revision, time, *origin.tolist(), len(poses), len(entries)),
@@ -111,8 +115,9 @@ def encode_frames(
         bytes(-len(states) % 4),
     ]
     for entry in entries:
+        frame = indices.get(entry.frame, NO_FRAME)
         pose = _NO_POSE if entry.pose is None else relative_to(origin, entry.pose).tolist()
-        parts.append(_ENTRY.pack(entry.display, entry.sequence, *pose, entry.pose is None))
+        parts.append(_ENTRY.pack(entry.display, entry.sequence, frame, *pose, entry.pose is None))
     return b"".join(parts)
 
 

@@ -40,6 +40,7 @@ Position: TypeAlias = tuple[Metres, Metres, Metres]
 Variances: TypeAlias = tuple[Variance, Variance, Variance]
 Nanoseconds: TypeAlias = Annotated[float, Range(-(2.0**62), 2.0**62)]
 
+NO_FRAME = 2**32 - 1
 MAX_BINS = 2000
 MAX_KEPT_MESSAGES = 1000
 MAX_POINTS = 4_000_000
@@ -851,10 +852,14 @@ class FramesHeader(NamedTuple):
 
 
 class EntryRecord(NamedTuple):
-    """A displayed message of a frame update: the pose of its frame, and 1 for ``missing`` if there is no transform."""
+    """A displayed message of a frame update: the pose of its frame, and 1 for ``missing`` if there is no transform.
+
+    ``frame`` is the index of its frame in the tree, and `NO_FRAME` if the tree does not contain the frame.
+    """
 
     display: UInt32
     sequence: UInt32
+    frame: UInt32
     pose: Float32x7
     missing: UInt32
 

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+/** The commands and the URDF element that define a static transform. */
+
+import { rpyDegrees, type Pose } from "./math";
+
+const FLAGS = ["x", "y", "z", "qx", "qy", "qz", "qw"];
+
+/** A number with six decimals: micrometres, and less than a thousandth of a degree. */
+function number(value: number): string {
+  return String(Number(value.toFixed(6)) + 0);
+}
+
+/** Quotes a name for a shell, if necessary. */
+export function quoted(name: string): string {
+  return /^[\w./-]+$/.test(name) ? name : `'${name.replaceAll("'", `'\\''`)}'`;
+}
+
+export function staticCommands(parent: string, child: string, pose: Pose): { name: string; text: string }[] {
+  const values = [...pose.position, ...pose.quaternion];
+  const frames = `--frame-id ${quoted(parent)} --child-frame-id ${quoted(child)}`;
+  const flags = FLAGS.map((flag, k) => `--${flag} ${number(values[k] as number)}`).join(" ");
+  const rpy = rpyDegrees(pose.quaternion).map((angle) => number((angle * Math.PI) / 180));
+  return [
+    { name: "coframe", text: `coframe static ${frames} ${flags}` },
+    { name: "ROS 2", text: `ros2 run tf2_ros static_transform_publisher ${frames} ${flags}` },
+    { name: "URDF", text: `<origin xyz="${pose.position.map(number).join(" ")}" rpy="${rpy.join(" ")}"/>` },
+  ];
+}
