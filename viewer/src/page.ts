@@ -33,7 +33,7 @@ const HIDDEN_PING_MS = 1000;
 export function showPage(source: Source): void {
   const theme = new Theme();
   const model = new Model((message) => source.send(message));
-  const view = new View(model, theme, byId("canvas") as HTMLCanvasElement, byId("labels"));
+  const view = new View(model, theme, byId("canvas") as HTMLCanvasElement, byId("labels"), byId("panes"));
   const displays = new Displays(model, view, theme);
   const toolSettings = new ToolSettings();
   const tree = new TreePanel(model);

@@ -68,6 +68,10 @@ export function exposeProbe(model: Model, view: View, displays: Displays): void 
         target: inFixedFrame(camera.target),
       };
     },
+    /** The cameras of the additional views, in the scene. */
+    get panes() {
+      return view.panes.probe();
+    },
     /** Projects a point of the fixed frame onto the canvas; returns pixels. */
     pixel(point: Vector): [number, number] {
       const { width, height, camera } = view.renderer;

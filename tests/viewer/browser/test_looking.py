@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The camera: measuring, following a frame, and the top-down view."""
 
+import io
 import re
 
 import numpy as np
@@ -105,3 +106,33 @@ def test_in_the_top_view_y_is_up_and_z_has_no_effect(page):
     page.until("document.querySelector('#panel .row[aria-selected=true]')?.dataset.frame === 'arm'")
     page.key("v")
     page.until("coframe.camera.mode === 'orbit'")
+
+
+def test_additional_views_follow_frames_and_look_out_of_them(page):
+    page.click("[title^='Add a view']")
+    page.row("arm").locator(".name").click()
+    page.click("[title^='Add a view']")
+    page.raw.locator(".pane").nth(1).locator("select").first.select_option("first")
+    top, first = page.until("coframe.panes.length === 2 && coframe.panes[1].kind === 'first' && coframe.panes")
+    assert (top["kind"], top["frame"], first["frame"]) == ("top", None, "arm")
+    np.testing.assert_allclose([top["forward"], top["up"]], [[0, 0, -1], [0, 1, 0]], atol=1e-6)
+    for part in (0.9, 0.2):
+        go(page, part)
+        fixed, stamp, _ = page.drawn_frames()
+        arm = page.buffer.lookup(fixed, "arm", stamp)
+        first = page.evaluate("coframe.panes[1]")
+        np.testing.assert_allclose(first["position"], arm.translation, atol=1e-4)
+        np.testing.assert_allclose([first["forward"], first["up"]], arm.matrix[:3, [0, 2]].T, atol=1e-4)
+    assert "base" in page.texts(".pane .label"), "the view from above has labels"
+    box = page.raw.locator(".pane-area").first.bounding_box()
+    picture = page.raw.screenshot(clip=box)
+    assert len(set(pixels(picture))) > 20, "the view from above is drawn"
+    page.until("coframe.pixel([0, 0, 0])[0] < 1200")
+    for _ in range(2):
+        page.raw.locator(".pane [title='Close this view']").first.click()
+    page.until("coframe.panes.length === 0")
+
+
+def pixels(png):
+    image = pytest.importorskip("PIL.Image")
+    return image.open(io.BytesIO(png)).convert("RGB").getdata()

@@ -16,6 +16,7 @@ const MODES: Record<string, DisplayOptions["color_by"]> = {
   Distance: "distance",
 };
 const SAMPLES = 4096;
+const VIEWPORT = new THREE.Vector4();
 /** Software rendering takes 2.5 microseconds per point, during which the page blocks. */
 const MAX_POINTS_IN_SOFTWARE = 40_000;
 
@@ -106,7 +107,7 @@ export class CloudDisplay extends MessageDisplay<Cloud> {
       fragmentShader: FRAGMENT,
     });
     material.onBeforeRender = (renderer): void => {
-      const height = style === "Points" ? renderer.getPixelRatio() : renderer.domElement.height;
+      const height = style === "Points" ? renderer.getPixelRatio() : renderer.getCurrentViewport(VIEWPORT).w;
       (material.uniforms.height as THREE.IUniform<number>).value = height;
       material.uniformsNeedUpdate = true;
     };

@@ -4,6 +4,7 @@
 import type { CameraMode } from "../scene/camera";
 import { h, iconButton, setText, shorten } from "../util/dom";
 import type { Model } from "../model/model";
+import { MAX_PANES } from "../scene/panes";
 import type { View } from "../scene/view";
 
 /** Messages appear only if the server has not responded within this time. */
@@ -15,6 +16,7 @@ export class Overlay {
   private readonly top: HTMLButtonElement;
   private readonly follow: HTMLButtonElement;
   private readonly ruler: HTMLButtonElement;
+  private readonly another: HTMLButtonElement;
   private readonly hint = h("div", { class: "hint numbers", role: "status", id: "measured", hidden: true });
   private readonly following = h("div", { class: "hint", hidden: true });
   private readonly fps = h("div", { class: "fps numbers" });
@@ -40,6 +42,7 @@ export class Overlay {
     );
     this.follow = iconButton("target", "Follow the selected frame (f)", () => this.toggleFollow());
     this.ruler = iconButton("ruler", "Measure between two frames or points (m, n)", () => this.toggleMeasure());
+    this.another = iconButton("plus", "Add a view: from above, around or out of a frame", () => this.addView());
     this.empty = h(
       "div",
       { class: "empty-scene", hidden: true },
@@ -59,6 +62,7 @@ export class Overlay {
         iconButton("fit", "Show everything (a)", () => view.fit()),
         this.follow,
         this.ruler,
+        this.another,
       ),
       this.fps,
       this.empty,
@@ -86,6 +90,12 @@ export class Overlay {
     this.view.tools.toggle("measure");
   }
 
+  /** Adds a view around the selected frame, or from above. */
+  private addView(): void {
+    const { frame } = this.model.selection;
+    this.view.panes.add({ kind: frame ? "orbit" : "top", frame });
+  }
+
   private setMode(mode: CameraMode): void {
     this.view.renderer.camera.setMode(mode);
     this.view.refresh();
@@ -109,6 +119,7 @@ export class Overlay {
     if (followed !== null) setText(this.following, `Following ${shorten(followed, 40)}`);
     const pressed = String(followed !== null);
     if (this.follow.getAttribute("aria-pressed") !== pressed) this.updateButtons();
+    this.another.disabled = this.view.panes.count >= MAX_PANES;
     const now = performance.now();
     if (now - this.fpsUpdated < FPS_INTERVAL_MS) return;
     this.fpsUpdated = now;

@@ -6,6 +6,12 @@ import { Camera } from "./camera";
 import { drawingSize, opaqueContext, pixelRatio } from "./context";
 import type { Palette } from "../util/theme";
 
+/** An additional view, drawn into the part of the canvas below an element. */
+export interface ExtraView {
+  camera(): THREE.Camera;
+  area: HTMLElement;
+}
+
 const FPS_WINDOW_MS = 1000;
 
 export class SceneRenderer {
@@ -14,8 +20,12 @@ export class SceneRenderer {
   readonly webgl: THREE.WebGLRenderer;
   /** Whether the browser renders without a graphics card, which takes microseconds per point. */
   readonly software: boolean;
+  /** The size of the main view in pixels. */
   width = 0;
   height = 0;
+  private extraViews: readonly ExtraView[] = [];
+  /** The element on the right that the main view leaves free. */
+  private extraRoot: HTMLElement | null = null;
   private scheduled = false;
   private readonly drawTimes: number[] = [];
   private readonly light = new THREE.DirectionalLight(0xffffff, 1.6);
@@ -56,6 +66,16 @@ export class SceneRenderer {
     this.invalidate();
   }
 
+  /** Draws additional views over an element at the right edge of the canvas, and the main one to the left of it. */
+  setExtraViews(root: HTMLElement, views: readonly ExtraView[]): void {
+    this.extraRoot = root;
+    this.extraViews = views;
+    const { webgl, canvas } = this;
+    webgl.setScissorTest(views.length > 0);
+    if (views.length === 0) webgl.setViewport(0, 0, canvas.clientWidth, canvas.clientHeight);
+    this.resize();
+  }
+
   /** Schedules a redraw; several calls before it cause only one. */
   invalidate(): void {
     if (this.scheduled) return;
@@ -83,18 +103,32 @@ export class SceneRenderer {
     const camera = this.camera.current;
     this.light.position.copy(camera.position).add(new THREE.Vector3(1, 1, 3));
     this.light.target.position.copy(this.camera.target);
+    if (this.extraViews.length > 0) this.setArea(0, 0, this.width, this.height);
     this.webgl.render(this.scene, camera);
+    for (const view of this.extraViews) this.drawExtra(view);
     this.drawTimes.push(performance.now());
     this.afterDraw();
   }
 
+  private drawExtra({ camera, area }: ExtraView): void {
+    const [own, whole] = [area.getBoundingClientRect(), this.canvas.getBoundingClientRect()];
+    this.setArea(own.left - whole.left, own.top - whole.top, own.width, own.height);
+    this.webgl.render(this.scene, camera());
+  }
+
+  private setArea(x: number, y: number, width: number, height: number): void {
+    const bottom = this.canvas.clientHeight - y - height;
+    this.webgl.setViewport(x, bottom, width, height);
+    this.webgl.setScissor(x, bottom, width, height);
+  }
+
   private resize(): void {
     const { canvas, webgl } = this;
-    this.width = Math.max(1, canvas.clientWidth);
+    this.width = Math.max(1, canvas.clientWidth - (this.extraRoot?.offsetWidth ?? 0));
     this.height = Math.max(1, canvas.clientHeight);
     const { width, height } = drawingSize(canvas);
     if (canvas.width !== width || canvas.height !== height || webgl.getPixelRatio() !== pixelRatio())
-      webgl.setDrawingBufferSize(this.width, this.height, pixelRatio());
+      webgl.setDrawingBufferSize(Math.max(1, canvas.clientWidth), this.height, pixelRatio());
     this.camera.resize(this.width, this.height);
     this.invalidate();
   }

@@ -9,6 +9,7 @@ import { Measure, type MeasuredEnd } from "./measure";
 import type { Model } from "../model/model";
 import { FramePoses } from "./frame_poses";
 import { Picker } from "./picking";
+import { Panes } from "./panes";
 import { PointerTools } from "./tools";
 import type { FrameUpdate, Vector } from "../protocol/messages";
 import { SceneRenderer } from "./renderer";
@@ -34,6 +35,7 @@ export class View {
   readonly measure: Measure;
   readonly tools: PointerTools;
   readonly adjuster: Adjuster;
+  readonly panes: Panes;
   /** The frame update whose poses are in the scene. */
   shown: FrameUpdate | null = null;
   /** The number of frame updates drawn. */
@@ -62,6 +64,7 @@ export class View {
     private readonly theme: Theme,
     canvas: HTMLCanvasElement,
     labels: HTMLElement,
+    panes: HTMLElement,
   ) {
     const palette = theme.palette();
     this.frames = new FramesView(palette);
@@ -76,6 +79,13 @@ export class View {
     this.tools = new PointerTools(canvas, this);
     this.adjuster = new Adjuster(model, this.renderer, () => this.refresh());
     this.tools.onChange((tool) => this.measure.setActive(tool === "measure"));
+    this.panes = new Panes(
+      panes,
+      model,
+      this.renderer,
+      () => this.refresh(),
+      () => this.content(),
+    );
     this.renderer.scene.add(this.frames.object, this.measure.object, this.tools.object);
     this.renderer.compile(this.frames.alwaysDrawn);
     theme.onChange(() => this.recolour());
@@ -117,6 +127,12 @@ export class View {
 
   /** Moves the camera so that everything is visible. */
   fit(): void {
+    const box = this.content();
+    if (!box.isEmpty()) this.renderer.camera.fit(box.expandByScalar(0.1));
+  }
+
+  /** The box around the frames and the data near them. */
+  private content(): THREE.Box3 {
     const { positions, drawn, count } = this.framePoses;
     const points: THREE.Vector3[] = [];
     for (let i = 0; i < count; i++) if (drawn[i]) points.push(new THREE.Vector3().fromArray(positions, i * 3));
@@ -127,7 +143,7 @@ export class View {
       const own = bounds();
       box.union(near.isEmpty() ? own : own.intersect(near));
     }
-    if (!box.isEmpty()) this.renderer.camera.fit(box.expandByScalar(0.1));
+    return box;
   }
 
   /** Registers further objects that `fit` makes visible. */
@@ -181,6 +197,7 @@ export class View {
     const update = this.adjuster.apply(model.frameUpdate);
     const moved = framePoses.update(model, update, performance.now());
     if (moved) this.renderer.camera.shift(moved);
+    if (this.panes.count > 0) this.panes.update(framePoses, moved);
     this.frames.object.visible = this.tfShown;
     this.frames.update(framePoses, model.forest, this.tf);
     this.frames.setChain(framePoses, model.selection.frame ? this.chain : []);
@@ -211,7 +228,9 @@ export class View {
   }
 
   private finish(): void {
-    this.labels.draw(this.collectLabels(), this.renderer.camera.current, this.renderer.width, this.renderer.height);
+    const labels = this.collectLabels();
+    this.labels.draw(labels, this.renderer.camera.current, this.renderer.width, this.renderer.height);
+    this.panes.drawLabels(labels);
     const update = this.pending;
     this.pending = null;
     if (update) this.updates++;
