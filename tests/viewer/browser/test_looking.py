@@ -126,13 +126,13 @@ def test_additional_views_follow_frames_and_look_out_of_them(page):
     assert "base" in page.texts(".pane .label"), "the view from above has labels"
     box = page.raw.locator(".pane-area").first.bounding_box()
     picture = page.raw.screenshot(clip=box)
-    assert len(set(pixels(picture))) > 20, "the view from above is drawn"
+    assert number_of_colours(picture) > 20, "the view from above is drawn"
     page.until("coframe.pixel([0, 0, 0])[0] < 1200")
     for _ in range(2):
         page.raw.locator(".pane [title='Close this view']").first.click()
     page.until("coframe.panes.length === 0")
 
 
-def pixels(png):
+def number_of_colours(png):
     image = pytest.importorskip("PIL.Image")
-    return image.open(io.BytesIO(png)).convert("RGB").getdata()
+    return len(image.open(io.BytesIO(png)).convert("RGB").getcolors(1 << 20))
