@@ -2,7 +2,7 @@
 /** The Camera and CameraInfo displays: the view frustum from the intrinsics, in the optical frame. */
 
 import * as THREE from "three";
-import type { Shapes } from "../protocol/messages";
+import type { CameraShape, Shapes } from "../protocol/messages";
 import { MessageDisplay } from "./display";
 import type { OptionSpec } from "./options";
 
@@ -13,6 +13,14 @@ export const CAMERA_SPECS: readonly OptionSpec[] = [
 ];
 
 export class CameraDisplay extends MessageDisplay<Shapes> {
+  /** The intrinsics of the newest visible message and the pose of its frame in the scene; null if there is none. */
+  newest(): { intrinsics: CameraShape; pose: THREE.Matrix4 } | null {
+    const { object, message } = [...this.drawn.values()].filter((entry) => entry.object.visible).at(-1) ?? {};
+    if (!object || message?.description.kind !== "camera") return null;
+    object.updateMatrixWorld();
+    return { intrinsics: message.description, pose: object.matrixWorld };
+  }
+
   protected build({ description: camera }: Shapes): THREE.Object3D {
     const group = new THREE.Group();
     if (camera.kind !== "camera") return group;

@@ -75,6 +75,11 @@ export abstract class Display {
   }
 }
 
+/** The class of a display without its package. */
+export function kindOf(display: Display): string {
+  return display.config.class.replace(/^.*\//, "");
+}
+
 const MAX_WAITING = 16;
 /** Larger coordinates are ignored when fitting the camera, because one outlier would make everything else tiny. */
 const MAX_FIT_COORDINATE_M = 200;

@@ -5,17 +5,35 @@ import * as THREE from "three";
 import { byId, h, setText, shorten } from "../util/dom";
 import type { FramePoses } from "../scene/frame_poses";
 import { ImageFormat, type DisplayMessage, type Image, type FrameUpdate } from "../protocol/messages";
-import { MessageDisplay, type Context, type DisplayConfig } from "./display";
+import { projection } from "../util/camera_model";
+import { CameraDisplay } from "./camera_info";
+import { MessageDisplay, type Context, type Display, type DisplayConfig } from "./display";
+import { ImageOverlay } from "./image_overlay";
+import { cameraTopicOf, contentOf } from "./projected_content";
 import type { OptionSpec } from "./options";
+
+const PROJECT = "Project";
+const AUTO = "By topic";
 
 export const IMAGE_SPECS: readonly OptionSpec[] = [
   { key: "Width", kind: "number", value: 260, min: 60, max: 1600, step: 20, unit: "px" },
+  { key: PROJECT, label: "Project the scene", kind: "flag", value: false },
+  { key: "Project Frames", label: "Frames", kind: "flag", value: true, needs: PROJECT },
+  { key: "Project Clouds", label: "Clouds", kind: "flag", value: true, needs: PROJECT },
+  { key: "Project Shapes", label: "Markers and paths", kind: "flag", value: true, needs: PROJECT },
+  { key: "Rectified", kind: "choice", value: AUTO, choices: [AUTO, "Yes", "No"], needs: PROJECT },
 ];
+/** Projections above an image are drawn at most this often. */
+const PROJECTION_INTERVAL_MS = 100;
 
 export class ImageDisplay extends MessageDisplay<Image> {
   private readonly canvas = h("canvas", { role: "img" });
   private readonly caption = h("figcaption");
-  private readonly figure = h("figure", { hidden: true }, this.canvas, this.caption);
+  private readonly overlay = new ImageOverlay();
+  private readonly picture = h("div", { class: "picture" }, this.canvas);
+  private readonly figure = h("figure", { hidden: true }, this.picture, this.caption);
+  private projectedAt = 0;
+  private problem = "";
   /** The sequence number of the message on the canvas, or of the one being decoded. */
   private painted = -1;
 
@@ -33,6 +51,9 @@ export class ImageDisplay extends MessageDisplay<Image> {
     super.restyle();
     this.figure.style.width = `${this.options.number("Width")}px`;
     setText(this.caption, shorten(this.config.topic ?? this.config.name, 60));
+    this.projectedAt = 0;
+    if (this.projects) this.picture.append(this.overlay.canvas);
+    else this.overlay.canvas.remove();
   }
 
   override receive(message: DisplayMessage): void {
@@ -54,6 +75,60 @@ export class ImageDisplay extends MessageDisplay<Image> {
     void this.paint(message);
   }
 
+  /** Whether the scene is projected into the image. */
+  get projects(): boolean {
+    return this.options.flag(PROJECT);
+  }
+
+  /** The topic of the CameraInfo of this image, by the convention of image_transport; null if there is none. */
+  get cameraTopic(): string | null {
+    const topics = this.context.model.topics.filter(({ type }) => type === "sensor_msgs/msg/CameraInfo");
+    return cameraTopicOf(
+      this.config.topic ?? "",
+      topics.map(({ topic }) => topic),
+    );
+  }
+
+  /** Draws frames, clouds and shapes above the image, after the poses of all displays are set. */
+  project(displays: readonly Display[], framePoses: FramePoses, axisLength: number): void {
+    const now = performance.now();
+    if (!this.projects || this.figure.hidden || now - this.projectedAt < PROJECTION_INTERVAL_MS) return;
+    this.projectedAt = now;
+    this.problem = this.tryToProject(displays, framePoses, axisLength);
+    if (this.problem) this.overlay.clear();
+    setText(this.caption, shorten(this.config.topic ?? this.config.name, 60) + (this.problem && `: ${this.problem}`));
+  }
+
+  private tryToProject(displays: readonly Display[], framePoses: FramePoses, axisLength: number): string {
+    const topic = this.cameraTopic;
+    if (!topic) return "no CameraInfo for this image";
+    const cameras = displays.filter((display) => display instanceof CameraDisplay);
+    const camera = cameras.find(({ config }) => config.topic === topic && config.enabled)?.newest();
+    if (!camera) return `waiting for ${topic}`;
+    const choice = this.options.choice("Rectified");
+    const rectified = choice === AUTO ? /rect/.test((this.config.topic ?? "").replace(/unrect/, "")) : choice === "Yes";
+    const project = projection(camera.intrinsics, rectified);
+    if (typeof project === "string") return project;
+    const { canvas, options } = this;
+    const shown = { width: canvas.clientWidth, height: canvas.clientHeight };
+    const content = contentOf(displays, framePoses, this.context.model, {
+      frames: options.flag("Project Frames"),
+      clouds: options.flag("Project Clouds"),
+      shapes: options.flag("Project Shapes"),
+    });
+    const { palette, distinct } = this.context;
+    this.overlay.draw(
+      project,
+      camera.pose,
+      camera.intrinsics,
+      shown,
+      { ...content, axisLength },
+      palette(),
+      distinct(),
+    );
+    return "";
+  }
+
   override clear(): void {
     super.clear();
     this.figure.hidden = true;
@@ -66,7 +141,12 @@ export class ImageDisplay extends MessageDisplay<Image> {
   }
 
   protected override describe(message: Image): Record<string, unknown> {
-    return { width: message.width, height: message.height, painted: !this.figure.hidden };
+    return {
+      width: message.width,
+      height: message.height,
+      painted: !this.figure.hidden,
+      projected: this.overlay.projected,
+    };
   }
 
   private async paint(message: Image): Promise<void> {

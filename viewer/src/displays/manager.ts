@@ -16,6 +16,9 @@ import { remember, remembered } from "../util/storage";
 import type { Theme } from "../util/theme";
 import type { View } from "../scene/view";
 import type { Model } from "../model/model";
+import { AXIS_M } from "../scene/frames";
+import { CameraDisplay } from "./camera_info";
+import { ImageDisplay } from "./image";
 import { MessageDisplay, type Context, type Display, type DisplayConfig } from "./display";
 import { KINDS, kindName } from "./registry";
 import { RobotDisplay } from "./robot";
@@ -62,6 +65,9 @@ export class Displays {
     });
     view.onPoses((framePoses, update) => {
       for (const display of this.list) if (display.config.enabled) display.setPoses(framePoses, update);
+      for (const display of this.list)
+        if (display instanceof ImageDisplay && display.config.enabled)
+          display.project(this.list, framePoses, AXIS_M * view.tf.scale);
     });
     view.addBounds(() => {
       const box = new THREE.Box3();
@@ -116,8 +122,15 @@ export class Displays {
   /** Applies an option that the panel has changed in the configuration of a display. */
   optionChanged(display: Display): void {
     if (display instanceof MessageDisplay) this.resubscribeIfNeeded(display);
+    if (display instanceof ImageDisplay && display.projects) this.showCamera(display.cameraTopic);
     display.restyle();
     this.changed();
+  }
+
+  /** Displays a CameraInfo into whose image the scene is projected. */
+  private showCamera(topic: string | null): void {
+    const isCamera = (display: Display): boolean => display instanceof CameraDisplay && display.config.topic === topic;
+    if (topic && !this.list.some(isCamera)) this.add("CameraInfo", topic);
   }
 
   /** Replaces all displays by those of a file. */

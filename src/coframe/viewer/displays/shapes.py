@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 __all__ = ["draw_camera", "draw_odometry", "draw_path", "draw_pose", "draw_pose_array", "draw_range"]
 
 Row = tuple[float, ...]
+_MAX_DISTORTION = 16  # OpenCV's models have at most 14 coefficients.
 _NO_NUMBERS = np.zeros(0, np.float32)
 
 
@@ -88,6 +89,9 @@ def draw_camera(message: Any, options: Options) -> Drawing:
         width=message.width,
         height=message.height,
         k=_finite_all(message.k),
+        p=_finite_all(message.p),
+        distortion_model=message.distortion_model,
+        d=_finite_all(message.d[:_MAX_DISTORTION]),
     )
     return _drawing(message, description, _NO_NUMBERS)
 

@@ -1020,7 +1020,7 @@ class RangeShape(TypedDict):
 
 
 class CameraShape(TypedDict):
-    """The intrinsics of a camera: image size in pixels and the 3x3 matrix K in row-major order."""
+    """The intrinsics of a camera: image size in pixels, the 3x3 matrix K and the 3x4 matrix P in row-major order."""
 
     kind: Literal["camera"]
     frame: str
@@ -1028,6 +1028,9 @@ class CameraShape(TypedDict):
     width: int
     height: int
     k: list[float | None]
+    p: list[float | None]
+    distortion_model: str
+    d: list[float | None]
 
 
 ShapesDescription: TypeAlias = PosesShape | PathShape | OdometryShape | MarkersShape | RangeShape | CameraShape
