@@ -203,3 +203,17 @@ def test_joint_states_need_a_live_graph(package, view, open_tab):
     tab.wait("robot")
     tab.send("joints", robot=0, positions={"turn": 1.0}, publish=True)
     assert "joint states can only be published on a live ROS graph" in tab.wait("problem")["text"]
+
+
+def test_the_meshes_of_the_lab_are_complete_and_small(view, open_tab):
+    arm = Path(coframe.__file__).with_name("lab") / "two_link_arm.urdf.xacro"
+    pytest.importorskip("xacro", reason="the robot of the lab is a xacro file")
+    viewer = view(coframe.Buffer(None), robot=arm)
+    robot = open_tab(viewer).wait("robot")
+    assert robot["problems"] == []
+    names = {reference.rpartition("/")[2] for reference in robot["meshes"]}
+    assert names == {f"{name}.glb" for name in ("base", "beam", "camera", "gripper", "imu", "joint", "lidar")}
+    files = [fetch(viewer, url) for url in robot["meshes"].values()]
+    contents = [body for _, body in files]
+    assert all(content.startswith(b"glTF") for content in contents)
+    assert sum(map(len, contents)) < 150_000

@@ -6,6 +6,7 @@ from __future__ import annotations
 import threading
 import time
 from collections import Counter
+from pathlib import Path
 from typing import Annotated
 
 import typer
@@ -14,6 +15,7 @@ from rich.live import Live
 from rich.text import Text
 
 import coframe
+import coframe.lab
 from coframe.analysis.liveness import LivenessTracker
 from coframe.cli.lifecycle import run_until_interrupted
 from coframe.cli.options import (
@@ -34,6 +36,7 @@ from coframe.cli.view import PortOption, optional_viewer
 from coframe.frame_names import renaming
 from coframe.lab.launcher import COMPLETE_LAB, DESCRIBED_LAB, Launcher
 from coframe.messages.generated.sensor_msgs.msg import PointCloud2
+from coframe.robots import Robot, load
 
 __all__ = ["demo"]
 
@@ -41,6 +44,7 @@ REFRESH = 0.1  # seconds
 # These frames exist once every node has published.
 COMPLETE = ("world", "end_effector", "camera_link", "lidar_link")
 START_TIMEOUT = 20.0
+ARM = Path(coframe.lab.__file__).with_name("two_link_arm.urdf.xacro")
 
 
 class CloudCounter:
@@ -119,7 +123,7 @@ def demo(
         run_until_interrupted(),
         coframe.connect("coframe_demo", domain=domain, **listener_options) as ros,
         Launcher(commands, domain=domain) as nodes,
-        optional_viewer(ros, port, browser=not no_browser),
+        optional_viewer(ros, port, browser=not no_browser, robot=None if urdf or prefix else _robot()),
     ):
         clouds = CloudCounter()
         liveness = LivenessTracker(ros.buffer)
@@ -138,6 +142,14 @@ def demo(
 
         with Live(get_renderable=screen, console=console, refresh_per_second=1 / REFRESH, transient=False):
             _watch(ros.buffer, nodes, start, seconds, [name(frame) for frame in COMPLETE])
+
+
+def _robot() -> Robot | None:
+    """Return the robot whose meshes the viewer shows; None if xacro is not installed: the demo is complete without."""
+    try:
+        return load(ARM)
+    except coframe.CoframeError:
+        return None
 
 
 def _duplicate_nodes(ros: coframe.Connection, nodes: Launcher) -> list[str]:

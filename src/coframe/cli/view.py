@@ -34,6 +34,7 @@ from coframe.wire import dds
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+    from coframe.robots import Robot
     from coframe.viewer import Viewer
     from coframe.viewer.sources.recorded import RecordedSource
 
@@ -200,10 +201,12 @@ def _read(bag: Path, progress: _ReadingProgress, **chosen: Any) -> RecordedSourc
 
 
 @contextlib.contextmanager
-def optional_viewer(ros: coframe.Connection, port: int | None, *, browser: bool) -> Iterator[None]:
+def optional_viewer(
+    ros: coframe.Connection, port: int | None, *, browser: bool, robot: Robot | None = None
+) -> Iterator[None]:
     """Show the viewer; print a warning instead if a package that it needs is not installed."""
     try:
-        viewer = coframe.show(ros, port=port)
+        viewer = coframe.show(ros, port=port, robot=robot)
     except coframe.ViewerError as error:
         warn(f"The viewer is not available: {error}")
         yield

@@ -18,6 +18,8 @@ __all__ = ["Packages"]
 
 _MAX_DEPTH = 4  # levels of folders between a workspace and its packages
 _NEIGHBOR_DEPTH = 2  # less, because the folder around a package may be large, such as a home folder
+# The meshes of the lab's robot are part of coframe.
+_OWN = {"coframe_lab": Path(__file__).parents[1] / "lab"}
 _SEARCHED = "Packages are searched in the folders of COFRAME_PACKAGE_PATH."
 
 
@@ -49,7 +51,13 @@ class Packages:
             PackageError: The package is not found.
         """
         if name not in self._found:
-            self._found[name] = self._search(name).resolve()
+            try:
+                found = self._search(name)
+            except PackageError:
+                if name not in _OWN:
+                    raise
+                found = _OWN[name]
+            self._found[name] = found.resolve()
         return self._found[name]
 
     def resolve(self, url: str) -> Path:

@@ -89,6 +89,10 @@ def test_a_scan_of_the_demo_lies_on_its_walls(lab):
         }"""
     )
     assert_on_the_walls(scan)
+    robot = lab.until("() => { const r = coframe.displays.RobotModel; return r?.meshes > 20 && !r.loading && r }")
+    assert (robot["state"], robot["text"], robot["robot"]) == ("ok", "two_link_arm", "two_link_arm")
+    link = lab.evaluate("[coframe.displays.RobotModel.links.gripper_link, coframe.frames.gripper_link.position]")
+    np.testing.assert_allclose(link[0][:3], link[1], atol=0.05)  # The scene may have another origin in a long run.
 
 
 def assert_on_the_walls(scan):
