@@ -9,10 +9,9 @@ import pytest
 from coframe import _core
 from coframe.messages import find
 from coframe.messages.type_hash import type_hash
-from coframe.wire import QoS, types
+from coframe.wire import QoS, request_header, types
 from coframe.wire.discovery_info import TOPIC, NodeInfo, decode_info, encode_info
 from coframe.wire.user_data import TF_MESSAGE, TF_MESSAGE_HASH, endpoint_user_data, type_hash_of
-from rclpy import _request_header
 
 PARTICIPANT = "01103a4b5c6d7e8f90a1b2c3000001c1"
 READER, WRITER = "01103a4b5c6d7e8f90a1b2c300000504", "01103a4b5c6d7e8f90a1b2c300000403"
@@ -37,7 +36,7 @@ class Foreign:
     def __init__(self, domain_id, size):
         self.native = _core.DomainParticipant(domain_id, "", "enclave=/;")
         topic = types.create_topic(self.native.entity, TOPIC, "rmw_dds_common::msg::dds_::ParticipantEntitiesInfo_")
-        qos = _core.QosProfile(depth=1, reliable=True, transient_local=True, keep_all=False)
+        qos = _core.QosProfile(depth=1, reliable=True, transient_local=True, keep_all=True)
         self.reader = _core.Reader(self.native.entity, topic, qos, "", None)
         self.endpoints = _core.EndpointReader(self.native.entity, _core.PUBLICATIONS, _core.Event())
         self.writer = _core.Writer(self.native.entity, topic, qos, "")
@@ -144,6 +143,6 @@ def test_user_data():
 def test_header_of_services():
     """rmw_cyclonedds puts the client (u64) and the sequence number (i64) before a request, rmw_fastrtps nothing."""
     cyclone = bytes.fromhex("00010000 efcdab8967452301 0200000000000000 01")
-    assert _request_header.join(_request_header.RequestHeader(0x0123456789ABCDEF, 2), b"\0\1\0\0\1") == cyclone
-    assert _request_header.split(cyclone) == ((0x0123456789ABCDEF, 2), b"\0\1\0\0\1")
-    assert _request_header.split(bytes.fromhex("0001000001000000")) is None
+    assert request_header.join(request_header.RequestHeader(0x0123456789ABCDEF, 2), b"\0\1\0\0\1") == cyclone
+    assert request_header.split(cyclone) == ((0x0123456789ABCDEF, 2), b"\0\1\0\0\1")
+    assert request_header.split(bytes.fromhex("0001000001000000")) is None

@@ -36,9 +36,10 @@ class Sample(NamedTuple):
 class GraphNode:
     """A node of this process on the ROS graph. Created by `Participant.add_node`."""
 
-    def __init__(self, participant: Participant, namespace: str, name: str) -> None:
+    def __init__(self, participant: Participant, namespace: str, name: str, *, has_parameters: bool) -> None:
         self.namespace = namespace
         self.name = name
+        self.has_parameters = has_parameters
         self._participant = participant
         self._endpoints: dict[bytes, LocalEndpoint] = {}
 

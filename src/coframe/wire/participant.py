@@ -27,6 +27,7 @@ from coframe.wire.discovery_info import (
 from coframe.wire.endpoint_mismatch import MismatchMonitor
 from coframe.wire.endpoints import GraphNode, LocalEndpoint, Publisher, RawPublisher, Subscription
 from coframe.wire.graph import DiscoveredEndpoint, EndpointInfo, Graph
+from coframe.wire.parameter_services import ParameterServices
 from coframe.wire.qos import GRAPH_WRITER, TF, TF_STATIC_READER, QoS
 from coframe.wire.rejected_transforms import RejectedTransformMonitor
 from coframe.wire.service_endpoints import ServicePublisher, ServiceSubscription
@@ -75,6 +76,7 @@ class Participant:
         self._mismatches = MismatchMonitor(self._graph, self._warn)
         self._rejections = RejectedTransformMonitor(self._graph, self._warn)
         self._warn_once = WarnOnce(self._warn)
+        self._parameter_services = ParameterServices(self)
         self._watchers: list[_core.Event] = []
         self._warning_callbacks: list[Callable[[str], None]] = []
         self._closing = False
@@ -112,12 +114,14 @@ class Participant:
             if self._references == 0 and self._process == os.getpid():
                 self._end()
 
-    def add_node(self, namespace: str, name: str) -> GraphNode:
+    def add_node(self, namespace: str, name: str, *, has_parameters: bool = False) -> GraphNode:
         """Add a node to the graph.
 
         Args:
             namespace: The absolute namespace: "/" or "/a/b".
             name: The name without the namespace.
+            has_parameters: Whether the caller answers the parameter services of the node. If not, the participant
+                answers that there are no parameters.
 
         Raises:
             WireError: The namespace is not absolute, or a name is longer than 256 bytes.
@@ -130,7 +134,7 @@ class Participant:
                     f"The name {text[:20]!r}... has {len(text.encode())} bytes. The limit is {MAX_NAME} bytes.",
                     hint="Choose a shorter name.",
                 )
-        node = GraphNode(self, namespace, name)
+        node = GraphNode(self, namespace, name, has_parameters=has_parameters)
         with self._lock:
             self._nodes.append(node)
             self.announce()
@@ -491,6 +495,9 @@ class Participant:
         for event in watchers:
             event.set()
         self._adapt_announcement()
+        with self._lock:
+            without_parameters = [node for node in self._nodes if not node.has_parameters]
+        self._parameter_services.serve(without_parameters, self._graph.by_topic(writers=True))
         for endpoint in self._endpoints():
             if isinstance(endpoint, TfReader):
                 endpoint.name_writers(self._graph)
@@ -510,6 +517,7 @@ class Participant:
         self._wake.set()
         if self._thread is not threading.current_thread():
             self._thread.join()
+        self._parameter_services.close()
         for node in list(self._nodes):
             node.close()
         self._info_writer.close()

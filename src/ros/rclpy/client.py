@@ -15,9 +15,9 @@ from typing import TYPE_CHECKING, Any, Final
 from coframe._core import Event
 from coframe.messages import codec
 from coframe.time import MILLISECOND
-from rclpy import _request_header
+from coframe.wire import request_header
+from coframe.wire.request_header import RequestHeader
 from rclpy._destroyable import destroyed
-from rclpy._request_header import RequestHeader
 from rclpy.constants import S_TO_NS
 from rclpy.task import Future
 
@@ -119,7 +119,7 @@ class Client:
             header = RequestHeader(self.__identity, self.__sequence)
             self.__pending[header.sequence] = future, convert
         future._Coframe__add_waiter(partial(self.__forget, header.sequence))
-        self.__requests.write(_request_header.join(header, codec.serialize(request)))
+        self.__requests.write(request_header.join(header, codec.serialize(request)))
         return future
 
     def remove_pending_request(self, future: Future[Any]) -> None:
@@ -170,7 +170,7 @@ class Client:
         """Take one reply. A client receives the replies to all clients and skips those of other clients."""
         replies = self.__replies
         for sample in [] if replies is None else replies.take(limit=1):
-            parts = _request_header.split(sample.data)
+            parts = request_header.split(sample.data)
             if parts is None or parts[0].client != self.__identity:
                 continue
             with self.__lock:

@@ -115,7 +115,9 @@ class Node(NodeParameters, NodeGraph):
         overrides.update((parameter.name, parameter) for parameter in parameter_overrides or [])
 
         self._Coframe__participant = self.__context._Coframe__get_participant()
-        self._Coframe__graph_node = self._Coframe__participant.add_node(self.__names.namespace, self.__names.node_name)
+        self._Coframe__graph_node = self._Coframe__participant.add_node(
+            self.__names.namespace, self.__names.node_name, has_parameters=True
+        )
         self._Coframe__polled_subscriptions: list[PolledSubscription] = []
         self.__rosout: RosoutPublisher | None = None
         if enable_rosout and arguments.logging.rosout:

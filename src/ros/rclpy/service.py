@@ -11,14 +11,14 @@ from typing import TYPE_CHECKING, Any, Final
 
 from coframe.errors import DecodeError
 from coframe.messages import codec
-from rclpy import _request_header
+from coframe.wire import request_header
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from coframe.wire import Publisher as WirePublisher
     from coframe.wire import Subscription as WireSubscription
-    from rclpy._request_header import RequestHeader
+    from coframe.wire.request_header import RequestHeader
     from rclpy.callback_groups import CallbackGroup
     from rclpy.qos import QoSProfile
 
@@ -73,7 +73,7 @@ class Service:
         deadline = time.monotonic() + _MATCH_TIMEOUT_S
         while not self.__replies.matched and time.monotonic() < deadline:
             time.sleep(0.001)
-        self.__replies.write(_request_header.join(header, codec.serialize(response)))
+        self.__replies.write(request_header.join(header, codec.serialize(response)))
 
     def destroy(self) -> None:
         """Destroy the service. Prefer `Node.destroy_service`."""
@@ -89,7 +89,7 @@ class Service:
     def _Coframe__take(self) -> Callable[[], Any] | None:
         requests = self.__requests
         for sample in [] if requests is None else requests.take(limit=1):
-            parts = _request_header.split(sample.data)
+            parts = request_header.split(sample.data)
             if parts is None:
                 continue
             header, cdr = parts

@@ -17,7 +17,7 @@ from rclpy.task import Future
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from rclpy._request_header import RequestHeader
+    from coframe.wire.request_header import RequestHeader
     from rclpy.action.server import ActionServer
     from unique_identifier_msgs.msg import UUID
 

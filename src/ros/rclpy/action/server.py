@@ -37,7 +37,7 @@ from rclpy.type_support import check_is_valid_action_type
 if TYPE_CHECKING:
     from collections.abc import Callable, Coroutine
 
-    from rclpy._request_header import RequestHeader
+    from coframe.wire.request_header import RequestHeader
     from rclpy.callback_groups import CallbackGroup
     from rclpy.node import Node
     from unique_identifier_msgs.msg import UUID
