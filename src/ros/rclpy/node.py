@@ -568,10 +568,14 @@ class Node(NodeParameters, NodeGraph):
         self.__check_not_destroyed()
         # After a signal, a program may still create publishers for final messages.
         if not (self.context.ok() or self.context._Coframe__was_shut_down_by_signal):
-            raise _with_hint(
-                RCLError(f"Failed to create {entity}: rcl node's context is invalid"),
-                "rclpy.shutdown() was called. Create a new node after rclpy.init().",
-            )
+            reason = "Failed to create {}: rcl node's context is invalid"
+            if entity in {"timer", "guard_condition"}:
+                reason = (
+                    "failed to create {}: the given context is not valid, either rcl_init() was not called or "
+                    "rcl_shutdown() was called."
+                )
+            hint = "rclpy.shutdown() was called. Create a new node after rclpy.init()."
+            raise _with_hint(RCLError(reason.format(entity)), hint)
 
     def __group(self, group: CallbackGroup | None) -> CallbackGroup:
         return self.__default_callback_group if group is None else group

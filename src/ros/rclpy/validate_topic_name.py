@@ -19,7 +19,7 @@ def validate_topic_name(name: str, *, is_service: bool = False) -> bool:
         RCLError: The name is None.
         TypeError: The name is not a string.
     """
-    if name is None:
+    if name is None and not is_service:
         raise RCLError("failed to validate name: topic_name argument is null")
     if not isinstance(name, str):
         what = "service" if is_service else "topic"

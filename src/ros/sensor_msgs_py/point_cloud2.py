@@ -183,16 +183,22 @@ def _has_nan(points: NDArray[Any]) -> NDArray[np.bool_]:
     return found
 
 
+def _without_garbage(points: NDArray[Any]) -> NDArray[Any]:
+    """Return the points with zeros as padding, where NumPy leaves what was in memory before."""
+    clean: NDArray[Any] = np.zeros(points.shape, dtype=points.dtype)
+    clean[:] = points
+    return clean
+
+
 def _structured(fields: list[PointField], points: Any, point_step: int | None) -> NDArray[Any]:
     dtype = dtype_from_fields(fields, point_step)
     if not isinstance(points, np.ndarray):
-        return np.array([tuple(point) for point in points], dtype=dtype)
+        return _without_garbage(np.array([tuple(point) for point in points], dtype=dtype))
     if points.dtype.names is None:
         assert all(fields[0].datatype == field.datatype for field in fields[1:]), (
             "All fields need to have the same datatype. Pass a structured NumPy array with multiple dtypes otherwise."
         )
-        structured: NDArray[Any] = unstructured_to_structured(points, dtype=dtype)
-        return structured
+        return _without_garbage(unstructured_to_structured(points, dtype=dtype))
     assert points.dtype == dtype, (
         "PointFields and structured NumPy array dtype do not match for all fields! "
         "Check their field order, names and types."
