@@ -264,6 +264,7 @@ class Node(NodeParameters, NodeGraph):
         *,
         callback_group: CallbackGroup | None = None,
         qos_overriding_options: QoSOverridingOptions | None = None,
+        publisher_class: type[Publisher] = Publisher,
     ) -> Publisher:
         """Create a publisher.
 
@@ -273,6 +274,7 @@ class Node(NodeParameters, NodeGraph):
             qos_profile: QoS profile, or its depth.
             callback_group: Ignored, accepted for compatibility. Publishers have no callbacks.
             qos_overriding_options: QoS policies that parameters may override. None: no policies.
+            publisher_class: Class of the publisher, a subclass of Publisher.
 
         Raises:
             InvalidQosOverridesError: A parameter value is not valid for its policy.
@@ -287,7 +289,7 @@ class Node(NodeParameters, NodeGraph):
         if qos_overriding_options is not None:
             qos = apply_qos_overrides(self, "publisher", name, qos, qos_overriding_options)
         wire = self._Coframe__participant.publisher(self._Coframe__graph_node, name, msg_type, qos._Coframe__to_wire())
-        return self.__add(Publisher(wire, msg_type, topic, name, qos, self.context))
+        return self.__add(publisher_class(wire, msg_type, topic, name, qos, self.context))
 
     def create_subscription(
         self,

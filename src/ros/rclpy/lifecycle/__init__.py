@@ -1,0 +1,27 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Lifecycle nodes, whose states other programs control (`ros2 lifecycle set /node configure`)."""
+
+from rclpy.lifecycle.managed_entity import ManagedEntity, SimpleManagedEntity
+from rclpy.lifecycle.node import LifecycleNode, LifecycleNodeMixin, LifecycleState
+from rclpy.lifecycle.publisher import LifecyclePublisher
+from rclpy.lifecycle.state_machine import TransitionCallbackReturn
+
+# Upstream also has these shorter names.
+Node = LifecycleNode
+NodeMixin = LifecycleNodeMixin
+State = LifecycleState
+Publisher = LifecyclePublisher
+
+__all__ = [
+    "LifecycleNode",
+    "LifecycleNodeMixin",
+    "LifecyclePublisher",
+    "LifecycleState",
+    "ManagedEntity",
+    "Node",
+    "NodeMixin",
+    "Publisher",
+    "SimpleManagedEntity",
+    "State",
+    "TransitionCallbackReturn",
+]
