@@ -148,9 +148,9 @@ def test_other_nodes_control_the_state(context, make_node, talker, wait_until):
     executor = SingleThreadedExecutor(context=context)
     executor.add_node(talker)
     executor.add_node(controller)
-    events, heard = [], []
+    events, texts = [], []
     controller.create_subscription(TransitionEvent, "/talker/transition_event", events.append, 10)
-    controller.create_subscription(String, "chatter", heard.append, 10)
+    controller.create_subscription(String, "chatter", texts.append, 10)
 
     def call(srv_type, name, **fields):
         client = controller.create_client(srv_type, f"/talker/{name}")
@@ -190,8 +190,8 @@ def test_other_nodes_control_the_state(context, make_node, talker, wait_until):
     assert state().label == "active"
     assert not call(ChangeState, "change_state", transition=Transition(label="configure")).success
     talker.publisher.publish(String(data="published"))
-    wait_until(lambda: heard and len(events) == 4, lambda: executor.spin_once(timeout_sec=0.02))
-    assert [message.data for message in heard] == ["published"]
+    wait_until(lambda: texts and len(events) == 4, lambda: executor.spin_once(timeout_sec=0.02))
+    assert [message.data for message in texts] == ["published"]
     assert [(event.start_state.label, event.goal_state.label) for event in events] == [
         ("unconfigured", "configuring"),
         ("configuring", "inactive"),
