@@ -8,10 +8,14 @@ import sys
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from collections.abc import Collection
+
     import typer
 
-__all__ = ["main"]
+__all__ = ["main", "run"]
 
+# The shell sets one of these variables when it asks a program for completions.
+_COMPLETING = {"_COFRAME_COMPLETE", "_ROS2_COMPLETE"}
 _INTERRUPTED = 130  # exit code: 128 + SIGINT, as shells have it
 # The extra that installs each package which a command may need.
 _EXTRAS = {
@@ -31,28 +35,40 @@ _EXTRAS = {
 
 def main() -> None:
     """Run the console script ``coframe``."""
+    run(sys.argv[1:])
+
+
+def run(words: list[str], *, program: str = "coframe", shown: Collection[str] | None = None) -> None:
+    """Run a command line and end the process.
+
+    Args:
+        words: The arguments.
+        program: The name of the program in its help.
+        shown: The commands that exist. None: all.
+    """
     try:
-        _app(_command_name())()
+        _app(_command_name(words), program, shown)(words, prog_name=program)
     except ModuleNotFoundError as error:
         sys.exit(_what_to_install(error))
     except KeyboardInterrupt:  # Ctrl-C during the imports.
         sys.exit(_INTERRUPTED)
 
 
-def _command_name() -> str:
+def _command_name(words: list[str]) -> str:
     """Return the first argument; when the shell asks for completions, that of the line to complete."""
-    if "_COFRAME_COMPLETE" not in os.environ:
-        return sys.argv[1] if len(sys.argv) > 1 else ""
+    if not _COMPLETING & set(os.environ):
+        return words[0] if words else ""
     line = os.environ.get("_TYPER_COMPLETE_ARGS") or os.environ.get("COMP_WORDS", "")
     words = line.split()
     return words[1] if len(words) > 1 else ""
 
 
-def _app(name: str) -> typer.Typer:
+def _app(name: str, program: str, shown: Collection[str] | None) -> typer.Typer:
     """Return the app in which only the named command can run: the help and the other commands start faster."""
-    from coframe.cli.commands import COMMANDS, build_app  # noqa: PLC0415 - main() reports a missing typer
+    from coframe.cli.commands import COMMANDS, build_app  # noqa: PLC0415 - run() reports a missing typer
 
-    return build_app([name] if name in COMMANDS else [])
+    existing = [each for each in COMMANDS if shown is None or each in shown]
+    return build_app([name] if name in existing else [], existing, program)
 
 
 def _what_to_install(error: ModuleNotFoundError) -> str:

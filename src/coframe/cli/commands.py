@@ -18,7 +18,8 @@ __all__ = ["COMMANDS", "build_app"]
 
 # These commands pass unknown words on: --ros-args to a node, NAME:=VALUE to a xacro file.
 _PASSES_WORDS_ON = {"context_settings": {"ignore_unknown_options": True, "allow_extra_args": True}}
-# The line in `coframe --help`, and how the command is registered; `cls` is the name of a class in its module.
+# The line in `coframe --help`, and how the command is registered. `module` is its module if that does not have the name
+# of the command; `cls` is the name of a class in its module.
 COMMANDS: dict[str, tuple[str, dict[str, Any]]] = {
     "demo": ("Start a simulated robot and show its moving transform tree.", {}),
     "view": ("Show frames, sensor data and markers in a browser tab.", {}),
@@ -50,18 +51,36 @@ COMMANDS: dict[str, tuple[str, dict[str, Any]]] = {
     "plot": ("Plot poses, fields, rates and delays over time.", {}),
     "cloud": ("Write point clouds or scans from a recording in one frame.", {}),
     "batch": ("Write trajectories from many recordings as one dataset.", {}),
+    "topic": ("Inspect and publish topics, like ros2 topic.", {"module": "ros2.topic"}),
+    "node": ("List and inspect nodes, like ros2 node.", {"module": "ros2.node"}),
+    "service": ("List and call services, like ros2 service.", {"module": "ros2.service"}),
+    "action": ("List actions and send goals, like ros2 action.", {"module": "ros2.action"}),
+    "param": ("Read and set parameters of nodes, like ros2 param.", {"module": "ros2.param"}),
+    "lifecycle": ("Change the states of lifecycle nodes, like ros2 lifecycle.", {"module": "ros2.lifecycle"}),
+    "interface": ("Show message, service and action types, like ros2 interface.", {"module": "ros2.interface"}),
+    "pkg": ("Create and find packages, like ros2 pkg.", {"module": "ros2.pkg"}),
+}
+
+_DESCRIPTIONS = {
+    "coframe": "ROS 2's transform system (tf2) as one pip install: any frame, any time, on any machine.\n\n"
+    "Example: coframe demo",
+    "ros2": "The commands of ros2 that coframe provides where no ROS is installed. coframe --help lists more.\n\n"
+    "Example: ros2 topic list",
 }
 
 
-def build_app(names: Iterable[str]) -> typer.Typer:
-    """Return the command line; only the modules of the named commands are imported, and only these can run."""
+def build_app(names: Iterable[str], existing: Iterable[str] = COMMANDS, program: str = "coframe") -> typer.Typer:
+    """Return the command line; only the modules of the named commands are imported, and only these can run.
+
+    Args:
+        names: The commands to import.
+        existing: The commands that the help lists.
+        program: The name of the program in its help.
+    """
     app = typer.Typer(
-        name="coframe",
+        name=program,
         cls=PlainGroup,
-        help=(
-            "ROS 2's transform system (tf2) as one pip install: any frame, any time, on any machine.\n\n"
-            "Example: coframe demo"
-        ),
+        help=_DESCRIPTIONS[program],
         no_args_is_help=True,
         pretty_exceptions_enable=False,
         # Plain text: panels cut the descriptions of options to half of an 80-column terminal.
@@ -69,17 +88,19 @@ def build_app(names: Iterable[str]) -> typer.Typer:
     )
     app.callback()(_main)
     imported = set(names)
-    for name, (line, registration) in COMMANDS.items():
+    for name in existing:
+        line, registration = COMMANDS[name]
         if name not in imported:
             app.command(name, cls=PlainCommand, short_help=line)(_not_imported)
             continue
-        module = importlib.import_module(f"coframe.cli.{name}")
+        options = dict(registration)
+        module = importlib.import_module(f"coframe.cli.{options.pop('module', name)}")
         command = getattr(module, name)
         if isinstance(command, typer.Typer):
             app.add_typer(command, name=name, cls=PlainGroup, short_help=line)
         else:
-            cls = getattr(module, registration["cls"]) if "cls" in registration else PlainCommand
-            app.command(**{**registration, "cls": cls, "short_help": line})(command)
+            cls = getattr(module, options.pop("cls")) if "cls" in options else PlainCommand
+            app.command(**options, cls=cls, short_help=line)(command)
     return app
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Completion of frame names for the shell; it is installed by ``coframe --install-completion``."""
+"""Completion of frame and topic names for the shell; it is installed by ``coframe --install-completion``."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import Any
 
 from coframe.errors import CoframeError
 
-__all__ = ["complete_frames"]
+__all__ = ["complete_frames", "complete_live_topics"]
 
 _LARGEST = 200 << 20  # bytes: reading more takes longer than typing the name
 
@@ -30,3 +30,15 @@ def complete_frames(ctx: Any, incomplete: str) -> list[str]:
     except CoframeError:
         return []
     return sorted(name for name in names if name.startswith(incomplete))
+
+
+def complete_live_topics(incomplete: str) -> list[str]:
+    """Return the topics of the ROS graph that begin with a text."""
+    from coframe.cli.ros2.graph import DISCOVERY, graph_node, is_hidden  # noqa: PLC0415 - only for this completion
+
+    try:
+        with graph_node(DISCOVERY) as node:
+            names = [name for name, _ in node.get_topic_names_and_types()]
+    except (CoframeError, ImportError, SystemExit):
+        return []
+    return sorted(name for name in names if name.startswith(incomplete) and not is_hidden(name))

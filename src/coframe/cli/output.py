@@ -52,7 +52,7 @@ def log(level: str, node: str, text: str) -> None:
 
 def printable(text: str) -> str:
     """Replace control characters: names from recordings and from the network may contain escape sequences."""
-    return "".join(c if c.isprintable() or c == "\n" else "\N{REPLACEMENT CHARACTER}" for c in text)
+    return "".join(c if c.isprintable() or c in "\n\t" else "\N{REPLACEMENT CHARACTER}" for c in text)
 
 
 def report_console() -> Console:

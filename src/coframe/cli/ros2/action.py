@@ -1,0 +1,183 @@
+# SPDX-License-Identifier: Apache-2.0
+"""``coframe action``: the actions of the ROS graph, with the words and the output of ``ros2 action``."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from coframe.cli.help_format import PlainCommand, PlainGroup
+from coframe.cli.options import with_leading_slash
+from coframe.cli.output import fail, printable
+from coframe.cli.ros2.graph import (
+    DISCOVERY,
+    DaemonOption,
+    SpinTimeOption,
+    graph_node,
+    joined,
+    load_type,
+    node_names,
+    split_node_name,
+)
+from coframe.cli.ros2.values import read_values
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from rclpy.node import Node
+
+__all__ = ["action"]
+
+ActionArgument = Annotated[
+    str, typer.Argument(metavar="ACTION", help="Name of the action, e.g. /fibonacci.", callback=with_leading_slash)
+]
+action = typer.Typer(
+    cls=PlainGroup,
+    help="List actions and send goals, like ros2 action.\n\n"
+    "Example: coframe action send_goal /fibonacci example_interfaces/action/Fibonacci '{order: 5}'",
+    no_args_is_help=True,
+    rich_markup_mode=None,
+)
+
+
+@action.command(cls=PlainCommand, short_help="Show the clients and servers of an action.")
+def info(
+    action_name: ActionArgument,
+    show_types: Annotated[bool, typer.Option("--show-types", "-t", help="Show the types as well.")] = False,
+    count: Annotated[bool, typer.Option("--count", "-c", help="Print the numbers of nodes only.")] = False,
+    spin_time: SpinTimeOption = DISCOVERY,
+    no_daemon: DaemonOption = False,
+) -> None:
+    """Show the nodes that are clients and servers of an action.
+
+    Example: coframe action info /fibonacci
+    """
+    del no_daemon
+    from rclpy.action import (  # noqa: PLC0415 - slow import
+        get_action_client_names_and_types_by_node,
+        get_action_server_names_and_types_by_node,
+    )
+
+    with graph_node(spin_time) as node:
+        print(f"Action: {printable(action_name)}")
+        for title, query in (
+            ("Action clients", get_action_client_names_and_types_by_node),
+            ("Action servers", get_action_server_names_and_types_by_node),
+        ):
+            found = _nodes_of(node, action_name, query)
+            print(f"{title}: {len(found)}")
+            for name, types in () if count else found:
+                print(printable(f"    {name} {joined(types)}" if show_types else f"    {name}"))
+
+
+@action.command("list", cls=PlainCommand, short_help="List the actions.")
+def list_actions(
+    show_types: Annotated[bool, typer.Option("--show-types", "-t", help="Show the types as well.")] = False,
+    count: Annotated[bool, typer.Option("--count-actions", "-c", help="Print the number of actions only.")] = False,
+    spin_time: SpinTimeOption = DISCOVERY,
+    no_daemon: DaemonOption = False,
+) -> None:
+    """List the actions of the ROS graph.
+
+    Example: coframe action list -t
+    """
+    del no_daemon
+    from rclpy.action import get_action_names_and_types  # noqa: PLC0415 - slow import
+
+    with graph_node(spin_time) as node:
+        actions = sorted(get_action_names_and_types(node))
+    if count:
+        print(len(actions))
+        return
+    for name, types in actions:
+        print(printable(f"{name} {joined(types)}" if show_types else name))
+
+
+@action.command("send_goal", cls=PlainCommand, short_help="Send a goal to an action server.")
+def send_goal(
+    action_name: ActionArgument,
+    action_type: Annotated[str, typer.Argument(metavar="TYPE", help="Type, e.g. example_interfaces/action/Fibonacci.")],
+    goal: Annotated[str, typer.Argument(metavar="GOAL", help="Values of the goal as YAML, e.g. '{order: 5}'.")],
+    feedback: Annotated[bool, typer.Option("--feedback", "-f", help="Print the feedback.")] = False,
+) -> None:
+    """Send a goal and print its result. Ctrl-C cancels the goal.
+
+    Example: coframe action send_goal /fibonacci example_interfaces/action/Fibonacci '{order: 5}' --feedback
+    """
+    with graph_node() as node:
+        from rosidl_runtime_py.utilities import get_action  # noqa: PLC0415
+
+        from rclpy.action import ActionClient  # noqa: PLC0415 - slow import
+
+        kind = load_type(action_type, get_action)
+        message = kind.Goal()
+        read_values(message, goal)(node.get_clock().now().to_msg())
+        client = ActionClient(node, kind, action_name)
+        try:
+            print("Waiting for an action server to become available...", flush=True)
+            client.wait_for_server()
+            _follow_goal(node, client, message, feedback=feedback)
+        finally:
+            client.destroy()
+
+
+def _follow_goal(node: Node, client: Any, goal: Any, *, feedback: bool) -> None:
+    """Send the goal, and print what happens to it until it is finished."""
+    import rclpy  # noqa: PLC0415 - slow import
+
+    def print_feedback(message: Any) -> None:
+        _print_indented("Feedback", message.feedback)
+
+    _print_indented("Sending goal", goal)
+    sent = client.send_goal_async(goal, print_feedback if feedback else None)
+    rclpy.spin_until_future_complete(node, sent)
+    handle = sent.result()
+    if not handle.accepted:
+        fail("Goal was rejected.")
+    print(f"Goal accepted with ID: {bytes(handle.goal_id.uuid).hex()}\n", flush=True)
+    result = handle.get_result_async()
+    try:
+        rclpy.spin_until_future_complete(node, result)
+    except KeyboardInterrupt:
+        _cancel(node, handle)
+        raise
+    _print_indented("Result", result.result().result)
+    print(f"Goal finished with status: {_status_name(result.result().status)}")
+
+
+def _cancel(node: Node, handle: Any) -> None:
+    import rclpy  # noqa: PLC0415 - slow import
+
+    print("Canceling goal...", flush=True)
+    canceled = handle.cancel_goal_async()
+    rclpy.spin_until_future_complete(node, canceled, timeout_sec=3.0)
+    response = canceled.result() if canceled.done() else None
+    print("Goal canceled." if response and response.goals_canceling else "Failed to cancel goal")
+
+
+def _print_indented(title: str, message: Any) -> None:
+    from rosidl_runtime_py import message_to_yaml  # noqa: PLC0415 - slow import
+
+    text = "\n".join(f"    {line}" for line in message_to_yaml(message).splitlines())
+    print(f"{title}:\n{printable(text)}\n", flush=True)
+
+
+def _status_name(status: int) -> str:
+    from action_msgs.msg import GoalStatus  # noqa: PLC0415 - slow import
+
+    names = {getattr(GoalStatus, name): name for name in dir(GoalStatus) if name.startswith("STATUS_")}
+    return names.get(status, f"unknown ({status})").removeprefix("STATUS_")
+
+
+def _nodes_of(
+    node: Node, action_name: str, query: Callable[[Node, str, str], list[tuple[str, list[str]]]]
+) -> list[tuple[str, list[str]]]:
+    """Return the nodes that have the action, with its types."""
+    found = []
+    for full_name in node_names(node, include_hidden=True):
+        namespace, name = split_node_name(full_name)
+        types = dict(query(node, name, namespace)).get(action_name)
+        if types:
+            found.append((full_name, types))
+    return found

@@ -1,0 +1,40 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Calls of services of another node, with sentences for what can go wrong."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from coframe.cli.output import fail
+from coframe.cli.ros2.graph import PATIENCE
+
+if TYPE_CHECKING:
+    from rclpy.node import Node
+
+__all__ = ["call_service"]
+
+_RESPONSE = 5.0  # seconds
+
+
+def call_service(node: Node, service_class: Any, name: str, request: Any) -> Any:
+    """Call a service and return its response; end the command if there is none.
+
+    Args:
+        node: Node of the command.
+        service_class: Class of the service.
+        name: Full name of the service, e.g. "/listener/get_parameters".
+        request: The request.
+    """
+    import rclpy  # noqa: PLC0415 - slow import
+
+    client = node.create_client(service_class, name)
+    try:
+        if not client.wait_for_service(PATIENCE):
+            fail(f"There is no service {name}.", "coframe service list shows all services.")
+        future = client.call_async(request)
+        rclpy.spin_until_future_complete(node, future, timeout_sec=_RESPONSE)
+        if not future.done():
+            fail(f"Service {name} did not respond within {_RESPONSE:g} s.", "Its node must be spinning to respond.")
+        return future.result()
+    finally:
+        node.destroy_client(client)

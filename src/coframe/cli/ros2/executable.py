@@ -1,0 +1,117 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The executables ``ros2`` and ``rviz2`` for machines without ROS; those of an installed ROS take precedence."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+__all__ = ["ros2", "rviz2"]
+
+_COMMANDS = (
+    "action",
+    "bag",
+    "doctor",
+    "interface",
+    "launch",
+    "lifecycle",
+    "node",
+    "param",
+    "pkg",
+    "run",
+    "service",
+    "topic",
+)
+_ALIASES = {"wtf": "doctor"}
+# Commands of ros2 that coframe does not have, with what to do instead.
+_ABSENT = {
+    "component": "C++ components cannot be loaded. Start the node as a process: ros2 run PACKAGE EXECUTABLE.",
+    "multicast": "coframe doctor shows whether nodes are discovered.",
+    "security": "SECURITY.md of coframe describes what protects the ROS graph.",
+    "test": "Run tests with pytest.",
+    "extension_points": "coframe has no extension points.",
+    "extensions": "coframe has no extensions.",
+}
+_OWN_SCRIPT = b"coframe.cli.ros2.executable"  # in the scripts that installers write for this module
+_SCRIPT_SIZE = 100_000  # bytes; the launchers of Windows contain the script at their end
+
+
+def ros2() -> None:
+    """Run the console script ``ros2``."""
+    _run_real("ros2")
+    words = sys.argv[1:]
+    name = _ALIASES.get(words[0], words[0]) if words else ""
+    if name == "daemon":
+        print("coframe has no daemon: each command looks at the ROS graph itself.")
+        return
+    if name in _ABSENT:
+        sys.exit(f"ros2: The command {name} does not exist in coframe. {_ABSENT[name]}")
+    from coframe.cli import run  # noqa: PLC0415 - not needed where ROS is installed
+
+    run([name, *words[1:]] if words else [], program="ros2", shown=_COMMANDS)
+
+
+def rviz2() -> None:
+    """Run the console script ``rviz2``: open the viewer with RViz's options."""
+    _run_real("rviz2")
+    parser = argparse.ArgumentParser("rviz2", description="Open coframe's viewer in the browser, in place of RViz.")
+    parser.add_argument("-d", "--display-config", metavar="FILE", help="a .rviz file")
+    parser.add_argument("-f", "--fixed-frame", metavar="FRAME", help="the fixed frame")
+    parser.add_argument("-s", "--splash-screen", metavar="FILE", help=argparse.SUPPRESS)
+    parser.add_argument("--fullscreen", action="store_true", help=argparse.SUPPRESS)
+    given, rest = parser.parse_known_args(_without_ros_arguments(sys.argv[1:]))
+    if rest:
+        parser.error(f"unknown arguments: {' '.join(rest)}. coframe view --help shows the options of the viewer.")
+    words = ["view"]
+    words += ["-d", given.display_config] if given.display_config else []
+    words += ["--fixed", given.fixed_frame] if given.fixed_frame else []
+    from coframe.cli import run  # noqa: PLC0415 - not needed where ROS is installed
+
+    run(words)
+
+
+def _run_real(name: str) -> None:
+    """Replace this process by the executable of an installed ROS, if there is one."""
+    real = _real(name)
+    if real is None:
+        return
+    command = [str(real), *sys.argv[1:]]
+    if os.name == "posix":
+        os.execv(command[0], command)  # noqa: S606 - the executable that the user asked for
+    sys.exit(subprocess.run(command, check=False).returncode)  # noqa: S603
+
+
+def _real(name: str) -> Path | None:
+    """Return the executable of ROS in AMENT_PREFIX_PATH or PATH; scripts of coframe do not count."""
+    folders = [Path(prefix, "bin") for prefix in os.environ.get("AMENT_PREFIX_PATH", "").split(os.pathsep) if prefix]
+    folders += [Path(folder) for folder in os.environ.get("PATH", "").split(os.pathsep) if folder]
+    names = [name, f"{name}.exe"] if os.name == "nt" else [name]
+    candidates = (folder / each for folder in folders for each in names)
+    return next(
+        (path for path in candidates if os.access(path, os.X_OK) and path.is_file() and not _is_own(path)), None
+    )
+
+
+def _is_own(path: Path) -> bool:
+    try:
+        with path.open("rb") as file:
+            size = file.seek(0, os.SEEK_END)
+            file.seek(max(0, size - _SCRIPT_SIZE))
+            content = file.read()
+    except OSError:
+        return True  # It cannot be run either.
+    if path.suffix == ".exe":  # The script is in a compressed archive at the end.
+        return path.parent == Path(sys.executable).parent
+    return _OWN_SCRIPT in content
+
+
+def _without_ros_arguments(words: list[str]) -> list[str]:
+    """Return the words without ``--ros-args ... --``, which the viewer does not need."""
+    if "--ros-args" not in words:
+        return words
+    start = words.index("--ros-args")
+    rest = words[start:]
+    return words[:start] + (_without_ros_arguments(rest[rest.index("--") + 1 :]) if "--" in rest else [])

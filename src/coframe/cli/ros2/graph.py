@@ -1,0 +1,185 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The node of a command, which reads the ROS graph; names that ``ros2`` hides; options of all these commands."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import time
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from coframe.cli.completion import complete_live_topics
+from coframe.cli.lifecycle import run_to_completion
+from coframe.cli.options import with_leading_slash
+from coframe.cli.output import fail
+from coframe.errors import CoframeError
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Iterator
+
+    from rclpy.node import Node
+
+__all__ = [
+    "AllOption",
+    "DaemonOption",
+    "HiddenTopicsOption",
+    "NodeArgument",
+    "SimTimeOption",
+    "SpinTimeOption",
+    "TopicArgument",
+    "graph_node",
+    "is_hidden",
+    "joined",
+    "load_type",
+    "node_names",
+    "split_node_name",
+    "topic_type",
+    "wait_until",
+]
+
+DISCOVERY = 0.5  # seconds; what ros2cli waits without its daemon
+# Fast DDS may need seconds to announce an endpoint, so a name that was asked for is awaited longer than a list.
+PATIENCE = 3.0  # seconds
+_PERIOD = 0.02  # seconds between two looks at the graph
+
+SpinTimeOption = Annotated[
+    float,
+    typer.Option("--spin-time", metavar="SECONDS", min=0.0, help="Time to wait for the discovery of other nodes."),
+]
+DaemonOption = Annotated[
+    bool, typer.Option("--no-daemon", help="Accepted for compatibility: coframe has no daemon.", hidden=True)
+]
+SimTimeOption = Annotated[
+    bool, typer.Option("--use-sim-time", "-s", help="Use the time of /clock instead of the system time.")
+]
+HiddenTopicsOption = Annotated[
+    bool, typer.Option("--include-hidden-topics", help="Consider hidden topics, such as those of actions, as well.")
+]
+AllOption = Annotated[bool, typer.Option("--all", "-a", help="Consider hidden nodes as well.")]
+TopicArgument = Annotated[
+    str,
+    typer.Argument(
+        metavar="TOPIC",
+        help="Name of the topic, e.g. /scan.",
+        callback=with_leading_slash,
+        autocompletion=complete_live_topics,
+    ),
+]
+NodeArgument = Annotated[
+    str, typer.Argument(metavar="NODE", help="Name of the node, e.g. /robot1/arm.", callback=with_leading_slash)
+]
+
+
+@contextlib.contextmanager
+def graph_node(spin_time: float = 0.0, *, use_sim_time: bool = False, name: str = "") -> Iterator[Node]:
+    """Run a hidden node for the duration of a command, and wait for the discovery of other nodes.
+
+    Args:
+        spin_time: How long to wait for discovery, in seconds.
+        use_sim_time: Whether the clock of the node follows ``/clock``.
+        name: Name of the node; a hidden name with the process ID by default.
+    """
+    import rclpy  # noqa: PLC0415 - help and completion start faster
+    from rclpy.parameter import Parameter  # noqa: PLC0415
+    from rclpy.signals import SignalHandlerOptions  # noqa: PLC0415
+
+    with run_to_completion():
+        # Ctrl-C raises KeyboardInterrupt in this thread, as in all commands.
+        rclpy.init(args=[], signal_handler_options=SignalHandlerOptions.NO)
+        node = None
+        try:
+            node = rclpy.create_node(
+                name or f"_coframe_{os.getpid()}",
+                use_global_arguments=False,
+                enable_rosout=bool(name),
+                start_parameter_services=False,
+                parameter_overrides=[Parameter("use_sim_time", value=use_sim_time)],
+            )
+            time.sleep(spin_time)
+            yield node
+        except (RuntimeError, ValueError) as error:
+            if isinstance(error, (CoframeError, typer.Exit)):
+                raise
+            fail(str(error))
+        finally:
+            if node is not None:
+                node.destroy_node()
+            rclpy.try_shutdown()
+
+
+def wait_until(condition: Callable[[], Any], seconds: float = PATIENCE) -> Any:
+    """Return the first true result of a function; its last result if none is true for some seconds."""
+    deadline = time.monotonic() + seconds
+    while not (result := condition()) and time.monotonic() < deadline:
+        time.sleep(_PERIOD)
+    return result
+
+
+def is_hidden(name: str) -> bool:
+    """Return whether a part of a name begins with an underscore, which ros2 shows only on request."""
+    return any(part.startswith("_") for part in name.split("/"))
+
+
+def node_names(node: Node, *, include_hidden: bool) -> list[str]:
+    """Return the full names of the nodes in the graph, sorted."""
+    names = (f"{space.rstrip('/')}/{name}" for name, space in node.get_node_names_and_namespaces())
+    return sorted(name for name in names if include_hidden or not is_hidden(name))
+
+
+def split_node_name(name: str) -> tuple[str, str]:
+    """Return the namespace and the name of a full node name."""
+    namespace, _, base = name.rpartition("/")
+    return namespace or "/", base
+
+
+def topic_type(node: Node, topic: str, *, include_hidden: bool = True) -> str:
+    """Return the type of a topic in the graph; end the command if there is none or if there are several.
+
+    The texts are those of ros2cli.
+    """
+
+    def types() -> list[str]:
+        return dict(node.get_topic_names_and_types()).get(topic, [])
+
+    if is_hidden(topic) and not include_hidden:
+        fail(f"The topic {topic} is hidden.", "Add --include-hidden-topics.")
+    found = wait_until(types)
+    if not found:
+        fail(
+            f"topic [{topic}] does not appear to be published yet. Could not determine the type for the passed topic",
+            _near(topic, (name for name, _ in node.get_topic_names_and_types())),
+        )
+    if len(found) > 1:
+        fail(f"Cannot echo topic '{topic}', as it contains more than one type: [{', '.join(found)}]")
+    kind: str = found[0]
+    return kind
+
+
+def load_type(kind: str, load: Callable[[str], Any]) -> Any:
+    """Return the class of a ROS type; end the command with a sentence if there is none.
+
+    Args:
+        kind: Name of the type, e.g. "std_msgs/msg/String".
+        load: One of the functions of ``rosidl_runtime_py.utilities``.
+    """
+    try:
+        return load(kind)
+    except (AttributeError, ImportError, LookupError, ValueError) as error:
+        fail(
+            f"The passed type '{kind}' is invalid: {error}",
+            "coframe interface list shows all types. COFRAME_INTERFACES adds packages of your own.",
+        )
+
+
+def joined(types: Iterable[str]) -> str:
+    """Return types as ros2 prints them behind a name."""
+    return f"[{', '.join(types)}]"
+
+
+def _near(name: str, known: Iterable[str]) -> str:
+    import difflib  # noqa: PLC0415 - only for an error
+
+    near = difflib.get_close_matches(name, known, n=2)
+    return f"Did you mean {' or '.join(near)}?" if near else "coframe topic list shows all topics."

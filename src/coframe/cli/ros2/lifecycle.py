@@ -1,0 +1,145 @@
+# SPDX-License-Identifier: Apache-2.0
+"""``coframe lifecycle``: the states of lifecycle nodes, with the words and the output of ``ros2 lifecycle``."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from coframe.cli.help_format import PlainCommand, PlainGroup
+from coframe.cli.output import fail, printable
+from coframe.cli.ros2.calls import call_service
+from coframe.cli.ros2.graph import (
+    DISCOVERY,
+    AllOption,
+    DaemonOption,
+    NodeArgument,
+    SpinTimeOption,
+    graph_node,
+    node_names,
+    wait_until,
+)
+
+if TYPE_CHECKING:
+    from rclpy.node import Node
+
+__all__ = ["lifecycle"]
+
+_GET_STATE = "lifecycle_msgs/srv/GetState"
+lifecycle = typer.Typer(
+    cls=PlainGroup,
+    help="Show and change the states of lifecycle nodes, like ros2 lifecycle.\n\n"
+    "Example: coframe lifecycle set /lidar configure",
+    no_args_is_help=True,
+    rich_markup_mode=None,
+)
+
+
+@lifecycle.command(cls=PlainCommand, short_help="Print the states of lifecycle nodes.")
+def get(
+    node_name: Annotated[
+        str | None, typer.Argument(metavar="[NODE]", help="Name of a node. [default: all lifecycle nodes]")
+    ] = None,
+    include_hidden: AllOption = False,
+    spin_time: SpinTimeOption = DISCOVERY,
+    no_daemon: DaemonOption = False,
+) -> None:
+    """Print the state of a lifecycle node, or of all lifecycle nodes.
+
+    Example: coframe lifecycle get /lidar
+    """
+    del no_daemon
+    with graph_node(0.0 if node_name else spin_time) as node:
+        names = [_existing(node, node_name)] if node_name else _lifecycle_nodes(node, include_hidden=include_hidden)
+        for name in names:
+            state = _call(node, name, "GetState", "get_state").current_state
+            print(printable(f"{'' if node_name else f'{name}: '}{state.label} [{state.id}]"))
+
+
+@lifecycle.command("list", cls=PlainCommand, short_help="List the transitions that a node can make now.")
+def list_transitions(
+    node_name: NodeArgument,
+    show_all: Annotated[bool, typer.Option("--all", "-a", help="List all transitions of the node.")] = False,
+    spin_time: SpinTimeOption = 0.0,
+    no_daemon: DaemonOption = False,
+) -> None:
+    """List the transitions that a lifecycle node can make in its state.
+
+    Example: coframe lifecycle list /lidar
+    """
+    del no_daemon
+    service = ("GetAvailableTransitions", "get_transition_graph" if show_all else "get_available_transitions")
+    with graph_node(spin_time) as node:
+        for each in _call(node, _existing(node, node_name), *service).available_transitions:
+            print(printable(f"- {each.transition.label} [{each.transition.id}]"))
+            print(printable(f"\tStart: {each.start_state.label}\n\tGoal: {each.goal_state.label}"))
+
+
+@lifecycle.command(cls=PlainCommand, short_help="List the lifecycle nodes.")
+def nodes(
+    include_hidden: AllOption = False,
+    count: Annotated[bool, typer.Option("--count-nodes", "-c", help="Print the number of nodes only.")] = False,
+    spin_time: SpinTimeOption = DISCOVERY,
+    no_daemon: DaemonOption = False,
+) -> None:
+    """List the lifecycle nodes of the ROS graph.
+
+    Example: coframe lifecycle nodes
+    """
+    del no_daemon
+    with graph_node(spin_time) as node:
+        names = _lifecycle_nodes(node, include_hidden=include_hidden)
+    print(len(names) if count else "\n".join(map(printable, names)))
+
+
+@lifecycle.command("set", cls=PlainCommand, short_help="Change the state of a lifecycle node.")
+def set_state(
+    node_name: NodeArgument,
+    transition: Annotated[
+        str, typer.Argument(metavar="TRANSITION", help="Name or ID of a transition, e.g. configure or activate.")
+    ],
+    spin_time: SpinTimeOption = 0.0,
+    no_daemon: DaemonOption = False,
+) -> None:
+    """Change the state of a lifecycle node.
+
+    Example: coframe lifecycle set /lidar configure
+    """
+    del no_daemon
+    with graph_node(spin_time) as node:
+        name = _existing(node, node_name)
+        available = [
+            each.transition
+            for each in _call(node, name, "GetAvailableTransitions", "get_available_transitions").available_transitions
+        ]
+        chosen = next((each for each in available if transition in {each.label, str(each.id)}), None)
+        if chosen is None:
+            labels = "".join(f"\n- {each.label} [{each.id}]" for each in available)
+            fail(f"Unknown transition requested, available ones are:{labels}")
+        if not _call(node, name, "ChangeState", "change_state", transition=chosen).success:
+            fail("Transitioning failed")
+    print("Transitioning successful")
+
+
+def _lifecycle_nodes(node: Node, *, include_hidden: bool) -> list[str]:
+    """Return the names of all nodes that have the service of lifecycle nodes for their state."""
+    services = dict(node.get_service_names_and_types())
+    names = node_names(node, include_hidden=include_hidden)
+    return [name for name in names if _GET_STATE in services.get(f"{name}/get_state", [])]
+
+
+def _existing(node: Node, name: str) -> str:
+    name = name if name.startswith("/") else f"/{name}"
+    if not wait_until(lambda: name in node_names(node, include_hidden=True)):
+        fail(f"Node not found: {name}", "coframe lifecycle nodes shows all lifecycle nodes.")
+    if not wait_until(lambda: name in _lifecycle_nodes(node, include_hidden=True)):
+        fail(f"Node {name} is not a lifecycle node.", "coframe lifecycle nodes shows all lifecycle nodes.")
+    return name
+
+
+def _call(node: Node, target: str, kind: str, service: str, **fields: Any) -> Any:
+    from lifecycle_msgs import srv  # noqa: PLC0415 - slow import
+
+    service_class = getattr(srv, kind)
+    return call_service(node, service_class, f"{target}/{service}", service_class.Request(**fields))

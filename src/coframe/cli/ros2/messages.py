@@ -1,0 +1,108 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The messages that a command receives on a topic, and Python expressions about them on the command line."""
+
+from __future__ import annotations
+
+import functools
+import time
+from collections import deque
+from typing import TYPE_CHECKING, Any
+
+from coframe.cli.output import fail, warn
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+
+    from rclpy.node import Node
+    from rclpy.qos import QoSProfile
+
+__all__ = ["MessageStream", "field_of", "message_filter"]
+
+_LONGEST_WAIT = 1.0  # seconds; so that Ctrl-C is handled soon on every system
+
+
+class MessageStream:
+    """The messages of a subscription, in the order of their arrival.
+
+    Args:
+        node: Node of the command.
+        topic: Full name of the topic.
+        message_class: Class of the messages.
+        qos: QoS of the subscription.
+        raw: Whether to return serialized messages.
+        report_lost: Whether to print a warning when messages were lost.
+    """
+
+    def __init__(
+        self,
+        node: Node,
+        topic: str,
+        message_class: Any,
+        qos: QoSProfile | int,
+        *,
+        raw: bool = False,
+        report_lost: bool = False,
+    ) -> None:
+        from rclpy.qos_event import SubscriptionEventCallbacks  # noqa: PLC0415
+
+        from rclpy.executors import SingleThreadedExecutor  # noqa: PLC0415 - slow import
+
+        self._arrived: deque[Any] = deque()
+        self._executor = SingleThreadedExecutor(context=node.context)
+        self._executor.add_node(node)
+        events = SubscriptionEventCallbacks(message_lost=_report_lost) if report_lost else None
+        node.create_subscription(message_class, topic, self._arrived.append, qos, raw=raw, event_callbacks=events)
+
+    def take(self, seconds: float) -> Any:
+        """Return the next message, waiting for it at most some seconds; None if there is none."""
+        deadline = time.monotonic() + seconds
+        while not self._arrived:
+            left = deadline - time.monotonic()
+            if left <= 0:
+                return None
+            self._executor.spin_once(timeout_sec=min(left, _LONGEST_WAIT))
+        return self._arrived.popleft()
+
+    def messages(self, timeout: float | None = None) -> Iterator[Any]:
+        """Yield messages until none arrives within `timeout` seconds; without end if it is None."""
+        while True:
+            message = self.take(_LONGEST_WAIT if timeout is None else timeout)
+            if message is not None:
+                yield message
+            elif timeout is not None:
+                return
+
+
+def message_filter(expression: str | None) -> Callable[[Any], bool]:
+    """Return the function that evaluates a Python expression about a message `m`; without one, all messages pass.
+
+    End the command if the expression cannot be compiled, or if it fails for a message.
+    """
+    if expression is None:
+        return lambda _message: True
+    try:
+        code = compile(expression, "<filter>", "eval")
+    except SyntaxError as error:
+        fail(f"--filter: {expression!r} is not a Python expression: {error.msg}", "Example: 'm.range_max > 3'", code=2)
+
+    def accepts(message: Any) -> bool:
+        try:
+            return bool(eval(code, {"m": message}))  # noqa: S307 - the user's own expression
+        except Exception as error:  # noqa: BLE001 - any error of the expression
+            fail(f"--filter: {expression!r} failed for a message: {error}", code=2)
+
+    return accepts
+
+
+def field_of(message: Any, path: str) -> Any:
+    """Return the field of a message with a path such as "pose.position.x"; end the command if there is none."""
+    try:
+        return functools.reduce(getattr, path.split("."), message)
+    except AttributeError as error:
+        fail(f"Invalid field '{path}': {error}", f"Fields: {', '.join(message.get_fields_and_field_types())}.", code=2)
+
+
+def _report_lost(status: Any) -> None:
+    warn(
+        f"A message was lost!!!\n\ttotal count change:{status.total_count_change}\n\ttotal count: {status.total_count}"
+    )

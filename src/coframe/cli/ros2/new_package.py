@@ -1,0 +1,162 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The files of a new Python package, which pip installs and colcon builds as ament_python."""
+
+from __future__ import annotations
+
+import getpass
+import re
+import socket
+from typing import TYPE_CHECKING, NamedTuple
+from xml.sax.saxutils import escape, quoteattr
+
+from coframe.cli.output import fail
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+__all__ = ["NewPackage", "write_package"]
+
+_NAME = re.compile(r"[a-z][a-z0-9_]*", re.ASCII)
+
+
+class NewPackage(NamedTuple):
+    """What is known of a new package; `node_name` is the name of its first executable."""
+
+    name: str
+    node_name: str | None
+    dependencies: tuple[str, ...]
+    description: str
+    license: str
+    maintainer_name: str | None
+    maintainer_email: str | None
+
+
+def write_package(package: NewPackage, destination: Path) -> list[Path]:
+    """Write the files of a package to a new folder; end the command if that is not possible.
+
+    Returns:
+        The files, in the order in which they were written.
+    """
+    for what, name in (("package", package.name), ("node", package.node_name)):
+        if name is not None and not _NAME.fullmatch(name):
+            fail(f"{name!r} is not a valid {what} name", "Use lower-case letters, digits and underscores.", code=2)
+    if package.node_name == package.name:
+        fail("The node needs another name than the package: both would be executables.", code=2)
+    folder = destination / package.name
+    if folder.exists():
+        fail(f"Aborted! {folder} exists already.", "Choose another name, or remove the folder.")
+    written = []
+    try:
+        for name, text in _files(package).items():
+            path = folder / name
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_text(text, encoding="utf-8")
+            written.append(path)
+    except OSError as error:
+        fail(f"cannot write {error.filename}: {error.strerror}")
+    return written
+
+
+def _files(package: NewPackage) -> dict[str, str]:
+    name = package.name
+    files = {
+        "package.xml": _manifest(package),
+        "setup.py": _setup(package),
+        "setup.cfg": f"[develop]\nscript_dir=$base/lib/{name}\n[install]\ninstall_scripts=$base/lib/{name}\n",
+        f"resource/{name}": "",
+        f"{name}/__init__.py": "",
+    }
+    if package.node_name:
+        files[f"{name}/{package.node_name}.py"] = _NODE.format(node=package.node_name)
+    return files
+
+
+def _maintainer(package: NewPackage) -> tuple[str, str]:
+    try:
+        user = getpass.getuser()
+    except (KeyError, OSError):  # a container without an entry for its user
+        user = "user"
+    return package.maintainer_name or user, package.maintainer_email or f"{user}@{socket.gethostname()}"
+
+
+def _manifest(package: NewPackage) -> str:
+    name, email = _maintainer(package)
+    dependencies = "".join(f"  <depend>{escape(each)}</depend>\n" for each in package.dependencies)
+    return (
+        '<?xml version="1.0"?>\n'
+        '<package format="3">\n'
+        f"  <name>{package.name}</name>\n"
+        "  <version>0.0.0</version>\n"
+        f"  <description>{escape(package.description)}</description>\n"
+        f"  <maintainer email={quoteattr(email)}>{escape(name)}</maintainer>\n"
+        f"  <license>{escape(package.license)}</license>\n\n"
+        f"{dependencies}"
+        "  <export>\n"
+        "    <build_type>ament_python</build_type>\n"
+        "  </export>\n"
+        "</package>\n"
+    )
+
+
+def _setup(package: NewPackage) -> str:
+    name, email = _maintainer(package)
+    script = (
+        f"\n            '{package.node_name} = {package.name}.{package.node_name}:main',\n        "
+        if package.node_name
+        else ""
+    )
+    return (
+        "from setuptools import find_packages, setup\n\n"
+        f"package_name = '{package.name}'\n\n"
+        "setup(\n"
+        "    name=package_name,\n"
+        "    version='0.0.0',\n"
+        "    packages=find_packages(exclude=['test']),\n"
+        "    data_files=[\n"
+        "        ('share/ament_index/resource_index/packages', ['resource/' + package_name]),\n"
+        "        ('share/' + package_name, ['package.xml']),\n"
+        "    ],\n"
+        "    install_requires=['setuptools'],\n"
+        "    zip_safe=True,\n"
+        f"    maintainer={name!r},\n"
+        f"    maintainer_email={email!r},\n"
+        f"    description={package.description!r},\n"
+        f"    license={package.license!r},\n"
+        "    entry_points={\n"
+        f"        'console_scripts': [{script}],\n"
+        "    },\n"
+        ")\n"
+    )
+
+
+_NODE = '''\
+import rclpy
+from rclpy.node import Node
+
+
+class FirstNode(Node):
+    """Logs a greeting every second."""
+
+    def __init__(self):
+        super().__init__('{node}')
+        self.create_timer(1.0, self.greet)
+
+    def greet(self):
+        self.get_logger().info('Hello from {node}')
+
+
+def main():
+    rclpy.init()
+    node = FirstNode()
+    try:
+        rclpy.spin(node)
+    except KeyboardInterrupt:
+        pass
+    finally:
+        node.destroy_node()
+        rclpy.try_shutdown()
+
+
+if __name__ == '__main__':
+    main()
+'''

@@ -1,0 +1,107 @@
+# SPDX-License-Identifier: Apache-2.0
+"""``coframe node``: the nodes of the ROS graph, with the words and the output of ``ros2 node``."""
+
+from __future__ import annotations
+
+import sys
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from coframe.cli.help_format import PlainCommand, PlainGroup
+from coframe.cli.output import fail, printable
+from coframe.cli.ros2.graph import (
+    DISCOVERY,
+    AllOption,
+    DaemonOption,
+    NodeArgument,
+    SpinTimeOption,
+    graph_node,
+    is_hidden,
+    node_names,
+    split_node_name,
+    wait_until,
+)
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from rclpy.node import Node
+
+__all__ = ["node"]
+
+node = typer.Typer(
+    cls=PlainGroup,
+    help="List and inspect nodes, like ros2 node.\n\nExample: coframe node info /dynamic_tf_broadcaster",
+    no_args_is_help=True,
+    rich_markup_mode=None,
+)
+
+
+@node.command("list", cls=PlainCommand, short_help="List the nodes.")
+def list_nodes(
+    show_all: AllOption = False,
+    count: Annotated[bool, typer.Option("--count-nodes", "-c", help="Print the number of nodes only.")] = False,
+    spin_time: SpinTimeOption = DISCOVERY,
+    no_daemon: DaemonOption = False,
+) -> None:
+    """List the nodes of the ROS graph.
+
+    Example: coframe node list
+    """
+    del no_daemon
+    with graph_node(spin_time) as own:
+        names = node_names(own, include_hidden=show_all)
+    if count:
+        print(len(names))
+        return
+    if len(set(names)) < len(names):
+        print(
+            "WARNING: Be aware that there are nodes in the graph that share an exact name, "
+            "which can have unintended side effects.",
+            file=sys.stderr,
+        )
+    for name in names:
+        print(printable(name))
+
+
+@node.command(cls=PlainCommand, short_help="Show the topics, services and actions of a node.")
+def info(
+    node_name: NodeArgument,
+    include_hidden: Annotated[
+        bool, typer.Option("--include-hidden", help="Show hidden topics, services and actions as well.")
+    ] = False,
+    spin_time: SpinTimeOption = DISCOVERY,
+    no_daemon: DaemonOption = False,
+) -> None:
+    """Show the subscriptions, publishers, services and actions of a node.
+
+    Example: coframe node info /dynamic_tf_broadcaster
+    """
+    del no_daemon
+    with graph_node(spin_time) as own:
+        if not wait_until(lambda: node_name in node_names(own, include_hidden=True)):
+            fail(f"Unable to find node '{node_name}'", "coframe node list shows all nodes.")
+        print(printable(node_name))
+        for title, rows in _sections(own, node_name):
+            print(f"  {title}:")
+            for name, types in rows:
+                if include_hidden or not is_hidden(name):
+                    print(printable(f"    {name}: {', '.join(types)}"))
+        print()
+
+
+def _sections(own: Node, node_name: str) -> Iterator[tuple[str, list[tuple[str, list[str]]]]]:
+    """Yield the titles and rows of `ros2 node info`, in its order."""
+    from rclpy.action import (  # noqa: PLC0415 - slow import
+        get_action_client_names_and_types_by_node,
+        get_action_server_names_and_types_by_node,
+    )
+
+    namespace, name = split_node_name(node_name)
+    yield "Subscribers", sorted(own.get_subscriber_names_and_types_by_node(name, namespace))
+    yield "Publishers", sorted(own.get_publisher_names_and_types_by_node(name, namespace))
+    yield "Service Servers", sorted(own.get_service_names_and_types_by_node(name, namespace))
+    yield "Service Clients", sorted(own.get_client_names_and_types_by_node(name, namespace))
+    yield "Action Servers", sorted(get_action_server_names_and_types_by_node(own, name, namespace))
+    yield "Action Clients", sorted(get_action_client_names_and_types_by_node(own, name, namespace))

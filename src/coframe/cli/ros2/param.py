@@ -1,0 +1,212 @@
+# SPDX-License-Identifier: Apache-2.0
+"""``coframe param``: the parameters of other nodes, with the words and the output of ``ros2 param``."""
+
+from __future__ import annotations
+
+import re
+import sys
+from pathlib import Path  # noqa: TC003 - typer reads the annotations
+from typing import Annotated
+
+import typer
+
+from coframe.cli.help_format import PlainCommand, PlainGroup
+from coframe.cli.output import fail, printable
+from coframe.cli.ros2.graph import (
+    DISCOVERY,
+    DaemonOption,
+    NodeArgument,
+    SpinTimeOption,
+    graph_node,
+    node_names,
+)
+from coframe.cli.ros2.parameter_client import ParameterClient
+from coframe.cli.ros2.parameter_text import (
+    TYPE_NAMES,
+    as_yaml_file,
+    description_lines,
+    parameters_of_file,
+    python_value,
+    value_line,
+)
+
+__all__ = ["param"]
+
+ParameterArgument = Annotated[str, typer.Argument(metavar="NAME", help="Name of the parameter, e.g. use_sim_time.")]
+HiddenNodesOption = Annotated[bool, typer.Option("--include-hidden-nodes", help="Consider hidden nodes as well.")]
+param = typer.Typer(
+    cls=PlainGroup,
+    help="Read and set the parameters of nodes, like ros2 param.\n\n"
+    "Example: coframe param set /dynamic_tf_broadcaster rate 100.0",
+    no_args_is_help=True,
+    rich_markup_mode=None,
+)
+
+
+@param.command(cls=PlainCommand, short_help="Delete a parameter of a node.")
+def delete(
+    node_name: NodeArgument,
+    name: ParameterArgument,
+    spin_time: SpinTimeOption = 0.0,
+    no_daemon: DaemonOption = False,
+) -> None:
+    """Delete a parameter of a node.
+
+    Example: coframe param delete /listener speed
+    """
+    del no_daemon
+    with graph_node(spin_time) as node:
+        result = ParameterClient(node, node_name).set({name: None})[0]
+    if not result.successful:
+        fail("Deleting parameter failed" + (f": {result.reason}" if result.reason else ""))
+    print("Deleted parameter successfully")
+
+
+@param.command(cls=PlainCommand, short_help="Show type, description and limits of parameters.")
+def describe(
+    node_name: NodeArgument,
+    names: Annotated[list[str], typer.Argument(metavar="NAME...", help="Names of parameters.")],
+    spin_time: SpinTimeOption = 0.0,
+    no_daemon: DaemonOption = False,
+) -> None:
+    """Show the type, the description and the limits of parameters of a node.
+
+    Example: coframe param describe /listener use_sim_time
+    """
+    del no_daemon
+    with graph_node(spin_time) as node:
+        descriptors = ParameterClient(node, node_name).describe(names)
+    if len(descriptors) < len(names):
+        fail("Failed to get parameter descriptions", f"coframe param list {node_name} shows all parameters.")
+    for descriptor in descriptors:
+        print(printable("\n".join(description_lines(descriptor))))
+
+
+@param.command(cls=PlainCommand, short_help="Print all parameters of a node as a YAML file.")
+def dump(
+    node_name: NodeArgument,
+    spin_time: SpinTimeOption = 0.0,
+    no_daemon: DaemonOption = False,
+) -> None:
+    """Print all parameters of a node in the format of --params-file.
+
+    Example: coframe param dump /listener > listener.yaml
+    """
+    del no_daemon
+    with graph_node(spin_time) as node:
+        client = ParameterClient(node, node_name)
+        names = client.list()
+        values = dict(zip(names, client.get(names), strict=False))
+    print(as_yaml_file(node_name, {name: python_value(value) for name, value in values.items()}), end="")
+
+
+@param.command(cls=PlainCommand, short_help="Print a parameter of a node.")
+def get(
+    node_name: NodeArgument,
+    name: ParameterArgument,
+    hide_type: Annotated[bool, typer.Option("--hide-type", help="Print the value only.")] = False,
+    spin_time: SpinTimeOption = 0.0,
+    no_daemon: DaemonOption = False,
+) -> None:
+    """Print a parameter of a node.
+
+    Example: coframe param get /listener use_sim_time
+    """
+    del no_daemon
+    with graph_node(spin_time) as node:
+        values = ParameterClient(node, node_name).get([name])
+    line = value_line(values[0], hide_type=hide_type) if values else None
+    if line is None:
+        fail("Parameter not set", f"coframe param list {node_name} shows all parameters.")
+    print(printable(line))
+
+
+@param.command("list", cls=PlainCommand, short_help="List the parameters of nodes.")
+def list_parameters(
+    node_name: Annotated[
+        str | None, typer.Argument(metavar="[NODE]", help="Name of a node. [default: all nodes]")
+    ] = None,
+    prefixes: Annotated[
+        list[str] | None,
+        typer.Option("--param-prefixes", metavar="PREFIX", help="Only parameters with this prefix; repeatable."),
+    ] = None,
+    param_type: Annotated[bool, typer.Option("--param-type", help="Show the types as well.")] = False,
+    expression: Annotated[
+        str | None, typer.Option("--filter", metavar="REGEX", help="Only parameters that match this expression.")
+    ] = None,
+    include_hidden: HiddenNodesOption = False,
+    spin_time: SpinTimeOption = DISCOVERY,
+    no_daemon: DaemonOption = False,
+) -> None:
+    """List the parameters of one node or of all nodes.
+
+    Example: coframe param list /listener
+    """
+    del no_daemon
+    try:
+        pattern = re.compile(expression or "")
+    except re.error as error:
+        fail(f"--filter: {expression!r} is not a regular expression: {error}", code=2)
+    with graph_node(0.0 if node_name else spin_time) as node:
+        for each in [node_name] if node_name else node_names(node, include_hidden=include_hidden):
+            client = ParameterClient(node, each, required=node_name is not None)
+            if not client.is_available:
+                continue
+            names = sorted(name for name in client.list(prefixes or []) if pattern.search(name))
+            if not node_name:
+                print(f"{printable(each)}:")
+            types = client.types(names) if param_type else []
+            for index, name in enumerate(names):
+                suffix = f" (type: {TYPE_NAMES.get(types[index], 'unknown')})" if index < len(types) else ""
+                print(printable(f"  {name}{suffix}"))
+
+
+@param.command(cls=PlainCommand, short_help="Set the parameters of a node from a YAML file.")
+def load(
+    node_name: NodeArgument,
+    file: Annotated[Path, typer.Argument(metavar="FILE", help="A YAML file in the format of --params-file.")],
+    no_use_wildcard: Annotated[
+        bool, typer.Option("--no-use-wildcard", help="Do not use the parameters below /**.")
+    ] = False,
+    spin_time: SpinTimeOption = 0.0,
+    no_daemon: DaemonOption = False,
+) -> None:
+    """Set the parameters of a node from a YAML file.
+
+    Example: coframe param load /listener listener.yaml
+    """
+    del no_daemon
+    values = parameters_of_file(file, node_name, use_wildcard=not no_use_wildcard)
+    with graph_node(spin_time) as node:
+        results = ParameterClient(node, node_name).set(values)
+    failed = False
+    for name, result in zip(values, results, strict=True):
+        reason = f": {result.reason}" if result.reason else ""
+        outcome = f"Set parameter {name} successful" if result.successful else f"Set parameter {name} failed"
+        print(printable(outcome + reason), file=sys.stdout if result.successful else sys.stderr)
+        failed |= not result.successful
+    if failed:
+        raise typer.Exit(1)
+
+
+@param.command("set", cls=PlainCommand, short_help="Set a parameter of a node.")
+def set_parameter(
+    node_name: NodeArgument,
+    name: ParameterArgument,
+    value: Annotated[str, typer.Argument(metavar="VALUE", help="Value as YAML, e.g. 1.5, true or '[1, 2]'.")],
+    spin_time: SpinTimeOption = 0.0,
+    no_daemon: DaemonOption = False,
+) -> None:
+    """Set a parameter of a node.
+
+    Example: coframe param set /dynamic_tf_broadcaster rate 100.0
+    """
+    del no_daemon
+    from rclpy.parameter import get_parameter_value  # noqa: PLC0415 - slow import
+
+    with graph_node(spin_time) as node:
+        result = ParameterClient(node, node_name).set({name: get_parameter_value(value)})[0]
+    reason = f": {result.reason}" if result.reason else ""
+    if not result.successful:
+        fail(f"Setting parameter failed{reason}")
+    print(printable(f"Set parameter successful{reason}"))

@@ -1,0 +1,147 @@
+# SPDX-License-Identifier: Apache-2.0
+"""``coframe topic``: the topics of the ROS graph, with the words and the output of ``ros2 topic``."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from coframe.cli.help_format import PlainCommand, PlainGroup
+from coframe.cli.output import fail, printable
+from coframe.cli.ros2.graph import (
+    DISCOVERY,
+    DaemonOption,
+    HiddenTopicsOption,
+    SpinTimeOption,
+    TopicArgument,
+    graph_node,
+    is_hidden,
+    joined,
+    wait_until,
+)
+from coframe.cli.ros2.topic_echo import echo
+from coframe.cli.ros2.topic_pub import pub
+from coframe.cli.ros2.topic_rates import bw, delay, hz
+
+if TYPE_CHECKING:
+    from rclpy.node import Node
+
+__all__ = ["topic"]
+
+topic = typer.Typer(
+    cls=PlainGroup,
+    help="Inspect and publish topics, like ros2 topic.\n\nExample: coframe topic echo /scan",
+    no_args_is_help=True,
+    rich_markup_mode=None,
+)
+topic.command(cls=PlainCommand, short_help="Show the bandwidth of a topic.")(bw)
+topic.command(cls=PlainCommand, short_help="Show the delay of messages by their header.")(delay)
+topic.command(cls=PlainCommand, short_help="Print the messages of a topic as YAML.")(echo)
+
+
+@topic.command(cls=PlainCommand, short_help="List the topics of a type.")
+def find(
+    topic_type: Annotated[str, typer.Argument(metavar="TYPE", help="Type, e.g. sensor_msgs/msg/LaserScan.")],
+    count: Annotated[bool, typer.Option("--count-topics", "-c", help="Print the number of topics only.")] = False,
+    include_hidden: HiddenTopicsOption = False,
+    spin_time: SpinTimeOption = DISCOVERY,
+    no_daemon: DaemonOption = False,
+) -> None:
+    """List the topics that have a type.
+
+    Example: coframe topic find sensor_msgs/msg/LaserScan
+    """
+    del no_daemon
+    with graph_node(spin_time) as node:
+        names = [name for name, types in _topics(node, include_hidden=include_hidden) if topic_type in types]
+    print(len(names) if count else "\n".join(map(printable, names)))
+
+
+topic.command(cls=PlainCommand, short_help="Show the rate of a topic.")(hz)
+
+
+@topic.command(cls=PlainCommand, short_help="Show the type of a topic and who publishes it.")
+def info(
+    topic_name: TopicArgument,
+    verbose: Annotated[
+        bool, typer.Option("--verbose", "-v", help="Show node, type, GID and QoS of each publisher and subscription.")
+    ] = False,
+    spin_time: SpinTimeOption = DISCOVERY,
+    no_daemon: DaemonOption = False,
+) -> None:
+    """Show the type of a topic, and the numbers of its publishers and subscriptions.
+
+    Example: coframe topic info /tf --verbose
+    """
+    del no_daemon
+    end = "\n\n" if verbose else "\n"
+    with graph_node(spin_time) as node:
+        types = wait_until(lambda: dict(node.get_topic_names_and_types()).get(topic_name))
+        if not types:
+            fail(f"Unknown topic '{topic_name}'", "coframe topic list shows all topics.")
+        print(f"Type: {printable(types[0] if len(types) == 1 else str(types))}", end=end)
+        print(f"Publisher count: {node.count_publishers(topic_name)}", end=end)
+        for endpoint in node.get_publishers_info_by_topic(topic_name) if verbose else ():
+            print(printable(str(endpoint)), end=end)
+        print(f"Subscription count: {node.count_subscribers(topic_name)}", end=end)
+        for endpoint in node.get_subscriptions_info_by_topic(topic_name) if verbose else ():
+            print(printable(str(endpoint)), end=end)
+
+
+@topic.command("list", cls=PlainCommand, short_help="List the topics.")
+def list_topics(
+    show_types: Annotated[bool, typer.Option("--show-types", "-t", help="Show the types as well.")] = False,
+    count: Annotated[bool, typer.Option("--count-topics", "-c", help="Print the number of topics only.")] = False,
+    verbose: Annotated[
+        bool, typer.Option("--verbose", "-v", help="Show types and numbers of publishers and subscriptions.")
+    ] = False,
+    include_hidden: HiddenTopicsOption = False,
+    spin_time: SpinTimeOption = DISCOVERY,
+    no_daemon: DaemonOption = False,
+) -> None:
+    """List the topics of the ROS graph.
+
+    Example: coframe topic list -t
+    """
+    del no_daemon
+    with graph_node(spin_time) as node:
+        topics = _topics(node, include_hidden=include_hidden)
+        if count:
+            print(len(topics))
+        elif verbose:
+            _print_counts("Published", "publisher", [(*each, node.count_publishers(each[0])) for each in topics])
+            _print_counts("Subscribed", "subscriber", [(*each, node.count_subscribers(each[0])) for each in topics])
+        else:
+            for name, types in topics:
+                print(printable(f"{name} {joined(types)}" if show_types else name))
+
+
+topic.command(cls=PlainCommand, short_help="Publish messages on a topic.")(pub)
+
+
+@topic.command("type", cls=PlainCommand, short_help="Print the type of a topic.")
+def type_(topic_name: TopicArgument, spin_time: SpinTimeOption = 0.0, no_daemon: DaemonOption = False) -> None:
+    """Print the type of a topic; the exit code is 1 if the topic is unknown.
+
+    Example: coframe topic type /tf
+    """
+    del no_daemon
+    with graph_node(spin_time) as node:
+        types = wait_until(lambda: dict(node.get_topic_names_and_types()).get(topic_name))
+    if not types:
+        raise typer.Exit(1)
+    print("\n".join(map(printable, types)))
+
+
+def _topics(node: Node, *, include_hidden: bool) -> list[tuple[str, list[str]]]:
+    topics = sorted(node.get_topic_names_and_types())
+    return [each for each in topics if include_hidden or not is_hidden(each[0])]
+
+
+def _print_counts(title: str, noun: str, topics: list[tuple[str, list[str], int]]) -> None:
+    print(f"{title} topics:")
+    for name, types, number in topics:
+        if number:
+            print(printable(f" * {name} {joined(types)} {number} {noun}{'' if number == 1 else 's'}"))
+    print()

@@ -1,0 +1,188 @@
+# SPDX-License-Identifier: Apache-2.0
+"""``coframe topic hz``, ``bw`` and ``delay``: figures of a topic, printed every second like those of ``ros2 topic``."""
+
+from __future__ import annotations
+
+import itertools
+import statistics
+import time
+from collections import deque
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from coframe.cli.output import fail
+from coframe.cli.ros2.graph import (
+    DaemonOption,
+    SimTimeOption,
+    SpinTimeOption,
+    TopicArgument,
+    graph_node,
+    load_type,
+    topic_type,
+)
+from coframe.cli.ros2.messages import MessageStream, message_filter
+from coframe.time import SECOND
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from rclpy.node import Node
+
+__all__ = ["bw", "delay", "hz"]
+
+_WINDOW = 10_000  # messages; ros2cli's default for hz and delay
+_BANDWIDTH_WINDOW = 100  # messages; ros2cli's default for bw
+_KILO = 1000  # ros2cli prints decimal units
+
+
+def hz(
+    topic_name: TopicArgument,
+    window: Annotated[
+        int, typer.Option("--window", "-w", metavar="N", min=2, help="Number of messages of the statistics.")
+    ] = _WINDOW,
+    filter_expression: Annotated[
+        str | None,
+        typer.Option("--filter", metavar="EXPR", help="Count messages m for which this Python expression is true."),
+    ] = None,
+    wall_time: Annotated[bool, typer.Option("--wall-time", help="Use the system time, not that of /clock.")] = False,
+    use_sim_time: SimTimeOption = False,
+    spin_time: SpinTimeOption = 0.0,
+    no_daemon: DaemonOption = False,
+) -> None:
+    """Show the rate at which messages arrive on a topic: mean, shortest, longest period and standard deviation.
+
+    Example: coframe topic hz /scan
+    """
+    del no_daemon
+    accepts = message_filter(filter_expression)
+    with graph_node(spin_time, use_sim_time=use_sim_time and not wall_time) as node:
+        stream = _stream(node, topic_name, raw=filter_expression is None)
+        arrivals: deque[float] = deque(maxlen=window)
+        _report_every_second(
+            stream,
+            lambda message: arrivals.append(_now(node)) if accepts(message) else None,
+            lambda: _rate_lines(list(arrivals)),
+        )
+
+
+def bw(
+    topic_name: TopicArgument,
+    window: Annotated[
+        int, typer.Option("--window", "-w", metavar="N", min=2, help="Number of messages of the statistics.")
+    ] = _BANDWIDTH_WINDOW,
+    use_sim_time: SimTimeOption = False,
+    spin_time: SpinTimeOption = 0.0,
+    no_daemon: DaemonOption = False,
+) -> None:
+    """Show the bytes per second that arrive on a topic, and the sizes of the messages.
+
+    Example: coframe topic bw /camera/image_raw
+    """
+    del no_daemon
+    with graph_node(spin_time, use_sim_time=use_sim_time) as node:
+        stream = _stream(node, topic_name, raw=True)
+        print(f"Subscribed to [{topic_name}]", flush=True)
+        samples: deque[tuple[float, int]] = deque(maxlen=window)
+        _report_every_second(
+            stream,
+            lambda data: samples.append((time.monotonic(), len(data))),
+            lambda: _bandwidth_lines(list(samples), time.monotonic()),
+        )
+
+
+def delay(
+    topic_name: TopicArgument,
+    window: Annotated[
+        int, typer.Option("--window", "-w", metavar="N", min=2, help="Number of messages of the statistics.")
+    ] = _WINDOW,
+    use_sim_time: SimTimeOption = False,
+    spin_time: SpinTimeOption = 0.0,
+    no_daemon: DaemonOption = False,
+) -> None:
+    """Show how long after the stamp in its header a message arrives.
+
+    Example: coframe topic delay /scan
+    """
+    del no_daemon
+    with graph_node(spin_time, use_sim_time=use_sim_time) as node:
+        stream = _stream(node, topic_name, raw=False)
+        delays: deque[float] = deque(maxlen=window)
+
+        def store(message: Any) -> None:
+            if not hasattr(message, "header"):
+                fail("msg does not have header", f"The messages of {topic_name} have no stamp.")
+            stamp = message.header.stamp
+            delays.append(_now(node) - (stamp.sec + stamp.nanosec / SECOND))
+
+        _report_every_second(stream, store, lambda: _delay_lines(list(delays)))
+
+
+def _stream(node: Node, topic: str, *, raw: bool) -> MessageStream:
+    from rosidl_runtime_py.utilities import get_message  # noqa: PLC0415 - slow import
+
+    from rclpy.qos import qos_profile_sensor_data  # noqa: PLC0415 - slow import
+
+    kind = topic_type(node, topic)
+    # Best effort, as in ros2cli: it matches every publisher.
+    return MessageStream(node, topic, load_type(kind, get_message), qos_profile_sensor_data, raw=raw)
+
+
+def _now(node: Node) -> float:
+    nanoseconds: int = node.get_clock().now().nanoseconds
+    return nanoseconds / SECOND
+
+
+def _report_every_second(stream: MessageStream, store: Callable[[Any], None], report: Callable[[], list[str]]) -> None:
+    """Store each message, and print a report every second in which messages arrived."""
+    due = time.monotonic() + 1.0
+    arrived = 0
+    while True:
+        message = stream.take(max(0.0, due - time.monotonic()))
+        if message is not None:
+            store(message)
+            arrived += 1
+        if time.monotonic() < due:
+            continue
+        due += 1.0
+        lines = report() if arrived else ["no new messages"]
+        arrived = 0
+        if lines:
+            print("\n".join(lines), flush=True)
+
+
+def _rate_lines(arrivals: list[float]) -> list[str]:
+    periods = [later - earlier for earlier, later in itertools.pairwise(arrivals)]
+    if not periods or sum(periods) <= 0:
+        return []
+    return [f"average rate: {len(periods) / sum(periods):.3f}", _statistics_line(periods, len(arrivals))]
+
+
+def _delay_lines(delays: list[float]) -> list[str]:
+    return [f"average delay: {statistics.fmean(delays):.3f}", _statistics_line(delays, len(delays))]
+
+
+def _statistics_line(values: list[float], size: int) -> str:
+    return f"\tmin: {min(values):.3f}s max: {max(values):.3f}s std dev: {statistics.pstdev(values):.5f}s window: {size}"
+
+
+def _bandwidth_lines(samples: list[tuple[float, int]], now: float) -> list[str]:
+    """Return the lines of ros2cli; the rate is that of the time since the oldest message of the window."""
+    if len(samples) < 2 or now <= samples[0][0]:
+        return []
+    sizes = [size for _, size in samples]
+    rate = sum(sizes) / (now - samples[0][0])
+    # All sizes have the unit of their mean.
+    divisor, unit = _unit(statistics.fmean(sizes))
+    mean, least, most = (f"{value / divisor:.2f} {unit}" for value in (statistics.fmean(sizes), min(sizes), max(sizes)))
+    rate_divisor, rate_unit = _unit(rate)
+    return [
+        f"{rate / rate_divisor:.2f} {rate_unit}/s from {len(samples)} messages",
+        f"\tMessage size mean: {mean} min: {least} max: {most}",
+    ]
+
+
+def _unit(value: float) -> tuple[int, str]:
+    if value < _KILO:
+        return 1, "B"
+    return (_KILO, "KB") if value < _KILO**2 else (_KILO**2, "MB")
