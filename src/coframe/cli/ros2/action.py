@@ -106,9 +106,8 @@ def send_goal(
     Example: coframe action send_goal /fibonacci example_interfaces/action/Fibonacci '{order: 5}' --feedback
     """
     with graph_node() as node:
-        from rosidl_runtime_py.utilities import get_action  # noqa: PLC0415
-
         from rclpy.action import ActionClient  # noqa: PLC0415 - slow import
+        from rosidl_runtime_py.utilities import get_action  # noqa: PLC0415
 
         kind = load_type(action_type, get_action)
         message = kind.Goal()

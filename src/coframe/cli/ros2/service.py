@@ -61,9 +61,8 @@ def call(
     if rate is not None and rate <= 0:
         fail("rate must be greater than zero", code=2)
     with graph_node() as node:
-        from rosidl_runtime_py.utilities import get_service  # noqa: PLC0415
-
         import rclpy  # noqa: PLC0415 - help starts faster
+        from rosidl_runtime_py.utilities import get_service  # noqa: PLC0415
 
         kind = load_type(service_type, get_service)
         request = kind.Request()

@@ -119,9 +119,8 @@ def delay(
 
 
 def _stream(node: Node, topic: str, *, raw: bool) -> MessageStream:
-    from rosidl_runtime_py.utilities import get_message  # noqa: PLC0415 - slow import
-
     from rclpy.qos import qos_profile_sensor_data  # noqa: PLC0415 - slow import
+    from rosidl_runtime_py.utilities import get_message  # noqa: PLC0415 - slow import
 
     kind = topic_type(node, topic)
     # Best effort, as in ros2cli: it matches every publisher.

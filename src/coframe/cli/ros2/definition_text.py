@@ -1,0 +1,76 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The definitions of types as text, with the fields of nested types below each field."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from coframe.cli.output import fail
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+__all__ = ["shown_definition"]
+
+# A field: the type without array bounds, and the name. A constant has "=" after its name.
+_FIELD = re.compile(
+    r"\s*(?P<type>[A-Za-z][\w/]*)(?:<=\d+)?(?:\[[^\]]*\])?\s+[A-Za-z]\w*\s*(?!\s*=)(?:[^=].*)?", re.ASCII
+)
+_PRIMITIVE = re.compile(r"bool|byte|char|u?int(8|16|32|64)|float(32|64)|w?string|time|duration", re.ASCII)
+_MOST_LEVELS = 16
+_KINDS = ("msg", "srv", "action")
+
+
+def shown_definition(name: str, *, comments: bool, nested_comments: bool, level: int = 0) -> Iterator[str]:
+    """Yield the lines of a definition; fields of nested types follow their field, indented by tabs.
+
+    Args:
+        name: Name of a type, e.g. "geometry_msgs/msg/Pose"; the part "msg" may be left out.
+        comments: Whether to show the comments of this type.
+        nested_comments: Whether to show the comments of nested types as well.
+        level: How deep this type is nested.
+    """
+    package, kind, base = _parts(name)
+    for line in _definition(package, kind, base).splitlines():
+        shown = line.rstrip() if comments else line.partition("#")[0].rstrip()
+        if shown or comments:
+            yield "\t" * level + shown
+        field = _FIELD.fullmatch(line.partition("#")[0].rstrip())
+        if field is None or _PRIMITIVE.fullmatch(field["type"]) or level == _MOST_LEVELS:
+            continue
+        nested = "std_msgs/Header" if field["type"] == "Header" else field["type"]
+        yield from shown_definition(
+            nested if "/" in nested else f"{package}/msg/{nested}",
+            comments=comments and nested_comments,
+            nested_comments=nested_comments,
+            level=level + 1,
+        )
+
+
+def _parts(name: str) -> tuple[str, str, str]:
+    parts = name.split("/")
+    if len(parts) == 2:
+        parts.insert(1, "msg")
+    if len(parts) != 3 or parts[1] not in _KINDS or not all(parts):
+        fail(f"{name!r} is not the name of a type.", "Examples: geometry_msgs/msg/Pose, std_srvs/srv/SetBool", code=2)
+    return parts[0], parts[1], parts[2]
+
+
+def _definition(package: str, kind: str, name: str) -> str:
+    """Return the text of a definition: from the file of a package, or from the definitions of coframe."""
+    from rosidl_runtime_py import get_interface_path  # noqa: PLC0415 - slow import
+
+    try:
+        return Path(get_interface_path(f"{package}/{kind}/{name}")).read_text(encoding="utf-8", errors="replace")
+    except (LookupError, OSError):
+        pass
+    from coframe.messages.packages import shipped  # noqa: PLC0415 - slow import
+
+    found = shipped(package)
+    if found is None:
+        fail(f"Unknown package '{package}'", "coframe interface packages shows all packages with types.")
+    if f"{kind}/{name}" not in found.definitions:
+        fail(f"Unknown type '{package}/{kind}/{name}'", f"coframe interface package {package} shows its types.")
+    return found.definitions[f"{kind}/{name}"]

@@ -1,0 +1,130 @@
+# SPDX-License-Identifier: Apache-2.0
+"""``coframe interface``: message, service and action types, with the words and the output of ``ros2 interface``."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from coframe.cli.help_format import PlainCommand, PlainGroup
+from coframe.cli.lifecycle import run_to_completion
+from coframe.cli.output import fail, printable
+from coframe.cli.ros2.definition_text import shown_definition
+from coframe.cli.ros2.graph import load_type
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+__all__ = ["interface"]
+
+_TITLES = {"msg": "Messages", "srv": "Services", "action": "Actions"}
+TypeArgument = Annotated[
+    str, typer.Argument(metavar="TYPE", help="Name of a type, e.g. geometry_msgs/msg/Pose or std_srvs/srv/SetBool.")
+]
+MessagesOption = Annotated[bool, typer.Option("--only-msgs", "-m", help="Only messages.")]
+ServicesOption = Annotated[bool, typer.Option("--only-srvs", "-s", help="Only services.")]
+ActionsOption = Annotated[bool, typer.Option("--only-actions", "-a", help="Only actions.")]
+interface = typer.Typer(
+    cls=PlainGroup,
+    help="Show message, service and action types, like ros2 interface.\n\n"
+    "Example: coframe interface show sensor_msgs/msg/LaserScan",
+    no_args_is_help=True,
+    rich_markup_mode=None,
+)
+
+
+@interface.command("list", cls=PlainCommand, short_help="List all types.")
+def list_interfaces(
+    only_messages: MessagesOption = False, only_services: ServicesOption = False, only_actions: ActionsOption = False
+) -> None:
+    """List the messages, services and actions of all packages.
+
+    Example: coframe interface list --only-srvs
+    """
+    with run_to_completion():
+        from rosidl_runtime_py import get_interfaces  # noqa: PLC0415 - slow import
+
+        found = get_interfaces()
+        for kind in _kinds(only_messages, only_services, only_actions):
+            print(f"{_TITLES[kind]}:")
+            for package, names in sorted(found.items()):
+                _print_all(f"    {package}/{name}" for name in names if name.startswith(f"{kind}/"))
+
+
+@interface.command(cls=PlainCommand, short_help="List the types of a package.")
+def package(package_name: Annotated[str, typer.Argument(metavar="PACKAGE", help="Name of the package.")]) -> None:
+    """List the messages, services and actions of a package.
+
+    Example: coframe interface package sensor_msgs
+    """
+    with run_to_completion():
+        from rosidl_runtime_py import get_interfaces  # noqa: PLC0415 - slow import
+
+        try:
+            names = get_interfaces([package_name])[package_name]
+        except LookupError:
+            fail(f"Unknown package '{package_name}'", "coframe interface packages shows all packages with types.")
+        _print_all(f"{package_name}/{name}" for name in names)
+
+
+@interface.command(cls=PlainCommand, short_help="List the packages that have types.")
+def packages(
+    only_messages: MessagesOption = False, only_services: ServicesOption = False, only_actions: ActionsOption = False
+) -> None:
+    """List the packages that have messages, services or actions.
+
+    Example: coframe interface packages --only-actions
+    """
+    with run_to_completion():
+        from rosidl_runtime_py import get_interfaces  # noqa: PLC0415 - slow import
+
+        kinds = tuple(f"{kind}/" for kind in _kinds(only_messages, only_services, only_actions))
+        found = get_interfaces()
+        _print_all(name for name in sorted(found) if any(each.startswith(kinds) for each in found[name]))
+
+
+@interface.command(cls=PlainCommand, short_help="Print a type with its default values, for topic pub.")
+def proto(
+    type_name: TypeArgument,
+    no_quotes: Annotated[bool, typer.Option("--no-quotes", help="Print no quotes around the text.")] = False,
+) -> None:
+    """Print the YAML of a message, request or goal with its default values.
+
+    Example: coframe interface proto geometry_msgs/msg/Twist
+    """
+    with run_to_completion():
+        from rosidl_runtime_py import message_to_yaml  # noqa: PLC0415 - slow import
+        from rosidl_runtime_py.utilities import get_interface  # noqa: PLC0415
+
+        found = load_type(type_name, get_interface)
+        message = next((getattr(found, part) for part in ("Request", "Goal") if hasattr(found, part)), found)
+        text = message_to_yaml(message())
+        print(text if no_quotes else f'"{text}"')
+
+
+@interface.command(cls=PlainCommand, short_help="Print the definition of a type.")
+def show(
+    type_name: TypeArgument,
+    all_comments: Annotated[
+        bool, typer.Option("--all-comments", help="Show the comments of nested types as well.")
+    ] = False,
+    no_comments: Annotated[bool, typer.Option("--no-comments", help="Show no comments.")] = False,
+) -> None:
+    """Print the definition of a type, with the fields of nested types below it.
+
+    Example: coframe interface show sensor_msgs/msg/LaserScan
+    """
+    with run_to_completion():
+        _print_all(shown_definition(type_name, comments=not no_comments, nested_comments=all_comments))
+
+
+def _kinds(messages: bool, services: bool, actions: bool) -> list[str]:
+    """Return the kinds that were asked for; all if none was."""
+    chosen = [kind for kind, wanted in zip(_TITLES, (messages, services, actions), strict=True) if wanted]
+    return chosen or list(_TITLES)
+
+
+def _print_all(lines: Iterable[str]) -> None:
+    for line in lines:
+        print(printable(line))
