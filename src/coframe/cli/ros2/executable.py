@@ -35,6 +35,9 @@ _ABSENT = {
     "extension_points": "coframe has no extension points.",
     "extensions": "coframe has no extensions.",
 }
+# Options of `ros2 bag play` that have another form in coframe.
+_PLAY_OPTIONS = {"-l": "--loop", "-p": "--start-paused", "-d": "--delay"}
+_STORAGE_OPTIONS = {"-s", "--storage"}  # coframe detects the storage of a recording, and records MCAP
 _OWN_SCRIPT = b"coframe.cli.ros2.executable"  # in the scripts that installers write for this module
 _SCRIPT_SIZE = 100_000  # bytes; the launchers of Windows contain the script at their end
 
@@ -51,7 +54,8 @@ def ros2() -> None:
         sys.exit(f"ros2: The command {name} does not exist in coframe. {_ABSENT[name]}")
     from coframe.cli import run  # noqa: PLC0415 - not needed where ROS is installed
 
-    run([name, *words[1:]] if words else [], program="ros2", shown=_COMMANDS)
+    rest = _bag_words(words[1:]) if name == "bag" else words[1:]
+    run([name, *rest] if words else [], program="ros2", shown=_COMMANDS)
 
 
 def rviz2() -> None:
@@ -71,6 +75,15 @@ def rviz2() -> None:
     from coframe.cli import run  # noqa: PLC0415 - not needed where ROS is installed
 
     run(words)
+
+
+def _bag_words(words: list[str]) -> list[str]:
+    """Return the words of `ros2 bag` as those of `coframe bag`."""
+    if words[:1] == ["play"]:
+        words = [_PLAY_OPTIONS.get(word, word) for word in words]
+    stores = [index for index, word in enumerate(words) if word in _STORAGE_OPTIONS]
+    dropped = {index + offset for index in stores for offset in (0, 1)}
+    return [word for index, word in enumerate(words) if index not in dropped]
 
 
 def _run_real(name: str) -> None:

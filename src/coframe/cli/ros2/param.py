@@ -95,7 +95,7 @@ def dump(
     del no_daemon
     with graph_node(spin_time) as node:
         client = ParameterClient(node, node_name)
-        names = client.list()
+        names = client.names()
         values = dict(zip(names, client.get(names), strict=False))
     print(as_yaml_file(node_name, {name: python_value(value) for name, value in values.items()}), end="")
 
@@ -152,7 +152,7 @@ def list_parameters(
             client = ParameterClient(node, each, required=node_name is not None)
             if not client.is_available:
                 continue
-            names = sorted(name for name in client.list(prefixes or []) if pattern.search(name))
+            names = sorted(name for name in client.names(prefixes or []) if pattern.search(name))
             if not node_name:
                 print(f"{printable(each)}:")
             types = client.types(names) if param_type else []

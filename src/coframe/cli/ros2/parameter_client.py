@@ -42,7 +42,7 @@ class ParameterClient:
         if required and not self.is_available:
             fail(f"Node {target} has no parameter services.", "It was started without them, or does not respond.")
 
-    def list(self, prefixes: Iterable[str] = ()) -> list[str]:
+    def names(self, prefixes: Iterable[str] = ()) -> list[str]:
         """Return the names of the parameters, sorted."""
         from rcl_interfaces.srv import ListParameters  # noqa: PLC0415 - slow import
 

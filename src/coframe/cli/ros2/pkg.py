@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
@@ -24,7 +24,23 @@ pkg = typer.Typer(
 )
 
 
-@pkg.command(cls=PlainCommand, short_help="Create a Python package.")
+class CreateCommand(PlainCommand):
+    """The command ``pkg create``: ``--dependencies`` takes all words up to the next option, as in ros2."""
+
+    def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
+        """Parse the arguments after repeating ``--dependencies`` in front of each of its words."""
+        words: list[str] = []
+        repeated = ""
+        for word in args:
+            if word.startswith("-"):
+                repeated = word if word == "--dependencies" else ""
+                words += [] if repeated else [word]
+            else:
+                words += [repeated, word] if repeated else [word]
+        return super().parse_args(ctx, words)
+
+
+@pkg.command(cls=CreateCommand, short_help="Create a Python package.")
 def create(
     package_name: Annotated[str, typer.Argument(metavar="NAME", help="Name of the new package.")],
     node_name: Annotated[
@@ -35,7 +51,7 @@ def create(
     ] = Path(),
     dependencies: Annotated[
         list[str] | None,
-        typer.Option("--dependencies", metavar="PACKAGE", help="Package that it depends on; repeatable."),
+        typer.Option("--dependencies", metavar="PACKAGE...", help="Packages that it depends on."),
     ] = None,
     description: Annotated[
         str, typer.Option("--description", metavar="TEXT", help="One sentence about the package.")
@@ -55,7 +71,7 @@ def create(
 ) -> None:
     """Create a Python package that coframe, pip and colcon can use.
 
-    Example: coframe pkg create my_robot --node-name hello --dependencies rclpy
+    Example: coframe pkg create my_robot --node-name hello --dependencies rclpy std_msgs
     """
     if build_type != "ament_python":
         fail(
