@@ -1,7 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """`coframe topic`, `node`, `service`, `action` and `param` print what ros2cli prints about a node."""
 
+import os
 import re
+import signal
+import subprocess
+import sys
 
 import pytest
 import yaml
@@ -65,10 +69,10 @@ def test_echo(run):
 
 
 def test_publish(run, graph):
-    output = run("topic", "pub", "/commands", "std_msgs/msg/String", "{data: go}", "--times", "2", "--rate", "50")
+    output = run("topic", "pub", "/commands", "std_msgs/msg/String", "{data: go}", "--times", "20", "--rate", "50")
     assert "publisher: beginning loop" in output
     assert "publishing #2: std_msgs.msg.String(data='go')" in output
-    assert [graph.stdout.readline() for _ in range(2)] == ["go\n"] * 2
+    assert graph.stdout.readline() == "go\n"
     wrong = run("topic", "pub", "/commands", "std_msgs/msg/String", "{dat: go}", code=2)
     assert "Failed to populate field" in wrong
     assert "coframe interface show" in wrong
@@ -114,12 +118,7 @@ def test_parameters(run, tmp_path):
     ],
 )
 def test_figures_of_a_topic(graph, command, pattern):
-    """The commands run until Ctrl-C, so they are processes."""
-    import os
-    import signal
-    import subprocess
-    import sys
-
+    # The commands run until Ctrl-C, so they are processes.
     process = subprocess.Popen(
         [sys.executable, "-m", "coframe.cli", "topic", command, "/point"],
         stdout=subprocess.PIPE,

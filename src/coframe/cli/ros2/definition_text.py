@@ -59,18 +59,16 @@ def _parts(name: str) -> tuple[str, str, str]:
 
 
 def _definition(package: str, kind: str, name: str) -> str:
-    """Return the text of a definition: from the file of a package, or from the definitions of coframe."""
-    from rosidl_runtime_py import get_interface_path  # noqa: PLC0415 - slow import
+    """Return the text of a definition: of coframe or of the user's packages, or from the file of a sourced ROS."""
+    from coframe.messages.packages import find_package  # noqa: PLC0415 - slow import
+    from rosidl_runtime_py import get_interface_path  # noqa: PLC0415
 
+    found = find_package(package)
+    if found is not None and name in found.names(kind):
+        return found.definition(kind, name).text
     try:
         return Path(get_interface_path(f"{package}/{kind}/{name}")).read_text(encoding="utf-8", errors="replace")
     except (LookupError, OSError):
-        pass
-    from coframe.messages.packages import shipped  # noqa: PLC0415 - slow import
-
-    found = shipped(package)
-    if found is None:
-        fail(f"Unknown package '{package}'", "coframe interface packages shows all packages with types.")
-    if f"{kind}/{name}" not in found.definitions:
+        if found is None:
+            fail(f"Unknown package '{package}'", "coframe interface packages shows all packages with types.")
         fail(f"Unknown type '{package}/{kind}/{name}'", f"coframe interface package {package} shows its types.")
-    return found.definitions[f"{kind}/{name}"]

@@ -8,7 +8,7 @@ import time
 from collections import deque
 from typing import TYPE_CHECKING, Any
 
-from coframe.cli.output import fail, warn
+from coframe.cli.output import fail
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -30,7 +30,6 @@ class MessageStream:
         message_class: Class of the messages.
         qos: QoS of the subscription.
         raw: Whether to return serialized messages.
-        report_lost: Whether to print a warning when messages were lost.
     """
 
     def __init__(
@@ -41,17 +40,14 @@ class MessageStream:
         qos: QoSProfile | int,
         *,
         raw: bool = False,
-        report_lost: bool = False,
     ) -> None:
-        from rclpy.qos_event import SubscriptionEventCallbacks  # noqa: PLC0415
 
         from rclpy.executors import SingleThreadedExecutor  # noqa: PLC0415 - slow import
 
         self._arrived: deque[Any] = deque()
         self._executor = SingleThreadedExecutor(context=node.context)
         self._executor.add_node(node)
-        events = SubscriptionEventCallbacks(message_lost=_report_lost) if report_lost else None
-        node.create_subscription(message_class, topic, self._arrived.append, qos, raw=raw, event_callbacks=events)
+        node.create_subscription(message_class, topic, self._arrived.append, qos, raw=raw)
 
     def take(self, seconds: float) -> Any:
         """Return the next message, waiting for it at most some seconds; None if there is none."""
@@ -100,9 +96,3 @@ def field_of(message: Any, path: str) -> Any:
         return functools.reduce(getattr, path.split("."), message)
     except AttributeError as error:
         fail(f"Invalid field '{path}': {error}", f"Fields: {', '.join(message.get_fields_and_field_types())}.", code=2)
-
-
-def _report_lost(status: Any) -> None:
-    warn(
-        f"A message was lost!!!\n\ttotal count change:{status.total_count_change}\n\ttotal count: {status.total_count}"
-    )

@@ -18,7 +18,7 @@ __all__ = ["pkg"]
 PackageArgument = Annotated[str, typer.Argument(metavar="PACKAGE", help="Name of the package.")]
 pkg = typer.Typer(
     cls=PlainGroup,
-    help="Create and find packages, like ros2 pkg.\n\nExample: coframe pkg create my_robot --node-name hello",
+    help="Create and find packages, like ros2 pkg.\n\nExample: coframe pkg create arm --node-name wave",
     no_args_is_help=True,
     rich_markup_mode=None,
 )
@@ -54,7 +54,7 @@ def create(
         typer.Option("--dependencies", metavar="PACKAGE...", help="Packages that it depends on."),
     ] = None,
     description: Annotated[
-        str, typer.Option("--description", metavar="TEXT", help="One sentence about the package.")
+        str, typer.Option("--description", metavar="SENTENCE", help="What the package is for.")
     ] = "A ROS 2 package",
     license_name: Annotated[
         str, typer.Option("--license", metavar="NAME", help="Licence of the package.")
@@ -71,7 +71,7 @@ def create(
 ) -> None:
     """Create a Python package that coframe, pip and colcon can use.
 
-    Example: coframe pkg create my_robot --node-name hello --dependencies rclpy std_msgs
+    Example: coframe pkg create arm --node-name wave --dependencies rclpy
     """
     if build_type != "ament_python":
         fail(

@@ -18,7 +18,7 @@ __all__ = ["DepthOption", "DurabilityOption", "HistoryOption", "ProfileOption", 
 
 ProfileOption = Annotated[
     str | None,
-    typer.Option("--qos-profile", metavar="NAME", help="QoS preset: sensor_data, services_default, parameters, ..."),
+    typer.Option("--qos-profile", metavar="NAME", help="QoS preset, e.g. sensor_data."),
 ]
 DepthOption = Annotated[int | None, typer.Option("--qos-depth", metavar="N", min=0, help="Depth of the QoS history.")]
 HistoryOption = Annotated[
