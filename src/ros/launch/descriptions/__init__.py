@@ -1,0 +1,6 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Descriptions of what actions start."""
+
+from launch.descriptions.executable import Executable
+
+__all__ = ["Executable"]

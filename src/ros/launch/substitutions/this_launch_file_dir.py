@@ -1,0 +1,41 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The substitution of the folder of the launch file."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from launch.frontend.arguments import check_arguments
+from launch.frontend.expose import expose_substitution
+from launch.substitution import Substitution
+from launch.substitutions.substitution_failure import SubstitutionFailure
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from launch.launch_context import LaunchContext
+    from launch.some_substitutions_type import SomeSubstitutionsType
+
+__all__ = ["ThisLaunchFileDir"]
+
+
+@expose_substitution("dirname")
+class ThisLaunchFileDir(Substitution):
+    """The folder of the launch file that is being visited."""
+
+    @classmethod
+    def parse(cls, data: Sequence[SomeSubstitutionsType]) -> tuple[type[Substitution], dict[str, Any]]:
+        """Read ``$(dirname)``."""
+        check_arguments("dirname", data, 0, 0)
+        return cls, {}
+
+    def describe(self) -> str:
+        """Return a description as a line of text."""
+        return "ThisLaunchFileDir()"
+
+    def perform(self, context: LaunchContext) -> str:
+        """Return the path."""
+        path = context.get_locals_as_dict().get("current_launch_file_directory")
+        if path is None:
+            raise SubstitutionFailure("ThisLaunchFileDir used outside of a launch file (in a script)")
+        return str(path)

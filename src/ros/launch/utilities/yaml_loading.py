@@ -1,0 +1,40 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Reading and writing of YAML, which needs PyYAML."""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import Any
+
+__all__ = ["dump_yaml", "load_yaml"]
+
+
+def load_yaml(text: str) -> Any:
+    """Return the value of a YAML text.
+
+    Raises:
+        ValueError: The text is not YAML.
+        RuntimeError: PyYAML is not installed.
+    """
+    yaml = _yaml()
+    try:
+        return yaml.safe_load(text)
+    except yaml.YAMLError as error:
+        raise ValueError(f"invalid YAML: {error}") from error
+
+
+def dump_yaml(value: Any) -> str:
+    """Return a value as YAML.
+
+    Raises:
+        RuntimeError: PyYAML is not installed.
+    """
+    text: str = _yaml().safe_dump(value, default_flow_style=False)
+    return text
+
+
+def _yaml() -> Any:
+    try:
+        return import_module("yaml")
+    except ImportError:
+        raise RuntimeError("Launch files with parameters or YAML need PyYAML: pip install 'coframe[params]'") from None
