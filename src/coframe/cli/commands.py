@@ -35,6 +35,7 @@ COMMANDS: dict[str, tuple[str, dict[str, Any]]] = {
     ),
     "robot": ("Publish a robot's transforms, like robot_state_publisher.", _PASSES_WORDS_ON),
     "joints": ("Publish joint states, like joint_state_publisher.", _PASSES_WORDS_ON),
+    "launch": ("Launch the nodes of a launch file, like ros2 launch.", _PASSES_WORDS_ON),
     # The arguments of the executable begin after its name, and may look like options.
     "run": (
         "Run an executable of a package, like ros2 run.",

@@ -44,7 +44,7 @@ class LaunchService:
         self.__context = LaunchContext(argv=argv, noninteractive=noninteractive)
         self.__context.register_event_handler(OnIncludeLaunchDescription())
         self.__context.register_event_handler(OnShutdown(on_shutdown=self.__on_shutdown))
-        self.__futures: dict[asyncio.Future[Any], LaunchDescriptionEntity] = {}
+        self.__futures: dict[asyncio.Future[Any], LaunchDescriptionEntity | None] = {}
         self.__loop: asyncio.AbstractEventLoop | None = None
         self.__task: asyncio.Task[int] | None = None
         self.__shutting_down = False
@@ -142,7 +142,7 @@ class LaunchService:
 
     def __forget_finished(self) -> None:
         for future in self.__context._completion_futures:  # noqa: SLF001
-            self.__futures.setdefault(future, None)  # type: ignore[arg-type]
+            self.__futures.setdefault(future, None)
         self.__context._completion_futures.clear()  # noqa: SLF001
         for future in [each for each in self.__futures if each.done()]:
             entity = self.__futures.pop(future)
@@ -160,7 +160,7 @@ class LaunchService:
             try:
                 for entity in normalize_to_list_of_entities(handler.handle(event, context)):
                     pairs = visit_all_entities_and_collect_futures(entity, context)
-                    self.__futures.update((future, each) for each, future in pairs)
+                    self.__futures.update((future, each) for each, future in pairs if not future.done())
             except Exception as error:  # noqa: BLE001 - whatever a launch file raises ends the launch
                 self.__fail(error)
             finally:
@@ -225,5 +225,5 @@ class LaunchService:
 
 async def _wake_regularly() -> None:
     """Let Python handle signals on Windows, where they do not interrupt the wait of the event loop."""
-    while True:
+    while True:  # noqa: ASYNC110 - it waits for nothing but the time
         await asyncio.sleep(0.5)

@@ -95,9 +95,7 @@ class ParameterFile:
         allow_substs: Perform the substitutions in the text of the file.
     """
 
-    def __init__(
-        self, param_file: Any, *, allow_substs: bool | SomeSubstitutionsType = False
-    ) -> None:
+    def __init__(self, param_file: Any, *, allow_substs: bool | SomeSubstitutionsType = False) -> None:
         self.__param_file = normalize_to_list_of_substitutions(param_file)
         self.__allow_substs = normalize_typed_substitution(allow_substs, bool)
         self.__evaluated: Path | None = None

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import threading
 from typing import TYPE_CHECKING
@@ -35,10 +36,8 @@ class ROSAdapter:
         self.__thread.start()
 
     def _run(self) -> None:
-        try:
+        with contextlib.suppress(ExternalShutdownException):
             self.__executor.spin()
-        except ExternalShutdownException:
-            pass
 
     @property
     def ros_node(self) -> Node:

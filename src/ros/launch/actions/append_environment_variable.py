@@ -9,13 +9,13 @@ from typing import TYPE_CHECKING, Any
 from launch.action import Action
 from launch.conditions import evaluate_condition_expression
 from launch.frontend.expose import expose_action
-from launch.substitution import Substitution
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 if TYPE_CHECKING:
     from launch.frontend import Entity, Parser
     from launch.launch_context import LaunchContext
     from launch.some_substitutions_type import SomeSubstitutionsType
+    from launch.substitution import Substitution
 
 __all__ = ["AppendEnvironmentVariable"]
 

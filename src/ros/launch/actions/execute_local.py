@@ -29,7 +29,6 @@ from launch.events.process import (
     ShutdownProcess,
     SignalProcess,
 )
-from launch.substitution import Substitution
 from launch.substitutions import LaunchConfiguration
 from launch.utilities import (
     create_future,
@@ -46,6 +45,7 @@ if TYPE_CHECKING:
     from launch.launch_description_entity import LaunchDescriptionEntity
     from launch.some_entities_type import SomeEntitiesType
     from launch.some_substitutions_type import SomeSubstitutionsType
+    from launch.substitution import Substitution
 
 __all__ = ["ExecuteLocal"]
 
@@ -237,6 +237,8 @@ class ExecuteLocal(Action):
         )
         self.__register_handlers(context)
         self.__completed_future = create_future(context.asyncio_loop)
+        # The service waits for the process even if the launch description fails after this action.
+        context.add_completion_future(self.__completed_future)
         self.__shutdown_future = create_future(context.asyncio_loop)
         self.__task = asyncio.ensure_future(self.__run(context))
         return None
@@ -298,7 +300,9 @@ class ExecuteLocal(Action):
                 command, cwd=description.final_cwd, env=env, emulate_tty=self.__use_tty
             )
         except (OSError, ValueError) as error:
-            self.__logger.error(f"process cannot be started: {error}. The command was: {shown}")
+            self.__logger.error(  # noqa: TRY400 - the traceback is for --debug only
+                f"process cannot be started: {error}. The command was: {shown}"
+            )
             self.__logger.debug(traceback.format_exc())
             return False
         self.__process = process
@@ -354,7 +358,7 @@ class ExecuteLocal(Action):
     async def __is_group_gone_within(self, process: RunningProcess, seconds: float) -> None:
         loop = asyncio.get_running_loop()
         deadline = loop.time() + seconds
-        while process.has_children() and loop.time() < deadline:
+        while process.has_children() and loop.time() < deadline:  # noqa: ASYNC110 - the system has no event for it
             await asyncio.sleep(0.02)
 
     def __on_output(self, context: LaunchContext, details: dict[str, Any], stream: str, data: bytes) -> None:

@@ -10,7 +10,6 @@ from launch.actions.execute_local import ExecuteLocal
 from launch.actions.shutdown_action import Shutdown
 from launch.descriptions import Executable
 from launch.frontend.expose import expose_action
-from launch.substitution import Substitution
 from launch.substitutions import TextSubstitution
 
 if TYPE_CHECKING:
@@ -19,6 +18,7 @@ if TYPE_CHECKING:
     from launch.action import Action
     from launch.frontend import Entity, Parser
     from launch.some_substitutions_type import SomeSubstitutionsType
+    from launch.substitution import Substitution
 
 __all__ = ["ExecuteProcess"]
 
@@ -90,25 +90,22 @@ class ExecuteProcess(ExecuteLocal):
             text = entity.get_attr(name, optional=True) if name not in ignored else None
             if text is not None:
                 options[keyword] = parser.parse_substitution(text)
-        for name in ("sigterm_timeout", "sigkill_timeout", "respawn_delay"):
-            number = entity.get_attr(name, data_type=float, optional=True, can_be_str=True)
-            if number is not None:
-                options[name] = parser.parse_if_substitutions(number)
-        for name in ("respawn", "emulate_tty"):
-            flag = entity.get_attr(name, data_type=bool, optional=True, can_be_str=True)
-            if flag is not None:
-                options[name] = parser.parse_if_substitutions(flag)
-        retries = entity.get_attr("respawn_max_retries", data_type=int, optional=True)
-        if retries is not None:
-            options["respawn_max_retries"] = retries
-        shell = entity.get_attr("shell", data_type=bool, optional=True)
-        if shell is not None:
-            options["shell"] = shell
+        options |= _parse_typed_attributes(entity, parser)
         if "on_exit" not in ignored:
             options |= _parse_on_exit(entity)
         if "env" not in ignored:
             options |= _parse_environment(entity, parser)
         return cls, options
+
+
+def _parse_typed_attributes(entity: Entity, parser: Parser) -> dict[str, Any]:
+    types = dict.fromkeys(("sigterm_timeout", "sigkill_timeout", "respawn_delay"), float)
+    types |= dict.fromkeys(("respawn", "emulate_tty", "shell"), bool)
+    values = {
+        name: entity.get_attr(name, data_type=data_type, optional=True, can_be_str=name != "shell")
+        for name, data_type in {**types, "respawn_max_retries": int}.items()
+    }
+    return {name: parser.parse_if_substitutions(value) for name, value in values.items() if value is not None}
 
 
 def _parse_on_exit(entity: Entity) -> dict[str, Any]:

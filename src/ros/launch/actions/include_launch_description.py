@@ -94,14 +94,6 @@ class IncludeLaunchDescription(Action):
             launch.logging.get_logger("launch").debug(f"{self.describe()} cannot be described: {error}")
             return []
 
-    def _argument_names(self) -> set[str]:
-        """Return the names of the arguments, as far as they are known without a context."""
-        names = set()
-        for name, _ in self.__launch_arguments:
-            parts = normalize_to_list_of_substitutions(name)
-            names.add("".join(part.text if isinstance(part, TextSubstitution) else "" for part in parts))
-        return names
-
     def execute(self, context: LaunchContext) -> list[Any] | None:
         """Return the launch description, after the actions that set its arguments."""
         description = self.__source.get_launch_description(context)
@@ -132,9 +124,18 @@ class IncludeLaunchDescription(Action):
         for argument, includes in description.get_launch_arguments_with_include_launch_description_actions():
             if argument._conditionally_included or argument.default_value is not None:  # noqa: SLF001
                 continue
-            known = given.union(context.launch_configurations, *(each._argument_names() for each in includes or ()))
+            known = given.union(context.launch_configurations, *(_argument_names(each) for each in includes or ()))
             if argument.name not in known:
                 raise RuntimeError(
                     f"Included launch description missing required argument '{argument.name}' "
                     f"(description: '{argument.description}'), given: [{', '.join(sorted(given))}]"
                 )
+
+
+def _argument_names(include: IncludeLaunchDescription) -> set[str]:
+    """Return the names of the arguments of an action, as far as they are known without a context."""
+    names = set()
+    for name, _ in include.launch_arguments:
+        parts = normalize_to_list_of_substitutions(name)
+        names.add("".join(part.text if isinstance(part, TextSubstitution) else "" for part in parts))
+    return names

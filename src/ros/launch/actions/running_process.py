@@ -17,21 +17,23 @@ if TYPE_CHECKING:
 __all__ = ["RunningProcess"]
 
 _GRACE = 0.5  # seconds in which output may still arrive after the process has ended
-_CHUNK = 65536  # bytes
+_STREAMS = {1: "stdout", 2: "stderr"}
 
 
-class RunningProcess:
+class RunningProcess(asyncio.SubprocessProtocol):
     """A child process; on POSIX it leads a process group, to which also its own children belong.
 
     Ctrl-C in the terminal therefore reaches only the launcher, which then sends SIGINT to all groups.
     """
 
-    def __init__(
-        self, process: asyncio.subprocess.Process, readers: dict[str, asyncio.StreamReader], transports: list[Any]
-    ) -> None:
-        self._process = process
-        self._readers = readers
-        self._transports = transports
+    def __init__(self) -> None:
+        self._on_output: Callable[[str, bytes], None] | None = None
+        self._early_output: list[tuple[str, bytes]] = []
+        self._transport: Any = None
+        self._terminals: list[asyncio.ReadTransport] = []
+        self._open_streams = set(_STREAMS)
+        self._exited = asyncio.Event()
+        self._all_read = asyncio.Event()
 
     @classmethod
     async def start(
@@ -39,24 +41,32 @@ class RunningProcess:
     ) -> RunningProcess:
         """Start a command; a text is run by the shell.
 
+        Args:
+            command: The words, or the text.
+            cwd: Working directory.
+            env: Environment.
+            emulate_tty: Let its output be a terminal.
+
         Raises:
             OSError: The command cannot be started.
         """
-        terminals: dict[str, tuple[int, int]] = {}
+        loop = asyncio.get_running_loop()
         options: dict[str, Any] = {"cwd": cwd, "env": env, "stdin": subprocess.PIPE}
+        terminals: dict[int, tuple[int, int]] = {}
         if sys.platform == "win32":
             options["creationflags"] = subprocess.CREATE_NEW_PROCESS_GROUP
         else:
             options["start_new_session"] = True
             if emulate_tty:
-                terminals = {"stdout": os.openpty(), "stderr": os.openpty()}
-        for stream in ("stdout", "stderr"):
-            options[stream] = terminals[stream][1] if stream in terminals else subprocess.PIPE
+                terminals = {fd: os.openpty() for fd in _STREAMS}
+        for fd, stream in _STREAMS.items():
+            options[stream] = terminals[fd][1] if terminals else subprocess.PIPE
+        process = cls()
         try:
             if isinstance(command, str):
-                process = await asyncio.create_subprocess_shell(command, **options)
+                process._transport, _ = await loop.subprocess_shell(lambda: process, command, **options)
             else:
-                process = await asyncio.create_subprocess_exec(*command, **options)
+                process._transport, _ = await loop.subprocess_exec(lambda: process, *command, **options)
         except BaseException:
             for controller, _ in terminals.values():
                 os.close(controller)
@@ -64,44 +74,73 @@ class RunningProcess:
         finally:
             for _, terminal in terminals.values():
                 os.close(terminal)
-        readers, transports = {}, []
-        for stream, (controller, _) in terminals.items():
-            readers[stream], transport = await _reader(controller)
-            transports.append(transport)
-        if not terminals:
-            assert process.stdout is not None
-            assert process.stderr is not None
-            readers = {"stdout": process.stdout, "stderr": process.stderr}
-        return cls(process, readers, transports)
+        for fd, (controller, _) in terminals.items():
+            await process._read_terminal(fd, controller)
+        return process
+
+    async def _read_terminal(self, fd: int, controller: int) -> None:
+        loop = asyncio.get_running_loop()
+        file = os.fdopen(controller, "rb", buffering=0)
+        transport, _ = await loop.connect_read_pipe(lambda: _TerminalProtocol(self, fd), file)
+        self._terminals.append(transport)
+
+    def pipe_data_received(self, fd: int, data: bytes) -> None:
+        """Pass output on, or keep it until :meth:`wait` is called."""
+        if self._on_output is None:
+            self._early_output.append((_STREAMS[fd], data))
+        else:
+            self._on_output(_STREAMS[fd], data)
+
+    def pipe_connection_lost(self, fd: int, exc: Exception | None) -> None:
+        """Take note that a stream has ended."""
+        del exc
+        self._open_streams.discard(fd)
+        if not self._open_streams:
+            self._all_read.set()
+
+    def process_exited(self) -> None:
+        """Take note that the process has ended; its streams may still be open in its children."""
+        self._exited.set()
 
     @property
     def pid(self) -> int:
         """The id of the process, which is that of its group."""
-        return self._process.pid
+        pid: int = self._transport.get_pid()
+        return pid
 
     @property
     def is_running(self) -> bool:
         """Whether the process has not ended."""
-        return self._process.returncode is None
+        return not self._exited.is_set()
 
     async def wait(self, on_output: Callable[[str, bytes], None]) -> int:
-        """Pass all output to a function, wait for the end, and return the exit code."""
-        tasks = [asyncio.ensure_future(_read(reader, stream, on_output)) for stream, reader in self._readers.items()]
+        """Wait for the end of the process and of its output, and return the exit code.
+
+        Args:
+            on_output: Function that is called with the name of a stream and its bytes.
+        """
+        self._on_output = on_output
+        for stream, data in self._early_output:
+            on_output(stream, data)
         try:
-            code = await self._process.wait()
-            # A grandchild may hold the other end of a pipe for longer.
-            await asyncio.wait(tasks, timeout=_GRACE)
+            await self._exited.wait()
+            # A child of the process may hold the other end of a pipe for longer.
+            with contextlib.suppress(asyncio.TimeoutError):
+                await asyncio.wait_for(self._all_read.wait(), _GRACE)
+            code: int = self._transport.get_returncode()
+            return code
         finally:
-            for task in tasks:
-                task.cancel()
-            for transport in self._transports:
+            if self.is_running:  # The launch was cancelled.
+                self.send_signal(getattr(signal, "SIGKILL", signal.SIGTERM))
+            self._transport.close()
+            for transport in self._terminals:
                 transport.close()
-        return code
 
     def write(self, data: bytes) -> None:
         """Write to the standard input."""
-        if self._process.stdin is not None:
-            self._process.stdin.write(data)
+        pipe = self._transport.get_pipe_transport(0)
+        if pipe is not None:
+            pipe.write(data)
 
     def send_signal(self, number: int) -> None:
         """Send a signal to the process and to all its children; nothing happens if they have ended."""
@@ -110,7 +149,7 @@ class RunningProcess:
                 os.killpg(self.pid, number)
             elif self.is_running:
                 is_interrupt = number in {signal.SIGINT, signal.CTRL_BREAK_EVENT}
-                self._process.send_signal(signal.CTRL_BREAK_EVENT if is_interrupt else signal.SIGTERM)
+                self._transport.send_signal(signal.CTRL_BREAK_EVENT if is_interrupt else signal.SIGTERM)
 
     def has_children(self) -> bool:
         """Return whether a process of the group is still there although its leader has ended."""
@@ -123,16 +162,15 @@ class RunningProcess:
         return True
 
 
-async def _reader(controller: int) -> tuple[asyncio.StreamReader, Any]:
-    loop = asyncio.get_running_loop()
-    reader = asyncio.StreamReader()
-    file = os.fdopen(controller, "rb", buffering=0)
-    transport, _ = await loop.connect_read_pipe(lambda: asyncio.StreamReaderProtocol(reader), file)
-    return reader, transport
+class _TerminalProtocol(asyncio.Protocol):
+    """Passes on what a process writes to a terminal; Linux reports its end as an input/output error."""
 
+    def __init__(self, process: RunningProcess, fd: int) -> None:
+        self._process = process
+        self._fd = fd
 
-async def _read(reader: asyncio.StreamReader, stream: str, on_output: Callable[[str, bytes], None]) -> None:
-    # Linux reports the end of a terminal as an input/output error.
-    with contextlib.suppress(OSError):
-        while data := await reader.read(_CHUNK):
-            on_output(stream, data)
+    def data_received(self, data: bytes) -> None:
+        self._process.pipe_data_received(self._fd, data)
+
+    def connection_lost(self, exc: Exception | None) -> None:
+        self._process.pipe_connection_lost(self._fd, exc)

@@ -6,13 +6,13 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import launch.logging
-from launch.action import Action
 from launch.actions.emit_event import EmitEvent
 from launch.events import Shutdown as ShutdownEvent
 from launch.events.process import ProcessExited
 from launch.frontend.expose import expose_action
 
 if TYPE_CHECKING:
+    from launch.action import Action
     from launch.frontend import Entity, Parser
     from launch.launch_context import LaunchContext
 

@@ -40,10 +40,12 @@ class OnActionEventBase(BaseEventHandler):
         target_action_cls: type[Action],
         **options: Any,
     ) -> None:
-        if action_matcher is not None and not isinstance(action_matcher, target_action_cls):
-            # An action of another class can be called by mistake only.
-            if isinstance(action_matcher, Action) or not callable(action_matcher):
-                raise TypeError(f"action_matcher must be an '{target_action_cls.__name__}' instance or a callable")
+        # An action of another class can only be a mistake.
+        is_action = isinstance(action_matcher, Action)
+        if action_matcher is not None and not (
+            isinstance(action_matcher, target_action_cls) if is_action else callable(action_matcher)
+        ):
+            raise TypeError(f"action_matcher must be an '{target_action_cls.__name__}' instance or a callable")
         self.__target_event_cls = target_event_cls
         self.__action_matcher = action_matcher
 

@@ -20,6 +20,6 @@ def check_arguments(name: str, data: Sequence[Any], least: int, most: int) -> No
     if not least <= len(data) <= most:
         number = str(least) if least == most else f"{least} to {most}"
         raise TypeError(
-            f"$({name} ...) takes {number} argument{'' if number == '1' else 's'}, not {len(data)}; write quotes around "
-            "an argument with spaces"
+            f"$({name} ...) takes {number} argument{'' if number == '1' else 's'}, not {len(data)}; "
+            "write quotes around an argument with spaces"
         )

@@ -59,14 +59,19 @@ class LaunchConfig:
 
     @log_dir.setter
     def log_dir(self, folder: str) -> None:
+        self.reset_log_dir()
         self._log_dir = Path(folder)
         self._log_dir.mkdir(parents=True, exist_ok=True)
-        for handler in [each for each in self._root.handlers if isinstance(each, logging.FileHandler)]:
-            self._root.removeHandler(handler)
-            handler.close()
         file = logging.FileHandler(self._log_dir / "launch.log", encoding="utf-8", errors="replace", delay=True)
         file.setFormatter(logging.Formatter(os.environ.get("OVERRIDE_LAUNCH_LOG_FORMAT", _FILE_FORMAT), style="{"))
         self._root.addHandler(file)
+
+    def reset_log_dir(self) -> None:
+        """Close the log file, and choose a new folder at the next use."""
+        self._log_dir = None
+        for handler in [each for each in self._root.handlers if isinstance(each, logging.FileHandler)]:
+            self._root.removeHandler(handler)
+            handler.close()
 
     def get_log_file_path(self, file_name: str = "launch.log") -> str:
         """Return the path of a log file of this run."""
@@ -107,6 +112,7 @@ class ProcessOutput:
         self._destinations = _destinations(output)
         self._line_format = line_format
         self._pending = {"stdout": b"", "stderr": b""}
+        _ = launch_config.log_dir  # The log file is there as soon as a process is.
         # The number at the end of the name gives neighbors different colors.
         number = name.rpartition("-")[2]
         self._color = _PROCESS_COLORS[int(number) % len(_PROCESS_COLORS)] if number.isdecimal() else ""
@@ -211,4 +217,5 @@ def get_output_loggers(process_name: str, output_config: str | dict[str, Any]) -
 
 def reset() -> None:
     """Forget the folder of the log files and the level."""
-    launch_config.__init__()  # type: ignore[misc]  # noqa: PLC2801 - other modules hold this object
+    launch_config.reset_log_dir()
+    launch_config.level = logging.INFO

@@ -150,7 +150,7 @@ class AnySubstitution(_Several):
 
     def perform(self, context: LaunchContext) -> str:
         """Return ``true`` or ``false``."""
-        return _text(any([_truth(context, arg) for arg in self._args]))
+        return _text(any(_truth(context, arg) for arg in self._args))
 
 
 @expose_substitution("all")
@@ -164,7 +164,7 @@ class AllSubstitution(_Several):
 
     def perform(self, context: LaunchContext) -> str:
         """Return ``true`` or ``false``."""
-        return _text(all([_truth(context, arg) for arg in self._args]))
+        return _text(all(_truth(context, arg) for arg in self._args))
 
 
 @expose_substitution("if")

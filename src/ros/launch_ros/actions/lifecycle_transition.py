@@ -58,8 +58,7 @@ class LifecycleTransition(Action):
             ("transition", "type", "transition_ids"),
         ):
             options[keyword] = [
-                parser.parse_substitution(child.get_attr(attribute))
-                for child in entity.get_attr(tag, data_type=list)
+                parser.parse_substitution(child.get_attr(attribute)) for child in entity.get_attr(tag, data_type=list)
             ]
         return cls, options
 
@@ -70,9 +69,7 @@ class LifecycleTransition(Action):
         for parts in self.__names:
             name = perform_substitutions(context, parts)
             requests = [
-                EmitEvent(
-                    event=ChangeState(lifecycle_node_matcher=matches_node_name(name), transition_id=number)
-                )
+                EmitEvent(event=ChangeState(lifecycle_node_matcher=matches_node_name(name), transition_id=number))
                 for number in numbers
             ]
             found += [
@@ -97,7 +94,7 @@ def _after(name: str, number: int, following: EmitEvent) -> EventHandler:
 
 
 def _number(text: str) -> int:
-    names = {name: number for number, name in ChangeState.valid_transitions.items()}
+    names: dict[str, int] = {name: number for number, name in ChangeState.valid_transitions.items()}
     if text.isdecimal() and int(text) in ChangeState.valid_transitions:
         return int(text)
     if text not in names:

@@ -174,6 +174,16 @@ class Node(ExecuteLocal):
         if combined is not None:
             self.__expanded_node_namespace = combined
             self.__extend_command(["-r", LocalSubstitution("ros_specific_arguments['ns']", description="namespace")])
+        self.__expand_parameters(context)
+        self.__expanded_remappings = list(context.launch_configurations.get("ros_remaps", []))
+        for source, target in self.__remappings:
+            self.__expanded_remappings.append(
+                (perform_substitutions(context, source), perform_substitutions(context, target))
+            )
+        for before, after in self.__expanded_remappings:
+            self.__extend_command(["-r", f"{before}:={after}"])
+
+    def __expand_parameters(self, context: LaunchContext) -> None:
         for each in context.launch_configurations.get("global_params", []):
             if isinstance(each, tuple):
                 self.__extend_command(["-p", f"{each[0]}:={each[1]}"])
@@ -186,13 +196,6 @@ class Node(ExecuteLocal):
                 self.__add_parameter(_parameter_rule(parameters, context), is_file=False)
             else:
                 self.__add_parameter(str(parameters), is_file=True)
-        self.__expanded_remappings = list(context.launch_configurations.get("ros_remaps", []))
-        for source, target in self.__remappings:
-            self.__expanded_remappings.append(
-                (perform_substitutions(context, source), perform_substitutions(context, target))
-            )
-        for before, after in self.__expanded_remappings:
-            self.__extend_command(["-r", f"{before}:={after}"])
 
     def __extend_command(self, words: list[SomeSubstitutionsType]) -> None:
         self.process_description.cmd.extend(normalize_to_list_of_substitutions(word) for word in words)

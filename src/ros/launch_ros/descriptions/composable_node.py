@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from launch.utilities import normalize_to_list_of_substitutions
 from launch_ros.utilities import normalize_parameters, normalize_remap_rules

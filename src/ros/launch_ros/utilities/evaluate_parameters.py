@@ -13,7 +13,7 @@ from launch.utilities.yaml_loading import load_yaml
 from launch_ros.parameter_descriptions import Parameter, ParameterFile, ParameterValue
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping, Sequence
+    from collections.abc import Iterable, Mapping
 
     from launch.launch_context import LaunchContext
 
@@ -25,9 +25,7 @@ _ADVICE = (
 )
 
 
-def evaluate_parameters(
-    context: LaunchContext, parameters: Iterable[Any]
-) -> list[dict[str, Any] | Path | Parameter]:
+def evaluate_parameters(context: LaunchContext, parameters: Iterable[Any]) -> list[dict[str, Any] | Path | Parameter]:
     """Return the values of normalized parameters: dictionaries, paths of files, and descriptions."""
     found: list[dict[str, Any] | Path | Parameter] = []
     for each in parameters:
@@ -43,7 +41,7 @@ def evaluate_parameters(
 
 
 def evaluate_parameter_dict(
-    context: LaunchContext, parameters: Mapping[Sequence[Substitution], Any]
+    context: LaunchContext, parameters: Mapping[tuple[Substitution, ...], Any]
 ) -> dict[str, Any]:
     """Return the values of normalized parameters by name.
 

@@ -1,0 +1,153 @@
+# SPDX-License-Identifier: Apache-2.0
+"""``coframe launch``: runs a launch file, like ``ros2 launch``."""
+
+from __future__ import annotations
+
+import difflib
+import os
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from coframe.cli.output import fail
+from coframe.errors import PackageError
+from coframe.packages.finding import find_package, use_sources_near
+
+if TYPE_CHECKING:
+    from launch import LaunchDescription
+
+__all__ = ["launch"]
+
+_SUFFIXES = (".launch.py", ".launch.xml", ".launch.yaml", ".launch.yml", "_launch.py", "_launch.xml", "_launch.yaml")
+
+
+def launch(
+    context: typer.Context,
+    package_or_file: Annotated[
+        str, typer.Argument(metavar="FILE|PACKAGE", help="Launch file, or the package that contains it.")
+    ],
+    show_args: Annotated[
+        bool, typer.Option("--show-args", "-s", "--show-arguments", help="Show the arguments of the launch file.")
+    ] = False,
+    print_description: Annotated[
+        bool,
+        typer.Option("--print", "-p", "--print-description", help="Print the launch description without launching it."),
+    ] = False,
+    debug: Annotated[
+        bool, typer.Option("--debug", "-d", help="Log all events, and errors with their traceback.")
+    ] = False,
+    noninteractive: Annotated[
+        bool, typer.Option("--noninteractive", "-n", help="Tell the launch file that no user is present.")
+    ] = False,
+    launch_prefix: Annotated[
+        str, typer.Option(metavar="COMMAND", help="Command to put in front of all processes.", show_default=False)
+    ] = "",
+    launch_prefix_filter: Annotated[
+        str,
+        typer.Option(
+            metavar="REGEX", help="Use --launch-prefix for processes with such a name only.", show_default=False
+        ),
+    ] = "",
+) -> None:
+    """Launch the nodes of a Python, XML or YAML launch file, like ros2 launch.
+
+    Write coframe launch FILE or coframe launch PACKAGE FILE. Arguments of the launch file follow as NAME:=VALUE.
+    Packages may be sources that were never built. Ctrl-C ends all nodes.
+
+    Example: coframe launch my_robot bringup.launch.py use_sim_time:=true
+    """
+    words = list(context.args)
+    path = _launch_file(package_or_file, words)
+    arguments = dict(_argument(word) for word in words)
+    if launch_prefix:
+        arguments["launch-prefix"] = launch_prefix
+    if launch_prefix_filter:
+        arguments["launch-prefix-filter"] = launch_prefix_filter
+    use_sources_near(path.parent, Path.cwd())
+    if show_args:
+        _show_arguments(_description(path))
+    elif print_description:
+        from launch import LaunchIntrospector  # noqa: PLC0415 - slow import
+
+        print(LaunchIntrospector().format_launch_description(_description(path)))
+    else:
+        raise typer.Exit(_run(path, arguments, debug=debug, noninteractive=noninteractive))
+
+
+def _launch_file(package_or_file: str, words: list[str]) -> Path:
+    """Return the path of the launch file; remove its name from the words if the first one is a package."""
+    file = Path(package_or_file)
+    if file.is_file():
+        return file.resolve()
+    if os.sep in package_or_file or package_or_file.endswith(_SUFFIXES):
+        siblings = [each.name for each in file.parent.iterdir()] if file.parent.is_dir() else []
+        close = difflib.get_close_matches(file.name, siblings, n=2)
+        fail(f"No launch file {package_or_file}.", f"Did you mean {' or '.join(close)}?" if close else "")
+    try:
+        share = find_package(package_or_file).share
+    except PackageError as error:
+        fail(str(error), error.hint)
+    there = {each.name: each for each in sorted(share.rglob("*")) if _is_launch_file(each)}
+    if not words or ":=" in words[0]:
+        names = ", ".join(there) or "none"
+        fail(f"The name of the launch file is missing. Launch files in {package_or_file}: {names}.", code=2)
+    name = words.pop(0)
+    path = there.get(name, share / name)
+    if not path.is_file():
+        close = difflib.get_close_matches(name, there, n=2)
+        guess = f"Did you mean {' or '.join(close)}? " if close else ""
+        fail(
+            f"No launch file {name!r} in the package {package_or_file!r}.",
+            f"{guess}Launch files there: {', '.join(there) or 'none'}.",
+        )
+    return path.resolve()
+
+
+def _is_launch_file(path: Path) -> bool:
+    return path.name.endswith(_SUFFIXES) or (path.parent.name == "launch" and path.suffix in {".py", ".xml", ".yaml"})
+
+
+def _argument(word: str) -> tuple[str, str]:
+    name, separator, value = word.partition(":=")
+    if not separator or not name:
+        fail(f"malformed launch argument '{word}', expected format '<name>:=<value>'", code=2)
+    return name, value
+
+
+def _description(path: Path) -> LaunchDescription:
+    """Return the launch description of a file, with all that it includes."""
+    from launch.launch_description_sources import get_launch_description_from_any_launch_file  # noqa: PLC0415
+
+    try:
+        return get_launch_description_from_any_launch_file(str(path))
+    except Exception as error:  # noqa: BLE001 - a launch file is a program, which may raise anything
+        fail(f"{path}: {type(error).__name__}: {error}", getattr(error, "hint", ""))
+
+
+def _show_arguments(description: LaunchDescription) -> None:
+    arguments = description.get_launch_arguments()
+    print("Arguments (pass arguments as '<name>:=<value>'):")
+    if not arguments:
+        print("\n  No arguments.")
+    for argument in arguments:
+        print(f"\n    '{argument.name}':\n        {argument.description}")
+        if argument.default_value is not None:
+            default = " + ".join(part.describe() for part in argument.default_value)
+            print(f"        (default: {default})")
+
+
+def _run(path: Path, arguments: dict[str, str], *, debug: bool, noninteractive: bool) -> int:
+    from launch import LaunchDescription, LaunchService  # noqa: PLC0415 - slow import
+    from launch.actions import IncludeLaunchDescription  # noqa: PLC0415
+    from launch.launch_description_sources import AnyLaunchDescriptionSource  # noqa: PLC0415
+    from launch.logging import get_logger, launch_config  # noqa: PLC0415
+
+    logger = get_logger("launch")
+    logger.info("All log files can be found below %s", launch_config.log_dir)
+    logger.info("Default logging verbosity is set to %s", "DEBUG" if debug else "INFO")
+    argv = [f"{name}:={value}" for name, value in arguments.items()]
+    service = LaunchService(argv=argv, noninteractive=noninteractive, debug=debug)
+    included = IncludeLaunchDescription(AnyLaunchDescriptionSource(str(path)), launch_arguments=list(arguments.items()))
+    service.include_launch_description(LaunchDescription([included]))
+    return service.run()

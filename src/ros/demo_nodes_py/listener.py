@@ -1,0 +1,35 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A node that logs the texts on the topic chatter."""
+
+from __future__ import annotations
+
+import rclpy
+from rclpy.executors import ExternalShutdownException
+from rclpy.node import Node
+from std_msgs.msg import String
+
+__all__ = ["Listener", "main"]
+
+
+class Listener(Node):
+    """Logs "I heard: [TEXT]" for each message on chatter."""
+
+    def __init__(self) -> None:
+        super().__init__("listener")
+        self.create_subscription(String, "chatter", self.__log, 10)
+
+    def __log(self, message: String) -> None:
+        self.get_logger().info(f"I heard: [{message.data}]")
+
+
+def main(args: list[str] | None = None) -> None:
+    """Run the node until shutdown."""
+    try:
+        with rclpy.init(args=args):
+            rclpy.spin(Listener())
+    except (KeyboardInterrupt, ExternalShutdownException):
+        pass
+
+
+if __name__ == "__main__":
+    main()
