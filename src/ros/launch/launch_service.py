@@ -161,7 +161,7 @@ class LaunchService:
                 for entity in normalize_to_list_of_entities(handler.handle(event, context)):
                     pairs = visit_all_entities_and_collect_futures(entity, context)
                     self.__futures.update((future, each) for each, future in pairs if not future.done())
-            except Exception as error:  # noqa: BLE001 - whatever a launch file raises ends the launch
+            except Exception as error:  # noqa: BLE001 - any error of a launch file ends the launch
                 self.__fail(error)
             finally:
                 context._pop_locals()  # noqa: SLF001

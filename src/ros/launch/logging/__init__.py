@@ -90,7 +90,7 @@ class LaunchConfig:
 
 
 class _ScreenHandler(logging.Handler):
-    """Prints messages on standard output, whatever it is at that moment."""
+    """Prints messages on the present standard output, which a program may replace."""
 
     def emit(self, record: logging.LogRecord) -> None:
         chosen = os.environ.get("OVERRIDE_LAUNCH_SCREEN_FORMAT", "default")

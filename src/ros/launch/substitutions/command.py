@@ -75,7 +75,7 @@ class Command(Substitution):
         program = find_program(words[0])
         if program is None:
             raise SubstitutionFailure(_missing(words[0], text))
-        result = subprocess.run(  # noqa: S603 - the launch file says what to run
+        result = subprocess.run(  # noqa: S603 - the launch file names the command
             [program, *words[1:]],
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT if on_stderr == "capture" else subprocess.PIPE,
