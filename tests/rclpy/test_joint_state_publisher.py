@@ -1,15 +1,19 @@
 # SPDX-License-Identifier: Apache-2.0
 """joint_state_publisher as a node, and `coframe joints` as a user runs it."""
 
+import math
 import os
 import select
 import signal
 import subprocess
 import sys
+from xml.dom import minidom
 
 import pytest
 
+from coframe.robots import RobotDescriptionError
 from joint_state_publisher import JointStatePublisher
+from joint_state_publisher import joint_state_publisher as upstream
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from sensor_msgs.msg import JointState
@@ -239,3 +243,41 @@ def test_sliders_of_the_terminal(context, received, wait_until, tmp_path):
             process.kill()
             process.wait()
         os.close(controller)
+
+
+def test_attributes_and_methods_that_upstreams_window_uses(context, tmp_path):
+    file = tmp_path / "arm.urdf"
+    file.write_text(URDF)
+    words = ["--ros-args", "-p", "dependent_joints.lift.parent:=turn", "-p", "publish_default_velocities:=true"]
+    options = {"context": context, "start_parameter_services": False}
+    node = upstream.JointStatePublisher(str(file), cli_args=words, **options)
+    changes = []
+    node.set_source_update_cb(lambda: changes.append("source"))
+    node.set_robot_description_update_cb(lambda: changes.append("robot"))
+    try:
+        assert node.joint_list == ["turn", "lift", "follow"]
+        assert node.parse_dependent_joints() == {"lift": {"parent": "turn", "factor": 1.0, "offset": 0.0}}
+        assert node.dependent_joints["follow"] == {"parent": "lift", "factor": 2.0, "offset": 0.1}
+        assert node.get_param("rate") == 10
+        turn = node.free_joints["turn"]
+        assert (turn["min"], turn["max"], turn["zero"], turn["velocity"]) == pytest.approx(
+            (-math.pi, math.pi, 0.0, 0.0)
+        )
+        assert "effort" not in turn
+        turn["position"] = 0.5
+        assert node.states.fields().positions == pytest.approx([0.5, 0.5, 1.1])
+        node.source_cb(JointState(name=["turn"], position=[0.7]))
+        assert turn["position"] == 0.7
+        node.update(0.1)
+        assert turn["position"] == pytest.approx(0.8)
+        free, names, dependent = node.init_urdf(minidom.parseString(URDF.replace("follow", "tool")))
+        assert (list(free), names, list(dependent)) == (["turn"], ["turn", "lift", "tool"], ["lift", "tool"])
+        node.configure_robot(URDF.replace("follow", "tool"))
+        assert node.joint_list == ["turn", "lift", "tool"]
+        node.robot_description_cb(String(data=URDF))
+        assert node.joint_list == ["turn", "lift", "follow"]
+        assert changes == ["source", "robot", "robot"]
+        with pytest.raises(RobotDescriptionError, match="COLLADA"):
+            node.init_collada(None)
+    finally:
+        node.destroy_node()
