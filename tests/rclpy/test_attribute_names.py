@@ -37,8 +37,8 @@ _OF_CALLBACK_ENTITIES = {"callback", "callback_group"}
 _OF_EXECUTORS = {"_context", "_nodes"}
 _OF_LISTENERS = {"buffer", "group", "node", "tf_static_sub", "tf_sub"}
 _IN_ROS = {
-    "Publisher": {"msg_type", "qos_profile", "topic"},
-    "Subscription": {*_OF_CALLBACK_ENTITIES, "msg_type", "qos_profile", "raw", "topic"},
+    "Publisher": {"event_handlers", "msg_type", "qos_profile", "topic"},
+    "Subscription": {*_OF_CALLBACK_ENTITIES, "event_handlers", "msg_type", "qos_profile", "raw", "topic"},
     "Client": {"callback_group", "context", "qos_profile", "srv_name", "srv_type"},
     "Service": {*_OF_CALLBACK_ENTITIES, "qos_profile", "srv_name", "srv_type"},
     "Timer": _OF_CALLBACK_ENTITIES,

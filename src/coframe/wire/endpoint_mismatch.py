@@ -22,15 +22,19 @@ _QOS = {
         "Request best-effort (qos_profile_sensor_data), or make the publisher reliable.",
     ),
     "durability": ("volatile", "transient-local", "Request volatile, or make the publisher transient-local."),
+    "deadline": ("a longer deadline", "a shorter deadline", "Use a deadline of at least that of the publisher."),
+    "liveliness": (
+        "a weaker liveliness or a longer lease",
+        "a stronger liveliness or a shorter lease",
+        "Use the same liveliness and lease duration on both sides.",
+    ),
 }
 
 # The other policies that DDS compares, by their numbers in DDS.
 _OTHER_POLICIES = {
     3: "presentation",
-    4: "deadline",
     5: "latency budget",
     6: "ownership",
-    8: "liveliness",
     10: "partition",
     12: "destination order",
     25: "data representation",
@@ -46,6 +50,10 @@ def mismatch_reasons(writer: DiscoveredEndpoint, reader: DiscoveredEndpoint) -> 
         found.append("reliability")
     if reader.qos.transient_local and not writer.qos.transient_local:
         found.append("durability")
+    if reader.qos.deadline < writer.qos.deadline:
+        found.append("deadline")
+    if reader.qos.manual_liveliness > writer.qos.manual_liveliness or reader.qos.lease < writer.qos.lease:
+        found.append("liveliness")
     return found
 
 
@@ -104,7 +112,7 @@ class MismatchMonitor:
         self._graph = graph
         self._warn = warn
         self._suspects: dict[tuple[bytes, bytes, str], float] = {}  # (own, peer, reason): time of discovery
-        self._warned: set[tuple[str, str | bytes, str]] = set()
+        self._warned: set[tuple[str | bytes, str | bytes, str]] = set()
 
     @property
     def waiting(self) -> bool:
@@ -118,7 +126,9 @@ class MismatchMonitor:
         for own, peer, reason in self._pairs(endpoints):
             node = self._graph.owner(peer.guid)
             # A node has many services, but only one middleware.
-            about = "" if reason == "services" else names.any_ros_name(own.topic)
+            about: str | bytes = "" if reason == "services" else names.any_ros_name(own.topic)
+            if own.on_mismatch is not None:
+                about = own.guid
             key = (about, node or peer.guid, reason)
             if key in self._warned:
                 continue
@@ -128,7 +138,11 @@ class MismatchMonitor:
                 self._suspects[suspect] = since
                 continue
             self._warned.add(key)
-            self._warn(mismatch_text(own, peer, node, reason))
+            text = mismatch_text(own, peer, node, reason)
+            if own.on_mismatch is None or reason == "services":
+                self._warn(text)
+            else:
+                own.on_mismatch(_policy(own) if reason == "other" else reason, text)
 
     def _pairs(self, endpoints: list[LocalEndpoint]) -> Iterator[tuple[LocalEndpoint, DiscoveredEndpoint, str]]:
         own_guids = {endpoint.guid for endpoint in endpoints}
@@ -142,9 +156,19 @@ class MismatchMonitor:
                         yield own, peer, "services"
                     continue
                 # A pair within this process is reported once, from the side of the subscription.
-                if own.is_writer and peer.guid in own_guids:
+                if own.is_writer and peer.guid in own_guids and own.on_mismatch is None:
                     continue
-                pair = (own.description, peer) if own.is_writer else (peer, own.description)
-                for reason in mismatch_reasons(*pair) or ["other"]:
+                for reason in _reasons(own, peer):
                     if reason not in _QOS or not own.adapts:
                         yield own, peer, reason
+
+
+def _reasons(own: LocalEndpoint, peer: DiscoveredEndpoint) -> list[str]:
+    pair = (own.description, peer) if own.is_writer else (peer, own.description)
+    reasons = mismatch_reasons(*pair) or ["other"]
+    # As in ROS, endpoints with a callback report the first policy only.
+    return reasons if own.on_mismatch is None else reasons[:1]
+
+
+def _policy(own: LocalEndpoint) -> str:
+    return _OTHER_POLICIES.get(own.refused_policy, "invalid")

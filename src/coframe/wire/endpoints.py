@@ -13,6 +13,8 @@ from coframe.wire.discovery_info import NodeInfo
 from coframe.wire.graph import DiscoveredEndpoint
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from coframe.wire.participant import Participant
     from coframe.wire.qos import QoS
 
@@ -89,9 +91,12 @@ class LocalEndpoint:
     Attributes:
         adapts: Whether the caller replaces the endpoint when its QoS does not match the other side. If so, no
             warning about incompatible QoS is logged.
+        on_mismatch: Called with the reason ("type" or a QoS policy) and a sentence for each endpoint on the topic that
+            cannot communicate with this one. If None, the participant warns.
     """
 
     adapts = False
+    on_mismatch: Callable[[str, str], object] | None = None
 
     def __init__(self, native: NativeEndpoint, node: GraphNode, topic: str, dds_type: str, qos: QoS) -> None:
         self.guid = native.guid
@@ -162,8 +167,18 @@ class LocalEndpoint:
 class Publisher(LocalEndpoint):
     """A publisher of serialized messages."""
 
-    def __init__(self, native: _core.Writer, node: GraphNode, topic: str, dds_type: str, qos: QoS) -> None:
+    def __init__(
+        self,
+        native: _core.Writer,
+        node: GraphNode,
+        topic: str,
+        dds_type: str,
+        qos: QoS,
+        *,
+        on_mismatch: Callable[[str, str], object] | None = None,
+    ) -> None:
         self._writer = native
+        self.on_mismatch = on_mismatch
         super().__init__(native, node, topic, dds_type, qos)
 
     def write(self, cdr: bytes) -> None:
@@ -217,10 +232,19 @@ class Subscription(LocalEndpoint):
     """A subscription that queues serialized messages until they are taken."""
 
     def __init__(
-        self, native: _core.Reader, node: GraphNode, topic: str, dds_type: str, qos: QoS, *, adapts: bool = False
+        self,
+        native: _core.Reader,
+        node: GraphNode,
+        topic: str,
+        dds_type: str,
+        qos: QoS,
+        *,
+        adapts: bool = False,
+        on_mismatch: Callable[[str, str], object] | None = None,
     ) -> None:
         self._reader = native
         self.adapts = adapts
+        self.on_mismatch = on_mismatch
         super().__init__(native, node, topic, dds_type, qos)
 
     def take(self, limit: int = 100) -> list[Sample]:

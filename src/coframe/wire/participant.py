@@ -157,6 +157,7 @@ class Participant:
         kind: Kind = "topic",
         user_data: str = "",
         on_change: _core.Event | None = None,
+        on_mismatch: Callable[[str, str], object] | None = None,
     ) -> Publisher:
         """Create a publisher of `node`.
 
@@ -170,6 +171,7 @@ class Participant:
             kind: "topic", "request" or "reply". The type and the bytes of requests and replies are not checked.
             user_data: The DDS user data, which subscribers can read before the first message.
             on_change: An event that is set whenever a status changes (see `LocalEndpoint.take_status`).
+            on_mismatch: The attribute of the publisher; see `LocalEndpoint`.
 
         Raises:
             WireError: DDS cannot create the publisher.
@@ -183,7 +185,7 @@ class Participant:
         )
         if kind != "topic":
             return ServicePublisher(native, node, name, type_name, qos, self._graph)
-        return Publisher(native, node, name, type_name, qos)
+        return Publisher(native, node, name, type_name, qos, on_mismatch=on_mismatch)
 
     def subscription(
         self,
@@ -195,6 +197,7 @@ class Participant:
         on_data: _core.Event | None = None,
         kind: Kind = "topic",
         adapts: bool = False,
+        on_mismatch: Callable[[str, str], object] | None = None,
     ) -> Subscription:
         """Create a subscription of `node`.
 
@@ -208,6 +211,7 @@ class Participant:
             kind: "topic", "request" or "reply". The type and the bytes of requests and replies are not checked.
             adapts: Whether the caller replaces the subscription when publishers offer less than `qos`. If so, no
                 warning about incompatible QoS is logged.
+            on_mismatch: The attribute of the subscription; see `LocalEndpoint`.
 
         Raises:
             WireError: DDS cannot create the subscription.
@@ -218,7 +222,7 @@ class Participant:
         native = _create(lambda: _core.Reader(self._native.entity, entity, _native_qos(qos), data, on_data), topic)
         if kind != "topic":
             return ServiceSubscription(native, node, name, type_name, qos, self._graph)
-        return Subscription(native, node, name, type_name, qos, adapts=adapts)
+        return Subscription(native, node, name, type_name, qos, adapts=adapts, on_mismatch=on_mismatch)
 
     def raw_publisher(self, node: GraphNode, topic: str, ros_type: str, qos: QoS) -> RawPublisher:
         """Create a publisher of `node` for serialized messages of any type.

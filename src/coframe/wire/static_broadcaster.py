@@ -42,6 +42,10 @@ class SharedStaticPublisher:
         """The number of matched subscriptions."""
         return 0 if self._publisher is None else self._publisher.matched
 
+    def wait_for_acks(self, timeout_ns: int) -> bool:
+        """Wait until all reliable subscriptions have received all messages. Return False after the timeout."""
+        return self._publisher is None or self._publisher.wait_for_acks(timeout_ns)
+
     def join(self, node: GraphNode) -> StaticBroadcaster:
         """Return a new broadcaster of `node`."""
         from coframe.messages.registry import find  # noqa: PLC0415 - importing coframe.wire must be cheap
@@ -121,6 +125,13 @@ class StaticBroadcaster:
             WireError: All broadcasters of the topic are closed.
         """
         self._shared.send(self, transforms, replace_all=False)
+
+    def assert_liveliness(self) -> None:
+        """Do nothing: the process asserts the liveliness of static transforms."""
+
+    def wait_for_acks(self, timeout_ns: int) -> bool:
+        """Wait until all reliable subscriptions have received all messages. Return False after the timeout."""
+        return self._shared.wait_for_acks(timeout_ns)
 
     def write(self, cdr: bytes) -> None:
         """Publish a serialized TFMessage, together with the transforms of the other broadcasters of this process.

@@ -6,7 +6,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Final
 
 from rclpy.client import wait_until_ready
-from rclpy.duration import Infinite
+from rclpy.duration import Duration
 from rclpy.exceptions import NodeNameNonExistentError, RCLError, _with_hint
 from rclpy.qos import DurabilityPolicy, HistoryPolicy, LivelinessPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.topic_endpoint_info import TopicEndpointInfo, TopicEndpointTypeEnum
@@ -234,10 +234,10 @@ def _profile(qos: WireQoS) -> QoSProfile:
         depth=qos.depth,
         reliability=ReliabilityPolicy.RELIABLE if qos.reliable else ReliabilityPolicy.BEST_EFFORT,
         durability=DurabilityPolicy.TRANSIENT_LOCAL if qos.transient_local else DurabilityPolicy.VOLATILE,
-        lifespan=Infinite,
-        deadline=Infinite,
-        liveliness=LivelinessPolicy.AUTOMATIC,
-        liveliness_lease_duration=Infinite,
+        lifespan=Duration(nanoseconds=qos.lifespan),
+        deadline=Duration(nanoseconds=qos.deadline),
+        liveliness=LivelinessPolicy.MANUAL_BY_TOPIC if qos.manual_liveliness else LivelinessPolicy.AUTOMATIC,
+        liveliness_lease_duration=Duration(nanoseconds=qos.lease),
     )
 
 

@@ -19,6 +19,7 @@ from rclpy.constants import S_TO_NS
 from rclpy.exceptions import NotInitializedException, RCLError, ROSInterruptException
 from rclpy.task import Future, Task
 from rclpy.utilities import get_default_context
+from rclpy.waitable import NumberOfEntities, Waitable  # noqa: F401 - programs import them from here
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Coroutine, Iterable
@@ -53,7 +54,7 @@ class ConditionReachedException(Exception):
     """The condition that ends a wait is met."""
 
 
-class Waitable(Protocol):
+class ExecutorEntity(Protocol):
     """Interface of the entities that an executor waits for: timers, subscriptions, guard conditions, ..."""
 
     callback_group: CallbackGroup
@@ -82,7 +83,7 @@ class PolledSubscription(Protocol):
         """Return whether a message arrived that no `spin_once` has returned for yet, and count it as handled."""
 
 
-Work = tuple["Task[Any]", "Waitable | None", "Node | None"]
+Work = tuple["Task[Any]", "ExecutorEntity | None", "Node | None"]
 
 
 class Executor:
@@ -97,8 +98,8 @@ class Executor:
         self._nodes: list[Node] = []
         self.__lock = threading.RLock()
         self.__tasks: deque[Task[Any]] = deque()
-        self.__ready: deque[tuple[Task[Any] | Waitable, Node | None]] = deque()
-        self.__run_order: weakref.WeakKeyDictionary[Waitable, int] = weakref.WeakKeyDictionary()
+        self.__ready: deque[tuple[Task[Any] | ExecutorEntity, Node | None]] = deque()
+        self.__run_order: weakref.WeakKeyDictionary[ExecutorEntity, int] = weakref.WeakKeyDictionary()
         self.__run_count = 0
         self.__is_shutdown = False
         self.__is_spinning = False
@@ -236,7 +237,7 @@ class Executor:
         future._Coframe__add_waiter(self.wake)
         self._Coframe__spin_once_unless(future._Coframe__is_complete, timeout_sec)
 
-    def can_execute(self, entity: Waitable) -> bool:
+    def can_execute(self, entity: ExecutorEntity) -> bool:
         """Return whether the callback group of an entity allows its callback to run now."""
         return entity.callback_group.can_execute(entity)
 
@@ -372,7 +373,7 @@ class Executor:
         while self.__tasks:
             self.__ready.append((self.__tasks.popleft(), None))
         next_ns: int | None = None
-        ready: list[tuple[Waitable, Node]] = []
+        ready: list[tuple[ExecutorEntity, Node]] = []
         for node in nodes:
             for entity in node._Coframe__waitables():
                 remaining = entity._Coframe__remaining_ns()
@@ -388,7 +389,7 @@ class Executor:
         self.__ready.extend(ready)
         return next_ns
 
-    def __begin(self, ready: Task[Any] | Waitable, node: Node | None, allowed: list[Node]) -> Work | None:
+    def __begin(self, ready: Task[Any] | ExecutorEntity, node: Node | None, allowed: list[Node]) -> Work | None:
         if isinstance(ready, Task):
             return ready, None, None
         if node not in allowed or not ready.callback_group.beginning_execution(ready):
@@ -403,7 +404,7 @@ class Executor:
                 ready.callback_group.ending_execution(ready)
         return None if call is None else (Task(self.__execute, (ready, call), executor=self), ready, node)
 
-    async def __execute(self, entity: Waitable, call: Callable[[], Any]) -> None:
+    async def __execute(self, entity: ExecutorEntity, call: Callable[[], Any]) -> None:
         try:
             result = call()
             if inspect.iscoroutine(result):

@@ -22,6 +22,7 @@ from rclpy.callback_groups import CallbackGroup, MutuallyExclusiveCallbackGroup,
 from rclpy.client import Client
 from rclpy.clock import Clock, ROSClock
 from rclpy.constants import S_TO_NS
+from rclpy.event_handler import EventHandler, MismatchReporter, PublisherEventCallbacks, SubscriptionEventCallbacks
 from rclpy.exceptions import NameValidationException, NotInitializedException, RCLError, _with_hint
 from rclpy.guard_condition import GuardCondition
 from rclpy.impl.rcutils_logger import RcutilsLogger
@@ -43,6 +44,7 @@ from rclpy.type_support import check_is_valid_srv_type, message_class
 from rclpy.utilities import get_default_context
 from rclpy.validate_namespace import validate_namespace
 from rclpy.validate_node_name import validate_node_name
+from rclpy.waitable import Waitable
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -50,7 +52,7 @@ if TYPE_CHECKING:
     from typing_extensions import Self
 
     from rclpy.context import Context
-    from rclpy.executors import Executor, PolledSubscription, Waitable
+    from rclpy.executors import Executor, ExecutorEntity, PolledSubscription
 
 EntityT = TypeVar("EntityT")
 
@@ -99,9 +101,9 @@ class Node(NodeParameters, NodeGraph):
         self.__is_destroyed = False
         self.__executor: Callable[[], Executor | None] = _no_executor
         self.__entities: dict[type[Any], list[Any]] = {
-            kind: [] for kind in (Timer, Subscription, GuardCondition, Client, Service, Publisher, Rate)
+            kind: [] for kind in (Timer, Subscription, GuardCondition, Client, Service, Waitable, Publisher, Rate)
         }
-        self.__waitables: tuple[Waitable, ...] = ()
+        self.__waitables: tuple[ExecutorEntity, ...] = ()
         self.__timers_of_rates: dict[Rate, Timer] = {}
         self.__default_callback_group = MutuallyExclusiveCallbackGroup()
         self.__logger = RcutilsLogger(self.get_fully_qualified_name().lstrip("/").replace("/", "."))
@@ -263,6 +265,7 @@ class Node(NodeParameters, NodeGraph):
         qos_profile: QoSProfile | int,
         *,
         callback_group: CallbackGroup | None = None,
+        event_callbacks: PublisherEventCallbacks | None = None,
         qos_overriding_options: QoSOverridingOptions | None = None,
         publisher_class: type[Publisher] = Publisher,
     ) -> Publisher:
@@ -272,7 +275,8 @@ class Node(NodeParameters, NodeGraph):
             msg_type: Class of the messages.
             topic: Name of the topic, which is expanded and remapped.
             qos_profile: QoS profile, or its depth.
-            callback_group: Ignored, accepted for compatibility. Publishers have no callbacks.
+            callback_group: Group of the event callbacks. None: the default group of the node.
+            event_callbacks: Callbacks for QoS events. None: incompatible QoS is logged.
             qos_overriding_options: QoS policies that parameters may override. None: no policies.
             publisher_class: Class of the publisher, a subclass of Publisher.
 
@@ -282,14 +286,24 @@ class Node(NodeParameters, NodeGraph):
             AttributeError, RuntimeError: `msg_type` is not a message class.
             RCLError: The context was shut down.
         """
-        del callback_group
         name = self.__names.resolve(topic)
         msg_type, qos = message_class(msg_type), as_qos_profile(qos_profile)
         self.__check_usable("publisher")
         if qos_overriding_options is not None:
             qos = apply_qos_overrides(self, "publisher", name, qos, qos_overriding_options)
-        wire = self._Coframe__participant.publisher(self._Coframe__graph_node, name, msg_type, qos._Coframe__to_wire())
-        return self.__add(publisher_class(wire, msg_type, topic, name, qos, self.context))
+        callbacks = event_callbacks or PublisherEventCallbacks()
+        reporter = MismatchReporter(callbacks, self.__logger, topic)
+        wire = self._Coframe__participant.publisher(
+            self._Coframe__graph_node,
+            name,
+            msg_type,
+            qos._Coframe__to_wire(),
+            on_change=None if event_callbacks is None else self.context._Coframe__wakeup.event,
+            on_mismatch=reporter,
+        )
+        handlers = callbacks.create_event_handlers(self.__group(callback_group), wire, topic)
+        publisher = publisher_class(wire, msg_type, topic, name, qos, self.context, event_handlers=handlers)
+        return self.__add_with_events(publisher, handlers, reporter)
 
     def create_subscription(
         self,
@@ -299,6 +313,7 @@ class Node(NodeParameters, NodeGraph):
         qos_profile: QoSProfile | int,
         *,
         callback_group: CallbackGroup | None = None,
+        event_callbacks: SubscriptionEventCallbacks | None = None,
         qos_overriding_options: QoSOverridingOptions | None = None,
         raw: bool = False,
     ) -> Subscription:
@@ -311,6 +326,7 @@ class Node(NodeParameters, NodeGraph):
                 (nanoseconds) if it accepts two arguments.
             qos_profile: QoS profile, or the number of messages that are queued for the executor.
             callback_group: Group of the callback. None: the default group of the node.
+            event_callbacks: Callbacks for QoS events. None: incompatible QoS is logged.
             qos_overriding_options: QoS policies that parameters may override. None: no policies.
             raw: Whether to pass serialized messages to the callback.
 
@@ -326,12 +342,20 @@ class Node(NodeParameters, NodeGraph):
         self.__check_usable("subscription")
         if qos_overriding_options is not None:
             qos = apply_qos_overrides(self, "subscription", name, qos, qos_overriding_options)
-        wakeup = self.context._Coframe__wakeup.event
+        callbacks = event_callbacks or SubscriptionEventCallbacks()
+        reporter = MismatchReporter(callbacks, self.__logger, topic)
         wire = self._Coframe__participant.subscription(
-            self._Coframe__graph_node, name, msg_type, qos._Coframe__to_wire(), on_data=wakeup
+            self._Coframe__graph_node,
+            name,
+            msg_type,
+            qos._Coframe__to_wire(),
+            on_data=self.context._Coframe__wakeup.event,
+            on_mismatch=reporter,
         )
         group = self.__group(callback_group)
-        return self.__add(Subscription(wire, msg_type, topic, name, callback, group, qos, raw))
+        handlers = callbacks.create_event_handlers(group, wire, topic)
+        subscription = Subscription(wire, msg_type, topic, name, callback, group, qos, raw, event_handlers=handlers)
+        return self.__add_with_events(subscription, handlers, reporter)
 
     def create_client(
         self,
@@ -486,6 +510,29 @@ class Node(NodeParameters, NodeGraph):
         self.__timers_of_rates[rate] = timer
         return rate
 
+    def add_waitable(self, waitable: Waitable) -> None:
+        """Add a waitable of the user, which executors of this node run."""
+        self.__check_not_destroyed()
+        with self.__lock:
+            self.__entities[Waitable].append(waitable)
+            self.__collect_waitables()
+        self.context._Coframe__wakeup.set()
+
+    def remove_waitable(self, waitable: Waitable) -> None:
+        """Remove a waitable.
+
+        Raises:
+            ValueError: The waitable was not added.
+        """
+        with self.__lock:
+            self.__entities[Waitable].remove(waitable)
+            self.__collect_waitables()
+
+    @property
+    def waitables(self) -> Iterator[Waitable]:
+        """The waitables of the user, and the handlers of QoS events."""
+        yield from self.__entities[Waitable]
+
     def destroy_publisher(self, publisher: Publisher) -> bool:
         """Destroy a publisher. Return False if it does not belong to this node."""
         return self.__remove(publisher)
@@ -523,6 +570,7 @@ class Node(NodeParameters, NodeGraph):
             self.__is_destroyed = True
         if self.executor is not None:
             self.executor.remove_node(self)
+        self.__entities[Waitable].clear()  # The user destroys them.
         for entities in self.__entities.values():
             while entities:
                 entities.pop().destroy()
@@ -545,7 +593,7 @@ class Node(NodeParameters, NodeGraph):
         """Add a publisher or subscription that tf2_ros created, so that the node lists and destroys it."""
         return self.__add(entity)
 
-    def _Coframe__waitables(self) -> tuple[Waitable, ...]:
+    def _Coframe__waitables(self) -> tuple[ExecutorEntity, ...]:
         """Return the entities that an executor waits for."""
         return self.__waitables
 
@@ -592,12 +640,20 @@ class Node(NodeParameters, NodeGraph):
         self.context._Coframe__wakeup.set()
         return entity
 
+    def __add_with_events(self, entity: EntityT, handlers: list[EventHandler], reporter: MismatchReporter) -> EntityT:
+        reporter.handlers = handlers
+        for handler in handlers:
+            self.add_waitable(handler)
+        return self.__add(entity)
+
     def __remove(self, entity: Any) -> bool:
         with self.__lock:
             entities = self.__entities_like(entity)
             if entity not in entities:
                 return False
             entities.remove(entity)
+            for handler in getattr(entity, "event_handlers", ()):
+                self.__entities[Waitable].remove(handler)
             self.__collect_waitables()
         entity.destroy()
         return True
@@ -609,7 +665,7 @@ class Node(NodeParameters, NodeGraph):
         """Update the waitables. Executors read the tuple without a lock."""
         self.__waitables = tuple(
             entity
-            for kind in (Timer, Subscription, GuardCondition, Client, Service)
+            for kind in (Timer, Subscription, GuardCondition, Client, Service, Waitable)
             for entity in self.__entities[kind]
         )
 

@@ -11,12 +11,14 @@ from typing import TYPE_CHECKING, Any
 from coframe.errors import WireError
 from coframe.messages import codec
 from rclpy._destroyable import destroyed
+from rclpy.duration import Duration, Infinite
 from rclpy.exceptions import RCLError
 
 if TYPE_CHECKING:
     from coframe.wire import Publisher as WirePublisher
     from coframe.wire import StaticBroadcaster
     from rclpy.context import Context
+    from rclpy.event_handler import EventHandler
     from rclpy.qos import QoSProfile
 
 
@@ -31,6 +33,8 @@ class Publisher:
         topic_name: str,
         qos_profile: QoSProfile,
         context: Context,
+        *,
+        event_handlers: list[EventHandler] | None = None,
     ) -> None:
         self.__wire: WirePublisher | StaticBroadcaster | None = wire
         self.__context = context
@@ -38,6 +42,7 @@ class Publisher:
         self.topic = topic
         self.__topic_name = topic_name
         self.qos_profile = qos_profile
+        self.event_handlers = event_handlers or []
 
     @property
     def topic_name(self) -> str:
@@ -74,12 +79,26 @@ class Publisher:
         return self.__require_wire().matched
 
     def assert_liveliness(self) -> None:
-        """Assert that the publisher is alive. DDS does this automatically here."""
-        self.__require_wire()
+        """Assert that the publisher is alive, which the liveliness policy MANUAL_BY_TOPIC requires periodically."""
+        self.__require_wire().assert_liveliness()
+
+    def wait_for_all_acked(self, timeout: Duration = Infinite) -> bool:
+        """Wait until all reliable subscriptions have received all messages.
+
+        Args:
+            timeout: Maximum time to wait. Negative or infinite: no limit.
+
+        Returns:
+            Whether they have received all messages in time.
+        """
+        limit = timeout.nanoseconds
+        return self.__require_wire().wait_for_acks(limit if limit >= 0 else Infinite.nanoseconds)
 
     def destroy(self) -> None:
         """Destroy the publisher. Prefer `Node.destroy_publisher`."""
         if self.__wire is not None:
+            for handler in self.event_handlers:
+                handler.destroy()
             self.__wire.close()
             self.__wire = None
 

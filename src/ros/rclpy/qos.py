@@ -7,7 +7,7 @@ from enum import Enum, IntEnum
 from typing import TYPE_CHECKING, Any, Final
 
 from rclpy._qos_compatibility import QoSCompatibility, qos_check_compatible
-from rclpy.duration import Duration
+from rclpy.duration import Duration, Infinite
 
 if TYPE_CHECKING:
     from typing_extensions import Self
@@ -172,9 +172,6 @@ _DEFAULT_DEPTH: Final = 10
 class QoSProfile:
     """A complete set of QoS policies. Profiles with equal policies are equal.
 
-    History, depth, reliability and durability control the delivery. Deadline, lifespan and liveliness are stored and
-    reported, but not enforced.
-
     Args:
         **kwargs: `history` and/or `depth` (a queue size, required with KEEP_LAST), `reliability`, `durability`,
             `lifespan`, `deadline`, `liveliness`, `liveliness_lease_duration` (Durations),
@@ -240,7 +237,16 @@ class QoSProfile:
             reliable=self.reliability is not ReliabilityPolicy.BEST_EFFORT,
             transient_local=self.durability is DurabilityPolicy.TRANSIENT_LOCAL,
             keep_all=self.history is HistoryPolicy.KEEP_ALL,
+            manual_liveliness=self.liveliness is LivelinessPolicy.MANUAL_BY_TOPIC,
+            deadline=_or_infinite(self.deadline),
+            lifespan=_or_infinite(self.lifespan),
+            lease=_or_infinite(self.liveliness_lease_duration),
         )
+
+
+def _or_infinite(duration: Duration) -> int:
+    """Return a duration in nanoseconds. Zero means that the policy is not set."""
+    return duration.nanoseconds if duration.nanoseconds > 0 else Infinite.nanoseconds
 
 
 def _checked_property(policy: str, kind: type[Any]) -> property:

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from coframe.wire import Sample, TfReader
     from coframe.wire import Subscription as WireSubscription
     from rclpy.callback_groups import CallbackGroup
+    from rclpy.event_handler import EventHandler
     from rclpy.qos import QoSProfile
 
 _WARNING_PERIOD_S: Final = 10.0
@@ -40,6 +41,8 @@ class Subscription:
         callback_group: CallbackGroup,
         qos_profile: QoSProfile,
         raw: bool,
+        *,
+        event_handlers: list[EventHandler] | None = None,
     ) -> None:
         self.__wire: WireSubscription | TfReader | None = wire
         self.__accepts_info = _accepts_message_info(callback)
@@ -50,6 +53,7 @@ class Subscription:
         self.callback_group = callback_group
         self.qos_profile = qos_profile
         self.raw = raw
+        self.event_handlers = event_handlers or []
 
     @property
     def topic_name(self) -> str:
@@ -63,6 +67,8 @@ class Subscription:
     def destroy(self) -> None:
         """Destroy the subscription. Prefer `Node.destroy_subscription`."""
         if self.__wire is not None:
+            for handler in self.event_handlers:
+                handler.destroy()
             self.__wire.close()
             self.__wire = None
 
