@@ -13,6 +13,7 @@ import yaml
 import rosidl_runtime_py
 from action_msgs.srv import CancelGoal
 from builtin_interfaces.msg import Time
+from coframe.messages import packages
 from geometry_msgs.msg import PointStamped, PoseArray
 from rcl_interfaces.msg import ParameterValue
 from rosidl_runtime_py import (
@@ -181,22 +182,27 @@ def test_lists_of_interfaces(tmp_path, monkeypatch):
     assert "rclpy" not in rosidl_runtime_py.get_all_interface_packages()
     with pytest.raises(LookupError, match="no_msgs"):
         get_interfaces(["no_msgs"])
-    index = tmp_path / "share" / "ament_index" / "resource_index"
-    for kind, text in (("packages", ""), ("rosidl_interfaces", "msg/Grip.idl\nmsg/Grip.msg\nsrv/Close.srv")):
-        (index / kind).mkdir(parents=True)
-        (index / kind / "hand_msgs").write_text(text)
-    definition = tmp_path / "share" / "hand_msgs" / "msg" / "Grip.msg"
-    definition.parent.mkdir(parents=True)
-    definition.touch()
+    for file in ("msg/Grip.msg", "srv/Close.srv"):
+        path = tmp_path / "share" / "hand_msgs" / file
+        path.parent.mkdir(parents=True)
+        path.write_text("bool a" if path.suffix == ".msg" else "---\n")
     monkeypatch.setenv("AMENT_PREFIX_PATH", str(tmp_path))
+    monkeypatch.chdir(tmp_path)  # The definitions in this repository are not those of a user.
+    packages.forget()
     assert get_interfaces(["hand_msgs"]) == {"hand_msgs": ["msg/Grip", "srv/Close"]}
-    assert get_interface_path("hand_msgs/msg/Grip") == str(definition)
-    with pytest.raises(LookupError, match=r"Could not find the interface 'hand_msgs/srv/Close'"):
-        get_interface_path("hand_msgs/srv/Close")
+    assert "hand_msgs" in rosidl_runtime_py.get_interface_packages()
+    assert get_interface_path("hand_msgs/msg/Grip") == str(tmp_path / "share" / "hand_msgs" / "msg" / "Grip.msg")
+    assert message_to_yaml(get_message("hand_msgs/msg/Grip")()) == "a: false\n"
+    with pytest.raises(LookupError, match=r"Could not find the interface 'hand_msgs/srv/Open'"):
+        get_interface_path("hand_msgs/srv/Open")
+    with pytest.raises(LookupError, match=r"coframe interfaces show std_msgs/msg/String"):
+        get_interface_path("std_msgs/msg/String")
     with pytest.raises(LookupError, match="Unknown package 'no_msgs'"):
         get_interface_path("no_msgs/msg/Grip")
     with pytest.raises(ValueError, match="Expected at least two parts"):
         get_interface_path("Grip")
+    monkeypatch.undo()
+    packages.forget()
 
 
 def test_missing_yaml_is_one_sentence(monkeypatch):

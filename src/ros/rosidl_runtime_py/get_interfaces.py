@@ -1,13 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Names of the interfaces that exist: those of coframe and those in the ament index (`AMENT_PREFIX_PATH`)."""
+"""Names of the interfaces that exist: those of coframe, of the user's packages and of a sourced workspace."""
 
-import importlib
 from collections.abc import Iterable
-from pathlib import Path
 
-from ament_index_python import PackageNotFoundError, get_package_share_directory, get_resources
-from ament_index_python.resources import get_resource
-from coframe.ros_side import ros_folder
+from coframe.interfaces.sources import package_folders, sources
+from coframe.messages.packages import InterfacePackage, find_package, shipped_names
 
 __all__ = [
     "get_action_interfaces",
@@ -19,14 +16,12 @@ __all__ = [
     "get_service_interfaces",
 ]
 
-_RESOURCE = "rosidl_interfaces"
 _KINDS = ("msg", "srv", "action")
-_SUFFIXES = (".msg", ".srv", ".action", ".idl")
 
 
 def get_all_interface_packages() -> list[str]:
     """Return the names of all packages that have interfaces."""
-    return sorted({*_coframes_packages(), *get_resources(_RESOURCE)})
+    return sorted({*shipped_names(), *(name for source in sources() for name in package_folders(source))})
 
 
 def get_interface_packages(package_names: Iterable[str] = ()) -> list[str]:
@@ -47,12 +42,11 @@ def get_interfaces(package_names: Iterable[str] = ()) -> dict[str, list[str]]:
     Raises:
         LookupError: A package does not exist or has no interfaces.
     """
-    wanted = list(package_names)
-    known = get_all_interface_packages()
-    missing = sorted(set(wanted) - set(known))
+    packages = {name: find_package(name) for name in package_names or get_all_interface_packages()}
+    missing = sorted(name for name, package in packages.items() if package is None)
     if missing:
         raise LookupError(f"Could not find package(s) with interfaces: {', '.join(missing)}")
-    return {package: _interfaces(package) for package in (wanted or known)}
+    return {name: _interfaces(package) for name, package in packages.items() if package is not None}
 
 
 def get_message_interfaces(package_names: Iterable[str] = ()) -> dict[str, list[str]]:
@@ -86,12 +80,15 @@ def get_interface_path(interface_name: str) -> str:
             f"Invalid name '{interface_name}'. Expected at least two parts separated by '/', such as "
             "'std_msgs/msg/String'."
         )
-    try:
-        path = Path(get_package_share_directory(parts[0]), *parts[1:])
-    except PackageNotFoundError:
+    package = find_package(parts[0])
+    if package is None:
+        raise LookupError(f"Unknown package '{parts[0]}'. See all packages with `coframe interfaces list`.")
+    if package.folder is None:
         raise LookupError(
-            f"Unknown package '{parts[0]}': no folder in AMENT_PREFIX_PATH and COFRAME_PACKAGE_PATH contains it."
-        ) from None
+            f"The package '{parts[0]}' is part of coframe, which has no files of its interfaces. See the definition "
+            f"with `coframe interfaces show {interface_name}`."
+        )
+    path = package.folder.joinpath(*parts[1:])
     if not path.suffix:
         path = path.with_suffix(f".{parts[-2] if parts[-2] in _KINDS else 'msg'}")
     if not path.is_file():
@@ -107,17 +104,5 @@ def _of_kind(kind: str, package_names: Iterable[str]) -> dict[str, list[str]]:
     return {package: names for package, names in found.items() if names}
 
 
-def _coframes_packages() -> list[str]:
-    folders = [folder for folder in ros_folder().iterdir() if any((folder / kind).is_dir() for kind in _KINDS)]
-    return [folder.name for folder in folders if folder.name != "rclpy"]  # rclpy.action has no interfaces.
-
-
-def _interfaces(package: str) -> list[str]:
-    if package in get_resources(_RESOURCE):
-        content, _ = get_resource(_RESOURCE, package)
-        files = [Path(line) for line in content.splitlines()]
-        names = {file.with_suffix("").as_posix() for file in files if file.suffix in _SUFFIXES}
-    else:
-        kinds = [kind for kind in _KINDS if (ros_folder() / package / kind).is_dir()]
-        names = {f"{kind}/{name}" for kind in kinds for name in importlib.import_module(f"{package}.{kind}").__all__}
-    return sorted(name for name in names if "_" not in name)  # Parts of services and actions have an underscore.
+def _interfaces(package: InterfacePackage) -> list[str]:
+    return sorted(f"{kind}/{name}" for kind in package.kinds() for name in package.names(kind))
