@@ -82,8 +82,8 @@ _LATER = {
         *("remove_post_set_parameters_callback", "remove_pre_set_parameters_callback"),
     },
     "Subscription": {"get_publisher_count"},
-    "Client": {"service_name"},
-    "Service": {"service_name"},
+    "Client": {"configure_introspection", "service_name"},
+    "Service": {"configure_introspection", "service_name"},
     "Buffer": {"clock", "jump_handle", "time_jump_callback"},
     "BufferClient": {"lookup_transform_async", "lookup_transform_full_async"},
 }

@@ -10,6 +10,7 @@ from rclpy.exceptions import (
     InvalidTopicNameException,
 )
 from rclpy.expand_topic_name import expand_topic_name
+from rclpy.topic_or_service_is_hidden import topic_or_service_is_hidden
 from rclpy.validate_full_topic_name import validate_full_topic_name
 from rclpy.validate_namespace import validate_namespace
 from rclpy.validate_node_name import validate_node_name
@@ -80,3 +81,8 @@ def test_invalid_node_names(name):
 def test_invalid_namespaces(name):
     with pytest.raises(InvalidNamespaceException):
         validate_namespace(name)
+
+
+def test_hidden_names():
+    assert topic_or_service_is_hidden("/arm/_action/status")
+    assert not topic_or_service_is_hidden("/arm/action_")

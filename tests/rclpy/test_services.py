@@ -6,10 +6,14 @@ import threading
 import pytest
 
 import rclpy
-from rcl_interfaces.srv import GetParameters, ListParameters, SetParameters
+from rcl_interfaces.msg import LoggerLevel
+from rcl_interfaces.srv import GetLoggerLevels, GetParameters, ListParameters, SetLoggerLevels, SetParameters
 from rclpy.callback_groups import MutuallyExclusiveCallbackGroup
 from rclpy.executors import MultiThreadedExecutor, SingleThreadedExecutor
+from rclpy.logging import LoggingSeverity
 from rclpy.parameter import Parameter
+from rclpy.qos import qos_profile_system_default
+from rclpy.service_introspection import ServiceIntrospectionState
 from std_srvs.srv import SetBool, Trigger
 
 
@@ -157,3 +161,45 @@ def test_parameter_services(context, make_node, executor):
     assert [result.successful for result in results] == [True, False]
     assert served.get_parameter("rate").value == 7
     served.destroy_node()
+
+
+def test_log_levels_through_services(context, make_node, executor):
+    served = rclpy.create_node("served", context=context, start_parameter_services=False, enable_logger_service=True)
+    asker = make_node("asker")
+    executor.add_node(served)
+    executor.add_node(asker)
+
+    def call(srv_type, name, **fields):
+        client = asker.create_client(srv_type, f"/served/{name}")
+        assert client.wait_for_service(timeout_sec=10)
+        future = client.call_async(srv_type.Request(**fields))
+        executor.spin_until_future_complete(future, timeout_sec=10)
+        return future.result()
+
+    levels = [LoggerLevel(name="served", level=10), LoggerLevel(name="served", level=77)]
+    results = call(SetLoggerLevels, "set_logger_levels", levels=levels).results
+    assert [result.successful for result in results] == [True, False]
+    assert "77" in results[1].reason
+    assert served.get_logger().get_effective_level() is LoggingSeverity.DEBUG
+    found = call(GetLoggerLevels, "get_logger_levels", names=["served", "unknown"]).levels
+    assert [(level.name, level.level) for level in found] == [("served", 10), ("unknown", 0)]
+    rclpy.logging.clear_config()
+    served.destroy_node()
+
+
+def test_introspection_can_only_be_off(node):
+    client = node.create_client(SetBool, "switch")
+    client.configure_introspection(node.get_clock(), qos_profile_system_default, ServiceIntrospectionState.OFF)
+    service = node.create_service(SetBool, "switch", lambda _, response: response)
+    with pytest.raises(NotImplementedError, match=r"Service introspection \(METADATA\) does not exist"):
+        service.configure_introspection(
+            node.get_clock(), qos_profile_system_default, ServiceIntrospectionState.METADATA
+        )
+
+
+def test_pending_requests_by_number(node):
+    client = node.create_client(SetBool, "switch")
+    future = client.call_async(SetBool.Request())
+    assert client.get_pending_request(1) is future
+    with pytest.raises(KeyError):
+        client.get_pending_request(2)

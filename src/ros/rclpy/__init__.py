@@ -12,6 +12,7 @@ This package is used if no ROS installation is sourced. A ROS installation on th
 
 from __future__ import annotations
 
+import sys
 from typing import TYPE_CHECKING, Any
 
 from coframe import ros_side
@@ -20,10 +21,12 @@ ros_side.check(__name__)
 
 # The modules are imported because programs use them as attributes, for example rclpy.time.Time.
 from rclpy import (
+    _absent,
     action,
     callback_groups,
     client,
     clock,
+    clock_type,
     constants,
     context,
     duration,
@@ -47,6 +50,8 @@ from rclpy import (
     time_source,
     timer,
     topic_endpoint_info,
+    topic_or_service_is_hidden,
+    type_hash,
     type_support,
     utilities,
     validate_full_topic_name,
@@ -58,6 +63,7 @@ from rclpy import (
 )
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
+from rclpy.impl import implementation_singleton  # noqa: F401 - libraries use it as an attribute
 from rclpy.parameter import Parameter
 from rclpy.signals import (
     SignalHandlerOptions,
@@ -90,6 +96,7 @@ __all__ = [
     "callback_groups",
     "client",
     "clock",
+    "clock_type",
     "constants",
     "context",
     "create_node",
@@ -124,7 +131,9 @@ __all__ = [
     "time_source",
     "timer",
     "topic_endpoint_info",
+    "topic_or_service_is_hidden",
     "try_shutdown",
+    "type_hash",
     "type_support",
     "uninstall_signal_handlers",
     "utilities",
@@ -137,6 +146,11 @@ __all__ = [
 ]
 
 _global_executor: Executor | None = None
+
+# Programs import names from modules that merely import them upstream.
+_absent.install(
+    module for name, module in list(sys.modules.items()) if name.startswith("rclpy.") and module.__spec__ is not None
+)
 
 
 class InitContextManager:
@@ -235,6 +249,7 @@ def create_node(
     parameter_overrides: list[Parameter[Any]] | None = None,
     allow_undeclared_parameters: bool = False,
     automatically_declare_parameters_from_overrides: bool = False,
+    enable_logger_service: bool = False,
 ) -> Node:
     """Create a node. The arguments are those of `rclpy.node.Node`."""
     return node.Node(
@@ -248,6 +263,7 @@ def create_node(
         parameter_overrides=parameter_overrides,
         allow_undeclared_parameters=allow_undeclared_parameters,
         automatically_declare_parameters_from_overrides=automatically_declare_parameters_from_overrides,
+        enable_logger_service=enable_logger_service,
     )
 
 

@@ -17,8 +17,10 @@ from coframe.messages import codec
 from coframe.time import MILLISECOND
 from coframe.wire import request_header
 from coframe.wire.request_header import RequestHeader
+from rclpy._absent import Handle
 from rclpy._destroyable import destroyed
 from rclpy.constants import S_TO_NS
+from rclpy.service_introspection import check_introspection
 from rclpy.task import Future
 
 if TYPE_CHECKING:
@@ -28,9 +30,11 @@ if TYPE_CHECKING:
     from coframe.wire import Publisher as WirePublisher
     from coframe.wire import Subscription as WireSubscription
     from rclpy.callback_groups import CallbackGroup
+    from rclpy.clock import Clock
     from rclpy.context import Context
     from rclpy.executors import Executor
     from rclpy.qos import QoSProfile
+    from rclpy.service_introspection import ServiceIntrospectionState
 
 # Endpoints appear in the graph shortly before they match, so the condition is checked again after this time.
 _MATCH_CHECK_PERIOD_NS: Final = 20 * MILLISECOND
@@ -38,6 +42,8 @@ _MATCH_CHECK_PERIOD_NS: Final = 20 * MILLISECOND
 
 class Client:
     """Client that sends requests to a service. Create it with `Node.create_client`."""
+
+    handle = Handle()
 
     def __init__(
         self,
@@ -121,6 +127,26 @@ class Client:
         future._Coframe__add_waiter(partial(self.__forget, header.sequence))
         self.__requests.write(request_header.join(header, codec.serialize(request)))
         return future
+
+    def get_pending_request(self, sequence_number: int) -> Future[Any]:
+        """Return the future of a pending request.
+
+        Raises:
+            KeyError: No request with this number is pending.
+        """
+        with self.__lock:
+            return self.__pending[sequence_number][0]
+
+    def configure_introspection(
+        self, clock: Clock, service_event_qos_profile: QoSProfile, introspection_state: ServiceIntrospectionState
+    ) -> None:
+        """Configure the introspection of the requests, which coframe does not have.
+
+        Raises:
+            NotImplementedError: The state is not OFF.
+        """
+        del clock, service_event_qos_profile
+        check_introspection(introspection_state)
 
     def remove_pending_request(self, future: Future[Any]) -> None:
         """Remove a pending request. Its response will be dropped."""

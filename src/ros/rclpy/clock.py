@@ -12,6 +12,7 @@ from enum import IntEnum
 from typing import TYPE_CHECKING
 
 from coframe._core import Event
+from rclpy._absent import Handle
 from rclpy._clock_type import ClockType
 from rclpy.duration import Duration
 from rclpy.exceptions import NotInitializedException
@@ -137,6 +138,8 @@ class Clock:
     Raises:
         TypeError: `clock_type` is not a ClockType.
     """
+
+    handle = Handle()
 
     def __new__(cls, *, clock_type: ClockType = ClockType.SYSTEM_TIME) -> Self:
         """Create a ROSClock if `clock_type` is ROS_TIME."""

@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING
 
 from rclpy import _arguments
 from rclpy import logging as ros_logging
+from rclpy._absent import Handle
 from rclpy._wakeup import Wakeup
 from rclpy.exceptions import RCLError, RCLInvalidROSArgsError, _with_hint
 
@@ -34,6 +35,8 @@ _running: list[Context] = []
 
 class Context:
     """State between init and shutdown. As a context manager, it initializes and shuts down."""
+
+    handle = Handle()
 
     def __init__(self) -> None:
         self._lock = threading.RLock()
@@ -94,6 +97,10 @@ class Context:
             raise RuntimeError("Context must be initialized before it can be shutdown")
         if not self._Coframe__shut_down() and not self._Coframe__was_shut_down_by_signal:
             raise RuntimeError("failed to shutdown: shutdown was already called on the given context")
+
+    def destroy(self) -> None:
+        """Shut down the context unless it is shut down already."""
+        self.try_shutdown()
 
     def try_shutdown(self) -> None:
         """Shut down the context unless it is shut down already."""

@@ -72,6 +72,10 @@ class Duration:
             return self.nanoseconds >= other.nanoseconds
         return NotImplemented
 
+    def get_c_duration(self) -> Duration:
+        """Return the duration itself, since there is no C implementation."""
+        return self
+
     def to_msg(self) -> builtin_interfaces.msg.Duration:
         """Return the duration as a `builtin_interfaces/Duration`."""
         seconds, nanoseconds = divmod(self.nanoseconds, S_TO_NS)

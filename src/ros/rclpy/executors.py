@@ -501,3 +501,9 @@ def _deadline(timeout_sec: float | None) -> int | None:
     if timeout_sec is None or timeout_sec < 0:
         return None
     return time.monotonic_ns() + int(timeout_sec * S_TO_NS)
+
+
+async def await_or_execute(callback: Callable[..., Any], *args: Any) -> Any:
+    """Call a function, or await a coroutine function, and return the result."""
+    result = callback(*args)
+    return await result if inspect.isawaitable(result) else result

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from rclpy._absent import Handle
 from rclpy.utilities import get_default_context
 
 if TYPE_CHECKING:
@@ -19,6 +20,8 @@ if TYPE_CHECKING:
 
 class GuardCondition:
     """Condition whose callback runs once after a trigger. Create it with `Node.create_guard_condition`."""
+
+    handle = Handle()
 
     def __init__(
         self,

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from rcl_interfaces.msg import ParameterEvent
 from rclpy import _arguments
+from rclpy._absent import Handle, no_handle
 from rclpy._arguments import Arguments
 from rclpy._destroyable import destroyed
 from rclpy._node_graph import NodeGraph
@@ -26,6 +27,7 @@ from rclpy.event_handler import EventHandler, MismatchReporter, PublisherEventCa
 from rclpy.exceptions import NameValidationException, NotInitializedException, RCLError, _with_hint
 from rclpy.guard_condition import GuardCondition
 from rclpy.impl.rcutils_logger import RcutilsLogger
+from rclpy.logging_service import LoggingService
 from rclpy.parameter import Parameter
 from rclpy.parameter_service import ParameterService
 from rclpy.publisher import Publisher
@@ -54,6 +56,7 @@ if TYPE_CHECKING:
     from rclpy.context import Context
     from rclpy.executors import Executor, ExecutorEntity, PolledSubscription
 
+HIDDEN_NODE_PREFIX = "_"
 EntityT = TypeVar("EntityT")
 
 
@@ -71,12 +74,15 @@ class Node(NodeParameters, NodeGraph):
         parameter_overrides: Values that override the declared defaults and the command line.
         allow_undeclared_parameters: Whether undeclared parameters may be used.
         automatically_declare_parameters_from_overrides: Whether to declare all parameter overrides.
+        enable_logger_service: Whether other nodes can get and set the log levels.
 
     Raises:
         NotInitializedException: The context is not initialized or was shut down.
         InvalidNodeNameException: The name is not valid.
         InvalidNamespaceException: The namespace is not valid.
     """
+
+    handle = Handle()
 
     def __init__(
         self,
@@ -91,6 +97,7 @@ class Node(NodeParameters, NodeGraph):
         parameter_overrides: list[Parameter[Any]] | None = None,
         allow_undeclared_parameters: bool = False,
         automatically_declare_parameters_from_overrides: bool = False,
+        enable_logger_service: bool = False,
     ) -> None:
         self.__context = context or get_default_context()
         if not self.__context.ok():
@@ -140,6 +147,8 @@ class Node(NodeParameters, NodeGraph):
                 self.declare_parameter(USE_SIM_TIME_NAME, False)
             if start_parameter_services:
                 ParameterService(self)
+            if enable_logger_service:
+                LoggingService(self)
         except BaseException:
             self.destroy_node()  # The caller has no reference to the node.
             raise
@@ -147,6 +156,8 @@ class Node(NodeParameters, NodeGraph):
     if not TYPE_CHECKING:  # With `__getattr__`, type checkers would accept every misspelled attribute.
 
         def __getattr__(self, name: str) -> Any:
+            if name == "handle":  # The error of the property ends here as well.
+                raise no_handle(type(self))
             if name.startswith(("_Node__", "_NodeParameters__", "_Coframe__")):
                 raise AttributeError(
                     f"The node {type(self).__name__} is not initialized. "

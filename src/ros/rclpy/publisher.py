@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from coframe.errors import WireError
 from coframe.messages import codec
+from rclpy._absent import Handle
 from rclpy._destroyable import destroyed
 from rclpy.duration import Duration, Infinite
 from rclpy.exceptions import RCLError
@@ -24,6 +25,8 @@ if TYPE_CHECKING:
 
 class Publisher:
     """Publisher of a topic. Create it with `Node.create_publisher`."""
+
+    handle = Handle()
 
     def __init__(
         self,

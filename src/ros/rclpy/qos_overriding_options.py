@@ -36,6 +36,10 @@ class QoSOverridingOptions:
         entity_id: Identifier that distinguishes several publishers or subscriptions of one topic.
     """
 
+    policy_kinds: list[QoSPolicyKind]
+    callback: QosCallbackType | None
+    entity_id: str | None
+
     def __init__(
         self,
         policy_kinds: Iterable[QoSPolicyKind],

@@ -12,6 +12,8 @@ from typing import TYPE_CHECKING, Any, Final
 from coframe.errors import DecodeError
 from coframe.messages import codec
 from coframe.wire import request_header
+from rclpy._absent import Handle
+from rclpy.service_introspection import check_introspection
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -20,7 +22,9 @@ if TYPE_CHECKING:
     from coframe.wire import Subscription as WireSubscription
     from coframe.wire.request_header import RequestHeader
     from rclpy.callback_groups import CallbackGroup
+    from rclpy.clock import Clock
     from rclpy.qos import QoSProfile
+    from rclpy.service_introspection import ServiceIntrospectionState
 
 _logger = logging.getLogger("coframe.wire")
 
@@ -30,6 +34,8 @@ _MATCH_TIMEOUT_S: Final = 0.1
 
 class Service:
     """Server of a service. Create it with `Node.create_service`."""
+
+    handle = Handle()
 
     def __init__(
         self,
@@ -55,6 +61,17 @@ class Service:
     def service_name(self) -> str:
         """The fully qualified name of the service. `srv_name` is the name that was given."""
         return self.__service_name
+
+    def configure_introspection(
+        self, clock: Clock, service_event_qos_profile: QoSProfile, introspection_state: ServiceIntrospectionState
+    ) -> None:
+        """Configure the introspection of the service, which coframe does not have.
+
+        Raises:
+            NotImplementedError: The state is not OFF.
+        """
+        del clock, service_event_qos_profile
+        check_introspection(introspection_state)
 
     def send_response(self, response: Any, header: RequestHeader) -> None:
         """Send the response to a request.

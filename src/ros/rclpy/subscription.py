@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 from coframe.errors import DecodeError
 from coframe.messages import codec
+from rclpy._absent import Handle
 from rclpy.logging import get_logger
 
 if TYPE_CHECKING:
@@ -30,6 +31,8 @@ class Subscription:
 
     DDS queues messages, up to the depth of the QoS profile, until an executor takes them.
     """
+
+    handle = Handle()
 
     def __init__(
         self,

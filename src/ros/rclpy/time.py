@@ -13,7 +13,9 @@ from rclpy.duration import INT64_LIMIT, Duration, require_number
 if TYPE_CHECKING:
     from typing_extensions import Self
 
-__all__ = ["Time"]
+__all__ = ["CONVERSION_CONSTANT", "Time"]
+
+CONVERSION_CONSTANT = S_TO_NS
 
 
 class Time:

@@ -58,6 +58,17 @@ class TimeSource:
             clock._set_ros_time_is_active(enabled)
         self._node.context._Coframe__wakeup.set()
 
+    def attach_node(self, node: Node) -> None:
+        """Subscribe to /clock with another node from now on."""
+        is_active = self.ros_time_is_active
+        self.detach_node()
+        self._node = node
+        self.ros_time_is_active = is_active
+
+    def detach_node(self) -> None:
+        """Unsubscribe from /clock."""
+        self.ros_time_is_active = False
+
     def attach_clock(self, clock: Any) -> None:
         """Add a clock that this time source sets.
 

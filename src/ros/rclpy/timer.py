@@ -10,6 +10,7 @@ import threading
 import time
 from typing import TYPE_CHECKING, Any
 
+from rclpy._absent import Handle
 from rclpy._destroyable import destroyed
 from rclpy.exceptions import RCLError, ROSInterruptException
 from rclpy.time import Time
@@ -29,6 +30,8 @@ class Timer:
     The period is measured in simulated time while a simulator sets the clock, otherwise in steady time. Setting the
     system clock therefore does not disturb timers.
     """
+
+    handle = Handle()
 
     def __init__(
         self,

@@ -3,17 +3,28 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, TypeVar
 
 from rclpy.exceptions import NoTypeSupportImportedException, _with_hint
 
 __all__ = [
+    "MsgType",
     "NoTypeSupportImportedException",
+    "SrvType",
+    "SrvTypeRequest",
+    "SrvTypeResponse",
     "check_for_type_support",
     "check_is_valid_msg_type",
     "check_is_valid_srv_type",
     "message_class",
 ]
+
+
+# The type variables of upstream's annotations.
+MsgType = TypeVar("MsgType")
+SrvType = TypeVar("SrvType")
+SrvTypeRequest = TypeVar("SrvTypeRequest")
+SrvTypeResponse = TypeVar("SrvTypeResponse")
 
 
 def check_for_type_support(msg_or_srv_type: Any) -> None:

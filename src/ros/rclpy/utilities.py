@@ -7,6 +7,7 @@ import sys
 import threading
 
 from rclpy import _arguments
+from rclpy.constants import S_TO_NS
 from rclpy.context import Context
 
 _lock = threading.Lock()
@@ -54,6 +55,15 @@ def remove_ros_args(args: list[str] | None = None) -> list[str]:
         args: Command line. None: `sys.argv`.
     """
     return _arguments.remove(sys.argv if args is None else args)
+
+
+def timeout_sec_to_nsec(timeout_sec: float | None) -> int:
+    """Return a timeout in nanoseconds, or -1 for no limit.
+
+    Args:
+        timeout_sec: Timeout in seconds. None or negative: no limit.
+    """
+    return -1 if timeout_sec is None or timeout_sec < 0 else int(float(timeout_sec) * S_TO_NS)
 
 
 def get_rmw_implementation_identifier() -> str:

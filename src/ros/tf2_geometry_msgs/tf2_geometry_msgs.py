@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 import tf2_ros
 from coframe import quaternion as quaternions
 from geometry_msgs.msg import (
+    Point,  # noqa: F401 - leaked upstream
     Point32,
     PointStamped,
     PolygonStamped,

@@ -54,7 +54,7 @@ from tf2_py import (
     add_dll_directories_from_env,
 )
 from tf2_ros.buffer import Buffer, FrameGraphSrvRequest, FrameGraphSrvResponse
-from tf2_ros.buffer_client import BufferClient
+from tf2_ros.buffer_client import BufferClient, LookupTransformGoal, LookupTransformResult
 from tf2_ros.buffer_interface import (
     BufferInterface,
     ConvertRegistration,
@@ -106,6 +106,8 @@ __all__ = [
     "List",
     "LookupException",
     "LookupTransform",
+    "LookupTransformGoal",
+    "LookupTransformResult",
     "MessageFilter",
     "MsgStamped",
     "NoReturn",

@@ -34,6 +34,10 @@ _NO_WAIT = Duration()
 _PADDING = Duration(seconds=2.0)
 _SUSPICION: Final = "Something is likely wrong with the server."
 
+# Names that upstream's module defines for its annotations.
+LookupTransformGoal = LookupTransform.Goal
+LookupTransformResult = LookupTransform.Result
+
 
 class BufferClient(BufferInterface):
     """Client that looks up transforms in a buffer server through the action `tf2_msgs/LookupTransform`.

@@ -3,4 +3,6 @@
 
 from rclpy import _rclpy_pybind11 as rclpy_implementation
 
-__all__ = ["rclpy_implementation"]
+package = "rclpy"
+
+__all__ = ["package", "rclpy_implementation"]

@@ -1,0 +1,131 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Names of upstream's modules that are defined elsewhere here, or that coframe does not have on purpose.
+
+`install` gives them to the modules: a name that an upstream module merely imports is found in every module of rclpy,
+and a name that does not exist raises an error with the reason and what to use instead.
+"""
+
+from __future__ import annotations
+
+from functools import partial
+from importlib import import_module
+from typing import TYPE_CHECKING, Any, Final
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+    from types import ModuleType
+
+# Where the names are defined that upstream's modules import from each other.
+_ORIGINS: Final = {
+    "rcl_interfaces.msg": (
+        *("FloatingPointRange", "IntegerRange", "ParameterDescriptor", "ParameterType", "ParameterValue"),
+        "SetParametersResult",
+    ),
+    "rclpy.callback_groups": ("CallbackGroup",),
+    "rclpy.client": ("Client",),
+    "rclpy.clock": ("Clock", "ClockType", "ROSClock"),
+    "rclpy.constants": ("S_TO_NS",),
+    "rclpy.context": ("Context",),
+    "rclpy.duration": ("Duration",),
+    "rclpy.event_handler": ("PublisherEventCallbacks", "QoSEventHandler", "SubscriptionEventCallbacks"),
+    "rclpy.exceptions": (
+        *("InvalidHandle", "InvalidParameterTypeException", "InvalidParameterValueException"),
+        *("InvalidTopicNameException", "NodeNameNonExistentError", "ParameterAlreadyDeclaredException"),
+        *("ParameterImmutableException", "ParameterNotDeclaredException", "ParameterUninitializedException"),
+    ),
+    "rclpy.executors": ("Executor", "await_or_execute"),
+    "rclpy.expand_topic_name": ("expand_topic_name",),
+    "rclpy.guard_condition": ("GuardCondition",),
+    "rclpy.logging": ("get_logger",),
+    "rclpy.node": ("Node",),
+    "rclpy.parameter": ("PARAMETER_SEPARATOR_STRING", "Parameter", "ParameterMsg"),
+    "rclpy.publisher": ("Publisher",),
+    "rclpy.qos": ("QoSHistoryPolicy", "QoSProfile"),
+    "rclpy.service": ("Service",),
+    "rclpy.subscription": ("Subscription",),
+    "rclpy.task": ("Future",),
+    "rclpy.timer": ("Timer",),
+    "rclpy.topic_endpoint_info": ("TopicEndpointInfo",),
+    "rclpy.type_support": (
+        *("MsgType", "SrvType", "SrvTypeRequest", "SrvTypeResponse"),
+        *("check_for_type_support", "check_is_valid_msg_type"),
+    ),
+    "rclpy.utilities": ("timeout_sec_to_nsec",),
+    "rclpy.validate_full_topic_name": ("validate_full_topic_name",),
+    "rclpy.validate_parameter_name": ("validate_parameter_name",),
+    "rclpy.validate_topic_name": ("TOPIC_SEPARATOR_STRING", "validate_topic_name"),
+    "rclpy.waitable": ("NumberOfEntities", "Waitable"),
+}
+_ORIGIN_OF: Final = {name: module for module, names in _ORIGINS.items() for name in names}
+
+_LOCKS = "Contexts and logging need no global lock or counter here. Use rclpy.utilities.get_default_context()."
+_FILTERS = (
+    "The filters of log messages are part of RcutilsLogger. Pass once=True, skip_first=True or throttle_duration_sec= "
+    "to the call."
+)
+_WAIT_SETS = (
+    "Executors have no wait sets here. Override wait_for_ready_callbacks of an executor, or create a task with "
+    "Executor.create_task."
+)
+_SIGNALS = "Signal handlers wake executors themselves. Use Context.on_shutdown to be called at a shutdown."
+_HANDLES = "coframe has no C objects. Use the methods of the Python object."
+_ACTIONS = "Executors run actions without these methods of a waitable. Use the methods with `goal` in their names."
+
+# What upstream has and coframe does not have, with the sentence that the user gets.
+ABSENT: Final = {
+    "rclpy.context.g_logging_configure_lock": _LOCKS,
+    "rclpy.context.g_logging_ref_count": _LOCKS,
+    "rclpy.utilities.g_context_lock": _LOCKS,
+    "rclpy.utilities.g_default_context": _LOCKS,
+    "rclpy.executors.SignalHandlerGuardCondition": _SIGNALS,
+    "rclpy.signals.SignalHandlerGuardCondition": _SIGNALS,
+    "rclpy.wait_for_message.SignalHandlerGuardCondition": _SIGNALS,
+    "rclpy.executors.TimeoutObject": _WAIT_SETS,
+    "rclpy.executors.WaitableEntityType": _WAIT_SETS,
+    "rclpy.impl.implementation_singleton.import_c_library": _HANDLES,
+    "rclpy.impl.rcutils_logger.CallerId": _FILTERS,
+    "rclpy.impl.rcutils_logger.LoggingFilter": _FILTERS,
+    "rclpy.impl.rcutils_logger.Once": _FILTERS,
+    "rclpy.impl.rcutils_logger.SkipFirst": _FILTERS,
+    "rclpy.impl.rcutils_logger.Throttle": _FILTERS,
+    "rclpy.impl.rcutils_logger.get_filters_from_kwargs": _FILTERS,
+    "rclpy.impl.rcutils_logger.supported_filters": _FILTERS,
+}
+# The same for the attributes of classes. `handle` is a property that raises the sentence.
+ABSENT_ATTRIBUTES: Final = {
+    "ActionClient": ({"add_future", "add_to_wait_set", "execute", "get_num_entities", "is_ready"}, _ACTIONS),
+    "ActionServer": ({"add_future", "add_to_wait_set", "execute", "get_num_entities", "is_ready"}, _ACTIONS),
+}
+for _attributes, _ in ABSENT_ATTRIBUTES.values():
+    _attributes.update({"notify_goal_done", "remove_future", "take_data"})
+
+
+class Handle:
+    """Property `handle` of the entities, which are C objects only in upstream's rclpy."""
+
+    def __get__(self, entity: object, owner: type[object]) -> Handle:
+        if entity is None:
+            return self
+        raise no_handle(owner)
+
+
+def no_handle(owner: type[object]) -> AttributeError:
+    """Return the error of reading `handle`."""
+    return AttributeError(f"{owner.__name__} has no handle: {_HANDLES}")
+
+
+def install(modules: Iterable[ModuleType]) -> None:
+    """Give the names to modules."""
+    for module in modules:
+        if "__getattr__" not in vars(module):
+            module.__getattr__ = partial(_find, module.__name__)  # type: ignore[method-assign]
+
+
+def _find(module: str, name: str) -> Any:
+    if (reason := ABSENT.get(f"{module}.{name}")) is not None:
+        # An AttributeError would lose its text in `from module import name`.
+        raise ImportError(f"{module}.{name} does not exist in coframe. {reason}", name=module)
+    origin = _ORIGIN_OF.get(name)
+    if origin is None or origin == module:
+        raise AttributeError(f"module {module!r} has no attribute {name!r}")
+    return getattr(import_module(origin), name)

@@ -1,0 +1,181 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Every public name of Humble's packages exists with a compatible signature, or is listed as deliberately absent."""
+
+import ast
+import importlib
+import inspect
+import json
+import re
+import typing
+from enum import Enum
+from pathlib import Path
+
+import pytest
+
+import rclpy
+from rclpy._absent import ABSENT, ABSENT_ATTRIBUTES
+
+PACKAGES = ("rclpy", "tf2_py", "tf2_ros", "tf2_geometry_msgs", "sensor_msgs_py")
+INTERFACES = (".msg", ".srv", ".action")
+# What modules import from Python's standard library.
+STANDARD = {*dir(typing), "Enum", "IntEnum", "IntFlag", "ABC", "Path", "Condition", "Lock", "RLock", "ExitStack"}
+STANDARD |= {
+    "contextmanager",
+    "ContextManager",
+    "namedtuple",
+    "partial",
+    "deepcopy",
+    "dataclass",
+    "ismethod",
+    "ContextVar",
+}
+# Classes whose objects methods of a node create; their constructors take the parts of an implementation.
+# What does not exist yet.
+PENDING = {"rclpy.qos_event", "rclpy.waitable"}
+PENDING_NAMES = {
+    "NumberOfEntities",
+    "PublisherEventCallbacks",
+    "QoSEventHandler",
+    "SubscriptionEventCallbacks",
+    "Waitable",
+}
+PENDING_ATTRIBUTES = {"add_waitable", "remove_waitable", "waitables", "wait_for_all_acked"}
+CREATED_BY_NODES = {"Client", "Publisher", "Service", "Subscription"}
+MIGRATION = Path(__file__).parents[2] / "docs" / "migration.md"
+
+
+@pytest.fixture(scope="module")
+def api(shared) -> dict[str, dict]:
+    """Return the names of the modules that exist on both sides, with the attributes of classes and the signatures."""
+    recorded = json.loads((shared / "interop" / "api_humble.json").read_text(encoding="utf-8"))
+    return {
+        module: names
+        for module, names in recorded.items()
+        if module not in PENDING
+        and isinstance(names, dict)
+        and (module.split(".")[0] in PACKAGES or module.endswith(INTERFACES))
+    }
+
+
+def test_every_module_exists(api):
+    for module in api:
+        importlib.import_module(module)
+
+
+def test_every_name_exists_or_is_listed_as_absent(api):
+    missing = [
+        f"{module}.{name}"
+        for module, names in api.items()
+        for name in names
+        if name not in {*STANDARD, *PENDING_NAMES}
+        and f"{module}.{name}" not in ABSENT
+        and not _has(importlib.import_module(module), name)
+    ]
+    assert missing == []
+
+
+def test_every_attribute_of_a_class_exists_or_is_listed_as_absent(api):
+    missing = {}
+    for module, name, thing, (attributes, _) in _things(api):
+        if not attributes or not isinstance(thing, type) or name in PENDING_NAMES:
+            continue
+        absent = PENDING_ATTRIBUTES.union(*ABSENT_ATTRIBUTES.get(name, ((), ""))[:1])
+        if gone := [attribute for attribute in attributes if attribute not in absent and not _offers(thing, attribute)]:
+            missing[f"{module}.{name}"] = gone
+    assert missing == {}
+
+
+def test_signatures_accept_what_humble_accepts(api):
+    faults = []
+    for module, name, thing, (_, signature) in _things(api):
+        is_ours = getattr(thing, "__module__", "").split(".")[0] in (*PACKAGES, "coframe")
+        if (
+            not signature
+            or not is_ours
+            or name in CREATED_BY_NODES
+            or (isinstance(thing, type) and issubclass(thing, Enum))
+        ):
+            continue
+        try:
+            ours = inspect.signature(thing)
+        except (TypeError, ValueError):
+            continue
+        if fault := _fault(signature, ours):
+            faults.append(f"{module}.{name}{ours}: {fault}")
+    assert faults == []
+
+
+def test_absent_names_say_what_to_use_instead(api):
+    text = MIGRATION.read_text(encoding="utf-8")
+    for name, reason in ABSENT.items():
+        module, _, attribute = name.rpartition(".")
+        assert attribute in api[module], f"{name} does not exist in Humble either"
+        assert reason.endswith(".")
+        assert re.search(r"\b(Use|Pass|Override)\b", reason), f"{name}: the sentence names no replacement"
+        with pytest.raises(ImportError, match=re.escape(f"{name} does not exist in coframe. {reason}")):
+            getattr(importlib.import_module(module), attribute)
+        assert f"`{attribute}`" in text, f"docs/migration.md does not list {attribute}"
+
+
+def test_handles_say_that_they_do_not_exist():
+    for module, kind in (("publisher", "Publisher"), ("node", "Node"), ("timer", "Timer")):
+        cls = getattr(getattr(rclpy, module), kind)
+        with pytest.raises(AttributeError, match=f"{kind} has no handle: coframe has no C objects"):
+            _ = object.__new__(cls).handle
+
+
+def test_names_that_upstream_modules_merely_import():
+    from rclpy.client import QoSProfile
+    from rclpy.node import Executor, ParameterDescriptor
+
+    assert QoSProfile is rclpy.qos.QoSProfile
+    assert Executor is rclpy.executors.Executor
+    assert ParameterDescriptor().name == ""
+    with pytest.raises(AttributeError, match=r"module 'rclpy\.node' has no attribute 'Nothing'"):
+        _ = rclpy.node.Nothing
+    with pytest.raises(ImportError, match="cannot import name 'Nothing'"):
+        from rclpy.node import Nothing  # noqa: F401
+
+
+def _things(api):
+    for module, names in api.items():
+        for name, recorded in names.items():
+            if name not in {*STANDARD, *PENDING_NAMES} and f"{module}.{name}" not in ABSENT:
+                yield module, name, getattr(importlib.import_module(module), name, None), recorded
+
+
+def _has(module, name: str) -> bool:
+    try:
+        return hasattr(module, name)
+    except ImportError:
+        return False
+
+
+def _offers(thing: type, attribute: str) -> bool:
+    if issubclass(thing, Enum) and attribute in {"name", "value"}:
+        return True  # of the members, not of the class
+    annotations = {name for kind in thing.__mro__ for name in vars(kind).get("__annotations__", {})}
+    return hasattr(thing, attribute) or attribute in annotations
+
+
+def _fault(recorded: str, ours: inspect.Signature) -> str:
+    """Return which argument of the recorded signature ours does not accept, or an empty string."""
+    positional, keywords = _arguments(recorded)
+    kinds = [parameter.kind for parameter in ours.parameters.values()]
+    if inspect.Parameter.VAR_KEYWORD in kinds and inspect.Parameter.VAR_POSITIONAL in kinds:
+        return ""
+    plain = (inspect.Parameter.POSITIONAL_OR_KEYWORD, inspect.Parameter.POSITIONAL_ONLY)
+    names = [parameter.name for parameter in ours.parameters.values() if parameter.kind in plain]
+    if names[: len(positional)] != positional and inspect.Parameter.VAR_POSITIONAL not in kinds:
+        return f"expected the positional arguments {positional}"
+    unknown = [name for name in keywords if name not in ours.parameters]
+    return f"expected the arguments {unknown}" if unknown and inspect.Parameter.VAR_KEYWORD not in kinds else ""
+
+
+def _arguments(signature: str) -> tuple[list[str], list[str]]:
+    """Return the names of the positional arguments and of those that are passed by keyword only."""
+    text = re.sub(r"<[^<>]*(<[^<>]*>)?[^<>]*>", "None", signature)
+    function = ast.parse(f"def f{text}: ...").body[0]
+    assert isinstance(function, ast.FunctionDef)
+    arguments = function.args
+    return [item.arg for item in (*arguments.posonlyargs, *arguments.args)], [item.arg for item in arguments.kwonlyargs]
