@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Writer for recordings in rosbag2's format: a folder with MCAP files and a metadata.yaml."""
+"""Writer for recordings in rosbag2's format: a folder with MCAP or SQLite files and a metadata.yaml."""
 
 from __future__ import annotations
 
@@ -14,6 +14,7 @@ from coframe.bags.definitions import definition_of
 from coframe.bags.latched_messages import LatchedMessages
 from coframe.bags.mcap_writer import McapWriter, compressor
 from coframe.bags.offered_qos import OfferedQos, to_yaml
+from coframe.bags.sqlite_writer import SqliteWriter
 from coframe.bags.transforms import is_static
 from coframe.errors import RecordingError
 
@@ -24,8 +25,10 @@ if TYPE_CHECKING:
 
     from typing_extensions import Self
 
-__all__ = ["Writer"]
+__all__ = ["STORAGES", "Writer"]
 
+# Formats by rosbag2's names, with the suffix of their files.
+STORAGES = {"mcap": ".mcap", "sqlite3": ".db3"}
 _MAX_TOPICS = 65_000  # channels have numbers of 16 bits
 _MAX_TIME = 1 << 63
 _LARGEST_CHUNK = 4 << 20  # bytes before compression
@@ -75,7 +78,8 @@ class Writer:
 
     Args:
         path: The folder, which must not exist.
-        compression: Compression of the chunks: ``zstd``, ``lz4`` or ``none``.
+        compression: Compression of the chunks of MCAP files: ``zstd``, ``lz4`` or ``none``.
+        storage: Format of the files: ``mcap`` or ``sqlite3``, as rosbag2 names them.
         max_size: Size in bytes at which a new file begins; None: never.
         max_duration: Duration after which a new file begins, as "10min", a timedelta or nanoseconds; None: never.
 
@@ -85,7 +89,7 @@ class Writer:
 
     Raises:
         RecordingError: The folder exists or cannot be created, or a package is not installed.
-        ValueError: The compression is unknown, or ``max_size`` is below 1.
+        ValueError: The compression or the storage is unknown, or ``max_size`` is below 1.
 
     Example:
         >>> with Writer("run") as writer:                                            # doctest: +SKIP
@@ -98,12 +102,16 @@ class Writer:
         path: str | os.PathLike[str],
         *,
         compression: str = "zstd",
+        storage: str = "mcap",
         max_size: int | None = None,
         max_duration: str | int | timedelta | None = None,
     ) -> None:
         if max_size is not None and max_size < 1:
             raise ValueError(f"max_size must be at least 1 byte, not {max_size}")
+        if storage not in STORAGES:
+            raise ValueError(f"No storage named {storage!r}. Known storages: {', '.join(STORAGES)}.")
         self.path = Path(path)
+        self._storage = storage
         self.undescribed: list[str] = []
         self._compression = compression
         self._max_size = max_size
@@ -126,7 +134,7 @@ class Writer:
                 f"{self.path} cannot be created: {error.strerror or error}",
                 hint="Choose a folder with write permission.",
             ) from None
-        self._mcap = self._writing(self._open)
+        self._file = self._writing(self._open)
         self._write_metadata()
 
     def add_topic(
@@ -201,7 +209,7 @@ class Writer:
         self._put(entry, data, received, published)
         if entry.latched is not None:
             entry.latched.add(data, published, publisher)
-        if self._mcap.pending >= _LARGEST_CHUNK:
+        if self._file.pending >= _LARGEST_CHUNK:
             self.flush()
 
     def flush(self) -> None:
@@ -210,14 +218,14 @@ class Writer:
         Raises:
             RecordingError: The operating system reports an error, such as a full disk.
         """
-        if self._mcap.pending:
-            self._writing(self._mcap.flush)
+        if self._file.pending:
+            self._writing(self._file.flush)
             self._write_metadata()
 
     @property
     def size(self) -> int:
         """Size of all files in bytes."""
-        return self._closed + self._mcap.size
+        return self._closed + self._file.size
 
     @property
     def messages(self) -> int:
@@ -236,7 +244,7 @@ class Writer:
             RecordingError: The operating system reports an error, such as a full disk.
         """
         try:
-            self._writing(self._mcap.close)
+            self._writing(self._file.close)
         finally:
             self._write_metadata()
 
@@ -248,7 +256,7 @@ class Writer:
 
     def _put(self, topic: _Topic, data: bytes, received: int, published: int) -> None:
         if topic.channel is None:
-            topic.channel = self._mcap.add_channel(
+            topic.channel = self._file.add_channel(
                 topic.name,
                 topic.type,
                 encoding=topic.encoding,
@@ -256,36 +264,38 @@ class Writer:
                 definition_format=topic.definition_format,
                 metadata={"offered_qos_profiles": topic.offered_qos},
             )
-        self._mcap.write(topic.channel, data, received, published)
+        self._file.write(topic.channel, data, received, published)
 
     def _count(self, topic: _Topic) -> int:
-        return topic.before + (0 if topic.channel is None else self._mcap.counts[topic.channel])
+        return topic.before + (0 if topic.channel is None else self._file.counts[topic.channel])
 
     def _is_full(self, received: int) -> bool:
         if self._first_time is None:
             return False
-        if self._max_size is not None and self._mcap.size - self._first_size >= self._max_size:
+        if self._max_size is not None and self._file.size - self._first_size >= self._max_size:
             return True
         return self._max_duration is not None and received - self._first_time >= self._max_duration
 
     def _next_file(self) -> None:
-        self._mcap.close()
+        self._file.close()
         self._note_file()
-        self._closed += self._mcap.size
+        self._closed += self._file.size
         for topic in self._contents.topics:
             topic.before, topic.channel = self._count(topic), None
-        self._mcap = self._open()
+        self._file = self._open()
 
     def _begin_file(self, received: int) -> None:
         """Write the latched messages with the current time of receipt, so that each file can be read by itself."""
         for topic in self._contents.topics:
             for message in topic.latched.messages if topic.latched else []:
                 self._put(topic, message.data, received, message.published)
-        self._first_time, self._first_size = received, self._mcap.size
+        self._first_time, self._first_size = received, self._file.size
 
-    def _open(self) -> McapWriter:
-        name = f"{self.path.name}_{len(self._contents.files)}.mcap"
+    def _open(self) -> McapWriter | SqliteWriter:
+        name = f"{self.path.name}_{len(self._contents.files)}{STORAGES[self._storage]}"
         self._contents.files.append(_File(name))
+        if self._storage == "sqlite3":
+            return SqliteWriter(self.path / name)
         return McapWriter(self.path / name, self._compression)
 
     def _writing(self, write: Callable[[], T]) -> T:
@@ -302,7 +312,7 @@ class Writer:
 
     def _note_file(self) -> None:
         file = self._contents.files[-1]
-        file.start, file.end, file.count = self._mcap.start, self._mcap.end, self._mcap.count
+        file.start, file.end, file.count = self._file.start, self._file.end, self._file.count
 
     def _write_metadata(self) -> None:
         """Write metadata.yaml; if the disk is full, the previous version stays."""
@@ -321,7 +331,7 @@ class Writer:
         start, end = min(file.start for file in files), max(file.end for file in files)
         return {
             "version": _VERSION,
-            "storage_identifier": "mcap",
+            "storage_identifier": self._storage,
             "duration": {"nanoseconds": end - start},
             "starting_time": {"nanoseconds_since_epoch": start},
             "message_count": sum(file.count for file in files),
