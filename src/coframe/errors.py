@@ -19,7 +19,8 @@
         ├── FrozenFileError(ValueError)         a file that is not a frozen buffer, or is damaged
         ├── RecordingError(ValueError)          a recording without any readable data
         ├── TrajectoryError(ValueError)         a trajectory that cannot be read or compared
-        └── PlotError(ValueError)               something that cannot be plotted
+        ├── PlotError(ValueError)               something that cannot be plotted
+        └── CourseError(ValueError)             a folder of the lab that cannot be created or graded
 
 Wrong arguments of Python calls (a wrong type, shape or unit) raise TypeError and ValueError as usual.
 
@@ -50,6 +51,7 @@ if TYPE_CHECKING:
 __all__ = [
     "CoframeError",
     "ConnectivityException",
+    "CourseError",
     "DecodeError",
     "ExtrapolationException",
     "FrameMismatchException",
@@ -333,6 +335,10 @@ class TrajectoryError(_HintedError, ValueError):
 
 class PlotError(_HintedError, ValueError):
     """An expression that is not valid or has no values, or a plot that cannot be written."""
+
+
+class CourseError(_HintedError, ValueError):
+    """A folder of the lab that cannot be created, run or graded."""
 
 
 def _restore(kind: str | type[TransformException], text: str, facts: dict[str, object]) -> TransformException:

@@ -1,0 +1,120 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The numbers of the lab: the arm, the sensor mounts and the rates, which differ from student to student if wanted."""
+
+from __future__ import annotations
+
+import json
+import math
+import random
+from typing import TYPE_CHECKING, NamedTuple
+
+from coframe.errors import CourseError
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+__all__ = ["FILE", "Assignment", "Mount", "assignment_of", "read_assignment"]
+
+FILE = "lab.json"  # in a student's folder; contains the number of the variant
+_LAB = "09-02"
+NO_ROTATION = (0.0, 0.0, 0.0, 1.0)
+# A rotation of 90 degrees about y: the z axis of the camera points along the gripper.
+LOOK_FORWARD = (0.0, math.sqrt(0.5), 0.0, math.sqrt(0.5))
+
+
+class Mount(NamedTuple):
+    """The static transform of a sensor.
+
+    Attributes:
+        parent: The frame that the sensor is mounted on.
+        frame: The frame of the sensor.
+        translation: The position x, y, z relative to the parent, in metres.
+        quaternion: The rotation x, y, z, w relative to the parent.
+    """
+
+    parent: str
+    frame: str
+    translation: tuple[float, float, float]
+    quaternion: tuple[float, float, float, float] = NO_ROTATION
+
+
+class Assignment(NamedTuple):
+    """The numbers that a student's nodes have to use. The defaults are those of the lab.
+
+    Attributes:
+        variant: The number of the variant; None for the lab's own numbers.
+        base_height: The height of the first joint above base_link, in metres.
+        link_lengths: The lengths of the two links, in metres.
+        camera: The mount of the camera on the end effector.
+        imu: The mount of the IMU on the base.
+        lidar: The mount of the lidar on the base.
+        dynamic_rate: The rate of the transforms of the arm, in Hz.
+        listener_rate: The rate of the poses of the end effector, in Hz.
+    """
+
+    variant: int | None = None
+    base_height: float = 0.1
+    link_lengths: tuple[float, float] = (0.5, 0.4)
+    camera: Mount = Mount("end_effector", "camera_link", (0.05, 0.0, 0.02), LOOK_FORWARD)
+    imu: Mount = Mount("base_link", "imu_link", (0.0, 0.0, 0.1))
+    lidar: Mount = Mount("base_link", "lidar_link", (0.0, 0.0, 0.5))
+    dynamic_rate: float = 50.0
+    listener_rate: float = 10.0
+
+    @property
+    def mounts(self) -> tuple[Mount, Mount, Mount]:
+        """The mounts of the three sensors."""
+        return self.camera, self.imu, self.lidar
+
+
+def assignment_of(variant: int | None) -> Assignment:
+    """Return the numbers of a variant; the same number always gives the same assignment.
+
+    Args:
+        variant: Any integer, for example a student number. None: the numbers of the lab.
+    """
+    if variant is None:
+        return Assignment()
+    choose = random.Random(variant)  # noqa: S311 - not a secret
+    step = 0.05  # metres
+
+    def length(least: int, most: int) -> float:
+        return round(choose.randint(least, most) * step, 2)
+
+    return Assignment(
+        variant,
+        base_height=length(2, 6),
+        link_lengths=(length(6, 14), length(5, 12)),
+        camera=Mount("end_effector", "camera_link", (length(1, 3), 0.0, length(0, 2)), LOOK_FORWARD),
+        imu=Mount("base_link", "imu_link", (length(-2, 2), length(-2, 2), length(1, 4))),
+        lidar=Mount("base_link", "lidar_link", (length(-2, 4), 0.0, length(6, 12))),
+        dynamic_rate=float(choose.choice((25, 50, 100))),
+        listener_rate=float(choose.choice((5, 10, 20))),
+    )
+
+
+def read_assignment(folder: Path) -> Assignment:
+    """Return the assignment of a student's folder: the lab's own numbers if it has no file ``lab.json``.
+
+    Raises:
+        CourseError: The file is damaged, or belongs to another lab.
+    """
+    path = folder / FILE
+    if not path.is_file():
+        return Assignment()
+    try:
+        content = json.loads(path.read_text(encoding="utf-8"))
+    except (OSError, ValueError, RecursionError) as error:
+        raise CourseError(f"Cannot read {path}: {error}", hint=_HINT) from None
+    variant = content.get("variant") if isinstance(content, dict) else None
+    if not isinstance(content, dict) or content.get("lab") != _LAB or not isinstance(variant, int | None):
+        raise CourseError(f"{path} does not describe an assignment of lab {_LAB}.", hint=_HINT)
+    return assignment_of(variant)
+
+
+def assignment_file(assignment: Assignment) -> str:
+    """Return the text of the file ``lab.json``."""
+    return json.dumps({"lab": _LAB, "variant": assignment.variant}, indent=2) + "\n"
+
+
+_HINT = "Create the folder again with coframe lab new, and copy your nodes into it."

@@ -1,0 +1,146 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What the criteria share: running a program, comparing poses, and reading rates."""
+
+from __future__ import annotations
+
+import contextlib
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from coframe.course.program import Program
+from coframe.time import SECOND
+from coframe.transform import Transform
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+    from pathlib import Path
+
+    from coframe.course.assignment import Assignment
+    from coframe.course.sheet import Sheet
+    from coframe.course.world import Received, World
+
+__all__ = ["TOLERANCE", "Task", "differs", "edge_of", "mean_rate", "pose_of", "run_program", "seconds_of", "stamp_ns"]
+
+TOLERANCE = 1e-6  # metres, and components of unit quaternions
+
+
+class Task(NamedTuple):
+    """What a criterion works with.
+
+    Attributes:
+        folder: The student's folder.
+        assignment: The numbers of the assignment.
+        world: The simulated surroundings.
+        scratch: A folder for the output of programs.
+    """
+
+    folder: Path
+    assignment: Assignment
+    world: World
+    scratch: Path
+
+
+@contextlib.contextmanager
+def run_program(task: Task, sheet: Sheet) -> Iterator[Program | None]:
+    """Yield the program of a sheet, None if its file does not exist; stop it after the block.
+
+    Problems of the program are noted on the sheet afterwards. A program that publishes what only the simulation
+    publishes gets no points.
+    """
+    file = task.folder / sheet.file
+    if not file.is_file():
+        sheet.problem = f"There is no file {sheet.file}."
+        yield None
+        task.world.stop()
+        return
+    program = Program(file, task.scratch)
+    try:
+        yield program
+        intruder = _intruder(task.world)
+    finally:
+        task.world.stop()
+        task.world.stop_publishing()
+    sheet.problem = program_problem(program, intruder)
+    if sheet.problem:
+        sheet.last_lines = program.last_lines()
+    if intruder:
+        for fact in sheet.facts:
+            fact.earned, fact.observed = 0.0, intruder
+
+
+def program_problem(program: Program, intruder: str) -> str:
+    """Return a sentence about a program that did not run properly; "" if it did."""
+    return intruder or program.crash()
+
+
+def _intruder(world: World) -> str:
+    for topic in ("/clock", *world.own_topics()):
+        names = sorted({info.node_name for info in world.publishers_of(topic)})
+        if names:
+            return f"The program publishes on {topic} (node {', '.join(names)}), which only the simulation may do."
+    return ""
+
+
+def stamp_ns(message: Any) -> int:
+    """Return the stamp of a message with a header, in nanoseconds."""
+    stamp = message.header.stamp
+    return int(stamp.sec) * SECOND + int(stamp.nanosec)
+
+
+def seconds_of(nanoseconds: int) -> float:
+    """Return nanoseconds in seconds."""
+    return nanoseconds / SECOND
+
+
+def edge_of(message: Any) -> Transform:
+    """Return a TransformStamped message as a transform, as it is: the quaternion may not be a unit quaternion."""
+    moved, turned = message.transform.translation, message.transform.rotation
+    values = np.array([turned.x, turned.y, turned.z, turned.w])
+    norm = float(np.linalg.norm(values))
+    return Transform(
+        [moved.x, moved.y, moved.z],
+        values / norm if norm > 0 and np.isfinite(norm) else [0.0, 0.0, 0.0, 1.0],
+        target=message.header.frame_id,
+        source=message.child_frame_id,
+    )
+
+
+def pose_of(message: Any) -> Transform:
+    """Return the pose of a PoseStamped message as a transform."""
+    position, turned = message.pose.position, message.pose.orientation
+    values = np.array([turned.x, turned.y, turned.z, turned.w])
+    norm = float(np.linalg.norm(values))
+    return Transform(
+        [position.x, position.y, position.z],
+        values / norm if norm > 0 and np.isfinite(norm) else [0.0, 0.0, 0.0, 1.0],
+    )
+
+
+def differs(pose: Transform, correct: Transform, tolerance: float = TOLERANCE) -> str:
+    """Return how a pose differs from the correct one; "" if it is within the tolerance.
+
+    The quaternions q and -q are the same rotation.
+    """
+    offset = float(np.abs(pose.translation - correct.translation).max())
+    if not offset <= tolerance:
+        return f"position {_numbers(pose.translation)} m instead of {_numbers(correct.translation)} m"
+    turned = 1.0 - abs(float(pose.quaternion @ correct.quaternion))
+    if not turned <= tolerance**2 + 1e-13:
+        return f"rotation {_numbers(pose.quaternion)} (x, y, z, w) instead of {_numbers(correct.quaternion)}"
+    return ""
+
+
+def mean_rate(received: list[Received]) -> float:
+    """Return the mean rate of messages in Hz; 0 if there are fewer than two.
+
+    Messages that arrive at the same time, such as one for each edge, count once.
+    """
+    times = sorted({each.time for each in received})
+    if len(times) < 2:
+        return 0.0
+    return (len(times) - 1) / seconds_of(times[-1] - times[0])
+
+
+def _numbers(values: Any) -> str:
+    return "[" + ", ".join(f"{value:.7g}" for value in values) + "]"

@@ -1,0 +1,160 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Transform listener, 20 points: the pose of the end effector, at its own stamp, also after transforms were missing."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from coframe.course.criteria.common import (
+    TOLERANCE,
+    Task,
+    differs,
+    mean_rate,
+    pose_of,
+    run_program,
+    seconds_of,
+    stamp_ns,
+)
+from coframe.course.motion import Robot
+from coframe.course.sheet import Sheet
+from coframe.course.world import STEP
+from coframe.time import SECOND
+from geometry_msgs.msg import PoseStamped
+
+if TYPE_CHECKING:
+    from coframe.course.world import Received
+
+__all__ = ["check"]
+
+_TOPIC = "/end_effector_pose"
+_LATENCY = STEP  # the transforms arrive one step after their stamps, as those of a real robot arrive later
+_PERIOD = 2 * STEP
+# Between two samples, tf2 interpolates linearly; the arm moves on circles, and differs from that by less than this.
+_INTERPOLATED = 1e-4  # metres
+_OLDEST = 3 * SECOND // 2  # of a transform that a listener may still use while the broadcaster is missing
+_READ = "handbook chapter 4, what lookup_transform(target, source) means"
+
+
+def check(task: Task) -> Sheet:
+    """Check ``tf_listener.py``."""
+    sheet = Sheet("Transform listener", "tf_listener.py")
+    world = task.world
+    robot = Robot(task.assignment)
+
+    def publish(now: int) -> None:
+        if now % _PERIOD == 0:
+            world.publish_transforms(robot.arm_at(now - _LATENCY), now - _LATENCY)
+
+    with run_program(task, sheet) as program:
+        poses = world.watch(_TOPIC, PoseStamped)
+        if program is not None:
+            world.start(program)
+            world.run(1.0)  # no transforms yet
+            world.run(4.0, publish)
+        steady = [each for each in poses if each.time > world.now - 3 * SECOND]
+        names = sorted({info.node_name for info in world.publishers_of(_TOPIC)})
+        if program is not None:
+            world.run(1.0)  # the broadcaster is missing
+        resumed_at = world.now
+        if program is not None:
+            world.run(1.0, publish)
+        is_alive = program is not None and program.is_running()
+        _check_topic(sheet, poses, names)
+        _check_rate(sheet, task, steady)
+        _check_poses(sheet, robot, poses)
+        again = [each for each in poses if each.time > resumed_at]
+        sheet.check(
+            3,
+            "the node survives missing transforms",
+            is_alive and bool(again),
+            expected="no poses without transforms, poses again when they return",
+            observed="the node ended" if not is_alive else "no poses after the transforms returned",
+            cause="an exception of lookup_transform is not caught: except tf2_ros.TransformException",
+            read="handbook chapter 5, time, interpolation, waiting",
+        )
+    return sheet
+
+
+def _check_topic(sheet: Sheet, poses: list[Received], names: list[str]) -> None:
+    good = bool(poses) and names == ["tf_listener"]
+    sheet.check(
+        3,
+        f"the node tf_listener publishes poses on {_TOPIC}",
+        1.0 if good else 0.5 if poses or names == ["tf_listener"] else 0.0,
+        expected=f"PoseStamped messages on {_TOPIC} from the node tf_listener",
+        observed=f"{len(poses)} messages from {', '.join(names) or 'no node'}",
+        cause="publish() is never called" if names and not poses else "another topic, type or node name",
+        read=_READ,
+    )
+
+
+def _check_rate(sheet: Sheet, task: Task, steady: list[Received]) -> None:
+    wanted = task.assignment.listener_rate
+    rate = mean_rate(steady)
+    sheet.check(
+        4,
+        f"the poses are sent at {wanted:g} Hz",
+        abs(rate - wanted) <= 0.1 * wanted,
+        expected=f"{wanted:g} Hz, 10 % more or less",
+        observed=f"{rate:.1f} Hz",
+        cause="another period of the timer, or a lookup that waits in the callback",
+        read=_READ,
+    )
+
+
+def _check_poses(sheet: Sheet, robot: Robot, poses: list[Received]) -> None:
+    frames = sorted({each.message.header.frame_id for each in poses})
+    sheet.check(
+        3,
+        "the poses are relative to base_link",
+        frames == ["base_link"],
+        expected="header.frame_id is base_link",
+        observed=f"header.frame_id is {', '.join(map(repr, frames))}" if frames else "no poses",
+        cause="frame_id is the frame in which the pose is expressed: the target of the lookup",
+        read=_READ,
+    )
+    wrong = [text for each in poses if (text := _difference(robot, each))]
+    sheet.check(
+        7,
+        "each pose is right at its stamp",
+        0.0 if not poses else 1.0 if not wrong else 0.5 if _right_at_other_time(robot, poses) else 0.0,
+        expected="the closed form of the arm at the stamp of the pose",
+        observed=f"{len(wrong)} of {len(poses)} poses are wrong: {wrong[-1]}" if wrong else "no poses",
+        cause=_cause(robot, poses),
+        read="handbook chapter 5, time, interpolation, waiting",
+    )
+
+
+def _difference(robot: Robot, received: Received) -> str:
+    stamp = stamp_ns(received.message)
+    at_sample = (stamp + _LATENCY) % _PERIOD == 0
+    return differs(pose_of(received.message), robot.end_effector(stamp), TOLERANCE if at_sample else _INTERPOLATED)
+
+
+def _right_at_other_time(robot: Robot, poses: list[Received]) -> bool:
+    """Return whether all poses are right at an earlier time instead of at their stamps."""
+    return all(_true_time(robot, each) is not None for each in poses)
+
+
+def _true_time(robot: Robot, received: Received) -> int | None:
+    pose = pose_of(received.message)
+    for age in range(0, _OLDEST, STEP):
+        moment = received.time - age
+        if not differs(pose, robot.end_effector(moment), TOLERANCE):
+            return moment
+    return None
+
+
+def _cause(robot: Robot, poses: list[Received]) -> str:
+    if not poses:
+        return "see the facts above"
+    if _right_at_other_time(robot, poses):
+        late = max(stamp_ns(each.message) - (_true_time(robot, each) or 0) for each in poses)
+        return (
+            f"the stamp is {seconds_of(late) * 1000:.0f} ms later than the transform: "
+            "use transform.header.stamp, not now()"
+        )
+    inverse = [robot.end_effector(stamp_ns(each.message)).inverse() for each in poses]
+    if all(not differs(pose_of(each.message), other, 0.05) for each, other in zip(poses, inverse, strict=True)):
+        return "target and source are swapped: lookup_transform('base_link', 'end_effector', ...)"
+    return "another pair of frames, or a part of the pose is not set"

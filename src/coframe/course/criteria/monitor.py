@@ -1,0 +1,85 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Extension 4, 10 points: a monitor that names transforms which have stopped, and frames with two parents."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from coframe.course.criteria.common import Task, run_program
+from coframe.course.motion import Robot
+from coframe.course.sheet import Sheet
+from coframe.course.world import STEP
+from coframe.transform import Transform
+from std_msgs.msg import String
+
+if TYPE_CHECKING:
+    from coframe.course.world import Received
+
+__all__ = ["check"]
+
+_TOPIC = "/tf_problems"
+_PERIOD = 2 * STEP
+_READ = "handbook chapter 10, finding errors"
+
+
+def check(task: Task) -> Sheet:
+    """Check ``tf_monitor.py``."""
+    sheet = Sheet("Extension: transform monitor", "tf_monitor.py", bonus=True)
+    world = task.world
+    robot = Robot(task.assignment)
+
+    def publish(now: int, *, arm: bool = True, second_parent: bool = False) -> None:
+        if now % _PERIOD == 0:
+            world.publish_transforms([robot.base(now), *(robot.arm_at(now) if arm else [])], now)
+            if second_parent:
+                world.publish_transforms([Transform(target="map", source="base_link")], now)
+
+    with run_program(task, sheet) as program:
+        problems = world.watch(_TOPIC, String)
+        if program is not None:
+            world.start(program)
+            world.run(3.0, publish)
+        healthy = len(problems)
+        if program is not None:
+            world.run(3.0, lambda now: publish(now, arm=False))
+        stale = problems[healthy:]
+        if program is not None:
+            world.run(3.0, lambda now: publish(now, second_parent=True))
+        reparented = problems[healthy + len(stale) :]
+        is_alive = program is not None and program.is_running()
+    sheet.check(
+        3,
+        "it is silent while everything is well",
+        is_alive and not healthy,
+        expected=f"no message on {_TOPIC}",
+        observed=f"{healthy} messages" if healthy else "the program does not run",
+        cause="a limit that is too strict: the arm is published at 50 Hz",
+        read=_READ,
+    )
+    sheet.check(
+        4,
+        "it names a transform that has stopped",
+        _names(stale, "end_effector") or _names(stale, "link1"),
+        expected="a message with link1, link2 or end_effector within 3 s",
+        observed=_quoted(stale),
+        cause="compare the newest stamp of each child with the clock in a timer",
+        read=_READ,
+    )
+    sheet.check(
+        3,
+        "it names a frame with two parents",
+        _names(reparented, "base_link"),
+        expected="a message with base_link within 3 s",
+        observed=_quoted(reparented),
+        cause="remember the parent of each child, and report another one",
+        read=_READ,
+    )
+    return sheet
+
+
+def _names(received: list[Received], frame: str) -> bool:
+    return any(frame in each.message.data for each in received)
+
+
+def _quoted(received: list[Received]) -> str:
+    return f"{received[-1].message.data[:80]!r}" if received else "no message"

@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Extension 3, 10 points: two robots in one tree, each with its prefix."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from coframe.analysis.tree import FrameTrees
+from coframe.course.criteria.common import Task, edge_of, run_program
+from coframe.course.sheet import Sheet
+from tf2_msgs.msg import TFMessage
+
+if TYPE_CHECKING:
+    from coframe.course.world import Received
+
+__all__ = ["check"]
+
+_ROBOTS = ("robot1/", "robot2/")
+_ARM = {"link1": "base_link", "link2": "link1", "end_effector": "link2"}
+_READ = "handbook chapter 7, the complete tree"
+
+
+def check(task: Task) -> Sheet:
+    """Check ``multi_robot.py``."""
+    sheet = Sheet("Extension: several robots", "multi_robot.py", bonus=True)
+    world = task.world
+    with run_program(task, sheet) as program:
+        static = world.watch("/tf_static", TFMessage, latched=True)
+        dynamic = world.watch("/tf", TFMessage)
+        if program is not None:
+            world.start(program)
+            world.run(1.0)
+        edges = _edges([*static, *dynamic])
+        parents = {edge.child_frame_id: edge.header.frame_id for edge in edges}
+        for prefix in _ROBOTS:
+            right = [child for child, parent in _ARM.items() if parents.get(prefix + child) == prefix + parent]
+            sheet.check(
+                2.5,
+                f"the arm of {prefix[:-1]} has prefixed frames",
+                len(right) / len(_ARM),
+                expected=f"{prefix}base_link -> {prefix}link1 -> {prefix}link2 -> {prefix}end_effector",
+                observed=f"{len(right)} of 3 transforms",
+                cause="the prefix ends with a slash and stands before the parent and the child",
+                read=_READ,
+            )
+        bare = sorted(name for name in parents if name in {*_ARM, "base_link"})
+        sheet.check(
+            2,
+            "no frame without a prefix is published twice",
+            bool(parents) and not bare,
+            expected="only frames that both robots share, such as map, have no prefix",
+            observed=f"frames without a prefix: {', '.join(bare)}" if bare else "no transforms",
+            cause="one of the frame names has no prefix",
+            read=_READ,
+        )
+        trees = FrameTrees.from_parents(parents)
+        sheet.check(
+            3,
+            "both robots are in one tree, at different places",
+            len(trees.roots) == 1 and _are_apart(edges),
+            expected="map -> robot1/... and map -> robot2/... with different poses",
+            observed=f"{len(trees.roots)} trees" if len(trees.roots) != 1 else "both robots are at the same place",
+            cause="a static transform from map to the first frame of each robot is missing",
+            read=_READ,
+        )
+    return sheet
+
+
+def _edges(received: list[Received]) -> list[Any]:
+    return [edge for each in received for edge in each.message.transforms]
+
+
+def _are_apart(edges: list[Any]) -> bool:
+    """Return whether the transforms from a shared frame to frames of the two robots differ."""
+    into = {}
+    for edge in edges:
+        for prefix in _ROBOTS:
+            if edge.child_frame_id.startswith(prefix) and not edge.header.frame_id.startswith(prefix):
+                into[prefix] = edge_of(edge).translation
+    return len(into) == 2 and abs(into[_ROBOTS[0]] - into[_ROBOTS[1]]).max() > 0.01

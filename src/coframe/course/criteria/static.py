@@ -1,0 +1,157 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Static transforms, 20 points: the mounts of the sensors, sent once, so that late listeners receive them."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from coframe.course.criteria.common import TOLERANCE, Task, differs, edge_of, run_program
+from coframe.course.sheet import Sheet
+from coframe.transform import Transform
+from rclpy.qos import DurabilityPolicy, ReliabilityPolicy
+from tf2_msgs.msg import TFMessage
+
+if TYPE_CHECKING:
+    from coframe.course.assignment import Mount
+    from coframe.course.world import Received
+
+__all__ = ["check"]
+
+_TOPIC = "/tf_static"
+_NOT_UNIT = "0.707 is not the square root of one half: use math.sqrt(0.5)"
+_READ = "handbook chapter 3, static and dynamic transforms"
+
+
+def check(task: Task) -> Sheet:
+    """Check ``static_tf_broadcaster.py``."""
+    sheet = Sheet("Static transforms", "static_tf_broadcaster.py")
+    world = task.world
+    with run_program(task, sheet) as program:
+        static = world.watch(_TOPIC, TFMessage, latched=True)
+        dynamic = world.watch("/tf", TFMessage)
+        if program is not None:
+            world.start(program)
+            world.run(5.0)
+        late = world.watch(_TOPIC, TFMessage, latched=True)
+        if program is not None:
+            world.run(0.3)
+        sent = _by_child(static)
+        for mount in task.assignment.mounts:
+            _check_mount(sheet, mount, sent.get(mount.frame, []), _by_child(dynamic).get(mount.frame, []))
+        _check_delivery(sheet, task, sent, _by_child(dynamic), _by_child(late))
+    return sheet
+
+
+def _by_child(received: list[Received]) -> dict[str, list[Any]]:
+    found: dict[str, list[Any]] = {}
+    for each in received:
+        for message in each.message.transforms:
+            found.setdefault(message.child_frame_id, []).append(message)
+    return found
+
+
+def _check_mount(sheet: Sheet, mount: Mount, static: list[Any], dynamic: list[Any]) -> None:
+    messages = static or dynamic
+    sheet.check(
+        1,
+        f"{mount.frame} has the parent {mount.parent}",
+        bool(messages) and messages[-1].header.frame_id == mount.parent,
+        expected=f"a transform from {mount.parent} to {mount.frame}",
+        observed=f"the parent is {messages[-1].header.frame_id!r}" if messages else f"no transform to {mount.frame}",
+        cause="header.frame_id is the parent, child_frame_id the sensor" if messages else "a misspelt child_frame_id",
+        read=_READ,
+    )
+    correct = Transform(mount.translation, mount.quaternion)
+    difference = differs(edge_of(messages[-1]), correct) if messages else "no transform"
+    norm = _norm(messages[-1]) if messages else 1.0
+    is_unit = abs(norm - 1.0) <= TOLERANCE
+    sheet.check(
+        3,
+        f"{mount.frame} is at the right place",
+        1.0 if not difference and is_unit else 2 / 3 if not difference else 0.0,
+        expected=f"position {list(mount.translation)} m, rotation {_rounded(mount.quaternion)} (x, y, z, w)",
+        observed=difference or f"the quaternion has the length {norm:.6f} instead of 1",
+        cause=_pose_cause(messages, mount)
+        if difference
+        else "0.707 is not the square root of one half: use math.sqrt(0.5)",
+        read="handbook chapter 2, rotations and quaternions",
+    )
+
+
+def _rounded(values: tuple[float, ...]) -> list[float]:
+    return [round(value, 7) for value in values]
+
+
+def _norm(message: Any) -> float:
+    turned = message.transform.rotation
+    return float(np.linalg.norm([turned.x, turned.y, turned.z, turned.w]))
+
+
+def _pose_cause(messages: list[Any], mount: Mount) -> str:
+    """Return the likely cause of a wrong pose."""
+    if not messages:
+        return "the transform is not sent"
+    pose = edge_of(messages[-1])
+    x, y, z, w = pose.quaternion.tolist()
+    for quaternion, cause in (
+        ((y, z, w, x), "the quaternion is in the order w, x, y, z; ROS has x, y, z, w"),
+        ((-x, -y, -z, w), "the rotation is inverted"),
+    ):
+        if not differs(Transform(pose.translation, quaternion), Transform(mount.translation, mount.quaternion)):
+            return cause
+    inverse = Transform(mount.translation, mount.quaternion).inverse()
+    if not differs(pose, inverse):
+        return "the transform is inverted: it must be the pose of the sensor relative to its parent"
+    return "other numbers than those of the assignment (lab.json, README.md)"
+
+
+def _check_delivery(
+    sheet: Sheet, task: Task, static: dict[str, list[Any]], dynamic: dict[str, list[Any]], late: dict[str, list[Any]]
+) -> None:
+    frames = [mount.frame for mount in task.assignment.mounts]
+    on_static = [frame for frame in frames if frame in static and frame not in dynamic]
+    sheet.check(
+        2,
+        "the transforms are on /tf_static",
+        len(on_static) / len(frames),
+        expected="all three on /tf_static, none on /tf",
+        observed=f"{len(on_static)} of 3 on /tf_static, {len(set(frames) & dynamic.keys())} on /tf",
+        cause="TransformBroadcaster sends on /tf: use StaticTransformBroadcaster",
+        read=_READ,
+    )
+    offers = [info.qos_profile for info in task.world.publishers_of(_TOPIC)]
+    durable = [
+        qos.durability == DurabilityPolicy.TRANSIENT_LOCAL and qos.reliability == ReliabilityPolicy.RELIABLE
+        for qos in offers
+    ]
+    sheet.check(
+        2,
+        "the publisher is reliable and transient local",
+        bool(durable) and all(durable),
+        expected="reliable, transient local",
+        observed=", ".join(f"{qos.reliability.name}, {qos.durability.name}" for qos in offers) or "no publisher",
+        cause="a publisher of your own with default QoS: use StaticTransformBroadcaster",
+        read=_READ,
+    )
+    reached = [frame for frame in frames if frame in late]
+    sheet.check(
+        3,
+        "a listener that joins 5 s later receives them",
+        len(reached) / len(frames),
+        expected="all three transforms",
+        observed=f"{len(reached)} of 3: {', '.join(reached) or 'none'}",
+        cause="one sendTransform call for each transform: ROS 2 Humble delivers only the last call. Send one list",
+        read=_READ,
+    )
+    most = max((len(static.get(frame, [])) for frame in frames), default=0)
+    sheet.check(
+        1,
+        "they are sent once",
+        most == 1,
+        expected="each transform is sent once",
+        observed=f"sent {most} times in 5 s",
+        cause="sendTransform in a timer: static transforms are stored by the middleware",
+        read=_READ,
+    )

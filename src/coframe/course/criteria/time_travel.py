@@ -1,0 +1,73 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Extension 2, 10 points: where the end effector was one second ago, seen from where the robot is now."""
+
+from __future__ import annotations
+
+from coframe.course.criteria.common import Task, differs, mean_rate, pose_of, run_program, stamp_ns
+from coframe.course.motion import Robot
+from coframe.course.sheet import Sheet
+from coframe.course.world import STEP
+from coframe.time import SECOND
+from geometry_msgs.msg import PoseStamped
+
+__all__ = ["check"]
+
+_TOPIC = "/past_end_effector_pose"
+_AGE = SECOND
+_PERIOD = 2 * STEP
+_INTERPOLATED = 2e-4  # metres
+_READ = "handbook chapter 9, recordings and time travel"
+
+
+def check(task: Task) -> Sheet:
+    """Check ``time_travel.py``."""
+    sheet = Sheet("Extension: time travel", "time_travel.py", bonus=True)
+    world = task.world
+    robot = Robot(task.assignment)
+
+    def publish(now: int) -> None:
+        if now % _PERIOD == 0:
+            world.publish_transforms([robot.base(now), *robot.arm_at(now)], now)
+
+    with run_program(task, sheet) as program:
+        poses = world.watch(_TOPIC, PoseStamped)
+        if program is not None:
+            world.start(program)
+            world.run(4.0, publish)
+        rate = mean_rate([each for each in poses if each.time > world.now - 2 * SECOND])
+        sheet.check(
+            3,
+            f"poses are published on {_TOPIC} at 10 Hz",
+            abs(rate - 10.0) <= 1.0,
+            expected="PoseStamped messages at 10 Hz",
+            observed=f"{rate:.1f} Hz",
+            cause="another topic, or every lookup fails: keep at least 2 s in the buffer",
+            read=_READ,
+        )
+        frames = sorted({each.message.header.frame_id for each in poses})
+        sheet.check(
+            2,
+            "the poses are relative to base_link",
+            frames == ["base_link"],
+            expected="header.frame_id is base_link",
+            observed=", ".join(map(repr, frames)) or "no poses",
+            cause="the target of lookup_transform_full is base_link at the present time",
+            read=_READ,
+        )
+        wrong = []
+        for each in poses:
+            now = stamp_ns(each.message)
+            then = now - _AGE
+            correct = robot.base(now).inverse() @ robot.base(then) @ robot.end_effector(then)
+            wrong.append(differs(pose_of(each.message), correct, _INTERPOLATED))
+        bad = [text for text in wrong if text]
+        sheet.check(
+            5,
+            "each pose is that of one second before its stamp",
+            bool(wrong) and not bad,
+            expected="lookup_transform_full(base_link now, end_effector 1 s ago, fixed frame odom)",
+            observed=f"{len(bad)} of {len(wrong)} poses are wrong: {bad[-1]}" if bad else "no poses",
+            cause="the motion of the base is ignored: odom is the fixed frame, or the stamp is not the present time",
+            read=_READ,
+        )
+    return sheet

@@ -1,0 +1,96 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Extension 1, 10 points: the arm as a robot description."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from coframe.course.criteria.common import Task, differs
+from coframe.course.motion import Robot
+from coframe.course.sheet import Sheet
+from coframe.errors import CoframeError
+from coframe.robots import load
+
+if TYPE_CHECKING:
+    from coframe.robots import Robot as Description
+
+__all__ = ["check"]
+
+_ANGLES = ((0.0, 0.0), (0.5, -0.3), (-0.4, 0.2), (1.0, 1.0), (-1.2, 0.7))
+_READ = "handbook chapter 8, URDF"
+
+
+def check(task: Task) -> Sheet:
+    """Check ``arm.urdf`` or ``arm.urdf.xacro``."""
+    files = [task.folder / name for name in ("arm.urdf.xacro", "arm.urdf") if (task.folder / name).is_file()]
+    sheet = Sheet("Extension: URDF", files[0].name if files else "arm.urdf", bonus=True)
+    description: Description | None = None
+    problem = "there is no file arm.urdf"
+    if files:
+        try:
+            description, problem = load(files[0]), ""
+        except (CoframeError, OSError, ValueError) as error:
+            problem = str(error)
+    sheet.check(
+        2,
+        "the description can be read",
+        description is not None,
+        expected="a URDF or xacro file without errors",
+        observed=problem,
+        cause="coframe robot FILE prints the error with its line",
+        read=_READ,
+    )
+    _check_joints(sheet, description)
+    _check_kinematics(sheet, task, description)
+    return sheet
+
+
+def _check_joints(sheet: Sheet, description: Description | None) -> None:
+    names = [] if description is None else [each.name for each in description.joints.values() if each.type != "fixed"]
+    sheet.check(
+        2,
+        "it has the joints joint1 and joint2",
+        sorted(names) == ["joint1", "joint2"],
+        expected="two movable joints, joint1 and joint2",
+        observed=f"movable joints: {', '.join(names) or 'none'}",
+        cause="the names must be those in /joint_states",
+        read=_READ,
+    )
+
+
+def _check_kinematics(sheet: Sheet, task: Task, description: Description | None) -> None:
+    robot = Robot(task.assignment)
+    wrong: list[str] = []
+    frames = {"end_effector": 3.0, **{mount.frame: 1.0 for mount in task.assignment.mounts}}
+    for frame, points in frames.items():
+        difference = _difference(robot, description, frame)
+        wrong.append(difference)
+        sheet.check(
+            points,
+            f"{frame} is at the right place for all joint angles",
+            not difference,
+            expected="the pose of the closed form for five pairs of joint angles",
+            observed=difference,
+            cause="an origin of a joint, or its axis",
+            read=_READ,
+        )
+
+
+def _difference(robot: Robot, description: Description | None, frame: str) -> str:
+    if description is None:
+        return "no description"
+    mounts = {mount.source: mount for mount in robot.mounts()}
+    for angles in _ANGLES:
+        first, second, third = robot.arm(angles)
+        tip = first @ second @ third
+        mount = mounts.get(frame)
+        correct = tip if mount is None else tip @ mount if mount.target == "end_effector" else mount
+        try:
+            frames = description.frames({"joint1": angles[0], "joint2": angles[1]})
+            root = frames["base_link"].inverse() if "base_link" in frames else None
+            found = frames[frame] if root is None else root @ frames[frame]
+        except (CoframeError, KeyError, ValueError) as error:
+            return f"{frame} cannot be computed: {error}"
+        if difference := differs(found, correct):
+            return f"with joint angles {angles}: {difference}"
+    return ""

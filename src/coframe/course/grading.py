@@ -1,0 +1,83 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The grade of one folder: ``python -m coframe.course.grading FOLDER RESULT`` writes it as JSON."""
+
+from __future__ import annotations
+
+import json
+import sys
+import tempfile
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from coframe.course.assignment import Assignment, assignment_of, read_assignment
+from coframe.course.isolation import bring_loopback_up
+from coframe.course.sheet import Report
+from coframe.errors import CourseError
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+__all__ = ["CRITERIA", "grade"]
+
+# The modules of coframe.course.criteria, in the order of the rubric; those after the first five are extensions.
+CRITERIA = (
+    "static",
+    "dynamic",
+    "listener",
+    "sensor",
+    "visualization",
+    "urdf",
+    "time_travel",
+    "several_robots",
+    "monitor",
+)
+
+
+def grade(
+    folder: Path, assignment: Assignment, only: tuple[str, ...] = CRITERIA, done: Callable[[str], None] | None = None
+) -> Report:
+    """Run a student's nodes beside a simulated robot, and return the grade.
+
+    Args:
+        folder: The student's folder.
+        assignment: The numbers that the nodes have to use.
+        only: The criteria to check.
+        done: Called with the name of each criterion after it was checked.
+    """
+    import importlib  # noqa: PLC0415 - the criteria import rclpy, which takes time
+
+    from coframe.course.criteria.common import Task  # noqa: PLC0415
+    from coframe.course.world import World  # noqa: PLC0415
+
+    report = Report(str(folder), assignment.variant, [])
+    with tempfile.TemporaryDirectory(prefix="coframe-check-", ignore_cleanup_errors=True) as scratch, World() as world:
+        task = Task(folder, assignment, world, Path(scratch))
+        for name in CRITERIA:
+            if name in only:
+                report.sheets.append(importlib.import_module(f"coframe.course.criteria.{name}").check(task))
+                if done is not None:
+                    done(name)
+    return report
+
+
+def main() -> None:
+    """Grade the folder in the first argument; write the report, and progress, as lines of JSON to the second."""
+    folder, result, variant, only = Path(sys.argv[1]), Path(sys.argv[2]), sys.argv[3], tuple(sys.argv[4].split(","))
+    bring_loopback_up()
+    with result.open("a", encoding="utf-8") as file:
+
+        def write(kind: str, value: Any) -> None:
+            file.write(json.dumps({kind: value}) + "\n")
+            file.flush()
+
+        try:
+            assignment = read_assignment(folder) if variant == "own" else assignment_of(int(variant))
+            report = grade(folder, assignment, only, lambda name: write("done", name))
+        except CourseError as error:
+            write("error", [str(error), error.hint])
+        else:
+            write("report", report.as_dict())
+
+
+if __name__ == "__main__":
+    main()

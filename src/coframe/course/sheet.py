@@ -1,0 +1,139 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The result of a check: facts with points, what was expected and observed, and what to do about lost points."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+__all__ = ["Fact", "Report", "Sheet"]
+
+
+@dataclass
+class Fact:
+    """One observable fact.
+
+    Attributes:
+        name: What is checked.
+        points: The points for it.
+        earned: The points that were earned.
+        expected: What a correct solution does.
+        observed: What was observed instead; "" if all points were earned.
+        cause: The likely cause of lost points.
+        read: Where to read about it.
+    """
+
+    name: str
+    points: float
+    earned: float
+    expected: str
+    observed: str = ""
+    cause: str = ""
+    read: str = ""
+
+
+@dataclass
+class Sheet:
+    """The facts of one criterion of the rubric.
+
+    Attributes:
+        name: The name of the criterion.
+        file: The file that is checked.
+        bonus: Whether its points are added to the 100.
+        problem: A sentence if the program could not be checked to the end.
+        last_lines: The last lines that the program printed, if there was a problem.
+        facts: The facts.
+    """
+
+    name: str
+    file: str
+    bonus: bool = False
+    problem: str = ""
+    last_lines: list[str] = field(default_factory=list)
+    facts: list[Fact] = field(default_factory=list)
+
+    def check(
+        self,
+        points: float,
+        name: str,
+        good: bool | float,
+        *,
+        expected: str,
+        observed: str,
+        cause: str = "",
+        read: str = "",
+    ) -> bool:
+        """Add a fact.
+
+        Args:
+            points: The points for it.
+            name: What is checked.
+            good: Whether it holds; a number from 0 to 1 for partial credit.
+            expected: What a correct solution does.
+            observed: What was observed.
+            cause: The likely cause, if it does not hold.
+            read: Where to read about it.
+
+        Returns:
+            Whether the fact holds entirely.
+        """
+        share = min(1.0, max(0.0, float(good)))
+        lost = share < 1.0
+        earned = round(points * share, 2)
+        details = (observed, cause, read) if lost else ("", "", "")
+        self.facts.append(Fact(name, points, earned, expected, *details))
+        return not lost
+
+    @property
+    def points(self) -> float:
+        """The points of all facts."""
+        return round(sum(fact.points for fact in self.facts), 2)
+
+    @property
+    def earned(self) -> float:
+        """The points that were earned."""
+        return round(sum(fact.earned for fact in self.facts), 2)
+
+
+@dataclass
+class Report:
+    """The grade of one folder."""
+
+    folder: str
+    variant: int | None
+    sheets: list[Sheet]
+    notices: list[str] = field(default_factory=list)
+
+    @property
+    def earned(self) -> float:
+        """The points of the rubric that were earned, of 100."""
+        return round(sum(sheet.earned for sheet in self.sheets if not sheet.bonus), 2)
+
+    @property
+    def bonus(self) -> float:
+        """The points of the extensions that were earned, of 40."""
+        return round(sum(sheet.earned for sheet in self.sheets if sheet.bonus), 2)
+
+    def as_dict(self) -> dict[str, Any]:
+        """Return the report as plain data for JSON."""
+        return {
+            "folder": self.folder,
+            "variant": self.variant,
+            "earned": self.earned,
+            "points": 100,
+            "bonus": self.bonus,
+            "notices": self.notices,
+            "criteria": [
+                {
+                    "name": sheet.name,
+                    "file": sheet.file,
+                    "bonus": sheet.bonus,
+                    "earned": sheet.earned,
+                    "points": sheet.points,
+                    "problem": sheet.problem,
+                    "last_lines": sheet.last_lines,
+                    "facts": [vars(fact) for fact in sheet.facts],
+                }
+                for sheet in self.sheets
+            ],
+        }

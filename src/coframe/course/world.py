@@ -1,0 +1,229 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The simulated surroundings of a student's node: its clock, what it receives, and what it publishes."""
+
+from __future__ import annotations
+
+import time
+from collections import deque
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import rclpy
+from builtin_interfaces.msg import Time
+from coframe.time import MILLISECOND, SECOND
+from geometry_msgs.msg import TransformStamped
+from rcl_interfaces.srv import GetParameters
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+from rclpy.signals import SignalHandlerOptions
+from rosgraph_msgs.msg import Clock
+from tf2_msgs.msg import TFMessage
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Sequence
+    from types import TracebackType
+
+    from typing_extensions import Self
+
+    from coframe.course.program import Program
+    from coframe.transform import Transform
+
+__all__ = ["STEP", "Received", "World", "stamp_of"]
+
+STEP = 10 * MILLISECOND  # of the simulated clock
+_START = 1000 * SECOND
+_NODE = "lab_check"
+_START_PATIENCE = 20.0  # seconds of real time until the node of a program must have joined the graph
+_RESPONSE = 1.0  # seconds of real time that a node may take for one callback
+_MOST_MISSED = 5  # responses, after which the world does not wait for the node any more
+_QUIET = 0.002  # seconds of real time without a message, after which all messages of a step have arrived
+_WITHOUT_RESPONSES = 0.01  # seconds of real time for each step, for a node that does not respond
+
+
+class Received(NamedTuple):
+    """A message and the simulated time at which it arrived, in nanoseconds."""
+
+    time: int
+    message: Any
+
+
+class World:
+    """A simulated clock that advances in steps, and waits for the student's node after each step.
+
+    Therefore a grade does not depend on how fast or how busy the machine is.
+
+    Attributes:
+        now: The simulated time in nanoseconds.
+    """
+
+    def __init__(self) -> None:
+        rclpy.init(args=[], signal_handler_options=SignalHandlerOptions.NO)
+        self.now = _START
+        self._node = rclpy.create_node(
+            _NODE, use_global_arguments=False, enable_rosout=False, start_parameter_services=False
+        )
+        self._executor = SingleThreadedExecutor()
+        self._executor.add_node(self._node)
+        self._clock = self._node.create_publisher(Clock, "/clock", 10)
+        self._publishers: dict[str, Any] = {}
+        self._subscriptions: list[Any] = []
+        self._messages = 0
+        self._probes: deque[Any] = deque()
+        self._missed = 0
+        self._program: Program | None = None
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None
+    ) -> None:
+        self._executor.shutdown()
+        self._node.destroy_node()
+        rclpy.shutdown()
+
+    def publish(self, topic: str, message: Any, *, latched: bool = False) -> None:
+        """Publish a message; the publisher is created at the first one."""
+        if topic not in self._publishers:
+            self._publishers[topic] = self._node.create_publisher(type(message), topic, _qos(100, latched=latched))
+        self._publishers[topic].publish(message)
+
+    def publish_transforms(self, transforms: Iterable[Transform], stamp: int, *, static: bool = False) -> None:
+        """Publish transforms with a stamp in nanoseconds on /tf or /tf_static."""
+        messages = [_message(transform, stamp) for transform in transforms]
+        self.publish("/tf_static" if static else "/tf", TFMessage(transforms=messages), latched=static)
+
+    def own_topics(self) -> list[str]:
+        """Return the topics, other than /clock, on which the world has published for the running program."""
+        return list(self._publishers)
+
+    def stop_publishing(self) -> None:
+        """Destroy all publishers but that of the clock, so that latched messages do not reach the next program."""
+        for publisher in self._publishers.values():
+            self._node.destroy_publisher(publisher)
+        self._publishers.clear()
+
+    def watch(self, topic: str, message_class: Any, *, latched: bool = False) -> list[Received]:
+        """Subscribe to a topic and return the list that receives its messages, until the program is stopped."""
+        received: list[Received] = []
+
+        def store(message: Any) -> None:
+            self._messages += 1
+            received.append(Received(self.now, message))
+
+        qos = _qos(1000, latched=latched, reliable=latched)
+        self._subscriptions.append(self._node.create_subscription(message_class, topic, store, qos))
+        return received
+
+    def publishers_of(self, topic: str) -> list[Any]:
+        """Return information about the publishers of a topic in other processes."""
+        return [info for info in self._node.get_publishers_info_by_topic(topic) if info.node_name != _NODE]
+
+    def start(self, program: Program) -> None:
+        """Start a program and wait until its node has joined the graph; the program may end before."""
+        self._program = program
+        self._missed = 0
+        program.start()
+        deadline = time.monotonic() + _START_PATIENCE
+        while time.monotonic() < deadline and program.is_running():
+            names = self._other_nodes()
+            if names and self._node.count_subscribers("/clock") and all(map(self._has_parameters, names)):
+                break
+            self._executor.spin_once(timeout_sec=0.02)
+        for name in self._other_nodes():
+            if self._has_parameters(name):
+                self._probes.append(self._node.create_client(GetParameters, f"{name}/get_parameters"))
+        for probe in self._probes:
+            probe.wait_for_service(_RESPONSE)
+
+    def stop(self) -> None:
+        """Stop the program and wait until its node has left the graph."""
+        if self._program is not None:
+            self._program.stop()
+        for probe in self._probes:
+            self._node.destroy_client(probe)
+        self._probes.clear()
+        for subscription in self._subscriptions:
+            self._node.destroy_subscription(subscription)
+        self._subscriptions.clear()
+        deadline = time.monotonic() + _START_PATIENCE
+        while self._other_nodes() and time.monotonic() < deadline:
+            time.sleep(0.01)
+        self._program = None
+
+    def run(self, seconds: float, each_step: Callable[[int], None] | None = None) -> None:
+        """Advance the simulated clock.
+
+        Args:
+            seconds: How much, in simulated seconds.
+            each_step: Called in each step with the time in nanoseconds, before the student's node runs.
+        """
+        end = self.now + round(seconds * SECOND)
+        while self.now < end and self._program is not None and self._program.is_running():
+            self.now += STEP
+            self._clock.publish(Clock(clock=stamp_of(self.now)))
+            if each_step is not None:
+                each_step(self.now)
+            self.settle()
+
+    def settle(self) -> None:
+        """Wait until the student's node has run all callbacks that are ready, and its messages have arrived."""
+        # An executor runs everything that is ready before it runs anything twice. The first response shows that it has
+        # received the clock, the second one that the timers that became ready by it have run.
+        for _ in range(2):
+            self._await_responses()
+        if not self._probes or self._missed >= _MOST_MISSED:
+            time.sleep(_WITHOUT_RESPONSES)
+        count = -1
+        while count != self._messages:
+            count = self._messages
+            self._spin(_QUIET)
+
+    def _await_responses(self) -> None:
+        if self._missed >= _MOST_MISSED:
+            return
+        futures = [probe.call_async(GetParameters.Request(names=["use_sim_time"])) for probe in self._probes]
+        for future in futures:
+            self._executor.spin_until_future_complete(future, timeout_sec=_RESPONSE)
+        if all(future.done() for future in futures):
+            self._missed = 0
+            return
+        self._missed += 1
+
+    def _spin(self, seconds: float) -> None:
+        deadline = time.monotonic() + seconds
+        while (left := deadline - time.monotonic()) > 0:
+            self._executor.spin_once(timeout_sec=left)
+
+    def _other_nodes(self) -> list[str]:
+        names = self._node.get_node_names_and_namespaces()
+        return [f"{space.rstrip('/')}/{name}" for name, space in names if name != _NODE]
+
+    def _has_parameters(self, node: str) -> bool:
+        return f"{node}/get_parameters" in dict(self._node.get_service_names_and_types())
+
+
+def stamp_of(nanoseconds: int) -> Time:
+    """Return a time in nanoseconds as a message."""
+    return Time(sec=nanoseconds // SECOND, nanosec=nanoseconds % SECOND)
+
+
+def _qos(depth: int, *, latched: bool = False, reliable: bool = True) -> QoSProfile:
+    return QoSProfile(
+        depth=depth,
+        reliability=ReliabilityPolicy.RELIABLE if reliable else ReliabilityPolicy.BEST_EFFORT,
+        durability=DurabilityPolicy.TRANSIENT_LOCAL if latched else DurabilityPolicy.VOLATILE,
+    )
+
+
+def _message(transform: Transform, stamp: int) -> TransformStamped:
+    message = TransformStamped(child_frame_id=transform.source or "")
+    message.header.frame_id = transform.target or ""
+    message.header.stamp = stamp_of(stamp)
+    _set(message.transform.translation, "xyz", transform.translation.tolist())
+    _set(message.transform.rotation, "xyzw", transform.quaternion.tolist())
+    return message
+
+
+def _set(message: Any, fields: str, values: Sequence[float]) -> None:
+    for field, value in zip(fields, values, strict=True):
+        setattr(message, field, value)
