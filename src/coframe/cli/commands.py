@@ -22,6 +22,7 @@ _PASSES_WORDS_ON = {"context_settings": {"ignore_unknown_options": True, "allow_
 # of the command; `cls` is the name of a class in its module.
 COMMANDS: dict[str, tuple[str, dict[str, Any]]] = {
     "demo": ("Start a simulated robot and show its moving transform tree.", {}),
+    "lab": ("Do the lab, and grade it: new, run, check, break.", {}),
     "view": ("Show frames, sensor data and markers in a browser tab.", {}),
     "doctor": ("Find problems with transforms, live or in a recording.", {}),
     "why": ("Explain why a transform is available, or why it is not.", {}),

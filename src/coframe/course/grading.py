@@ -3,7 +3,11 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
+import os
+import signal
+import subprocess
 import sys
 import tempfile
 from pathlib import Path
@@ -15,7 +19,7 @@ from coframe.course.sheet import Report
 from coframe.errors import CourseError
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterator
 
 __all__ = ["CRITERIA", "grade"]
 
@@ -61,10 +65,13 @@ def grade(
 
 
 def main() -> None:
-    """Grade the folder in the first argument; write the report, and progress, as lines of JSON to the second."""
+    """Grade the folder in the first argument; write the report, and progress, as lines of JSON to the second.
+
+    The other arguments are the variant ("own": that of the folder), the criteria, and a folder for a recording.
+    """
     folder, result, variant, only = Path(sys.argv[1]), Path(sys.argv[2]), sys.argv[3], tuple(sys.argv[4].split(","))
     bring_loopback_up()
-    with result.open("a", encoding="utf-8") as file:
+    with result.open("a", encoding="utf-8") as file, _recorded(sys.argv[5:]):
 
         def write(kind: str, value: Any) -> None:
             file.write(json.dumps({kind: value}) + "\n")
@@ -77,6 +84,21 @@ def main() -> None:
             write("error", [str(error), error.hint])
         else:
             write("report", report.as_dict())
+
+
+@contextlib.contextmanager
+def _recorded(folder: list[str]) -> Iterator[None]:
+    """Record all topics during the block, if there is a folder for it."""
+    if not folder:
+        yield
+        return
+    command = [sys.executable, "-m", "coframe.cli", "record", "--output", folder[0]]
+    recorder = subprocess.Popen(command, stdin=subprocess.DEVNULL)  # noqa: S603 - a command of coframe
+    try:
+        yield
+    finally:
+        recorder.send_signal(signal.SIGINT if os.name == "posix" else signal.SIGTERM)
+        recorder.wait()
 
 
 if __name__ == "__main__":

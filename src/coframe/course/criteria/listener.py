@@ -149,7 +149,7 @@ def _cause(robot: Robot, poses: list[Received]) -> str:
     if not poses:
         return "see the facts above"
     if _right_at_other_time(robot, poses):
-        late = max(stamp_ns(each.message) - (_true_time(robot, each) or 0) for each in poses)
+        late = min(stamp_ns(each.message) - (_true_time(robot, each) or 0) for each in poses)
         return (
             f"the stamp is {seconds_of(late) * 1000:.0f} ms later than the transform: "
             "use transform.header.stamp, not now()"

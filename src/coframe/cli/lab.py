@@ -1,0 +1,220 @@
+# SPDX-License-Identifier: Apache-2.0
+"""``coframe lab``: the lab as a course: a folder for a student, its nodes beside a simulated robot, and its grade."""
+
+from __future__ import annotations
+
+import csv
+import json
+import threading
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+import coframe
+from coframe.cli.help_format import PlainCommand, PlainGroup
+from coframe.cli.lifecycle import run_to_completion, run_until_interrupted
+from coframe.cli.options import DurationOption, duration_in_seconds
+from coframe.cli.output import fail, printable, report_console, warn
+from coframe.cli.progress import item_progress
+from coframe.cli.view import PortOption, optional_viewer
+from coframe.course import formats
+from coframe.course.checking import check_class, check_folder, submissions
+from coframe.course.faults import FAULTS
+from coframe.course.folders import create_folder
+from coframe.course.grading import CRITERIA
+from coframe.course.isolation import isolation_problem
+from coframe.course.running import COMPLETE_TREE, SIMULATION, STEPS, programs_of, running
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from coframe.course.running import Program
+
+__all__ = ["lab"]
+
+FolderArgument = Annotated[
+    Path, typer.Argument(metavar="[FOLDER]", help="Folder of the lab. [default: lab]", show_default=False)
+]
+VariantOption = Annotated[
+    int | None,
+    typer.Option("--variant", metavar="SEED", help="Number of a variant, which has its own lengths, mounts and rates."),
+]
+lab = typer.Typer(
+    cls=PlainGroup,
+    help="Do the lab and grade it: create a folder, run its nodes, check them.\n\nExample: coframe lab new",
+    no_args_is_help=True,
+    rich_markup_mode=None,
+)
+
+
+@lab.command(cls=PlainCommand, short_help="Create a folder with the five files as stubs.")
+def new(
+    folder: FolderArgument = Path("lab"),
+    variant: VariantOption = None,
+) -> None:
+    """Create a folder with the files of the lab: stubs with a task in each docstring, an RViz configuration, a README.
+
+    Example: coframe lab new my_lab --variant 4711
+    """
+    with run_to_completion():
+        for path in create_folder(folder, variant):
+            print(f"created {printable(str(path))}")
+        print(f"Next: read {printable(str(folder / 'README.md'))}, then run: coframe lab run {printable(str(folder))}")
+
+
+@lab.command(cls=PlainCommand, short_help="Run the nodes of a folder beside a simulated robot.")
+def run(
+    folder: FolderArgument = Path("lab"),
+    complete: Annotated[
+        bool, typer.Option("--complete", help="Run complete_tf_tree.py in place of the two broadcasters.")
+    ] = False,
+    no_browser: Annotated[bool, typer.Option("--no-browser", help="Do not open a browser.")] = False,
+    port: PortOption = None,
+    duration: DurationOption = None,
+) -> None:
+    """Run the nodes of a folder with simulated joints and a simulated lidar, and show them in the viewer.
+
+    The output of each node is printed with its name. The viewer's findings say what is missing.
+
+    Example: coframe lab run my_lab
+    """
+    seconds = duration_in_seconds("--duration", duration)
+    simulation = SIMULATION[1:] if complete else SIMULATION
+    with run_until_interrupted():
+        programs = [*programs_of(folder, COMPLETE_TREE if complete else STEPS), *simulation]
+        _run(programs, seconds, browser=not no_browser, port=port)
+
+
+@lab.command(cls=PlainCommand, short_help="Grade a folder, or the folders of a class.")
+def check(
+    folder: FolderArgument = Path("lab"),
+    everyone: Annotated[
+        bool, typer.Option("--all", help="FOLDER contains the folders of a class: grade all of them.")
+    ] = False,
+    output: Annotated[
+        Path | None, typer.Option("--output", "-o", metavar="FILE", help="With --all: write a table as CSV.")
+    ] = None,
+    only: Annotated[
+        list[str] | None,
+        typer.Option("--only", metavar="CRITERION", help=f"Check only this: {', '.join(CRITERIA)}; repeatable."),
+    ] = None,
+    variant: VariantOption = None,
+    as_json: Annotated[bool, typer.Option("--json", help="Print the report as JSON.")] = False,
+    gradescope: Annotated[
+        Path | None, typer.Option("--gradescope", metavar="FILE", help="Write Gradescope's results.json.")
+    ] = None,
+    classroom: Annotated[
+        Path | None, typer.Option("--classroom", metavar="FILE", help="Write the result for GitHub Classroom.")
+    ] = None,
+    record: Annotated[
+        Path | None, typer.Option("--record", metavar="FOLDER", help="Record everything, to look at it in the viewer.")
+    ] = None,
+    jobs: Annotated[int, typer.Option("--jobs", "-j", metavar="N", min=1, help="With --all: folders at a time.")] = 2,
+) -> None:
+    """Grade the nodes of a folder by what they publish: 100 points, and 10 for each of four extensions.
+
+    The nodes run with a simulated clock and limits on time, memory and output. The exit code is 0 whatever the grade.
+
+    Example: coframe lab check my_lab
+    """
+    chosen = tuple(only or CRITERIA)
+    if unknown := set(chosen) - set(CRITERIA):
+        fail(f"--only: there is no criterion {', '.join(sorted(unknown))}", f"Criteria: {', '.join(CRITERIA)}.", code=2)
+    with run_to_completion():
+        if problem := isolation_problem():
+            warn(problem)
+        if everyone:
+            _check_class(folder, output, jobs, variant, chosen)
+            return
+        with item_progress("checking", len(chosen)) as progress:
+            report = check_folder(folder, variant=variant, only=chosen, record=record, progress=progress)
+        for path, convert in ((gradescope, formats.gradescope), (classroom, formats.classroom)):
+            if path is not None:
+                path.write_text(json.dumps(convert(report), indent=2) + "\n", encoding="utf-8")
+        if as_json:
+            print(json.dumps(report, indent=2))
+            return
+        for line in formats.text(report):
+            print(printable(line))
+
+
+@lab.command("break", cls=PlainCommand, short_help="Start the system with a fault, for you to find.")
+def break_(
+    number: Annotated[
+        int, typer.Argument(metavar="N", min=1, max=len(FAULTS), help=f"Number of a fault, 1 to {len(FAULTS)}.")
+    ],
+    answer: Annotated[
+        str | None, typer.Option("--answer", metavar="FAULT", help="Your answer; nothing is started.")
+    ] = None,
+    browser: Annotated[bool, typer.Option("--browser", help="Open the viewer as well.")] = False,
+    duration: DurationOption = None,
+) -> None:
+    """Start the robot of the lab with one of ten faults. Find it with the viewer, echo, monitor and frames.
+
+    coframe doctor is the hint. Then give your answer: coframe lab break N --answer FAULT.
+
+    Example: coframe lab break 3
+    """
+    if answer is not None:
+        _print_verdict(number, answer)
+        return
+    seconds = duration_in_seconds("--duration", duration)
+    print(f"System {number} is running in this ROS domain. What is wrong with it? Stop it with Ctrl-C.")
+    print(f"Then answer with: coframe lab break {number} --answer FAULT, where FAULT is one of:")
+    print(f"  {', '.join(sorted(each.name for each in FAULTS))}", flush=True)
+    with run_until_interrupted():
+        _run(FAULTS[number - 1].programs, seconds, browser=browser, port=None)
+
+
+def _run(programs: Sequence[Program], seconds: float | None, *, browser: bool, port: int | None) -> None:
+    """Run programs and the viewer until Ctrl-C, or for some seconds; print the output of the programs."""
+    width = max(len(program.name) for program in programs)
+
+    def write(name: str, line: str) -> None:
+        print(f"{name:>{width}} | {printable(line)}", flush=True)
+
+    with coframe.connect("coframe_lab") as ros, optional_viewer(ros, port, browser=browser), running(programs, write):
+        threading.Event().wait(seconds)
+
+
+def _print_verdict(number: int, answer: str) -> None:
+    names = [each.name for each in FAULTS]
+    if answer not in names:
+        fail(f"{answer!r} is not the name of a fault", f"Faults: {', '.join(sorted(names))}.", code=2)
+    fault = FAULTS[number - 1]
+    if answer != fault.name:
+        fail("That is not the fault.", "Start it again, and run coframe doctor in a second terminal.")
+    print(f"Right: {fault.explanation}")
+
+
+def _check_class(folder: Path, output: Path | None, jobs: int, variant: int | None, only: tuple[str, ...]) -> None:
+    """Grade the folders of a class, print a table, and write it as CSV."""
+    from rich.table import Table  # noqa: PLC0415 - only for this table
+
+    folders = submissions(folder)
+    rows: list[dict[str, Any]] = []
+    with item_progress("checking", len(folders)) as progress:
+        for each, result in check_class(folders, jobs=jobs, variant=variant, only=only):
+            name = str(each.relative_to(folder))
+            is_report = isinstance(result, dict)
+            rows.append(formats.csv_row(name, result if is_report else None, "" if is_report else str(result)))
+            progress(len(rows))
+    rows.sort(key=lambda row: str(row["submission"]))
+    columns = list(dict.fromkeys(column for row in rows for column in row if column != "problem"))
+    if output is not None:
+        with output.open("w", encoding="utf-8", newline="") as file:
+            writer = csv.DictWriter(file, [*columns, "problem"], restval=0.0)
+            writer.writeheader()
+            writer.writerows({key: _safe(value) for key, value in row.items()} for row in rows)
+    table = Table(box=None, pad_edge=False, header_style="dim")
+    for column in columns:
+        table.add_column(column, justify="left" if column == "submission" else "right")
+    for row in rows:
+        table.add_row(*(printable(str(row.get(column, 0.0))) for column in columns))
+    report_console().print(table)
+
+
+def _safe(value: Any) -> Any:
+    """Return a cell that a spreadsheet does not take for a formula."""
+    return f"'{value}" if isinstance(value, str) and value[:1] in {"=", "+", "-", "@", "\t"} else value

@@ -1,0 +1,109 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Ten systems with one fault each, for students to find."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from coframe.course.running import Program
+
+__all__ = ["FAULTS", "Fault"]
+
+
+class Fault(NamedTuple):
+    """A system with a fault.
+
+    Attributes:
+        name: The name of the fault, which is the answer.
+        explanation: What is wrong, and how it can be found.
+        programs: The programs of the system.
+    """
+
+    name: str
+    explanation: str
+    programs: tuple[Program, ...]
+
+
+def _node(name: str, *parameters: str, title: str = "") -> Program:
+    words = [word for parameter in parameters for word in ("-p", parameter)]
+    title = title or name
+    remap = ("-r", f"__node:={title}") if title != name else ()
+    arguments = ("--ros-args", *remap, *words) if words or remap else ()
+    return Program(title, ("-m", f"coframe.lab.{name}", *arguments))
+
+
+def _faulty(fault: str, name: str) -> Program:
+    """Return a node of the lab in which a fault of coframe.course.faulty_node is built in."""
+    return Program(name, ("-m", "coframe.course.faulty_node", fault, name))
+
+
+_STATIC, _DYNAMIC = _node("static_tf_broadcaster"), _node("dynamic_tf_broadcaster")
+_LISTENER, _SENSOR = _node("tf_listener"), _node("sensor_transform")
+_LIDAR = _node("simulated_lidar", "fixed_frame:=base_link")
+_HALF = 0.5**0.5
+
+FAULTS = (
+    Fault(
+        "late broadcaster",
+        "The sensor mounts are published 20 s after everything else. Until then, every scan is dropped.",
+        (_faulty("late", "static_tf_broadcaster"), _DYNAMIC, _LISTENER, _LIDAR, _SENSOR),
+    ),
+    Fault(
+        "misspelt frame",
+        "The lidar is mounted as 'lidar_lnik', but its scans are in 'lidar_link'.",
+        (_node("static_tf_broadcaster", "lidar_frame:=lidar_lnik"), _DYNAMIC, _LISTENER, _LIDAR, _SENSOR),
+    ),
+    Fault(
+        "clock offset",
+        "The stamps of the arm are 5 s behind the clock, as if its computer had another time.",
+        (_STATIC, _faulty("offset", "dynamic_tf_broadcaster"), _LISTENER, _LIDAR, _SENSOR),
+    ),
+    Fault(
+        "missing static transform",
+        "No node publishes the sensor mounts, so the lidar is not connected to the robot.",
+        (_DYNAMIC, _LISTENER, _LIDAR, _SENSOR),
+    ),
+    Fault(
+        "second publisher",
+        "Two nodes publish the arm with different lengths: it flickers between two poses.",
+        (
+            _STATIC,
+            _DYNAMIC,
+            _node("dynamic_tf_broadcaster", "link_lengths:=[0.3, 0.6]", title="arm_driver"),
+            _LISTENER,
+            _LIDAR,
+            _SENSOR,
+        ),
+    ),
+    Fault(
+        "dropout",
+        "The arm is not published for 1 s in every 4 s.",
+        (_STATIC, _faulty("dropout", "dynamic_tf_broadcaster"), _LISTENER, _LIDAR, _SENSOR),
+    ),
+    Fault(
+        "swapped quaternion order",
+        "The rotation of the camera is in the order w, x, y, z instead of x, y, z, w.",
+        (
+            _node("static_tf_broadcaster", f"camera_rotation:=[{_HALF}, 0.0, {_HALF}, 0.0]"),
+            _DYNAMIC,
+            _LISTENER,
+            _LIDAR,
+            _SENSOR,
+        ),
+    ),
+    Fault(
+        "degrees",
+        "The joint angles are in degrees, but are used as radians: the arm turns around several times.",
+        (_STATIC, _faulty("degrees", "dynamic_tf_broadcaster"), _LISTENER, _LIDAR, _SENSOR),
+    ),
+    Fault(
+        "wrong parent",
+        "The second link is mounted on base_link instead of link1.",
+        (_STATIC, _faulty("wrong parent", "dynamic_tf_broadcaster"), _LISTENER, _LIDAR, _SENSOR),
+    ),
+    Fault(
+        "dead listener",
+        "The listener runs, but its first failed lookup has ended its timer: /end_effector_pose has no messages.",
+        (_STATIC, _DYNAMIC, _faulty("dead", "tf_listener"), _LIDAR, _SENSOR),
+    ),
+)

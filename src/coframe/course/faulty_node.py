@@ -1,0 +1,93 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A node of the lab with a fault: ``python -m coframe.course.faulty_node FAULT NODE``."""
+
+from __future__ import annotations
+
+import importlib
+import math
+import sys
+import time
+from typing import TYPE_CHECKING, Any
+
+import tf2_ros
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+__all__ = ["main"]
+
+_LATE = 20.0  # seconds
+_OFFSET = 5  # seconds
+_DROPOUT, _PERIOD = 1.0, 4.0  # seconds
+
+
+def _late(_module: Any) -> None:
+    time.sleep(_LATE)
+
+
+def _offset(_module: Any) -> None:
+    def shift(transforms: list[Any]) -> list[Any]:
+        for each in transforms:
+            each.header.stamp.sec -= _OFFSET
+        return transforms
+
+    _change_transforms(shift)
+
+
+def _dropout(_module: Any) -> None:
+    _change_transforms(lambda transforms: [] if time.monotonic() % _PERIOD < _DROPOUT else transforms)
+
+
+def _degrees(module: Any) -> None:
+    broadcast = module.DynamicFramePublisher.broadcast_arm_transforms
+    module.DynamicFramePublisher.broadcast_arm_transforms = lambda self, q1, q2, stamp: broadcast(
+        self, math.degrees(q1), math.degrees(q2), stamp
+    )
+
+
+def _wrong_parent(_module: Any) -> None:
+    def move(transforms: list[Any]) -> list[Any]:
+        for each in transforms:
+            if each.child_frame_id == "link2":
+                each.header.frame_id = "base_link"
+        return transforms
+
+    _change_transforms(move)
+
+
+def _dead(module: Any) -> None:
+    module.TransformListenerNode.query_transforms = lambda self: self.timer.cancel()
+
+
+_FAULTS: dict[str, Callable[[Any], None]] = {
+    "late": _late,
+    "offset": _offset,
+    "dropout": _dropout,
+    "degrees": _degrees,
+    "wrong parent": _wrong_parent,
+    "dead": _dead,
+}
+
+
+def _change_transforms(change: Callable[[list[Any]], list[Any]]) -> None:
+    """Change the transforms that a broadcaster sends."""
+    send = tf2_ros.TransformBroadcaster.sendTransform
+
+    def send_changed(self: Any, transform: Any) -> None:
+        if changed := change(list(transform) if isinstance(transform, list) else [transform]):
+            send(self, changed)
+
+    tf2_ros.TransformBroadcaster.sendTransform = send_changed  # type: ignore[method-assign]
+
+
+def main() -> None:
+    """Run the node in the second argument with the fault in the first one."""
+    fault, name = sys.argv[1:3]
+    del sys.argv[1:3]
+    module = importlib.import_module(f"coframe.lab.{name}")
+    _FAULTS[fault](module)
+    module.main()
+
+
+if __name__ == "__main__":
+    main()

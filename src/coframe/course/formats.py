@@ -1,0 +1,104 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Reports as text, and in the result formats of Gradescope and of GitHub Classroom."""
+
+from __future__ import annotations
+
+import textwrap
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+__all__ = ["classroom", "csv_row", "gradescope", "text"]
+
+_WIDTH = 100
+
+
+def text(report: dict[str, Any]) -> Iterator[str]:
+    """Yield the lines of a report for a terminal: each criterion with its facts; lost points with their reason."""
+    for criterion in report["criteria"]:
+        if criterion["bonus"] and not criterion["earned"] and criterion["problem"].startswith("There is no file"):
+            continue  # An extension that was not attempted.
+        bonus = " bonus" if criterion["bonus"] else ""
+        yield f"{criterion['name']} ({criterion['file']}): {_pair(criterion)}{bonus}"
+        if criterion["problem"]:
+            yield from _indented(criterion["problem"], "  ! ")
+            yield from (f"    | {line}" for line in criterion["last_lines"])
+        for fact in criterion["facts"]:
+            lost = fact["earned"] < fact["points"]
+            yield f"  {'-' if lost else '+'} {_pair(fact)}  {fact['name']}"
+            if lost:
+                yield from _indented(fact["expected"], "        expected: ")
+                yield from _indented(fact["observed"], "        observed: ")
+                yield from _indented(fact["cause"], "        likely cause: ")
+                yield from _indented(fact["read"], "        read: ")
+        yield ""
+    yield from report["notices"]
+    bonus = f" + {report['bonus']:g} bonus" if report["bonus"] else ""
+    yield f"Grade: {report['earned']:g} of {report['points']}{bonus}"
+
+
+def _pair(item: dict[str, Any]) -> str:
+    return f"{item['earned']:g} / {item['points']:g}"
+
+
+def _indented(content: str, start: str) -> list[str]:
+    if not content:
+        return []
+    return textwrap.wrap(content, _WIDTH, initial_indent=start, subsequent_indent=" " * len(start))
+
+
+def gradescope(report: dict[str, Any]) -> dict[str, Any]:
+    """Return a report as Gradescope's ``results.json``: one test for each fact."""
+    return {
+        "score": report["earned"] + report["bonus"],
+        "output": "\n".join(report["notices"]),
+        "tests": [
+            {
+                "name": f"{criterion['name']}: {fact['name']}",
+                "score": fact["earned"],
+                "max_score": 0 if criterion["bonus"] else fact["points"],
+                "status": "passed" if fact["earned"] == fact["points"] else "failed",
+                "output": _explanation(criterion, fact),
+            }
+            for criterion in report["criteria"]
+            for fact in criterion["facts"]
+        ],
+    }
+
+
+def classroom(report: dict[str, Any]) -> dict[str, Any]:
+    """Return a report as the result of a runner of GitHub Classroom's autograding."""
+    tests = [
+        {
+            "name": f"{criterion['name']}: {fact['name']}",
+            "status": "pass" if fact["earned"] == fact["points"] else "fail",
+            "message": _explanation(criterion, fact),
+            "score": fact["earned"],
+            "max_score": 0 if criterion["bonus"] else fact["points"],
+            "filename": criterion["file"],
+        }
+        for criterion in report["criteria"]
+        for fact in criterion["facts"]
+    ]
+    status = "pass" if report["earned"] == report["points"] else "fail"
+    return {"version": 1, "status": status, "max_score": report["points"], "tests": tests}
+
+
+def csv_row(folder: str, report: dict[str, Any] | None, problem: str = "") -> dict[str, Any]:
+    """Return the row of a table of grades: the folder, the sum, each criterion, and the first problem."""
+    row: dict[str, Any] = {"submission": folder, "grade": 0.0, "bonus": 0.0}
+    if report is not None:
+        row |= {"grade": report["earned"], "bonus": report["bonus"]}
+        row |= {criterion["name"]: criterion["earned"] for criterion in report["criteria"]}
+        problem = next((criterion["problem"] for criterion in report["criteria"] if criterion["problem"]), "")
+    return {**row, "problem": problem}
+
+
+def _explanation(criterion: dict[str, Any], fact: dict[str, Any]) -> str:
+    if fact["earned"] == fact["points"]:
+        return ""
+    parts = [f"expected: {fact['expected']}", f"observed: {fact['observed']}"]
+    parts += [f"likely cause: {fact['cause']}"] if fact["cause"] else []
+    parts += [f"read: {fact['read']}"] if fact["read"] else []
+    return "\n".join([*([criterion["problem"]] if criterion["problem"] else []), *parts])

@@ -1,0 +1,119 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The programs of a folder as processes, whose output is printed with their names."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+from pathlib import Path
+from typing import TYPE_CHECKING, NamedTuple
+
+from coframe.errors import CourseError
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator, Sequence
+
+__all__ = ["COMPLETE_TREE", "SIMULATION", "STEPS", "Program", "programs_of", "running"]
+
+STEPS = ("static_tf_broadcaster.py", "dynamic_tf_broadcaster.py", "tf_listener.py", "sensor_transform.py")
+COMPLETE_TREE = ("complete_tf_tree.py", "tf_listener.py", "sensor_transform.py")
+_STOP_PATIENCE = 3.0  # seconds between SIGINT and SIGKILL
+
+
+class Program(NamedTuple):
+    """A program: its name, and the words after ``python`` that start it."""
+
+    name: str
+    words: tuple[str, ...]
+
+
+# What stands for the robot: joints that move, and a lidar. Their names differ from those of a student's nodes.
+SIMULATION = (
+    Program(
+        "simulated joints",
+        (
+            *("-m", "coframe.lab.dynamic_tf_broadcaster", "--ros-args", "-r", "__node:=simulated_joints"),
+            *("-p", "publish_joint_states:=true"),
+        ),
+    ),
+    Program("simulated lidar", ("-m", "coframe.lab.simulated_lidar", "--ros-args", "-p", "fixed_frame:=base_link")),
+)
+
+
+def programs_of(folder: Path, names: Sequence[str]) -> list[Program]:
+    """Return those of the named programs that a folder contains.
+
+    Raises:
+        CourseError: It contains none of them.
+    """
+    found = [Program(Path(name).stem, (str(folder / name),)) for name in names if (folder / name).is_file()]
+    if not found:
+        raise CourseError(
+            f"{folder} contains none of the files {', '.join(names)}.", hint="Create a folder with coframe lab new."
+        )
+    return found
+
+
+@contextlib.contextmanager
+def running(programs: Sequence[Program], write: Callable[[str, str], None]) -> Iterator[None]:
+    """Run programs during the block.
+
+    Args:
+        programs: The programs.
+        write: Called from other threads with the name of a program and a line of its output, or with what happened.
+    """
+    processes: list[tuple[Program, subprocess.Popen[str]]] = []
+    threads = []
+    stopping = threading.Event()
+    try:
+        for program in programs:
+            process = subprocess.Popen(  # noqa: S603 - the user's own programs
+                [sys.executable, *program.words],
+                stdin=subprocess.DEVNULL,
+                stdout=subprocess.PIPE,
+                stderr=subprocess.STDOUT,
+                text=True,
+                errors="replace",
+                env={**os.environ, "PYTHONUNBUFFERED": "1"},
+                start_new_session=True,  # Ctrl-C reaches this process, which stops the others.
+            )
+            processes.append((program, process))
+            thread = threading.Thread(target=_forward, args=(program.name, process, write, stopping), daemon=True)
+            thread.start()
+            threads.append(thread)
+        yield
+    finally:
+        stopping.set()
+        _stop([process for _, process in processes])
+        for thread in threads:
+            thread.join(1.0)
+
+
+def _forward(
+    name: str, process: subprocess.Popen[str], write: Callable[[str, str], None], stopping: threading.Event
+) -> None:
+    assert process.stdout is not None
+    with process.stdout as output:
+        for line in output:
+            write(name, line.rstrip("\n"))
+    code = process.wait()
+    if not stopping.is_set():
+        write(name, f"ended with exit code {code}")
+
+
+def _stop(processes: list[subprocess.Popen[str]]) -> None:
+    for process in processes:
+        if process.poll() is None:
+            process.send_signal(signal.SIGINT if os.name == "posix" else signal.SIGTERM)
+    deadline = time.monotonic() + _STOP_PATIENCE
+    for process in processes:
+        try:
+            process.wait(max(0.0, deadline - time.monotonic()))
+        except subprocess.TimeoutExpired:
+            process.kill()
+            process.wait()
