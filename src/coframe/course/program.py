@@ -49,7 +49,8 @@ class Program:
 
     Attributes:
         file: The program.
-        violation: A sentence about the limit that it has exceeded; "" if it has not.
+        violation: A sentence about the limit that it has exceeded, or about why it cannot be checked; "" if there is
+            none.
     """
 
     def __init__(self, file: Path, scratch: Path) -> None:

@@ -31,8 +31,9 @@ __all__ = ["STEP", "Received", "World", "stamp_of"]
 
 STEP = 10 * MILLISECOND  # of the simulated clock
 _START = 1000 * SECOND
+_NOT_JOINED = "The program does not join the ROS graph: it needs rclpy.init() and a node that spins."
 _NODE = "lab_check"
-_START_PATIENCE = 20.0  # seconds of real time until the node of a program must have joined the graph
+_START_PATIENCE = 15.0  # seconds of real time until the node of a program must have joined the graph
 _RESPONSE = 1.0  # seconds of real time that a node may take for one callback
 _MOST_MISSED = 5  # responses, after which the world does not wait for the node any more
 _QUIET = 0.002  # seconds of real time without a message, after which all messages of a step have arrived
@@ -129,6 +130,11 @@ class World:
             if names and self._node.count_subscribers("/clock") and all(map(self._has_parameters, names)):
                 break
             self._executor.spin_once(timeout_sec=0.02)
+        else:
+            if program.is_running():
+                program.violation = (
+                    "The program does not join the ROS graph: it needs rclpy.init() and a node that spins."
+                )
         for name in self._other_nodes():
             if self._has_parameters(name):
                 self._probes.append(self._node.create_client(GetParameters, f"{name}/get_parameters"))
