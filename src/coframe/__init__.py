@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from coframe.errors import (
         CoframeError,
         ConnectivityException,
+        CourseError,
         DecodeError,
         ExtrapolationException,
         FrameMismatchException,
@@ -43,6 +44,7 @@ __all__ = [
     "CoframeError",
     "Connection",
     "ConnectivityException",
+    "CourseError",
     "DecodeError",
     "EdgeInfo",
     "ExtrapolationException",

@@ -21,6 +21,7 @@ PACKAGE = Path(coframe.__file__).parent
 ERRORS = {
     "CoframeError",
     "ConnectivityException",
+    "CourseError",
     "DecodeError",
     "ExtrapolationException",
     "FrameMismatchException",

@@ -114,7 +114,7 @@ def check(
 ) -> None:
     """Grade the nodes of a folder by what they publish: 100 points, and 10 for each of four extensions.
 
-    The nodes run with a simulated clock and limits on time, memory and output. The exit code is 0 whatever the grade.
+    The nodes run with a simulated clock and limits on time, memory and output. The exit code is 0 for every grade.
 
     Example: coframe lab check my_lab
     """
@@ -197,8 +197,10 @@ def _check_class(folder: Path, output: Path | None, jobs: int, variant: int | No
     with item_progress("checking", len(folders)) as progress:
         for each, result in check_class(folders, jobs=jobs, variant=variant, only=only):
             name = str(each.relative_to(folder))
-            is_report = isinstance(result, dict)
-            rows.append(formats.csv_row(name, result if is_report else None, "" if is_report else str(result)))
+            if isinstance(result, dict):
+                rows.append(formats.csv_row(name, result))
+            else:
+                rows.append(formats.csv_row(name, None, str(result)))
             progress(len(rows))
     rows.sort(key=lambda row: str(row["submission"]))
     columns = list(dict.fromkeys(column for row in rows for column in row if column != "problem"))

@@ -32,7 +32,7 @@ def check_folder(
     variant: int | None = None,
     only: tuple[str, ...] = CRITERIA,
     record: Path | None = None,
-    progress: Callable[[int], None] = lambda _done: None,
+    progress: Callable[[int], object] = lambda _done: None,
     number: int = 0,
 ) -> dict[str, Any]:
     """Grade a student's folder in an isolated process.
@@ -124,7 +124,7 @@ def check_class(
             yield running[done], done.result() if error is None else error
 
 
-def _follow(process: subprocess.Popen[bytes], result: Path, progress: Callable[[int], None]) -> None:
+def _follow(process: subprocess.Popen[bytes], result: Path, progress: Callable[[int], object]) -> None:
     """Report the progress until the process ends or its time is over."""
     deadline = time.monotonic() + _LIMIT
     while process.poll() is None and time.monotonic() < deadline:

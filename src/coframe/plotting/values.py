@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from coframe.errors import PlotError
+from coframe.errors import CoframeError, PlotError
 from coframe.formatting import listed
 from coframe.plotting.expressions import (
     ANGLES,
@@ -49,7 +49,7 @@ def coordinate(poses: Transform, quantity: str) -> NDArray[np.float64]:
     return poses.translation[:, "xyz".index(quantity)]
 
 
-class NoElementError(Exception):
+class NoElementError(CoframeError, LookupError):
     """A sequence in a message is too short for the index."""
 
 

@@ -115,7 +115,7 @@ def _check_tree(sheet: Sheet, edges: list[Any]) -> None:
         expected="world -> map -> odom -> base_link -> arm and sensors",
         observed="; ".join([*wrong, *([f"missing: {', '.join(missing)}"] if missing else [])])
         + (f"; {len(trees.roots)} trees" if len(trees.roots) > 1 else ""),
-        cause="a misspelt frame, or a parent that nobody publishes",
+        cause="a misspelt frame, or a parent that is not published",
         read=_READ,
     )
 
