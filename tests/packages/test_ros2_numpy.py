@@ -53,6 +53,24 @@ def test_clouds_with_gaps_padding_and_other_byte_order():
         numpify(cloud)
 
 
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"datatype": 99},
+        {"offset": 24},
+        {"offset": 2**32 - 1},
+        {"count": 2**32 - 1},
+        {"name": "y"},
+    ],
+)
+def test_invalid_fields_are_rejected(changes):
+    cloud = msgify(PointCloud2, POINTS)
+    for name, value in changes.items():
+        setattr(cloud.fields[0], name, value)
+    with pytest.raises(ValueError, match=r"."):
+        numpify(cloud)
+
+
 def test_points_that_are_not_finite_are_skipped():
     points = POINTS.copy()
     points["y"][1], points["z"][2] = np.nan, np.inf
@@ -61,6 +79,9 @@ def test_points_that_are_not_finite_are_skipped():
     assert msgify(PointCloud2, POINTS).is_dense
     assert ros2_numpy.point_cloud2.pointcloud2_to_xyz_array(cloud)[:, 0].tolist() == [0.0, 3.0, 4.0]
     assert len(ros2_numpy.point_cloud2.get_xyz_points(numpify(cloud), remove_nans=False)) == 5
+    organized = numpify(msgify(PointCloud2, POINTS[:4].reshape(2, 2)))
+    assert ros2_numpy.point_cloud2.get_xyz_points(organized).shape == (4, 3)
+    assert ros2_numpy.point_cloud2.get_xyz_points(organized, remove_nans=False).shape == (2, 2, 3)
 
 
 def test_clouds_from_dictionaries():

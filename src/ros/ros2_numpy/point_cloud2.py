@@ -66,8 +66,14 @@ def fields_to_dtype(fields: Iterable[PointField], point_step: int | None = None)
     Args:
         fields: Fields of a point. Those with a count above 1 become subarrays.
         point_step: Size of a point in bytes. None: points end with their last field.
+
+    Raises:
+        ValueError: A field has an unknown type, has the name of another one, or ends after the point.
     """
     fields = list(fields)
+    unknown = [field for field in fields if field.datatype not in _TYPES]
+    if unknown:
+        raise ValueError(f"The field {unknown[0].name!r} of a point cloud has the unknown type {unknown[0].datatype}.")
     description: dict[str, Any] = {
         "names": [field.name for field in fields],
         "formats": [(_TYPES[field.datatype], (field.count,) if field.count > 1 else ()) for field in fields],
@@ -104,7 +110,7 @@ def pointcloud2_to_array(cloud_msg: PointCloud2, squeeze: bool = True) -> PointA
         squeeze: Whether a cloud of one row has the shape (width,) instead of (1, width).
 
     Raises:
-        ValueError: The data does not have the size of the cloud.
+        ValueError: The data does not have the size of the cloud, or the fields are not valid.
     """
     dtype = fields_to_dtype(cloud_msg.fields, cloud_msg.point_step)
     dtype = dtype.newbyteorder(">" if cloud_msg.is_bigendian else "<")
@@ -211,10 +217,11 @@ def get_xyz_points(cloud_array: Array, remove_nans: bool = True, dtype: DTypeLik
         remove_nans: Whether to skip points with a value that is not finite.
         dtype: Type of the result.
     """
-    points = np.asarray(cloud_array)
+    xyz: Array = structured_to_unstructured(np.asarray(cloud_array)[_XYZ])
     if remove_nans:
-        points = points[np.isfinite(points["x"]) & np.isfinite(points["y"]) & np.isfinite(points["z"])]
-    return structured_to_unstructured(points[_XYZ], dtype=np.dtype(dtype))
+        finite = np.isfinite(xyz[..., 0]) & np.isfinite(xyz[..., 1]) & np.isfinite(xyz[..., 2])
+        xyz = xyz.reshape(-1, 3) if finite.all() else xyz[finite]
+    return xyz.astype(dtype)
 
 
 def pointcloud2_to_xyz_array(cloud_msg: PointCloud2, remove_nans: bool = True) -> Array:
