@@ -27,7 +27,6 @@ from rclpy.event_handler import EventHandler, MismatchReporter, PublisherEventCa
 from rclpy.exceptions import NameValidationException, NotInitializedException, RCLError, _with_hint
 from rclpy.guard_condition import GuardCondition
 from rclpy.impl.rcutils_logger import RcutilsLogger
-from rclpy.logging_service import LoggingService
 from rclpy.parameter import Parameter
 from rclpy.parameter_service import ParameterService
 from rclpy.publisher import Publisher
@@ -148,6 +147,8 @@ class Node(NodeParameters, NodeGraph):
             if start_parameter_services:
                 ParameterService(self)
             if enable_logger_service:
+                from rclpy.logging_service import LoggingService  # noqa: PLC0415 - few nodes have it
+
                 LoggingService(self)
         except BaseException:
             self.destroy_node()  # The caller has no reference to the node.
