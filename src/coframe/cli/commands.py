@@ -10,6 +10,7 @@ import typer
 
 import coframe
 from coframe.cli.help_format import PlainCommand, PlainGroup
+from coframe.cli.ros_arguments import NodeCommand
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -18,21 +19,23 @@ __all__ = ["COMMANDS", "build_app"]
 
 # These commands pass unknown words on: --ros-args to a node, NAME:=VALUE to a xacro file.
 _PASSES_WORDS_ON = {"context_settings": {"ignore_unknown_options": True, "allow_extra_args": True}}
+# These replace tools of ROS 2 whose nodes are renamed by --ros-args.
+_NODE = {"cls": NodeCommand}
 # The line in `coframe --help`, and how the command is registered. `module` is its module if that does not have the name
-# of the command; `cls` is the name of a class in its module.
+# of the command; `cls` is a class, or the name of one in its module.
 COMMANDS: dict[str, tuple[str, dict[str, Any]]] = {
     "demo": ("Start a simulated robot and show its moving transform tree.", {}),
     "lab": ("Do the lab, and grade it: new, run, check, break.", {}),
     "view": ("Show frames, sensor data and markers in a browser tab.", {}),
     "doctor": ("Find problems with transforms, live or in a recording.", {}),
     "why": ("Explain why a transform is available, or why it is not.", {}),
-    "frames": ("Show the transform trees, or write a diagram of them.", {}),
-    "monitor": ("Show rate, jitter, delay and age of live transforms.", {}),
-    "echo": ("Print a live transform repeatedly, like tf2_echo.", {}),
+    "frames": ("Show the transform trees, or write a diagram of them.", _NODE),
+    "monitor": ("Show rate, jitter, delay and age of live transforms.", _NODE),
+    "echo": ("Print a live transform repeatedly, like tf2_echo.", _NODE),
     "static": (
         "Publish a static transform, like static_transform_publisher.",
         # Numbers of a transform may be negative, so the command reads its arguments itself.
-        {"add_help_option": False, **_PASSES_WORDS_ON},
+        {"add_help_option": False, **_PASSES_WORDS_ON, **_NODE},
     ),
     "robot": ("Publish a robot's transforms, like robot_state_publisher.", _PASSES_WORDS_ON),
     "joints": ("Publish joint states, like joint_state_publisher.", _PASSES_WORDS_ON),
@@ -101,7 +104,8 @@ def build_app(names: Iterable[str], existing: Iterable[str] = COMMANDS, program:
         if isinstance(command, typer.Typer):
             app.add_typer(command, name=name, cls=PlainGroup, short_help=line)
         else:
-            cls = getattr(module, options.pop("cls")) if "cls" in options else PlainCommand
+            cls = options.pop("cls", PlainCommand)
+            cls = getattr(module, cls) if isinstance(cls, str) else cls
             app.command(**options, cls=cls, short_help=line)(command)
     return app
 

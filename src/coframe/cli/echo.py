@@ -25,6 +25,7 @@ from coframe.cli.options import (
     parse_duration,
 )
 from coframe.cli.output import awaited_statics_text, fail, log, with_doctor_command
+from coframe.cli.ros_arguments import node_identity
 from coframe.errors import TransformException
 from coframe.time import MICROSECOND, SECOND
 
@@ -88,6 +89,8 @@ def echo(
     The latest transform is printed, unless --offset or --at is given. The frames are in the order of tf2_echo, which is
     also the order of TARGET and SOURCE in coframe lookup: the pose of the second frame relative to the first.
 
+    Arguments after --ros-args remap the node and the topics: -r __node:=NAME, -r /tf:=TOPIC.
+
     Example: coframe echo base_link camera_link 2
     """
     hertz = _positive("Rate", rate if rate is not None else _positional_rate(echo_rate), MAX_RATE)
@@ -104,7 +107,7 @@ def echo(
     with (
         run_until_interrupted(),
         coframe.connect(
-            NODE,
+            **node_identity(NODE),
             domain=domain,
             tf_topic=tf_topic,
             tf_static_topic=tf_static_topic,

@@ -29,6 +29,7 @@ from coframe.cli.options import (
 )
 from coframe.cli.output import fail, printable, report_console, warn
 from coframe.cli.progress import reading_progress
+from coframe.cli.ros_arguments import node_identity
 from coframe.doctor import observe_recording
 from coframe.time import SECOND
 from coframe.tree_drawing import grow
@@ -99,6 +100,8 @@ def frames(
 ) -> None:
     """Show the transform trees with the rate, delay and age of each edge, live or in the recording BAG.
 
+    Arguments after --ros-args remap the node and the topics: -r __node:=NAME, -r /tf:=TOPIC.
+
     Example: coframe frames run.mcap -o frames.svg
     """
     files = [_checked_output(path) for path in output or []]
@@ -125,7 +128,7 @@ def frames(
         from coframe.doctor.live import LiveObserver  # noqa: PLC0415 - recordings need no DDS
 
         names |= {"tf_topic": tf_topic or TF_TOPIC, "tf_static_topic": tf_static_topic or TF_STATIC_TOPIC}
-        with LiveObserver(domain, window=window, node_name="coframe_frames", **names) as observer:
+        with LiveObserver(domain, window=window, **node_identity("coframe_frames"), **names) as observer:
             if watching:
                 watch(observer, as_json)
                 return

@@ -25,6 +25,7 @@ from coframe.cli.options import (
     positive_duration,
 )
 from coframe.cli.output import fail, printable, report_console
+from coframe.cli.ros_arguments import node_identity
 from coframe.doctor.figures import chain_figures, edge_figures, publisher_figures
 from coframe.time import MILLISECOND, SECOND
 
@@ -62,6 +63,8 @@ def monitor(
 ) -> None:
     """Show the rate, jitter, delay and age of each edge and publisher, and which edge delays a chain.
 
+    Arguments after --ros-args remap the node and the topics: -r __node:=NAME, -r /tf:=TOPIC.
+
     Example: coframe monitor map base_link --once
     """
     if (target is None) != (source is None):
@@ -78,7 +81,7 @@ def monitor(
             window=window,
             tf_topic=tf_topic,
             tf_static_topic=tf_static_topic,
-            node_name="coframe_monitor",
+            **node_identity("coframe_monitor"),
             prefix=prefix,
             keep=keep,
         ) as observer:

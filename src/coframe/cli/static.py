@@ -13,6 +13,7 @@ import typer
 from coframe.cli.lifecycle import run_until_interrupted
 from coframe.cli.options import checked_prefix
 from coframe.cli.output import fail, log
+from coframe.cli.ros_arguments import NodeIdentity, node_identity
 from coframe.cli.static_arguments import ArgumentError, StaticArguments, parse
 from coframe.frame_names import renaming
 from coframe.messages.conversions import to_transform_stamped
@@ -47,6 +48,8 @@ Options:
   --prefix PREFIX          Prefix for all frame names, with its slash, e.g.
                            robot1/.
   --keep FRAMES            Shared frames that get no prefix, e.g. map,world.
+  --ros-args -r __node:=NAME -r __ns:=/NAMESPACE -r /tf_static:=TOPIC
+                           Names of the node and of the topic.
   --help                   Show this message and exit.
 """
 
@@ -59,7 +62,9 @@ def static(context: typer.Context) -> None:
     if not context.args or {"-h", "--help"} & set(context.args):
         typer.echo(USAGE, nl=False)
         raise typer.Exit(0 if context.args else 2)
-    node = "static_transform_publisher_" + "".join(secrets.choice(string.ascii_letters) for _ in range(16))
+    suffix = "".join(secrets.choice(string.ascii_letters) for _ in range(16))
+    identity = node_identity(f"static_transform_publisher_{suffix}")
+    node = identity["node_name"]
     try:
         arguments = parse(context.args)
     except ArgumentError as error:
@@ -76,7 +81,7 @@ def static(context: typer.Context) -> None:
         )
     _add_prefix(arguments)
     with run_until_interrupted():
-        _publish_until_stopped(arguments, node)
+        _publish_until_stopped(arguments, identity)
 
 
 def _add_prefix(arguments: StaticArguments) -> None:
@@ -86,13 +91,14 @@ def _add_prefix(arguments: StaticArguments) -> None:
         arguments.frame_id, arguments.child_frame_id = names(arguments.frame_id), names(arguments.child_frame_id)
 
 
-def _publish_until_stopped(arguments: StaticArguments, node: str) -> None:
+def _publish_until_stopped(arguments: StaticArguments, identity: NodeIdentity) -> None:
     participant = Participant.get(arguments.domain)
     try:
-        writer = participant.static_broadcaster(participant.add_node("/", node), arguments.tf_static_topic)
+        node = participant.add_node(identity["namespace"], identity["node_name"])
+        writer = participant.static_broadcaster(node, arguments.tf_static_topic)
         names = (arguments.frame_id, arguments.child_frame_id)
         writer.send([to_transform_stamped(*names, arguments.transform, time.time_ns())])
-        log("INFO", node, _announcement(arguments))
+        log("INFO", node.name, _announcement(arguments))
         threading.Event().wait()
     finally:
         participant.close()

@@ -97,6 +97,7 @@ class LiveObserver:
         cache: The assumed cache length of the listeners' buffers, in nanoseconds.
         window: The duration that observations cover, in nanoseconds. If None, they cover everything since the start.
         node_name: The name of the node.
+        namespace: The namespace of the node: "/" or "/a/b".
         prefix: A prefix for the frames of transforms and sensors, used as given.
         keep: The frames that are shared by robots and get no prefix.
 
@@ -114,6 +115,7 @@ class LiveObserver:
         cache: int = DEFAULT_CACHE,
         window: int | None = None,
         node_name: str = "coframe_doctor",
+        namespace: str = "/",
         prefix: str = "",
         keep: Iterable[str] = (),
     ) -> None:
@@ -130,7 +132,7 @@ class LiveObserver:
         self._static_writers: set[int] = set()  # those that have delivered
         self._topics: dict[str, _Topic] = {}
         try:
-            self._node = self._participant.add_node("/", node_name)
+            self._node = self._participant.add_node(namespace, node_name)
             self._transforms = {
                 topic: (self._subscribe(topic, TF_TYPE, qos, _WHOLE_MESSAGE), static)
                 for topic, qos, static in ((tf_topic, TF, False), (tf_static_topic, TF_STATIC_READER, True))

@@ -1,0 +1,134 @@
+# SPDX-License-Identifier: Apache-2.0
+"""``--ros-args`` of commands that replace ROS 2's tools, such as ``coframe static``.
+
+The names of the node and of the topics of transforms can be remapped. Other arguments, such as parameters, are accepted
+because ROS 2's tools accept them, but have no effect. rclpy's parser is not used, as that of a sourced ROS has none
+that programs can call.
+"""
+
+from __future__ import annotations
+
+import re
+from contextvars import ContextVar
+from typing import TYPE_CHECKING, Any, NamedTuple, NoReturn, TypedDict
+
+from coframe.cli.help_format import PlainCommand
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+__all__ = ["NodeCommand", "NodeIdentity", "node_identity"]
+
+_START, _END = "--ros-args", "--"
+_WITH_ARGUMENT = {"-p", "--param", "--params-file", "--log-level", "--log-config-file", "-e", "--enclave"}
+_SWITCH = re.compile(r"--(?:enable|disable)-(?:rosout|stdout|external-lib)-logs")
+_RULE = re.compile(r"(?:(?P<node>[A-Za-z_]\w*):(?!/))?(?P<match>[^:]+):=(?P<replacement>.*)")
+_NAME = re.compile(r"[A-Za-z_]\w*", re.ASCII)
+_NAMESPACE = re.compile(r"/|(?:/[A-Za-z_]\w*)+", re.ASCII)
+_TOPIC = re.compile(r"[~/]?[A-Za-z_]\w*(?:/[A-Za-z_]\w*)*", re.ASCII)
+_OPTIONS = {"/tf": "--tf-topic", "/tf_static": "--tf-static-topic"}
+
+
+class NodeIdentity(TypedDict):
+    """The name of a node, as keyword arguments of `coframe.connect`."""
+
+    node_name: str
+    namespace: str
+
+
+class _Rule(NamedTuple):
+    """A remapping rule, for one node or, if `node` is None, for any."""
+
+    node: str | None
+    match: str
+    replacement: str
+
+
+_rules: ContextVar[tuple[_Rule, ...]] = ContextVar("rules", default=())
+
+
+class NodeCommand(PlainCommand):
+    """A command whose node is named by the remapping rules after ``--ros-args``."""
+
+    def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
+        """Take ``--ros-args ... --`` out of the arguments, and parse the others with the remapped topics."""
+        own, rules = _split(args)
+        _rules.set(rules)
+        namespace = node_identity("")["namespace"]
+        for rule in rules:
+            option = _OPTIONS.get(_full_name(rule.match, namespace))
+            if option is not None and option not in own:
+                own += [option, _full_name(rule.replacement, namespace)]
+        return super().parse_args(ctx, own)
+
+
+def node_identity(default: str) -> NodeIdentity:
+    """Return the name and the namespace of the node of this command after remapping.
+
+    Args:
+        default: The name without a rule.
+    """
+    found = {"__node": default, "__ns": "/"}
+    for rule in reversed(_rules.get()):  # The first rule that matches applies.
+        match = "__node" if rule.match == "__name" else rule.match
+        if match in found and rule.node in {None, default}:
+            found[match] = rule.replacement
+    return NodeIdentity(node_name=found["__node"], namespace=found["__ns"])
+
+
+def _full_name(topic: str, namespace: str) -> str:
+    return topic if topic.startswith("/") else f"{namespace.rstrip('/')}/{topic}"
+
+
+def _split(args: list[str]) -> tuple[list[str], tuple[_Rule, ...]]:
+    """Return the arguments outside of ``--ros-args ... --``, and the remapping rules inside."""
+    own: list[str] = []
+    rules: list[_Rule] = []
+    words = iter(args)
+    for word in words:
+        if word == _START:
+            rules += _section(words)
+        else:
+            own.append(word)
+    return own, tuple(rules)
+
+
+def _section(words: Iterator[str]) -> Iterator[_Rule]:
+    for word in words:
+        if word == _END:
+            return
+        if word in {"-r", "--remap"}:
+            yield _parse(_argument(word, words))
+        elif word in _WITH_ARGUMENT:
+            _argument(word, words)
+        elif ":=" in word and not word.startswith("-"):
+            yield _parse(word)
+        elif word != _START and not _SWITCH.fullmatch(word):
+            _fail(
+                f"{word!r} is not a ROS argument.",
+                "Write the command's own options before --ros-args, and remapping rules as -r FROM:=TO.",
+            )
+
+
+def _argument(flag: str, words: Iterator[str]) -> str:
+    word = next(words, None)
+    if word is None:
+        _fail(f"{flag} requires an argument.", "For example: --ros-args -r __node:=my_node")
+    return word
+
+
+def _parse(rule: str) -> _Rule:
+    parts = _RULE.fullmatch(rule)
+    if parts is None:
+        _fail(f"{rule!r} is not a remapping rule.", "Write FROM:=TO, for example: -r /tf:=/robot1/tf")
+    match, replacement = parts["match"], parts["replacement"]
+    pattern = {"__node": _NAME, "__name": _NAME, "__ns": _NAMESPACE}.get(match, _TOPIC)
+    if not pattern.fullmatch(replacement):
+        _fail(f"{rule!r}: {replacement!r} is not a valid name.", "Namespaces begin with a slash: __ns:=/robot1")
+    return _Rule(parts["node"], match, replacement)
+
+
+def _fail(text: str, hint: str) -> NoReturn:
+    from coframe.cli.output import fail  # noqa: PLC0415 - imports NumPy, which `coframe --help` does not need
+
+    fail(text, hint, code=2)
