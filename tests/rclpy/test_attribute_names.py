@@ -34,7 +34,7 @@ _OF_FUTURES = {
     *("_set_executor", "_is_protocol"),
 }
 _OF_CALLBACK_ENTITIES = {"callback", "callback_group"}
-_OF_EXECUTORS = {"_context", "_nodes"}
+_OF_EXECUTORS = {"_context", "_nodes", "_wait_for_ready_callbacks"}
 _OF_LISTENERS = {"buffer", "group", "node", "tf_static_sub", "tf_sub"}
 _IN_ROS = {
     "Publisher": {"event_handlers", "msg_type", "qos_profile", "topic"},

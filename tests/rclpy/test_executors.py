@@ -11,12 +11,14 @@ import rclpy
 from rclpy.callback_groups import MutuallyExclusiveCallbackGroup, ReentrantCallbackGroup
 from rclpy.context import Context
 from rclpy.executors import (
+    Executor,
     ExternalShutdownException,
     MultiThreadedExecutor,
     ShutdownException,
     SingleThreadedExecutor,
     TimeoutException,
 )
+from rclpy.experimental import EventsExecutor
 from rclpy.task import Future
 from std_msgs.msg import String
 
@@ -425,3 +427,63 @@ def test_rate_beside_a_spinning_thread(context, node):
     assert 0.07 < time.monotonic() - start < 1
     executor.shutdown()
     thread.join()
+
+
+class Priority(Executor):
+    """An executor of a user, written like that of ROS 2's examples."""
+
+    def __init__(self, **options):
+        super().__init__(**options)
+        self.ran = []
+
+    def spin_once(self, timeout_sec=None):
+        try:
+            handler, entity, node = self.wait_for_ready_callbacks(timeout_sec=timeout_sec)
+        except (ShutdownException, TimeoutException):
+            return
+        self.ran.append((type(entity).__name__, node.get_name()))
+        handler()
+        if handler.exception() is not None:
+            raise handler.exception()
+
+    def spin_once_until_future_complete(self, _, timeout_sec=None):
+        self.spin_once(timeout_sec)
+
+
+def test_an_executor_of_the_user(context, node):
+    executor, done = Priority(context=context), Future()
+    executor.add_node(node)
+    timer = node.create_timer(0.01, lambda: done.set_result("fired"))
+    executor.spin_until_future_complete(done, timeout_sec=5)
+    assert done.result() == "fired"
+    assert executor.ran == [("Timer", "tester")]
+    timer.cancel()
+    node.create_guard_condition(lambda: 1 / 0).trigger()
+    with pytest.raises(ZeroDivisionError):
+        executor.spin_once(timeout_sec=5)
+    bare = Executor(context=context)
+    bare.create_task(print)
+    with pytest.raises(NotImplementedError):
+        bare.spin_once(timeout_sec=1)
+
+
+def test_callbacks_that_are_ready_together_are_yielded_together(context, node):
+    executor = SingleThreadedExecutor(context=context)
+    executor.add_node(node)
+    guards = [node.create_guard_condition(lambda: None, ReentrantCallbackGroup()) for _ in range(3)]
+    for guard in guards:
+        guard.trigger()
+    ready = list(executor._wait_for_ready_callbacks(timeout_sec=5))
+    assert [entity for _, entity, _ in ready] == guards
+    for handler, _, _ in ready:
+        handler()
+
+
+def test_sizes_of_the_pool_and_the_events_executor(context, node):
+    with pytest.raises(ValueError, match="max_workers must be greater than 0"):
+        MultiThreadedExecutor(num_threads=0, context=context)
+    executor, fired = EventsExecutor(context=context), []
+    executor.add_node(node)
+    node.create_timer(0.01, lambda: fired.append(True))
+    executor.spin_once(timeout_sec=5)
+    assert fired == [True]

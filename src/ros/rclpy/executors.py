@@ -13,6 +13,7 @@ import time
 import weakref
 from collections import deque
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import suppress
 from typing import TYPE_CHECKING, Any, Final, Protocol
 
 from rclpy.constants import S_TO_NS
@@ -22,7 +23,7 @@ from rclpy.utilities import get_default_context
 from rclpy.waitable import NumberOfEntities, Waitable  # noqa: F401 - programs import them from here
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Coroutine, Iterable
+    from collections.abc import Callable, Coroutine, Iterable, Iterator
     from types import TracebackType
 
     from typing_extensions import Self
@@ -224,13 +225,12 @@ class Executor:
         Raises:
             ExternalShutdownException: The context was shut down.
         """
-        future._Coframe__add_waiter(self.wake)
         deadline = _deadline(timeout_sec)
         while not future._Coframe__is_complete() and not self.__is_shutdown:
             remaining = None if deadline is None else (deadline - time.monotonic_ns()) / S_TO_NS
             if remaining is not None and remaining < 0:
                 return
-            self._Coframe__spin_once_unless(future._Coframe__is_complete, remaining)
+            self.spin_once_until_future_complete(future, remaining)
 
     def spin_once_until_future_complete(self, future: Future[Any], timeout_sec: float | None = None) -> None:
         """Wait for one callback or for the future; otherwise like `spin_once`."""
@@ -264,6 +264,18 @@ class Executor:
             ConditionReachedException: The condition is met.
         """
         return self._Coframe__wait_for_work(timeout_sec, nodes, condition, polls_subscriptions=False)
+
+    def _wait_for_ready_callbacks(
+        self,
+        timeout_sec: float | None = None,
+        nodes: Iterable[Node] | None = None,
+        condition: Callable[[], bool] = lambda: False,
+    ) -> Iterator[Work]:
+        """Yield the next ready callback, and those that are ready at the same time; see `wait_for_ready_callbacks`."""
+        yield self.wait_for_ready_callbacks(timeout_sec, nodes, condition)
+        with suppress(TimeoutException):
+            while True:
+                yield self.wait_for_ready_callbacks(0, nodes, condition)
 
     def _Coframe__wait_for_work(
         self,
@@ -431,13 +443,16 @@ class MultiThreadedExecutor(Executor):
 
     Raises:
         ValueError: The size is not positive.
+
+    Raises:
+        ValueError: The size is not positive.
     """
 
     def __init__(self, num_threads: int | None = None, *, context: Context | None = None) -> None:
         super().__init__(context=context)
         if num_threads is not None and num_threads <= 0:
             raise ValueError("max_workers must be greater than 0")
-        self.__num_threads = num_threads or max(os.cpu_count() or 4, 2)
+        self.__num_threads = max(os.cpu_count() or 4, 2) if num_threads is None else num_threads
         self.__pool = ThreadPoolExecutor(self.__num_threads, thread_name_prefix="rclpy")
         self.__free = self.__num_threads
         self.__free_lock = threading.Lock()

@@ -125,10 +125,11 @@ class Future(Generic[T]):
         self._executor = _no_executor if executor is None else weakref.ref(executor)
 
     def _Coframe__add_waiter(self, wake: Callable[[], object]) -> None:
-        """Call `wake` when the future is complete, always immediately and in the completing thread."""
+        """Call `wake` once when the future is complete, always immediately and in the completing thread."""
         with self._lock:
             if not self._Coframe__is_complete():
-                self._Coframe__waiters.append(wake)
+                if wake not in self._Coframe__waiters:
+                    self._Coframe__waiters.append(wake)
                 return
         wake()
 

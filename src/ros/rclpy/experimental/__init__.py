@@ -1,0 +1,6 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Experimental parts of rclpy of later distributions."""
+
+from rclpy.experimental.events_executor import EventsExecutor
+
+__all__ = ["EventsExecutor"]

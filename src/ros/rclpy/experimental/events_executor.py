@@ -1,0 +1,10 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Executor that reacts to events. All executors of this package do, so this one only has another name."""
+
+from rclpy.executors import SingleThreadedExecutor
+
+__all__ = ["EventsExecutor"]
+
+
+class EventsExecutor(SingleThreadedExecutor):
+    """Executor that runs callbacks in the spinning thread, woken by arriving messages, timers and triggers."""
