@@ -36,6 +36,8 @@ def test_the_wheel_has_everything(tmp_path):
     assert rclpy.startswith(path)
     packages = "tf2_ros, tf2_geometry_msgs, tf2_sensor_msgs, tf2_nav_msgs, tf2_visualization_msgs, tf_transformations"
     run(python, "-c", f"import {packages}, sensor_msgs_py")
+    converters = "cv_bridge, image_geometry, laser_geometry, ros2_numpy, rosidl_runtime_py"
+    run(python, "-c", f"import {converters}, angles, diagnostic_updater, message_filters")
     shown = run(tmp_path / "env" / "bin" / "coframe", "demo", "--duration", "5", "--no-browser", ROS_DOMAIN_ID="201")
     assert re.search(r"^http://127\.0\.0\.1:\d+/$", shown, re.MULTILINE)
     page = "import coframe, urllib.request as u; print(u.urlopen(coframe.show(coframe.Buffer(), port=0).url).read())"

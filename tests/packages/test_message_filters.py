@@ -12,7 +12,8 @@ from hypothesis import strategies as st
 
 import message_filters
 import rclpy
-from geometry_msgs.msg import PointStamped
+import tf2_ros
+from geometry_msgs.msg import PointStamped, TransformStamped
 from message_filters import ApproximateTimeSynchronizer, Cache, SimpleFilter, Subscriber, TimeSynchronizer
 from rclpy.clock import ClockType
 from rclpy.duration import Duration
@@ -187,6 +188,20 @@ def test_topics_are_synchronized(node, make_node, wait_until):
     executor.add_node(node)
     wait_until(lambda: len(received) == 3, meanwhile=lambda: executor.spin_once(timeout_sec=0.1))
     assert received == [(0.0, 0.0), (1.0, 1.0), (2.0, 2.0)]
+
+
+def test_filters_of_tf2_are_inputs():
+    buffer = tf2_ros.Buffer()
+    images, scans = SimpleFilter(), SimpleFilter()
+    in_base = tf2_ros.MessageFilter(images, buffer, "base", 10)
+    received = []
+    TimeSynchronizer([in_base, scans], 10).registerCallback(lambda *pair: received.append([m.name for m in pair]))
+    for each in (images, scans):
+        each.signalMessage(stamped(10**9, "camera"))
+    assert received == []
+    transform = TransformStamped(header=Header(frame_id="base"), child_frame_id="camera")
+    buffer.set_transform_static(transform, "test")
+    assert received == [["camera", "camera"]]
 
 
 def test_signatures_are_upstreams():

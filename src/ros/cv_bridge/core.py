@@ -156,7 +156,7 @@ class CvBridge:
             if (dtype, wanted) != (cvim.dtype.name, channels):
                 raise CvBridgeError(f"encoding specified as {encoding}, but image has incompatible type {cv_type}")
             message.height = _height(encoding, cvim.shape[0])
-        message.is_bigendian = bool(_is_big_endian(cvim.dtype))
+        message.is_bigendian = int(_is_big_endian(cvim.dtype))
         message.step = cvim.shape[1] * channels * cvim.itemsize
         message.data = _bytes(cvim)
         return message

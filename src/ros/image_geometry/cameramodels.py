@@ -227,6 +227,8 @@ class PinholeCameraModel:
     projection_matrix = projectionMatrix
     full_intrinsic_matrix = fullIntrinsicMatrix
     full_projection_matrix = fullProjectionMatrix
+    tx = Tx
+    ty = Ty
     fov_x = fovX
     fov_y = fovY
     get_tf_frame = tfFrame
