@@ -50,6 +50,8 @@ def find_module(name: str, path: Sequence[str] | None = None, _target: object = 
     spec = PathFinder.find_spec(name, path)
     if spec is not None and spec.has_location:
         return spec  # A module with code: of a real ROS, of coframe, or of the user.
+    if _is_foreign():
+        return None
     above = [Path(entry) for entry in path or ()]  # Where Python has found the package, if its folder has no code.
     for folder in filter(None, [_folder_of(package), *above]):
         if any(file.startswith(f"{kind}/") for file in _definitions(folder)):
@@ -67,7 +69,7 @@ def find_package(name: str, path: Sequence[str] | None = None, _target: object =
     if path is not None:
         _, _, rest = name.partition(".")
         return _spec(name, _DefinitionLoader()) if re.fullmatch(r"(msg|srv|action)\._[a-z0-9_]+", rest) else None
-    if not _PACKAGE.fullmatch(name) or name in sys.stdlib_module_names:
+    if not _PACKAGE.fullmatch(name) or name in sys.stdlib_module_names or _is_foreign():
         return None
     folder = _folder_of(name)
     if folder is not None:
@@ -89,6 +91,13 @@ def _folder_of(package: str) -> Path | None:
     from coframe.interfaces.sources import find_folder  # noqa: PLC0415 - this module is imported with every ROS package
 
     return find_folder(package)
+
+
+def _is_foreign() -> bool:
+    """Return whether a ROS installation provides rclpy, which has no use for coframe's classes."""
+    from coframe.ros_side import foreign_packages  # noqa: PLC0415 - it imports this module
+
+    return bool(foreign_packages(tuple(sys.path)))
 
 
 def _definitions(folder: Path) -> dict[str, Path]:

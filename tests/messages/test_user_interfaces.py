@@ -410,6 +410,16 @@ def test_other_imports_do_not_load_coframe_or_numpy(tmp_path: Path) -> None:
     assert done.stdout.splitlines() == ["[]", "[]", "False False"], done.stderr
 
 
+def test_a_sourced_ros_is_left_alone(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    write(tmp_path / "ros/rclpy", {"__init__.py": ""})
+    write(tmp_path / "demo_msgs", FILES)
+    monkeypatch.setenv("PYTHONPATH", str(tmp_path / "ros"))
+    done = run(tmp_path, "import rclpy, other_msgs")
+    assert done.stderr.endswith("ModuleNotFoundError: No module named 'other_msgs'\n")
+    done = run(tmp_path, "import rclpy; from demo_msgs.msg import Part")
+    assert "ImportError: cannot import name 'Part' from 'demo_msgs.msg' (unknown location)" in done.stderr
+
+
 def test_a_module_with_code_wins(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     write(tmp_path / "code/other_msgs/msg", {"__init__.py": "whose = 'theirs'\n"})
     write(tmp_path / "code/other_msgs", {"__init__.py": ""})

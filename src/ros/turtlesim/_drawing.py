@@ -41,11 +41,13 @@ class Drawing:
         if self._markers.get_subscription_count() == 0:
             return
         if self._broadcaster is None:
-            # The frame of the markers must exist. It has no transform if the user's nodes do not publish any.
+            # The frame of the markers must exist, also if the user's nodes do not publish transforms. Its child is in
+            # the middle of the picture, which is where the viewer looks first.
             self._broadcaster = StaticTransformBroadcaster(self._node)
             transform = TransformStamped(child_frame_id=self._node.get_name())
             transform.header.frame_id = _WORLD
             transform.header.stamp = self._node.get_clock().now().to_msg()
+            transform.transform.translation.x = transform.transform.translation.y = SIZE_IN_METERS / 2
             self._broadcaster.sendTransform(transform)
         markers = [_marker("", 0, action=Marker.DELETEALL), self._background(), *self._lines()]
         for turtle in self._turtles.values():
