@@ -3,13 +3,16 @@
 
 from __future__ import annotations
 
+import time
 from pathlib import Path
 from typing import Any
 
 from coframe.errors import CoframeError
 
-__all__ = ["complete_frames", "complete_live_topics"]
+__all__ = ["complete_frames", "complete_live_topics", "complete_tf_topics"]
 
+_TF_TYPE = "tf2_msgs/msg/TFMessage"
+_DISCOVERY = 0.5  # seconds
 _LARGEST = 200 << 20  # bytes: reading more takes longer than typing the name
 
 
@@ -42,3 +45,19 @@ def complete_live_topics(incomplete: str) -> list[str]:
     except (CoframeError, ImportError, SystemExit):
         return []
     return sorted(name for name in names if name.startswith(incomplete) and not is_hidden(name))
+
+
+def complete_tf_topics(ctx: Any, incomplete: str) -> list[str]:
+    """Return the topics of transforms on the ROS graph that begin with a text."""
+    from coframe.wire import Participant  # noqa: PLC0415 - only for this completion
+
+    try:
+        participant = Participant.get(ctx.params.get("domain"))
+    except CoframeError:
+        return []
+    try:
+        time.sleep(_DISCOVERY)
+        topics = participant.topics()
+    finally:
+        participant.close()
+    return sorted(name for name, types in topics.items() if _TF_TYPE in types and name.startswith(incomplete))

@@ -13,6 +13,7 @@ from typing import Annotated
 import typer
 
 from coframe import frame_names
+from coframe.cli.completion import complete_tf_topics
 from coframe.cli.output import fail, warn
 from coframe.time import SECOND, duration_ns
 
@@ -90,12 +91,21 @@ DomainOption = Annotated[
     ),
 ]
 TfTopicOption = Annotated[
-    str, typer.Option(metavar="TOPIC", help="Topic of the transforms, e.g. /robot1/tf.", callback=with_leading_slash)
+    str,
+    typer.Option(
+        metavar="TOPIC",
+        help="Topic of the transforms, e.g. /robot1/tf.",
+        callback=with_leading_slash,
+        autocompletion=complete_tf_topics,
+    ),
 ]
 TfStaticTopicOption = Annotated[
     str,
     typer.Option(
-        metavar="TOPIC", help="Topic of the static transforms, e.g. /robot1/tf_static.", callback=with_leading_slash
+        metavar="TOPIC",
+        help="Topic of the static transforms, e.g. /robot1/tf_static.",
+        callback=with_leading_slash,
+        autocompletion=complete_tf_topics,
     ),
 ]
 RecordedTfTopicOption = Annotated[
@@ -104,6 +114,7 @@ RecordedTfTopicOption = Annotated[
         metavar="TOPIC",
         help="Topic of the transforms, e.g. /robot1/tf. [default: /tf; in a recording, all]",
         callback=with_leading_slash,
+        autocompletion=complete_tf_topics,
         show_default=False,
     ),
 ]
@@ -113,6 +124,7 @@ RecordedTfStaticTopicOption = Annotated[
         metavar="TOPIC",
         help="Topic of the static transforms. [default: /tf_static; in a recording, all]",
         callback=with_leading_slash,
+        autocompletion=complete_tf_topics,
         show_default=False,
     ),
 ]

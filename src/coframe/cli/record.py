@@ -15,6 +15,7 @@ from rich.live import Live
 from rich.text import Text
 
 import coframe
+from coframe.cli.completion import complete_live_topics
 from coframe.cli.lifecycle import run_until_interrupted
 from coframe.cli.options import (
     TF_STATIC_TOPIC,
@@ -44,7 +45,10 @@ _UNITS = {"": 1, "k": 1000, "m": 1000**2, "g": 1000**3}
 
 def record(
     topics: Annotated[
-        list[str] | None, typer.Argument(metavar="[TOPIC]...", help="Topics to record. [default: all]")
+        list[str] | None,
+        typer.Argument(
+            metavar="[TOPIC]...", help="Topics to record. [default: all]", autocompletion=complete_live_topics
+        ),
     ] = None,
     output: Annotated[
         Path | None,

@@ -224,7 +224,7 @@ def _info(endpoint: EndpointInfo, kind: TopicEndpointTypeEnum) -> TopicEndpointI
         endpoint_type=kind,
         endpoint_gid=list(endpoint.guid.ljust(_GID_LENGTH, b"\0")),
         qos_profile=_profile(endpoint.qos),
-        topic_type_hash=TypeHash.from_text(getattr(endpoint, "type_hash", None)),
+        topic_type_hash=TypeHash.from_text(endpoint.type_hash),
     )
 
 
