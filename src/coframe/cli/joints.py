@@ -49,7 +49,13 @@ SLIDERS = "/coframe_joints/sliders"
 
 def joints(
     context: typer.Context,
-    file: Annotated[Path, typer.Argument(metavar="FILE", help="Robot description: a URDF or xacro file.")],
+    file: Annotated[
+        Path | None,
+        typer.Argument(
+            metavar="[FILE]",
+            help="Robot description: a URDF or xacro file. With --gui, the default is the topic /robot_description.",
+        ),
+    ] = None,
     rate: Annotated[
         float | None,
         typer.Option(
@@ -91,7 +97,10 @@ def joints(
     Example: coframe joints arm.urdf.xacro --zero joint1=0.5 --rate 30
     """
     with run_until_interrupted():
-        robot = load(file, arguments=xacro_arguments(context.args))
+        if file is None and not gui:
+            fail("FILE is missing.", "Name a URDF or xacro file, or add --gui to read /robot_description.", code=2)
+        arguments = xacro_arguments(context.args)
+        robot = None if file is None else load(file, arguments=arguments)
         from rclpy.parameter import Parameter  # noqa: PLC0415 - not needed if the file cannot be read
 
         # Options that are not given do not override the parameters of -p and --params-file.
@@ -119,12 +128,12 @@ def joints(
                 running.wait()
 
 
-def _zeros(robot: Robot, words: list[str]) -> dict[str, float]:
+def _zeros(robot: Robot | None, words: list[str]) -> dict[str, float]:
     """Return the parameters of the node for the words JOINT=VALUE."""
     found = {}
     for word in words:
         joint, _, text = word.rpartition("=")
-        if joint not in robot.joints:
+        if robot is not None and joint not in robot.joints:
             known = ", ".join(name for name, each in robot.joints.items() if each.size == 1)
             fail(f"--zero {word}: no joint named {joint!r}. Movable joints: {known}.", "Write JOINT=VALUE.", code=2)
         try:
@@ -172,7 +181,7 @@ class RunningNode:
 
 @contextlib.contextmanager
 def _running_node(
-    args: list[str], robot: Robot, domain: int | None, overrides: list[Parameter[Any]]
+    args: list[str], robot: Robot | None, domain: int | None, overrides: list[Parameter[Any]]
 ) -> Iterator[RunningNode]:
     from coframe.nodes.joint_state_publisher import JointStatePublisher  # noqa: PLC0415 - not needed without a file
     from coframe.nodes.program import initialized  # noqa: PLC0415
@@ -218,7 +227,7 @@ def _show_in_terminal(running: RunningNode) -> None:
 
 
 def _show_in_viewer(
-    running: RunningNode, robot: Robot, ros: coframe.Connection, port: int | None, *, browser: bool
+    running: RunningNode, robot: Robot | None, ros: coframe.Connection, port: int | None, *, browser: bool
 ) -> None:
     with coframe.show(ros, robot=robot, port=port, joint_states=SLIDERS) as viewer:
         announce(viewer, browser=browser)

@@ -11,27 +11,27 @@ from coframe.ros_side import ros_folder
 
 __all__ = ["EXECUTABLES", "share"]
 
-_CLI: Final = "coframe.cli"
-# Package -> executable -> the words after `python -m`. A module that is not installed has no executable.
+_COMMANDS: Final = "coframe.cli.ros_programs:main"
+# Package -> executable -> its function, and arguments. A module that is not installed has no executable.
 EXECUTABLES: Final[dict[str, dict[str, tuple[str, ...]]]] = {
-    "robot_state_publisher": {"robot_state_publisher": ("robot_state_publisher",)},
-    "joint_state_publisher": {"joint_state_publisher": ("joint_state_publisher",)},
-    "joint_state_publisher_gui": {"joint_state_publisher_gui": ("joint_state_publisher_gui",)},
+    "robot_state_publisher": {"robot_state_publisher": ("robot_state_publisher:main",)},
+    "joint_state_publisher": {"joint_state_publisher": ("joint_state_publisher:main",)},
+    "joint_state_publisher_gui": {"joint_state_publisher_gui": (_COMMANDS, "joint_state_publisher_gui")},
     "tf2_ros": {
-        "static_transform_publisher": (_CLI, "static"),
-        "tf2_echo": (_CLI, "echo"),
-        "tf2_monitor": (_CLI, "monitor", "--classic"),
-        "buffer_server": ("tf2_ros.buffer_server_main",),
+        "static_transform_publisher": (_COMMANDS, "static_transform_publisher"),
+        "tf2_echo": (_COMMANDS, "tf2_echo"),
+        "tf2_monitor": (_COMMANDS, "tf2_monitor"),
+        "buffer_server": ("coframe.nodes.buffer_server:main",),
     },
-    "tf2_tools": {"view_frames": (_CLI, "frames", "-o", "frames.pdf", "-o", "frames.gv")},
-    "rviz2": {"rviz2": (_CLI, "view")},
+    "tf2_tools": {"view_frames": (_COMMANDS, "view_frames")},
+    "rviz2": {"rviz2": (_COMMANDS, "rviz2")},
     "turtlesim": {
-        name: (f"turtlesim.{name}",) for name in ("turtlesim_node", "turtle_teleop_key", "draw_square", "mimic")
+        name: (f"turtlesim.{name}:main",) for name in ("turtlesim_node", "turtle_teleop_key", "draw_square", "mimic")
     },
-    "demo_nodes_py": {name: (f"demo_nodes_py.{name}",) for name in ("talker", "listener")},
-    "demo_nodes_cpp": {name: (f"demo_nodes_py.{name}",) for name in ("talker", "listener")},
+    "demo_nodes_py": {name: (f"demo_nodes_py.{name}:main",) for name in ("talker", "listener")},
+    "demo_nodes_cpp": {name: (f"demo_nodes_py.{name}:main",) for name in ("talker", "listener")},
     "coframe": {
-        name: (f"coframe.lab.{name}",)
+        name: (f"coframe.lab.{name}:main",)
         for name in (
             "complete_tf_tree",
             "dynamic_tf_broadcaster",
@@ -51,8 +51,8 @@ def share(package: str) -> Path:
 
 
 def executables(package: str) -> dict[str, tuple[str, ...]]:
-    """Return the words after ``python -m`` for each executable of a package whose module exists."""
-    return {name: words for name, words in EXECUTABLES.get(package, {}).items() if _exists(words[0])}
+    """Return the function and arguments of each executable of a package whose module exists."""
+    return {name: words for name, words in EXECUTABLES.get(package, {}).items() if _exists(words[0].partition(":")[0])}
 
 
 def _exists(module: str) -> bool:

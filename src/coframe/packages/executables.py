@@ -22,6 +22,7 @@ __all__ = ["Executable", "executables", "find_executable"]
 
 # install(PROGRAMS scripts/a.py DESTINATION lib/${PROJECT_NAME}) in a CMakeLists.txt
 _INSTALLED_PROGRAMS = re.compile(r"install\s*\(\s*PROGRAMS\s+(.*?)\s+DESTINATION\s+\"?lib/", re.DOTALL | re.IGNORECASE)
+_ENTRY_POINT = (sys.executable, "-m", "coframe.packages.entry_point")
 _MOST_NAMES = 30  # in an error message
 _MAX_DEPTH = 4
 
@@ -89,7 +90,7 @@ def _of(package: Package) -> dict[str, Executable]:
         return _installed(package)
     if package.origin == "builtin":
         return {
-            name: Executable(package.name, name, (sys.executable, "-m", *words))
+            name: Executable(package.name, name, (*_ENTRY_POINT, *words))
             for name, words in builtin.executables(package.name).items()
         }
     return _from_source(package)
@@ -109,8 +110,7 @@ def _from_source(package: Package) -> dict[str, Executable]:
     declared = console_scripts.read(package.share)
     path = _python_path(package.share, declared.root)
     found = {
-        name: Executable(package.name, name, (sys.executable, "-m", "coframe.packages.entry_point", target), path)
-        for name, target in declared.scripts.items()
+        name: Executable(package.name, name, (*_ENTRY_POINT, target), path) for name, target in declared.scripts.items()
     }
     for relative in [*declared.files, *_programs_of_cmake(package.share)]:
         file = package.share / relative

@@ -12,6 +12,7 @@ import traceback
 from typing import TYPE_CHECKING, Any
 
 import launch.logging
+from coframe.packages.entry_point import LAUNCHER
 from launch.action import Action
 from launch.actions.opaque_function import OpaqueFunction
 from launch.actions.running_process import RunningProcess
@@ -294,7 +295,7 @@ class ExecuteLocal(Action):
                 f"custom_env?={'True' if description.env is not None else 'False'}"
             )
         # Programs in Python would keep their output back, because it is not a terminal.
-        env = {"PYTHONUNBUFFERED": "1", **description.final_env}
+        env = {"PYTHONUNBUFFERED": "1", **description.final_env, LAUNCHER: str(os.getpid())}
         try:
             process = await RunningProcess.start(
                 command, cwd=description.final_cwd, env=env, emulate_tty=self.__use_tty
