@@ -21,7 +21,7 @@ class BufferServerNode(Node):
         seconds = float(self.declare_parameter("buffer_size", 120.0).value)
         self.__buffer = Buffer(cache_time=Duration(seconds=seconds))
         self.__listener = TransformListener(self.__buffer, self)
-        self.__server = BufferServer(self, self.__buffer, "tf2_buffer_server")
+        self.__server = BufferServer(self.__buffer, self, "tf2_buffer_server")
 
 
 def main(args: list[str] | None = None) -> None:
