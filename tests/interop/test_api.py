@@ -30,16 +30,6 @@ STANDARD |= {
     "ContextVar",
 }
 # Classes whose objects methods of a node create; their constructors take the parts of an implementation.
-# What does not exist yet.
-PENDING = {"rclpy.qos_event", "rclpy.waitable"}
-PENDING_NAMES = {
-    "NumberOfEntities",
-    "PublisherEventCallbacks",
-    "QoSEventHandler",
-    "SubscriptionEventCallbacks",
-    "Waitable",
-}
-PENDING_ATTRIBUTES = {"add_waitable", "remove_waitable", "waitables", "wait_for_all_acked"}
 CREATED_BY_NODES = {"Client", "Publisher", "Service", "Subscription"}
 MIGRATION = Path(__file__).parents[2] / "docs" / "migration.md"
 
@@ -51,9 +41,7 @@ def api(shared) -> dict[str, dict]:
     return {
         module: names
         for module, names in recorded.items()
-        if module not in PENDING
-        and isinstance(names, dict)
-        and (module.split(".")[0] in PACKAGES or module.endswith(INTERFACES))
+        if isinstance(names, dict) and (module.split(".")[0] in PACKAGES or module.endswith(INTERFACES))
     }
 
 
@@ -67,9 +55,7 @@ def test_every_name_exists_or_is_listed_as_absent(api):
         f"{module}.{name}"
         for module, names in api.items()
         for name in names
-        if name not in {*STANDARD, *PENDING_NAMES}
-        and f"{module}.{name}" not in ABSENT
-        and not _has(importlib.import_module(module), name)
+        if name not in STANDARD and f"{module}.{name}" not in ABSENT and not _has(importlib.import_module(module), name)
     ]
     assert missing == []
 
@@ -77,9 +63,9 @@ def test_every_name_exists_or_is_listed_as_absent(api):
 def test_every_attribute_of_a_class_exists_or_is_listed_as_absent(api):
     missing = {}
     for module, name, thing, (attributes, _) in _things(api):
-        if not attributes or not isinstance(thing, type) or name in PENDING_NAMES:
+        if not attributes or not isinstance(thing, type):
             continue
-        absent = PENDING_ATTRIBUTES.union(*ABSENT_ATTRIBUTES.get(name, ((), ""))[:1])
+        absent, _ = ABSENT_ATTRIBUTES.get(name, (set(), ""))
         if gone := [attribute for attribute in attributes if attribute not in absent and not _offers(thing, attribute)]:
             missing[f"{module}.{name}"] = gone
     assert missing == {}
@@ -140,7 +126,7 @@ def test_names_that_upstream_modules_merely_import():
 def _things(api):
     for module, names in api.items():
         for name, recorded in names.items():
-            if name not in {*STANDARD, *PENDING_NAMES} and f"{module}.{name}" not in ABSENT:
+            if name not in STANDARD and f"{module}.{name}" not in ABSENT:
                 yield module, name, getattr(importlib.import_module(module), name, None), recorded
 
 
@@ -155,7 +141,9 @@ def _offers(thing: type, attribute: str) -> bool:
     if issubclass(thing, Enum) and attribute in {"name", "value"}:
         return True  # of the members, not of the class
     annotations = {name for kind in thing.__mro__ for name in vars(kind).get("__annotations__", {})}
-    return hasattr(thing, attribute) or attribute in annotations
+    if hasattr(thing, attribute) or attribute in annotations:
+        return True
+    return f"self.{attribute} =" in inspect.getsource(thing.__init__)
 
 
 def _fault(recorded: str, ours: inspect.Signature) -> str:

@@ -27,7 +27,7 @@ _ORIGINS: Final = {
     "rclpy.constants": ("S_TO_NS",),
     "rclpy.context": ("Context",),
     "rclpy.duration": ("Duration",),
-    "rclpy.event_handler": ("PublisherEventCallbacks", "QoSEventHandler", "SubscriptionEventCallbacks"),
+    "rclpy.event_handler": ("PublisherEventCallbacks", "SubscriptionEventCallbacks"),
     "rclpy.exceptions": (
         *("InvalidHandle", "InvalidParameterTypeException", "InvalidParameterValueException"),
         *("InvalidTopicNameException", "NodeNameNonExistentError", "ParameterAlreadyDeclaredException"),
@@ -41,6 +41,7 @@ _ORIGINS: Final = {
     "rclpy.parameter": ("PARAMETER_SEPARATOR_STRING", "Parameter", "ParameterMsg"),
     "rclpy.publisher": ("Publisher",),
     "rclpy.qos": ("QoSHistoryPolicy", "QoSProfile"),
+    "rclpy.qos_event": ("QoSEventHandler",),
     "rclpy.service": ("Service",),
     "rclpy.subscription": ("Subscription",),
     "rclpy.task": ("Future",),
@@ -64,7 +65,7 @@ _FILTERS = (
     "to the call."
 )
 _WAIT_SETS = (
-    "Executors have no wait sets here. Override wait_for_ready_callbacks of an executor, or create a task with "
+    "This is a part of upstream's executors. Override wait_for_ready_callbacks of an executor, or create a task with "
     "Executor.create_task."
 )
 _SIGNALS = "Signal handlers wake executors themselves. Use Context.on_shutdown to be called at a shutdown."
