@@ -3,7 +3,7 @@
 
 from math import cos, inf, isclose, pi, sin
 
-from hypothesis import assume, given, settings
+from hypothesis import assume, given
 from hypothesis import strategies as st
 
 import angles
@@ -29,7 +29,6 @@ def test_angles_keep_their_direction(first, second):
     assert isclose(abs(distance) + abs(other), 2 * pi)
 
 
-@settings(max_examples=300)
 @given(NORMAL, NORMAL, NORMAL, NORMAL)
 def test_rotations_within_limits(start, end, left, right):
     low, high = min(left, right), max(left, right)

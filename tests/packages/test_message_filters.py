@@ -60,7 +60,7 @@ def expected_sets(arrivals, number, queue_size, slop):
     return sets
 
 
-@settings(max_examples=400, deadline=None)
+@settings(max_examples=150, deadline=None)
 @given(st.integers(1, 4), st.integers(1, 5), st.integers(0, 12), st.data())
 def test_approximate_sets_are_those_of_the_rule(number, queue_size, slop, data):
     arrival = st.tuples(st.integers(0, number - 1), st.integers(0, 30))
@@ -71,7 +71,7 @@ def test_approximate_sets_are_those_of_the_rule(number, queue_size, slop, data):
     assert received == expected_sets(arrivals, number, queue_size, slop)
 
 
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=80, deadline=None)
 @given(st.integers(1, 4), st.integers(1, 5), st.data())
 def test_exact_sets_have_equal_stamps(number, queue_size, data):
     arrivals = data.draw(st.lists(st.tuples(st.integers(0, number - 1), st.integers(0, 8)), max_size=40))
