@@ -26,7 +26,6 @@ from coframe.cli.options import (
     recorded_tf_topics,
 )
 from coframe.cli.output import fail, warn
-from coframe.cli.view_export import write_replay
 from coframe.viewer import start_viewer
 from coframe.viewer.replay.page import MAX_RATE
 from coframe.wire import dds
@@ -123,6 +122,8 @@ def view(
     live = bag == "live"
     replay = {"start": start, "stop": stop, "rate": rate}
     if output is not None:
+        from coframe.cli.view_export import write_replay  # noqa: PLC0415 - a viewer starts faster without it
+
         if live:
             fail("--output needs a recording", "Record one with: coframe record run.mcap", code=2)
         if output.suffix.lower() not in {".html", ".htm"}:

@@ -68,7 +68,7 @@ def test_labels_are_drawn_at_their_frames(lab):
     lab.pause()
     lab.raw.select_option("#fixed", "base_link")
     lab.until("coframe.frames.base_link.position.every((x) => x === 0)")
-    lab.raw.click("text=Top")
+    lab.raw.click("#overlay button:text-is('Top')")
     lab.key("a")
 
     def labels_match():

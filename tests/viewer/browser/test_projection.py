@@ -15,8 +15,7 @@ CONFIGURATION = """
 Visualization Manager:
   Displays:
     - {Class: rviz_default_plugins/TF, Enabled: true, Name: TF}
-    - {Class: rviz_default_plugins/Image, Enabled: true, Name: Image, Topic: /cam/image_raw, Project: true, Width: 640}
-    - {Class: rviz_default_plugins/CameraInfo, Enabled: true, Name: Camera, Topic: {Value: /cam/camera_info}}
+    - {Class: rviz_default_plugins/Camera, Enabled: true, Name: Image, Topic: {Value: /cam/image_raw}, Width: 640}
     - {Class: rviz_default_plugins/PointCloud2, Enabled: true, Name: Cloud, Topic: {Value: /cloud}}
     - {Class: rviz_default_plugins/Marker, Enabled: true, Name: Marker, Topic: {Value: /marker}}
   Global Options: {Fixed Frame: map}

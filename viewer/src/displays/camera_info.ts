@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/** The Camera and CameraInfo displays: the view frustum from the intrinsics, in the optical frame. */
+/** The CameraInfo display: the view frustum from the intrinsics, in the optical frame. */
 
 import * as THREE from "three";
 import type { CameraShape, Shapes } from "../protocol/messages";

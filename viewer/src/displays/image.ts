@@ -12,7 +12,8 @@ import { ImageOverlay } from "./image_overlay";
 import { cameraTopicOf, contentOf } from "./projected_content";
 import type { OptionSpec } from "./options";
 
-const PROJECT = "Project";
+/** The option that draws the scene above the image. */
+export const PROJECT = "Project";
 const AUTO = "By topic";
 
 export const IMAGE_SPECS: readonly OptionSpec[] = [

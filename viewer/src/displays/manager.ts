@@ -66,8 +66,10 @@ export class Displays {
     view.onPoses((framePoses, update) => {
       for (const display of this.list) if (display.config.enabled) display.setPoses(framePoses, update);
       for (const display of this.list)
-        if (display instanceof ImageDisplay && display.config.enabled)
+        if (display instanceof ImageDisplay && display.config.enabled && display.projects) {
+          this.showCamera(display.cameraTopic);
           display.project(this.list, framePoses, AXIS_M * view.tf.scale);
+        }
     });
     view.addBounds(() => {
       const box = new THREE.Box3();
@@ -122,7 +124,6 @@ export class Displays {
   /** Applies an option that the panel has changed in the configuration of a display. */
   optionChanged(display: Display): void {
     if (display instanceof MessageDisplay) this.resubscribeIfNeeded(display);
-    if (display instanceof ImageDisplay && display.projects) this.showCamera(display.cameraTopic);
     display.restyle();
     this.changed();
   }

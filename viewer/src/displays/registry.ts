@@ -7,7 +7,7 @@ import { CameraDisplay, CAMERA_SPECS } from "./camera_info";
 import { CloudDisplay, cloudSpecs } from "./cloud";
 import type { Context, Display, DisplayConfig } from "./display";
 import { GridDisplay, GRID_SPECS } from "./grid";
-import { IMAGE_SPECS, ImageDisplay } from "./image";
+import { IMAGE_SPECS, ImageDisplay, PROJECT } from "./image";
 import { MapDisplay, MAP_SPECS } from "./map";
 import { MarkersDisplay, MARKER_SPECS } from "./markers";
 import type { OptionSpec } from "./options";
@@ -34,6 +34,21 @@ function plain(specs: readonly OptionSpec[], Class: Maker, topic = true): Kind {
 
 const markers: Kind = { specs: MARKER_SPECS, topic: true, make: (...all) => new MarkersDisplay(...all) };
 
+/**
+ * RViz's Camera display: an image into which the scene is projected. Earlier versions of this page saved the display of
+ * a CameraInfo under this name.
+ */
+const camera: Kind = {
+  specs: IMAGE_SPECS,
+  heavy: true,
+  topic: true,
+  make: (id, config, specs, context) => {
+    if (/camera_info$/.test(config.topic ?? "")) return new CameraDisplay(id, config, CAMERA_SPECS, context);
+    config.options[PROJECT] ??= true;
+    return new ImageDisplay(id, config, specs, context);
+  },
+};
+
 export const KINDS: Record<string, Kind> = {
   TF: plain(TF_SPECS, TfDisplay, false),
   Grid: plain(GRID_SPECS, GridDisplay, false),
@@ -51,7 +66,7 @@ export const KINDS: Record<string, Kind> = {
   Marker: markers,
   MarkerArray: markers,
   Range: plain(RANGE_SPECS, RangeDisplay),
-  Camera: plain(CAMERA_SPECS, CameraDisplay),
+  Camera: camera,
   Image: { ...plain(IMAGE_SPECS, ImageDisplay), heavy: true },
   CameraInfo: plain(CAMERA_SPECS, CameraDisplay),
 };

@@ -12,7 +12,7 @@ DISPLAY_OF_TYPE: dict[str, str] = {
     "nav_msgs/msg/OccupancyGrid": "Map",
     "nav_msgs/msg/Odometry": "Odometry",
     "nav_msgs/msg/Path": "Path",
-    "sensor_msgs/msg/CameraInfo": "Camera",
+    "sensor_msgs/msg/CameraInfo": "CameraInfo",
     "sensor_msgs/msg/CompressedImage": "Image",
     "sensor_msgs/msg/Image": "Image",
     "sensor_msgs/msg/LaserScan": "LaserScan",
