@@ -17,6 +17,7 @@ import subprocess
 import sys
 import time
 import urllib.request
+from itertools import pairwise
 from pathlib import Path
 
 from PIL import Image
@@ -28,6 +29,8 @@ SIZE = (960, 540)  # pixels of the page
 WIDTH = 800  # pixels of the animation
 SECONDS = 8.0
 FRAMES_PER_SECOND = 8
+WHEEL_STEPS = 17
+QUALITY = 60
 START_TIMEOUT = 60.0
 BROWSER_ARGUMENTS = [
     "--no-sandbox",
@@ -46,17 +49,20 @@ def main() -> None:
     command = [sys.executable, "-m", "coframe.cli", "demo", "--no-browser", "--port", str(PORT)]
     demo = subprocess.Popen(command, env=environment, stdout=subprocess.DEVNULL)
     try:
-        frames = record(browser, f"http://127.0.0.1:{PORT}/")
+        frames, durations = record(browser, f"http://127.0.0.1:{PORT}/")
     finally:
         demo.send_signal(signal.SIGINT)
         demo.wait(30)
-    duration = round(1000 / FRAMES_PER_SECOND)
-    frames[0].save(TARGET, save_all=True, append_images=frames[1:], duration=duration, loop=0, quality=70, method=6)
+    options = {"duration": durations, "loop": 0, "quality": QUALITY, "method": 6}
+    frames[0].save(TARGET, save_all=True, append_images=frames[1:], **options)
     print(f"{TARGET}: {len(frames)} frames, {TARGET.stat().st_size // 1000} kB")
 
 
-def record(browser: str, url: str) -> list[Image.Image]:
-    """Return images of the page, FRAMES_PER_SECOND of them for SECONDS."""
+def record(browser: str, url: str) -> tuple[list[Image.Image], list[int]]:
+    """Return images of the page and how long each was shown, in milliseconds.
+
+    There are FRAMES_PER_SECOND images for SECONDS, or fewer on a busy machine.
+    """
     wait_for(url)
     with sync_playwright() as playwright:
         chromium = playwright.chromium.launch(executable_path=browser, args=BROWSER_ARGUMENTS)
@@ -66,18 +72,25 @@ def record(browser: str, url: str) -> list[Image.Image]:
         # The robot drives around in the world; relative to its base, the arm stays in view and the walls move.
         page.get_by_label("Fixed Frame").select_option("base_link")
         time.sleep(6.0)  # all nodes have started and the first scans are drawn
+        page.locator("#panel .row[data-frame=base_link] .name").click()
+        page.keyboard.press("f")  # the camera follows the robot
+        page.keyboard.press("Escape")
+        page.evaluate("document.activeElement.blur()")
         page.mouse.move(SIZE[0] * 2 // 3, SIZE[1] // 2)
-        for _ in range(3):
-            page.mouse.wheel(0, -120)  # closer to the arm
+        for _ in range(WHEEL_STEPS):
+            page.mouse.wheel(0, -120)  # closer to the robot
         time.sleep(1.0)
-        images = []
+        images, times = [], []
         start = time.monotonic()
-        for number in range(round(SECONDS * FRAMES_PER_SECOND)):
-            time.sleep(max(0.0, start + number / FRAMES_PER_SECOND - time.monotonic()))
+        while (now := time.monotonic()) - start < SECONDS:
+            times.append(now)
             images.append(page.screenshot())
+            time.sleep(max(0.0, now + 1 / FRAMES_PER_SECOND - time.monotonic()))
+        times.append(time.monotonic())
         chromium.close()
     height = WIDTH * SIZE[1] // SIZE[0]
-    return [Image.open(io.BytesIO(image)).convert("RGB").resize((WIDTH, height)) for image in images]
+    frames = [Image.open(io.BytesIO(image)).convert("RGB").resize((WIDTH, height)) for image in images]
+    return frames, [round(1000 * (after - before)) for before, after in pairwise(times)]
 
 
 def wait_for(url: str) -> None:

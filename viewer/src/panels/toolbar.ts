@@ -24,6 +24,7 @@ const NOT_LIVE = "Publishing requires a live ROS graph.";
 
 export class Toolbar {
   private readonly buttons = new Map<PublishingTool, HTMLButtonElement>();
+  private readonly bar = h("div", { class: "publish-tools", role: "toolbar", aria: { label: "Publish" } });
   private readonly hint = h("div", { class: "hint tool-hint", role: "status", id: "tool", hidden: true });
   private readonly instruction = h("span");
   private readonly topic = h("input", { type: "text", aria: { label: "Topic of the tool" } });
@@ -42,10 +43,8 @@ export class Toolbar {
       button.dataset.key = key;
       this.buttons.set(tool, button);
     }
-    root.append(
-      this.hint,
-      h("div", { class: "publish-tools", role: "toolbar", aria: { label: "Publish" } }, ...this.buttons.values()),
-    );
+    this.bar.append(...this.buttons.values());
+    root.append(this.hint, this.bar);
     this.hint.append(this.instruction, h("label", {}, "on ", this.topic));
     this.topic.addEventListener("change", () => this.setTopic());
     view.tools.onChange((tool) => this.show(tool));
@@ -107,6 +106,7 @@ export class Toolbar {
 
   private updateButtons(): void {
     const possible = this.model.hello?.can_publish ?? false;
+    this.bar.hidden = this.model.hello?.mode === "replay";
     for (const [tool, button] of this.buttons) {
       const what = `${PUBLISHING_TOOLS[tool].title} (${button.dataset.key}): ${this.settings.topic(tool)}`;
       button.title = possible ? what : `${what}. ${NOT_LIVE}`;
