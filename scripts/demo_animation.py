@@ -9,6 +9,7 @@ Example:
 
 from __future__ import annotations
 
+import base64
 import io
 import os
 import shutil
@@ -19,9 +20,10 @@ import time
 import urllib.request
 from itertools import pairwise
 from pathlib import Path
+from typing import Any
 
 from PIL import Image
-from playwright.sync_api import sync_playwright
+from playwright.sync_api import Page, sync_playwright
 
 TARGET = Path(__file__).parents[1] / "docs" / "demo.webp"
 PORT = 7699
@@ -29,7 +31,8 @@ SIZE = (960, 540)  # pixels of the page
 WIDTH = 800  # pixels of the animation
 SECONDS = 8.0
 FRAMES_PER_SECOND = 8
-WHEEL_STEPS = 17
+WHEEL_STEPS = 16
+ARM_PIXELS = 110
 QUALITY = 60
 START_TIMEOUT = 60.0
 BROWSER_ARGUMENTS = [
@@ -79,18 +82,35 @@ def record(browser: str, url: str) -> tuple[list[Image.Image], list[int]]:
         page.mouse.move(SIZE[0] * 2 // 3, SIZE[1] // 2)
         for _ in range(WHEEL_STEPS):
             page.mouse.wheel(0, -120)  # closer to the robot
+        page.mouse.down(button="right")
+        page.mouse.move(SIZE[0] * 2 // 3 - ARM_PIXELS, SIZE[1] // 2, steps=5)  # the arm is to the right of the base
+        page.mouse.up(button="right")
         time.sleep(1.0)
-        images, times = [], []
-        start = time.monotonic()
-        while (now := time.monotonic()) - start < SECONDS:
-            times.append(now)
-            images.append(page.screenshot())
-            time.sleep(max(0.0, now + 1 / FRAMES_PER_SECOND - time.monotonic()))
-        times.append(time.monotonic())
+        images, times = screencast(page)
         chromium.close()
     height = WIDTH * SIZE[1] // SIZE[0]
     frames = [Image.open(io.BytesIO(image)).convert("RGB").resize((WIDTH, height)) for image in images]
     return frames, [round(1000 * (after - before)) for before, after in pairwise(times)]
+
+
+def screencast(page: Page) -> tuple[list[bytes], list[float]]:
+    """Return JPEG images of the page, and the times at which they were drawn, in seconds, with the end of the last."""
+    images: list[bytes] = []
+    times: list[float] = []
+    session = page.context.new_cdp_session(page)
+
+    def add(frame: dict[str, Any]) -> None:
+        session.send("Page.screencastFrameAck", {"sessionId": frame["sessionId"]})
+        drawn = frame["metadata"]["timestamp"]
+        if not times or drawn - times[-1] > 0.9 / FRAMES_PER_SECOND:
+            times.append(drawn)
+            images.append(base64.b64decode(frame["data"]))
+
+    session.on("Page.screencastFrame", add)
+    session.send("Page.startScreencast", {"format": "jpeg", "quality": 95})
+    page.wait_for_timeout(1000 * SECONDS)
+    session.send("Page.stopScreencast")
+    return images, [*times, times[-1] + 1 / FRAMES_PER_SECOND]
 
 
 def wait_for(url: str) -> None:
