@@ -32,7 +32,7 @@ def test_help_and_commands_without_a_counterpart(execute):
     code, output = execute("ros2", "--help")
     assert code == 0
     assert output.startswith("Usage: ros2 [OPTIONS] COMMAND")
-    assert {"topic", "node", "run", "bag"} <= set(output.split())
+    assert {"topic", "node", "run", "launch", "bag"} <= set(output.split())
     assert "\n  view " not in output
     assert execute("ros2", "daemon", "status") == (
         0,

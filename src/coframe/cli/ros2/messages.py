@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import functools
+import sys
 import time
 from collections import deque
 from typing import TYPE_CHECKING, Any
@@ -30,6 +31,7 @@ class MessageStream:
         message_class: Class of the messages.
         qos: QoS of the subscription.
         raw: Whether to return serialized messages.
+        report_lost: Whether to print a warning when messages were lost.
     """
 
     def __init__(
@@ -40,6 +42,7 @@ class MessageStream:
         qos: QoSProfile | int,
         *,
         raw: bool = False,
+        report_lost: bool = False,
     ) -> None:
 
         from rclpy.executors import SingleThreadedExecutor  # noqa: PLC0415 - slow import
@@ -47,7 +50,8 @@ class MessageStream:
         self._arrived: deque[Any] = deque()
         self._executor = SingleThreadedExecutor(context=node.context)
         self._executor.add_node(node)
-        node.create_subscription(message_class, topic, self._arrived.append, qos, raw=raw)
+        events = _lost_events() if report_lost else None
+        node.create_subscription(message_class, topic, self._arrived.append, qos, raw=raw, event_callbacks=events)
 
     def take(self, seconds: float) -> Any:
         """Return the next message, waiting for it at most some seconds; None if there is none."""
@@ -96,3 +100,17 @@ def field_of(message: Any, path: str) -> Any:
         return functools.reduce(getattr, path.split("."), message)
     except AttributeError as error:
         fail(f"Invalid field '{path}': {error}", f"Fields: {', '.join(message.get_fields_and_field_types())}.", code=2)
+
+
+def _lost_events() -> Any:
+    """Return the event callbacks that report lost messages."""
+    try:
+        from rclpy.event_handler import SubscriptionEventCallbacks  # noqa: PLC0415 - slow import
+    except ImportError:  # Humble has it in another module.
+        from rclpy.qos_event import SubscriptionEventCallbacks  # noqa: PLC0415
+    return SubscriptionEventCallbacks(message_lost=_report_lost)
+
+
+def _report_lost(status: Any) -> None:
+    changed, total = status.total_count_change, status.total_count
+    print(f"A message was lost!!!\n\ttotal count change:{changed}\n\ttotal count: {total}", file=sys.stderr, flush=True)

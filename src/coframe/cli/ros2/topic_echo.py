@@ -91,7 +91,7 @@ def echo(
 
     Example: coframe topic echo /scan --once --field header
     """
-    del lost_messages, no_lost_messages, no_daemon
+    del lost_messages, no_daemon
     length = None if full_length else truncate_length
     write = _writer(field, csv=csv, length=length, no_arr=no_arr, no_str=no_str, flow_style=flow_style, raw=raw)
     accepts = message_filter(filter_expression)
@@ -107,6 +107,7 @@ def echo(
             load_type(kind, get_message),
             words.for_subscription(node, topic_name),
             raw=raw,
+            report_lost=not no_lost_messages,
         )
         for message in stream.messages(timeout):
             if raw or accepts(message):
