@@ -21,6 +21,7 @@ __all__ = ["MAX_MEMORY", "MAX_OUTPUT", "MAX_PROCESSES", "Program"]
 MAX_MEMORY = 1 << 30  # bytes of one process
 MAX_OUTPUT = 10 << 20  # bytes of the output, and of each file that it writes
 MAX_PROCESSES = 8
+_TOO_MUCH_OUTPUT = f"The program printed more than {MAX_OUTPUT >> 20} MB and was ended."
 MAX_CPU = 120  # seconds of processor time
 _STOP_PATIENCE = 3.0  # seconds between SIGINT and SIGKILL
 _LAST_LINES = 8
@@ -133,6 +134,8 @@ class Program:
         code = self._exit_code if process is None else process.poll()
         if code is None:
             return ""
+        if self._log.stat().st_size >= MAX_OUTPUT:
+            return _TOO_MUCH_OUTPUT
         last = self.last_lines()
         if code == 0:
             return "The program ended by itself: it needs rclpy.spin(node)."
@@ -156,7 +159,7 @@ class Program:
     def _exceeded(self) -> str:
         assert self._process is not None
         if self._log.stat().st_size >= MAX_OUTPUT:
-            return f"The program printed more than {MAX_OUTPUT >> 20} MB and was ended."
+            return _TOO_MUCH_OUTPUT
         group = processes.in_session(self._process.pid)
         if len(group) > MAX_PROCESSES:
             return f"The program started more than {MAX_PROCESSES} processes and was ended."
