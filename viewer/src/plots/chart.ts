@@ -28,6 +28,8 @@ export interface ChartEvents {
 
 const CLICK_PX = 4;
 const AXIS_WIDTH = 62;
+/** The height of the axis with the times, which only the lowest plot has. */
+export const TIME_AXIS_PX = 26;
 const SYNC = "coframe-time";
 
 export class Chart {
@@ -39,6 +41,7 @@ export class Chart {
   constructor(
     readonly title: string,
     readonly curves: readonly Curve[],
+    private readonly isLowest: boolean,
     style: ChartStyle,
     private readonly events: ChartEvents,
   ) {
@@ -55,7 +58,11 @@ export class Chart {
         cursor: { sync: { key: SYNC }, drag: { x: true, y: false, setScale: false }, bind: { dblclick: () => null } },
         scales: { x: { time: false, auto: false }, y: { range: valueRange } },
         axes: [
-          { ...axis, size: 30, values: (_, splits, __, ___, step) => splits.map((x) => this.timeText(x, step)) },
+          {
+            ...axis,
+            size: isLowest ? TIME_AXIS_PX : 0,
+            values: (_, splits, __, ___, step) => splits.map((x) => (isLowest ? this.timeText(x, step) : "")),
+          },
           { ...axis, size: AXIS_WIDTH, label: title, labelSize: 18, labelGap: 0 },
         ],
         series: [
@@ -80,8 +87,9 @@ export class Chart {
   }
 
   /** Draws the curves in a part of time, in nanoseconds. */
-  draw(range: Range, playhead: number, width: number, height: number): void {
+  draw(range: Range, playhead: number, width: number, heightOfCurves: number): void {
     const { plot } = this;
+    const height = heightOfCurves + (this.isLowest ? TIME_AXIS_PX : 0);
     this.playhead = playhead / 1e9;
     if (plot.width !== width || plot.height !== height) plot.setSize({ width, height });
     const tables = this.curves.map((curve) => curve.table(range[0], range[1], 2 * width));
@@ -157,6 +165,7 @@ function valueRange(_: uPlot, min: number | null, max: number | null): uPlot.Ran
 export function valueText(value: number): string {
   if (!Number.isFinite(value)) return "–";
   const size = Math.abs(value);
+  if (Number.isInteger(value) && size >= 1000 && size < 1e15) return fixed(value, 0);
   if (size !== 0 && (size >= 1e6 || size < 1e-4)) return value.toExponential(3).replace("-", "−");
   return fixed(value, size >= 1000 ? 1 : 4);
 }

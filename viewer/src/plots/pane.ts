@@ -11,7 +11,7 @@ import { link, linked } from "../util/link";
 import { remember, remembered } from "../util/storage";
 import type { Theme } from "../util/theme";
 import { toast } from "../util/toast";
-import { Chart, valueText, type ChartStyle } from "./chart";
+import { Chart, TIME_AXIS_PX, valueText, type ChartEvents, type ChartStyle } from "./chart";
 import { Curve } from "./curve";
 import { saveCsv, savePng } from "./export";
 import { shownRange, WINDOWS, zoomed, type Range } from "./range";
@@ -19,7 +19,7 @@ import { shownRange, WINDOWS, zoomed, type Range } from "./range";
 const MAX_CURVES = 32;
 const DRAW_INTERVAL_MS = 100;
 const REQUEST_DELAY_MS = 150;
-const MIN_CHART_PX = 110;
+const MIN_CHART_PX = 70;
 /** Those of `coframe plot`: each has a contrast of at least 3.5 with a white and with a dark background. */
 const COLOURS = ["#2f7de1", "#d9542b", "#1f9a5b", "#a45ee0", "#a17a12", "#d6497f", "#128f9e", "#7b7f87"];
 
@@ -218,15 +218,15 @@ export class PlotsPane implements Pane {
       if (title) titles.set(title, [...(titles.get(title) ?? []), curve]);
     }
     const style = this.style();
+    const events: ChartEvents = {
+      zoom: (range) => this.setZoom(range),
+      reset: () => this.setZoom(null),
+      seek: (time) => this.model.setClock({ live: false, playing: false }, time),
+      hover: (time) => this.hover(time),
+      timeText: (time, digits) => this.timeText(time, digits),
+    };
     this.charts = [...titles].map(
-      ([title, curves]) =>
-        new Chart(shorten(title, 40), curves, style, {
-          zoom: (range) => this.setZoom(range),
-          reset: () => this.setZoom(null),
-          seek: (time) => this.model.setClock({ live: false, playing: false }, time),
-          hover: (time) => this.hover(time),
-          timeText: (time, digits) => this.timeText(time, digits),
-        }),
+      ([title, curves], i) => new Chart(shorten(title, 40), curves, i === titles.size - 1, style, events),
     );
     this.area.replaceChildren(...this.charts.map((chart) => chart.element));
     this.showList();
@@ -262,8 +262,8 @@ export class PlotsPane implements Pane {
     const { fetched } = this;
     if (fetched && (range[0] < fetched[0] || range[1] > fetched[1])) this.requestSoon();
     const width = this.area.clientWidth;
-    const room = this.area.clientHeight / Math.max(1, this.charts.length);
-    const height = Math.max(MIN_CHART_PX, Math.floor(room) - 2);
+    const room = (this.area.clientHeight - TIME_AXIS_PX) / Math.max(1, this.charts.length);
+    const height = Math.max(MIN_CHART_PX, Math.floor(room) - 1);
     if (width < 80) return;
     for (const chart of this.charts) chart.draw(range, this.model.playhead, width, height);
     this.showValues();
