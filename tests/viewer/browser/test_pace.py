@@ -90,6 +90,34 @@ def test_a_cloud_of_a_million_points_does_not_stall_the_frames(domain_id, view, 
     assert measured["gap"] < 3000
 
 
+PANELS = "".join(f"plot=odom:base_link.{one}&" for one in ("x", "y", "yaw", "roll", "distance", "delay"))
+PANELS += "plot=/scan.rate&plot=/scan.ranges[0]&panel=plots&panel=message&panel=log&topic=/scan"
+
+
+def test_the_panels_leave_most_of_the_time_of_the_page_to_the_scene(demo, open_page):
+    spent, fps = {}, {}
+    for what, link in (("no panel", ""), ("panels", f"#{PANELS}")):
+        page = open_page(f"{demo.url}{link}").drawn()
+        if link:
+            page.until("document.querySelectorAll('#curves .curve[data-state=ok]').length === 8")
+        page.raw.wait_for_timeout(2000)
+        session = page.raw.context.new_cdp_session(page.raw)
+        session.send("Performance.enable")
+        begin, before = time.monotonic(), _main_thread(session)
+        fps[what] = page.evaluate(MEASURE_RATE)["fps"]
+        spent[what] = (_main_thread(session) - before) / (time.monotonic() - begin)
+        page.raw.close()
+        print(f"{what}: {100 * spent[what]:.0f} % of the main thread, {fps[what]:.1f} fps")
+    assert spent["panels"] - spent["no panel"] < 0.35
+    assert fps["panels"] > 0.5 * fps["no panel"]
+
+
+def _main_thread(session):
+    """Return the seconds that scripts, styles and the layout have taken."""
+    metrics = {one["name"]: one["value"] for one in session.send("Performance.getMetrics")["metrics"]}
+    return sum(metrics[name] for name in ("ScriptDuration", "RecalcStyleDuration", "LayoutDuration"))
+
+
 SERVER = """
 import sys, threading, coframe
 from benchmarks.viewer_load import Broadcaster

@@ -66,7 +66,7 @@ export class Dock {
       "header",
       { class: "pane-head" },
       h("h2", { id: `pane-title-${pane.id}` }, pane.title),
-      ...pane.controls,
+      h("div", { class: "pane-controls" }, ...pane.controls),
       iconButton("close", `Close: ${pane.title}`, () => this.show(pane.id, false)),
     );
     return h(

@@ -45,7 +45,10 @@ export class Chart {
     style: ChartStyle,
     private readonly events: ChartEvents,
   ) {
+    const font = "11px system-ui, sans-serif";
     const axis = {
+      font,
+      labelFont: font,
       stroke: style.text,
       grid: { stroke: style.line, width: 1 },
       ticks: { stroke: style.line, width: 1 },
@@ -55,6 +58,8 @@ export class Chart {
         width: 300,
         height: 120,
         legend: { show: false },
+        // The plots are aligned although only the lowest one has a time axis.
+        padding: [8, 14, isLowest ? 0 : 4, 0],
         cursor: { sync: { key: SYNC }, drag: { x: true, y: false, setScale: false }, bind: { dblclick: () => null } },
         scales: { x: { time: false, auto: false }, y: { range: valueRange } },
         axes: [

@@ -13,7 +13,8 @@ from coframe.viewer.protocol.encoding import CurvePoints, encode, encode_curves
 from coframe.viewer.protocol.messages import CurveStatus, Inspection, LogEntries, LogEntry
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Sequence
+    from concurrent.futures import Future
 
     from coframe.viewer.clients.panels import ClientPanels, ShownCurve
     from coframe.viewer.clients.state import ClientState
@@ -27,6 +28,7 @@ _logger = logging.getLogger("coframe.viewer")
 
 # Seconds between updates.
 _CURVES_PERIOD, _INSPECTION_PERIOD, _LOG_PERIOD, _GRAPH_PERIOD, _CLOSED_PERIOD = 0.1, 0.2, 0.2, 0.5, 0.25
+_READING_PERIOD = 0.03
 _LATE_PERIOD = 1.0  # seconds between attempts to open a topic that does not exist
 _MAX_LINES = 1000  # log messages of one update
 _RATE_MESSAGES = 200  # messages whose times determine the rate
@@ -82,21 +84,28 @@ class CurvesFeed(_PanelFeed):
 
 
 class _Inspected(NamedTuple):
+    """An inspected message, or why there is none; `key` changes with it and begins with the serial of the topic."""
+
+    key: tuple[int, object]
     state: DisplayState
     text: str
-    stamp: int | None
-    fields: list[InspectedField]
+    message_type: str = ""
+    stamp: int | None = None
+    rate: float | None = None
+    fields: Sequence[InspectedField] = ()
 
 
 class InspectionFeed(_PanelFeed):
-    """The newest message of the inspected topic at the displayed time."""
+    """The newest message of the inspected topic at the displayed time, which another thread reads."""
 
     def __init__(self, client: ClientState) -> None:
         super().__init__(client)
         self._late_due = 0.0
+        self._work: Future[_Inspected] | None = None
+        self._shown = _Inspected((0, None), "waiting", "")
 
     def updates(self, now: float) -> Iterator[Update]:
-        """Yield the message."""
+        """Yield the last message that was read."""
         panels = self._panels
         self.due = now + (_INSPECTION_PERIOD if panels.topic else _CLOSED_PERIOD)
         if not panels.topic:
@@ -104,47 +113,48 @@ class InspectionFeed(_PanelFeed):
         if panels.inspected is None and now >= self._late_due:
             self._late_due = now + _LATE_PERIOD
             panels.open_inspected()
-        messages, at = panels.inspected, self._client.at
-        found = None if messages is None else messages.at(at)
-        version = (panels.serial, messages is None, None if found is None else found.key, self._publishers())
-        yield Update("inspection", version, partial(self._encode, messages, found, at))
+        self._read(panels.inspected)
+        if self._work is not None and self._work.done():
+            found, self._work = self._work.result(), None
+            if found.key[0] == panels.serial:
+                self._shown = found
+        elif self._work is not None:
+            self.due = now + _READING_PERIOD
+        publishers = self._publishers()
+        if self._shown.key[0] == panels.serial:
+            yield Update("inspection", (self._shown.key, publishers), partial(self._encode, publishers))
 
-    def _encode(self, messages: TopicMessages | None, message: StampedMessage | None, at: int) -> str:
-        state, text, stamp, fields = self._read(messages, message)
+    def _read(self, messages: TopicMessages | None) -> None:
+        """Start to read the message at the displayed time, unless it is shown."""
+        panels, at = self._panels, self._client.at
+        if messages is None:
+            why = self._why_missing(panels.topic)
+            self._shown = _Inspected((panels.serial, why), "waiting", why)
+            return
+        found = messages.at(at)
+        key = (panels.serial, None if found is None else found.key)
+        if found is None:
+            when = "yet" if at == 0 else "before this time"
+            self._shown = _Inspected(key, "waiting", f"no message {when}", messages.type)
+        elif key != self._shown.key and self._work is None:
+            executor = self._client.viewer.executor
+            self._work = executor.submit(_read_message, key, panels.topic, messages, found, at)
+
+    def _encode(self, publishers: Sequence[str]) -> str:
+        shown = self._shown
         return encode(
             Inspection(
                 type="inspection",
                 topic=self._panels.topic,
-                message_type="" if messages is None else messages.type,
-                state=state,
-                text=text,
-                stamp=None if stamp is None else float(stamp - self._client.origin),
-                rate=None if messages is None or message is None else _rate(messages, at),
-                publishers=list(self._publishers()),
-                fields=fields,
+                message_type=shown.message_type,
+                state=shown.state,
+                text=shown.text,
+                stamp=None if shown.stamp is None else float(shown.stamp - self._client.origin),
+                rate=shown.rate,
+                publishers=list(publishers),
+                fields=list(shown.fields),
             )
         )
-
-    def _read(self, messages: TopicMessages | None, message: StampedMessage | None) -> _Inspected:
-        from coframe.viewer.panels.message_fields import message_rows  # noqa: PLC0415 - needs the message classes
-
-        topic = self._panels.topic
-        if messages is None:
-            return _Inspected("waiting", self._why_missing(topic), None, [])
-        if message is None:
-            when = "yet" if self._client.at == 0 else "before this time"
-            return _Inspected("waiting", f"no message {when}", None, [])
-        try:
-            content: Any = message.read()
-            if isinstance(content, bytes):
-                text = f"{len(content)} bytes; the definition of {messages.type} is not known"
-                return _Inspected("error", text, message.time, [])
-            return _Inspected("ok", "", message.time, message_rows(topic, content))
-        except (CoframeError, ValueError) as error:
-            return _Inspected("error", f"the message cannot be read: {error}", message.time, [])
-        except Exception as error:  # A message may contain anything, which must not stop the viewer.
-            _logger.exception("a message could not be inspected")
-            return _Inspected("error", f"the message cannot be read: {type(error).__name__}: {error}", message.time, [])
 
     def _why_missing(self, topic: str) -> str:
         connection = self._client.viewer.source.connection
@@ -161,6 +171,25 @@ class InspectionFeed(_PanelFeed):
             return ()
         publishers = connection.participant.publishers(self._panels.topic)
         return tuple(sorted({f"{one.namespace.rstrip('/')}/{one.node}" for one in publishers}))
+
+
+def _read_message(
+    key: tuple[int, object], topic: str, messages: TopicMessages, message: StampedMessage, at: int
+) -> _Inspected:
+    """Return the content of a message; any error becomes a text, because a message may contain anything."""
+    from coframe.viewer.panels.message_fields import message_rows  # noqa: PLC0415 - needs the message classes
+
+    failed = _Inspected(key, "error", "", messages.type, message.time, _rate(messages, at))
+    try:
+        content: Any = message.read()
+        if isinstance(content, bytes):
+            return failed._replace(text=f"{len(content)} bytes; the definition of {messages.type} is not known")
+        return failed._replace(state="ok", fields=message_rows(topic, content))
+    except (CoframeError, ValueError) as error:
+        return failed._replace(text=f"the message cannot be read: {error}")
+    except Exception as error:
+        _logger.exception("a message could not be inspected")
+        return failed._replace(text=f"the message cannot be read: {type(error).__name__}: {error}")
 
 
 class LogFeed(_PanelFeed):
