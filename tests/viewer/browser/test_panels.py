@@ -11,6 +11,7 @@ from runs import MS, SECOND, Run
 import coframe
 from coframe.messages import find
 from coframe.plotting import evaluate
+from coframe.wire.qos import QoS
 
 EVIL = "<img src=x onerror=window.hacked=1>"
 NONE = "\N{EN DASH}"  # shown instead of a missing value
@@ -41,7 +42,7 @@ def number(text):
     return 0.0 if text == NONE else float(text.replace("\N{MINUS SIGN}", "-"))
 
 
-def test_the_panels_of_a_running_robot(lab):
+def test_the_panels_of_a_running_robot(demo, lab):
     page = lab
     page.key("c")
     page.raw.locator("#pane-plots input").press_sequentially("odom:ba")
@@ -75,9 +76,13 @@ def test_the_panels_of_a_running_robot(lab):
 
     page.raw.locator("#pane-graph").get_by_label("Close: Nodes and topics").click()
     page.key("e")
-    page.wait(lambda: any("Simulated lidar started" in line for line in page.texts(".log-row")), "log messages")
-    page.raw.get_by_label("Text in the log").fill("static transforms")
-    page.wait(lambda: len(page.texts(".log-row")) == 1, "the filter")
+    log = find("rcl_interfaces/msg/Log")
+    rosout = demo.ros.publisher("/rosout", log, QoS(1000, transient_local=True))
+    for i in range(3):
+        rosout.publish(log(level=30, name="browser_test", msg=f"a warning with the number {i}"))
+    page.raw.get_by_label("Text in the log").fill("number 1")
+    page.wait(lambda: [line[-8:] for line in page.texts(".log-row")] == ["number 1"], "the filtered log")
+    rosout.close()
 
     # The address and the settings of the page contain what is shown.
     assert "plot=odom%3Abase_link.x" in page.raw.url
