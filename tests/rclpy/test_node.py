@@ -15,6 +15,8 @@ from rclpy.exceptions import (
     NotInitializedException,
 )
 from rclpy.executors import SingleThreadedExecutor
+from rclpy.subscription_content_filter_options import ContentFilterOptions
+from rclpy.type_hash import TypeHash
 from std_msgs.msg import String
 from std_srvs.srv import Trigger
 
@@ -106,6 +108,8 @@ def test_graph(make_node, wait_until):
     assert len(info.endpoint_gid) == 24
     assert info.qos_profile.deadline == info.qos_profile.lifespan == Infinite
     assert "\nEndpoint type: PUBLISHER\n" in str(info)
+    assert str(info.topic_type_hash).startswith("RIHS01_")
+    assert str(TypeHash()) == "INVALID"
     assert "\n  History (Depth): KEEP_LAST (10)\n" in str(info)
     assert [other.endpoint_gid for other in listener.get_publishers_info_by_topic("rt/chatter", no_mangle=True)] == [
         info.endpoint_gid
@@ -113,6 +117,15 @@ def test_graph(make_node, wait_until):
     assert ("/chatter", ["std_msgs/msg/String"]) in listener.get_publisher_names_and_types_by_node("talker", "/a")
     with pytest.raises(ValueError, match="topic name 'a b' is invalid"):
         listener.get_publishers_info_by_topic("a b")
+
+
+def test_arguments_of_later_distributions(node):
+    timer = node.create_timer(0.001, lambda: None, autostart=False)
+    assert timer.is_canceled()
+    timer.reset()
+    assert not timer.is_canceled()
+    with pytest.raises(NotImplementedError, match=r"has no content filters \('data > 3'\). Skip the messages"):
+        node.create_subscription(String, "a", print, 1, content_filter_options=ContentFilterOptions("data > 3", []))
 
 
 def test_graph_of_services(make_node, wait_until):

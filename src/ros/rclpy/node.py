@@ -54,6 +54,7 @@ if TYPE_CHECKING:
 
     from rclpy.context import Context
     from rclpy.executors import Executor, ExecutorEntity, PolledSubscription
+    from rclpy.subscription_content_filter_options import ContentFilterOptions
 
 HIDDEN_NODE_PREFIX = "_"
 EntityT = TypeVar("EntityT")
@@ -328,6 +329,7 @@ class Node(NodeParameters, NodeGraph):
         event_callbacks: SubscriptionEventCallbacks | None = None,
         qos_overriding_options: QoSOverridingOptions | None = None,
         raw: bool = False,
+        content_filter_options: ContentFilterOptions | None = None,
     ) -> Subscription:
         """Create a subscription.
 
@@ -341,13 +343,20 @@ class Node(NodeParameters, NodeGraph):
             event_callbacks: Callbacks for QoS events. None: incompatible QoS is logged.
             qos_overriding_options: QoS policies that parameters may override. None: no policies.
             raw: Whether to pass serialized messages to the callback.
+            content_filter_options: None, because coframe has no content filters.
 
         Raises:
             InvalidQosOverridesError: A parameter value is not valid for its policy.
             InvalidTopicNameException: The topic name is not valid.
             AttributeError, RuntimeError: `msg_type` is not a message class.
             RCLError: The context was shut down.
+            NotImplementedError: Options of a content filter are given.
         """
+        if content_filter_options is not None:
+            raise NotImplementedError(
+                f"coframe has no content filters ({content_filter_options.filter_expression!r}). Skip the messages in "
+                "the callback instead."
+            )
         name = self.__names.resolve(topic)
         msg_type, qos = message_class(msg_type), as_qos_profile(qos_profile)
         _check_callback(callback)
@@ -476,6 +485,7 @@ class Node(NodeParameters, NodeGraph):
         callback: Callable[[], Any],
         callback_group: CallbackGroup | None = None,
         clock: Clock | None = None,
+        autostart: bool = True,
     ) -> Timer:
         """Create a timer.
 
@@ -484,12 +494,16 @@ class Node(NodeParameters, NodeGraph):
             callback: Function or coroutine function that is called without arguments.
             callback_group: Group of the callback. None: the default group of the node.
             clock: Clock that measures the period. None: the clock of the node.
+            autostart: Whether the timer starts now, and not with its `reset()`.
         """
         _check_callback(callback)
         self.__check_usable("timer")
         period_ns = int(float(timer_period_sec) * S_TO_NS)
         group = self.__group(callback_group)
-        return self.__add(Timer(callback, group, period_ns, clock or self.__clock, context=self.context))
+        timer = Timer(callback, group, period_ns, clock or self.__clock, context=self.context)
+        if not autostart:
+            timer.cancel()
+        return self.__add(timer)
 
     def create_guard_condition(
         self, callback: Callable[[], Any], callback_group: CallbackGroup | None = None
