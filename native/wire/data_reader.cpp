@@ -15,6 +15,7 @@ DataReader::DataReader(dds::Entity participant, dds::Entity topic, const dds::Qo
   if (on_change) events_.add_to_reader(listener.get());
   // The data callback is not passed to dds_create_reader, because it could not take samples before that returns.
   entity_ = dds::check(f.dds_create_reader(participant, topic, qos, listener.get()), "create a reader");
+  dds::release_topic(topic);
   f.dds_lset_data_available(listener.get(), on_data);
   const dds::Code attached = f.dds_set_listener(entity_, listener.get());  // copies the listener
   if (attached < 0) {

@@ -12,7 +12,7 @@ namespace coframe {
 
 // Calls `on_data(entity, argument)` on DDS threads, one call at a time, from before the constructor returns until
 // `close` returns. Samples may arrive before the listener is attached, so the owner must check once itself.
-// With `on_change`, status changes are recorded in `events()`.
+// The topic is released. With `on_change`, status changes are recorded in `events()`.
 class DataReader {
  public:
   DataReader(dds::Entity participant, dds::Entity topic, const dds::Qos* qos, dds::DataCallback on_data,

@@ -96,6 +96,10 @@ Entity create_unchecked_topic(Entity participant, const std::string& name, const
                "create the topic");
 }
 
+void release_topic(Entity topic) {
+  if (topic < kPublicationTopic) functions().dds_delete(topic);
+}
+
 std::vector<Handle> matched_handles(Code (*get)(Entity, Handle*, std::size_t), Entity entity) {
   std::vector<Handle> handles;
   for (;;) {

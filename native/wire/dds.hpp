@@ -242,6 +242,9 @@ Code check(Code code, const char* what);
 // sent messages takes three times as long as the rest of sending.
 Entity create_unchecked_topic(Entity participant, const std::string& name, const std::string& type);
 
+// Deletes a topic once its reader or writer was created, which keeps what it needs of it. Built-in topics stay.
+void release_topic(Entity topic);
+
 // Returns all handles of `entity` from `get`, one of the functions dds_get_matched_*.
 std::vector<Handle> matched_handles(Code (*get)(Entity, Handle*, std::size_t), Entity entity);
 

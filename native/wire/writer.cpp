@@ -26,6 +26,7 @@ Writer::Writer(dds::Entity participant, dds::Entity topic, const QosProfile& pro
                                                                           f.dds_delete_listener);
   if (on_change) events_.add_to_writer(listener.get());
   entity_ = dds::check(f.dds_create_writer(participant, topic, qos.get(), listener.get()), "create a writer");
+  dds::release_topic(topic);
 }
 
 void Writer::write(const void* data, std::size_t size) const {

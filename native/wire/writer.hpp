@@ -16,7 +16,7 @@ namespace coframe {
 class Writer {
  public:
   // `checks_transforms`: the messages are transforms, and `write` refuses damaged ones. `on_change` (may be null) is
-  // set when a status changes.
+  // set when a status changes. The topic is released.
   Writer(dds::Entity participant, dds::Entity topic, const QosProfile& profile, const std::string& user_data,
          bool checks_transforms, std::shared_ptr<Event> on_change);
   ~Writer() { close(); }

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import threading
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias, TypeVar
 
 from coframe import _core
 from coframe.errors import WireError
@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from coframe.wire.participant import Participant
     from coframe.wire.qos import QoS
 
+ValueT = TypeVar("ValueT")
 NativeEndpoint: TypeAlias = "_core.Writer | _core.Reader | _core.Tap | _core.TfReader"
 
 
@@ -113,16 +114,16 @@ class LocalEndpoint:
     @property
     def matched(self) -> int:
         """The number of matched endpoints on the other side; 0 after `close`."""
-        return 0 if self._closed else self._endpoint.matched
+        return self._unless_closed(lambda: self._endpoint.matched, 0)
 
     def matched_handles(self) -> set[int]:
         """Return the handles of the matched endpoints on the other side."""
-        return set() if self._closed else set(self._endpoint.matched_handles())
+        return self._unless_closed(lambda: set(self._endpoint.matched_handles()), set())
 
     @property
     def refused_policy(self) -> int:
         """The DDS number of the QoS policy that made the last match fail; 0 if no match failed."""
-        return 0 if self._closed else self._endpoint.refused_policy
+        return self._unless_closed(lambda: self._endpoint.refused_policy, 0)
 
     def take_status(self, kind: int) -> tuple[int, int, int, int] | None:
         """Return a DDS status if it has changed since the last call.
@@ -157,6 +158,14 @@ class LocalEndpoint:
         node.remove(self)
         if last:
             self._endpoint.close()
+
+    def _unless_closed(self, read: Callable[[], ValueT], closed: ValueT) -> ValueT:
+        try:
+            return closed if self._closed else read()
+        except _core.DdsError:
+            if self._closed:  # by another thread meanwhile
+                return closed
+            raise
 
     def close(self) -> None:
         """Remove this endpoint from all nodes and close it. A second call has no effect."""

@@ -64,15 +64,15 @@ class Participant:
         self._references = 0
         self._native = dds.join(domain_id, config.cyclone_config(), _ENCLAVE)
         self._lock = threading.RLock()
-        self._topics: dict[tuple[str, str], int] = {}
         self._nodes: list[GraphNode] = []
         self._statics: dict[str, SharedStaticPublisher] = {}
         self._gid_size = self._preferred_gid_size = gid_size(os.environ)
 
-        graph_topic = self._topic(TOPIC, _GRAPH_TYPE)
-        self._info_writer = _core.Writer(self._native.entity, graph_topic, _native_qos(GRAPH_WRITER), ADAPTS)
+        self._info_writer = _core.Writer(
+            self._native.entity, self._topic(TOPIC, _GRAPH_TYPE), _native_qos(GRAPH_WRITER), ADAPTS
+        )
         self._wake = _core.Event()
-        self._graph = Graph(self._native.entity, graph_topic, self._wake)
+        self._graph = Graph(self._native.entity, self._topic(TOPIC, _GRAPH_TYPE), self._wake)
         self._mismatches = MismatchMonitor(self._graph, self._warn)
         self._rejections = RejectedTransformMonitor(self._graph, self._warn)
         self._warn_once = WarnOnce(self._warn)
@@ -447,10 +447,8 @@ class Participant:
         return name, type_name, self._topic(name, type_name)
 
     def _topic(self, name: str, type_name: str) -> int:
-        with self._lock:
-            if (name, type_name) not in self._topics:
-                self._topics[name, type_name] = types.create_topic(self._native.entity, name, type_name)
-            return self._topics[name, type_name]
+        """Create a topic for one endpoint, which releases it."""
+        return types.create_topic(self._native.entity, name, type_name)
 
     def _describe(self, endpoints: dict[int, DiscoveredEndpoint]) -> list[EndpointInfo]:
         return [self._graph.describe(endpoint) for endpoint in endpoints.values()]
