@@ -6,6 +6,7 @@ import itertools
 import time
 from types import SimpleNamespace
 
+import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -15,6 +16,7 @@ import rclpy
 import tf2_ros
 from geometry_msgs.msg import PointStamped, TransformStamped
 from message_filters import ApproximateTimeSynchronizer, Cache, SimpleFilter, Subscriber, TimeSynchronizer
+from message_filters._matching import first_match
 from rclpy.clock import ClockType
 from rclpy.duration import Duration
 from rclpy.time import Time
@@ -69,6 +71,20 @@ def test_approximate_sets_are_those_of_the_rule(number, queue_size, slop, data):
     for topic, stamp in arrivals:
         inputs[topic].signalMessage(stamped(stamp))
     assert received == expected_sets(arrivals, number, queue_size, slop)
+
+
+def test_the_chosen_combination_is_the_first_of_all():
+    random = np.random.default_rng(7)
+    searched = 0
+    for _ in range(3000):
+        new, slop = 10, int(random.integers(0, 9))
+        queues = [random.permutation(21)[: random.integers(1, 5)].tolist() for _ in range(random.integers(1, 4))]
+        near = [sorted((s for s in q if abs(s - new) <= slop), key=lambda s: abs(s - new)) for q in queues]
+        combinations = list(itertools.product(*near))
+        valid = [list(c) for c in combinations if max(*c, new) - min(*c, new) < slop]
+        assert first_match(new, queues, slop) == (valid[0] if valid else None)
+        searched += bool(combinations) and list(combinations[0]) not in valid[:1]
+    assert searched > 300, "often, the closest stamps do not fit together"
 
 
 @settings(max_examples=80, deadline=None)
