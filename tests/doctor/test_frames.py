@@ -82,7 +82,7 @@ def test_namespaces_are_drawn_separately(tmp_path):
 @pytest.mark.parametrize(
     ("arguments", "code", "text"),
     [
-        (["-o", "frames.png"], 2, "unknown suffix '.png'. Suffixes: .gv"),
+        (["-o", "frames.gif"], 2, "unknown suffix '.gif'. Suffixes: .gv"),
         (["--watch", "-o", "frames.svg"], 2, "--watch cannot be combined with --output"),
         (["--duration", "0s"], 2, "greater than 0"),
         (["nowhere.mcap"], 1, "nowhere.mcap"),
