@@ -7,7 +7,6 @@ import sys
 
 import pytest
 
-from coframe.cli import ros_programs
 from coframe.errors import PackageError
 from coframe.packages import console_scripts
 from coframe.packages.executables import executables, find_executable
@@ -108,12 +107,10 @@ def test_sources_near_a_file_are_found_from_anywhere(workspace, monkeypatch, tmp
 
 def test_built_in_executables():
     found = executables("tf2_ros")
-    assert found["tf2_echo"].command[1:] == (
-        *("-m", "coframe.packages.entry_point", "coframe.cli.ros_programs:main", "tf2_echo"),
-    )
+    assert found["tf2_echo"].command[1:] == (*("-m", "coframe.packages.entry_point", "coframe.cli:main", "echo"),)
     result = run("robot_state_publisher", "robot_state_publisher", "/no/such.urdf")
     assert "robot_state_publisher: /no/such.urdf: cannot be read: No such file or directory" in result.stderr
-    assert find_executable("rviz2", "rviz2").command[-1] == "rviz2"
+    assert find_executable("rviz2", "rviz2").command[-2:] == ("coframe.cli:main", "view")
 
 
 @pytest.mark.parametrize(
@@ -141,18 +138,3 @@ def test_declarations_of_console_scripts(tmp_path, name, text, scripts, root):
     found = console_scripts.read(tmp_path)
     assert "".join(sorted(found.scripts)) == scripts
     assert found.root == root
-
-
-@pytest.mark.parametrize(
-    ("words", "expected"),
-    [
-        (["a", "b"], ["a", "b"]),
-        (["a", "b", "--ros-args", "-r", "__node:=x", "-p", "use_sim_time:=true"], ["a", "b"]),
-        (
-            ["--ros-args", "-r", "__ns:=/r1", "-r", "/tf:=tf", "-r", "tf_static:=/s"],
-            ["--tf-topic", "/r1/tf", "--tf-static-topic", "/s"],
-        ),
-    ],
-)
-def test_ros_arguments_of_programs_that_are_commands(words, expected):
-    assert ros_programs._without_ros_arguments(words) == expected

@@ -26,7 +26,7 @@ _NODE = {"cls": NodeCommand}
 COMMANDS: dict[str, tuple[str, dict[str, Any]]] = {
     "demo": ("Start a simulated robot and show its moving transform tree.", {}),
     "lab": ("Do the lab, and grade it: new, run, check, break.", {}),
-    "view": ("Show frames, sensor data and markers in a browser tab.", {}),
+    "view": ("Show frames, sensor data and markers in a browser tab.", _NODE),
     "doctor": ("Find problems with transforms, live or in a recording.", {}),
     "why": ("Explain why a transform is available, or why it is not.", {}),
     "frames": ("Show the transform trees, or write a diagram of them.", _NODE),

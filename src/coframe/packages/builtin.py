@@ -11,20 +11,20 @@ from coframe.ros_side import ros_folder
 
 __all__ = ["EXECUTABLES", "share"]
 
-_COMMANDS: Final = "coframe.cli.ros_programs:main"
+_COMMAND: Final = "coframe.cli:main"
 # Package -> executable -> its function, and arguments. A module that is not installed has no executable.
 EXECUTABLES: Final[dict[str, dict[str, tuple[str, ...]]]] = {
     "robot_state_publisher": {"robot_state_publisher": ("robot_state_publisher:main",)},
     "joint_state_publisher": {"joint_state_publisher": ("joint_state_publisher:main",)},
-    "joint_state_publisher_gui": {"joint_state_publisher_gui": (_COMMANDS, "joint_state_publisher_gui")},
+    "joint_state_publisher_gui": {"joint_state_publisher_gui": (_COMMAND, "joints", "--gui")},
     "tf2_ros": {
-        "static_transform_publisher": (_COMMANDS, "static_transform_publisher"),
-        "tf2_echo": (_COMMANDS, "tf2_echo"),
-        "tf2_monitor": (_COMMANDS, "tf2_monitor"),
-        "buffer_server": ("coframe.nodes.buffer_server:main",),
+        "static_transform_publisher": (_COMMAND, "static"),
+        "tf2_echo": (_COMMAND, "echo"),
+        "tf2_monitor": (_COMMAND, "monitor", "--classic"),
+        "buffer_server": ("tf2_ros.buffer_server.__main__:main",),
     },
-    "tf2_tools": {"view_frames": (_COMMANDS, "view_frames")},
-    "rviz2": {"rviz2": (_COMMANDS, "rviz2")},
+    "tf2_tools": {"view_frames": (_COMMAND, "frames", "-o", "frames.pdf", "-o", "frames.gv")},
+    "rviz2": {"rviz2": (_COMMAND, "view")},
     "turtlesim": {
         name: (f"turtlesim.{name}:main",) for name in ("turtlesim_node", "turtle_teleop_key", "draw_square", "mimic")
     },
