@@ -97,9 +97,12 @@ def joints(
     Example: coframe joints arm.urdf.xacro --zero joint1=0.5 --rate 30
     """
     with run_until_interrupted():
+        words = context.args
+        if str(file) == "--ros-args":  # There is no FILE in front of it.
+            file, words = None, ["--ros-args", *words]
         if file is None and not gui:
             fail("FILE is missing.", "Name a URDF or xacro file, or add --gui to read /robot_description.", code=2)
-        arguments = xacro_arguments(context.args)
+        arguments = xacro_arguments(words)
         robot = None if file is None else load(file, arguments=arguments)
         from rclpy.parameter import Parameter  # noqa: PLC0415 - not needed if the file cannot be read
 
@@ -111,7 +114,7 @@ def joints(
         if sources:
             values["source_list"] = sources
         overrides = [Parameter(name, value=value) for name, value in values.items()]
-        with reported_node_errors(), _running_node(["coframe", *context.args], robot, domain, overrides) as running:
+        with reported_node_errors(), _running_node(["coframe", *words], robot, domain, overrides) as running:
             if gui:
                 listener_options = {
                     "tf_topic": tf_topic,
