@@ -18,6 +18,7 @@ from rosbags.typesys import get_types_from_idl, get_types_from_msg
 
 import coframe
 from coframe import interface_imports
+from coframe.interfaces.definition_files import Definition
 from coframe.messages import deserialize, find, packages, registry, serialize
 
 NUM = """
@@ -127,6 +128,53 @@ def test_bytes_equal_those_of_rosbags(
     for _ in range(20):
         message = random_message(cls, rng)
         assert serialize(message) == bytes(store.serialize_cdr(to_rosbags(message), "demo_msgs/msg/Mixed"))
+
+
+def test_infinity_and_nan_are_defaults(define: Callable[..., Any]) -> None:
+    text = "float64 MOST=inf\nfloat64 low -inf\nfloat32[2] both [nan, inf]\nfloat64[] more [1.0, -inf]\n"
+    cls = define("demo_msgs/msg/Limits", msg_Limits=text)
+    assert (cls.MOST, cls().low, cls().more.tolist()) == (float("inf"), float("-inf"), [1.0, float("-inf")])
+    assert str(cls().both.tolist()) == "[nan, inf]"
+
+
+def test_damaged_definitions_raise_nothing_but_interface_errors() -> None:
+    rng = random.Random(5)
+    pieces = [
+        "[",
+        "]",
+        "<=",
+        "=",
+        "'",
+        '"',
+        "\\",
+        "#",
+        "---",
+        "\n",
+        "9" * 30,
+        "{",
+        "}",
+        "::",
+        "@",
+        "sequence<",
+        "\0",
+        "inf",
+    ]
+    for number in range(1500):
+        idl = number % 2
+        text = list(IDL if idl else NUM.replace("Part part", ""))
+        for _ in range(rng.randint(1, 4)):
+            at = rng.randrange(len(text))
+            text[at : at + rng.choice([0, 0, 1, 20])] = rng.choice([*pieces, "".join(text[at : at + 99])])
+        package = packages.InterfacePackage(
+            "demo_msgs",
+            {f"msg/N{number}": Definition("".join(text).replace("Shape", f"N{number}"), "x.idl" if idl else None)},
+        )
+        try:
+            package.create("msg", f"N{number}")
+        except coframe.InterfaceError:
+            continue
+        cls = find(f"demo_msgs/msg/N{number}")
+        deserialize(serialize(cls()), cls)
 
 
 IDL = """

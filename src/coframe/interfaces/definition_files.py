@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 __all__ = ["KINDS", "Definition", "definitions_in", "has_definitions", "package_name", "read"]
 
 KINDS = ("msg", "srv", "action")
-_LARGEST = 1 << 20  # bytes of one file; the largest of public packages have 20 000
+_LARGEST = 1 << 18  # bytes of one file; the largest of public packages have 20 000
 _PACKAGE_NAME = re.compile(r"[a-z](?:_?[a-z0-9])*")
 _NAME_ELEMENT = re.compile(r"<name>\s*([\w-]+)\s*</name>")
 

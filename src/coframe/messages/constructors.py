@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING, Any
 
 from coframe.messages.definition import AbstractNestedType, AbstractType, Array, BasicType, NamespacedType
@@ -45,10 +46,17 @@ def _default(field: Field, class_name: Callable[[NamespacedType], str]) -> str:
 def _given_default(value: Any, type_: AbstractType) -> str:
     number = number_of(type_)
     if number is None:
-        return repr(value)
+        return _literal(value)
     if isinstance(type_, Array):
-        return f"np.array({value!r}, np.{number.dtype.name})"
-    return f'array("{number.code}", {value!r})'
+        return f"np.array({_literal(value)}, np.{number.dtype.name})"
+    return f'array("{number.code}", {_literal(value)})'
+
+
+def _literal(value: Any) -> str:
+    """Return the expression for a value; Python has no literals for infinity and NaN."""
+    if isinstance(value, list):
+        return f"[{', '.join(map(_literal, value))}]"
+    return f'float("{value}")' if isinstance(value, float) and not math.isfinite(value) else repr(value)
 
 
 def _zero(type_: AbstractType, class_name: Callable[[NamespacedType], str]) -> str:

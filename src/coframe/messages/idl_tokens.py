@@ -8,6 +8,7 @@ import re
 from typing import NamedTuple
 
 from coframe.errors import InterfaceError
+from coframe.messages.parser import shortened
 
 __all__ = ["Token", "Tokens"]
 
@@ -53,7 +54,7 @@ class Tokens:
 
     def error(self, text: str, line: int | None = None) -> InterfaceError:
         """Return an error at a line, by default the line of the next token."""
-        return InterfaceError(text, line=self.peek().line if line is None else line, file=self._file)
+        return InterfaceError(shortened(text), line=self.peek().line if line is None else line, file=self._file)
 
     def peek(self) -> Token:
         """Return the next token without taking it."""

@@ -129,7 +129,7 @@ def _parse_structure(lines: Iterable[tuple[int, str]], package: str, file: str |
             member = _parse_line(content, package)
             add_unique(names, member.name)
         except ValueError as error:
-            raise InterfaceError(f"{error}, in: {_shortened(content)}", line=number, file=file) from None
+            raise InterfaceError(f"{shortened(str(error))}, in: {shortened(content)}", line=number, file=file) from None
         (structure.fields if isinstance(member, Field) else structure.constants).append(member)  # type: ignore[arg-type]
     return structure
 
@@ -152,8 +152,9 @@ def _parse_line(content: str, package: str) -> Field | Constant:
     return Field(name, field_type, literal(match["value"], field_type) if match["value"] else None)
 
 
-def _shortened(text: str) -> str:
-    longest = 120
+def shortened(text: str) -> str:
+    """Return a text for an error message: its beginning if it is long."""
+    longest = 200
     return text if len(text) <= longest else f"{text[:longest]}..."
 
 

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import keyword
+import math
 from typing import TYPE_CHECKING
 
 from coframe.messages.compounds import member_messages
@@ -104,7 +105,7 @@ class _Stub:
         star = ", *" if fields else ""
         return [
             f"class {name}(Message):",
-            *(f"    {constant.name}: Final = {_constant(constant)}" for constant in structure.constants),
+            *(f"    {constant.name}: {_constant(constant)}" for constant in structure.constants),
             *(f"    {field.name}: {self._field(field)}" for field in fields),
             f"    def __init__(self{star}{parameters}) -> None: ...",
             "",
@@ -148,7 +149,9 @@ def _service(name: str) -> list[str]:
 
 
 def _constant(constant: Constant) -> str:
-    return _quoted(constant.value) if isinstance(constant.value, str) else repr(constant.value)
+    if isinstance(constant.value, float) and not math.isfinite(constant.value):
+        return "Final[float]"
+    return f"Final = {_quoted(constant.value) if isinstance(constant.value, str) else repr(constant.value)}"
 
 
 def _quoted(text: str) -> str:
