@@ -152,7 +152,27 @@ def test_values_are_rounded_and_limited_as_by_opencv(dtype, data):
     else:
         limits = np.iinfo(dtype)
         assert found.tolist() == [max(limits.min, min(limits.max, round(value))) for value in image.tolist()]
-    assert cvtColor2(np.array([[np.nan]], np.float32), "32FC1", "8UC1").tolist() == [[0]]
+
+
+@pytest.mark.parametrize("target", ["8U", "8S", "16U", "16S", "32S"])
+@pytest.mark.parametrize("source", ["8U", "8S", "16U", "16S", "32S", "32F", "64F"])
+def test_extreme_values_are_limited(source, target):
+    before, after = (np.dtype(BRIDGE.numpy_type_to_cvtype[name]) for name in (source, target))
+    limits = np.iinfo(after)
+    values = [-1e30, np.inf, np.nan] if before.kind == "f" else [np.iinfo(before).min, np.iinfo(before).max, 1]
+    expected = (
+        [limits.min, limits.max, limits.min]
+        if before.kind == "f"
+        else [max(limits.min, min(limits.max, value)) for value in values]
+    )
+    if {source, target} == {"8U", "16U"}:
+        expected = [0, limits.max, 257 if target == "16U" else 0]
+    elif {source[:-1], target[:-1]} == {"8", "16"}:  # Images of 8 and 16 bits are scaled to each other.
+        factor = 257 if target[:2] == "16" else 1 / 257
+        expected = [max(limits.min, min(limits.max, round(value * factor))) for value in values]
+    found = cvtColor2(np.array([values], before), f"{source}C1", f"{target}C1")
+    assert found.dtype == after
+    assert found[0].tolist() == expected
 
 
 @pytest.mark.parametrize(

@@ -107,6 +107,11 @@ def _saturated(image: Image, dtype: str) -> Image:
     if np.issubdtype(dtype, np.floating):
         return image.astype(dtype)
     limits = np.iinfo(dtype)
+    low, high = int(limits.min), int(limits.max)
     if np.issubdtype(image.dtype, np.floating):
-        image = np.nan_to_num(np.rint(image), nan=limits.min, posinf=limits.max, neginf=limits.min)
-    return np.clip(image, limits.min, limits.max).astype(dtype)
+        # float32 has no number for the largest int32.
+        image = np.nan_to_num(np.rint(image.astype(np.float64)), nan=low, posinf=high, neginf=low)
+    else:
+        own = np.iinfo(image.dtype)
+        low, high = max(low, int(own.min)), min(high, int(own.max))
+    return np.clip(image, low, high).astype(dtype)
