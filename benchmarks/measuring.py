@@ -97,6 +97,14 @@ def percent(value: float) -> str:
     return f"{value:.2f} %"
 
 
+def per_second(value: float) -> str:
+    return f"{value:.1f} /s"
+
+
+def megabytes(value: float) -> str:
+    return f"{value / 1e6:.1f} MB"
+
+
 def number_of_bytes(value: float) -> str:
     return f"{value:.1f} B"
 

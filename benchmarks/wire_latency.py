@@ -202,6 +202,7 @@ def talker(python: str, listener: Listener, seconds: float) -> Iterator[None]:
     command = [python, "-E", "-m", "benchmarks.wire_latency", "talk", listener.address, str(seconds + PATIENCE)]
     process = subprocess.Popen(command)
     try:
+        print("the first message of the talker", file=sys.stderr, flush=True)
         end = time.monotonic() + PATIENCE
         while not listener.has_received():
             if time.monotonic() > end:
@@ -252,7 +253,10 @@ def main(quantity: str, name: str, seconds: str, talkers_python: str = sys.execu
     os.environ.setdefault("ROS_DOMAIN_ID", str(100 + os.getpid() % 100))
     listener = LISTENERS[name]()
     with talker(talkers_python, listener, float(seconds)):
+        print("the measurement", file=sys.stderr, flush=True)
         print(*QUANTITIES[quantity](listener, float(seconds)), flush=True)
+    if name == "tf2":
+        os._exit(0)  # The thread of a real TransformListener keeps the process alive until rclpy.shutdown().
 
 
 if __name__ == "__main__":

@@ -228,6 +228,9 @@ TARGETS = [
     ("lookup at increasing times, D=1, n=1e6", "the same, n=100", GrowsAtMost(2)),
     ("memory per stored transform", "floor: NumPy arrays", AtMost(80)),
     ("import coframe after numpy", "floor: import numpy", AtMost(60_000_000)),
+    ("rclpy.init() and a node", "floor: a bare DDS participant", AtMost(60_000_000)),
+    ("idle node with a TransformListener, spin(), CPU of one core", "floor: a bare DDS participant", AtMost(0.5)),
+    ("idle node, spin_once(timeout_sec=0.5) in a loop, CPU of one core", "floor: a bare DDS participant", AtMost(0.5)),
     ("a tab of the viewer, 10 frames at 30 Hz, CPU of one core", "the lookups alone", AtMost(3)),
     ("a tab of the viewer, 100 frames at 30 Hz, CPU of one core", "the lookups alone", AtMost(3)),
     ("a tab of the viewer, 1000 frames at 30 Hz, CPU of one core", "the lookups alone", AtMost(5)),
@@ -237,3 +240,15 @@ TARGETS = [
 def test_every_target_has_its_row():
     rows = {(row.name, row.reference, row.target) for row in bench.chosen([]) if row.target}
     assert rows == set(TARGETS)
+
+
+def test_a_program_that_does_not_end_is_ended_with_a_sentence():
+    waits = Program(
+        "-c", "import sys, time; print('a message', file=sys.stderr, flush=True); time.sleep(60)", time_limit=1
+    )
+    with pytest.raises(PeerError, match="ended after 1 s, waiting for a message: "):
+        waits.sample()
+    worker = Worker(OWN_PYTHON, "time", time_limit=1)
+    with pytest.raises(PeerError, match="ended after 1 s, waiting for the result of"):
+        RemoteStatement(worker, "sleep", 60).sample()
+    worker.close()

@@ -6,6 +6,7 @@ from benchmarks.rows import (
     doctor,
     fleet,
     history,
+    idle,
     insertion,
     large_recordings,
     listener,
@@ -29,6 +30,7 @@ ROWS = {
     "recordings": recordings.ROWS + large_recordings.ROWS,
     "history": history.ROWS,
     "startup": startup.ROWS,
+    "idle": idle.ROWS,
     "viewer": viewer.ROWS,
 }
 """The rows by subject."""
