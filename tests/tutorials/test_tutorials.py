@@ -95,7 +95,7 @@ def terminal(network, domain_id, tmp_path):  # noqa: ARG001 - the domain is in t
 def test_own_messages_and_services(terminal):
     listener = terminal.start("run", "py_pubsub", "listener")
     terminal.start("run", "py_pubsub", "talker")
-    listener(r'I heard: "\d+"')
+    listener(r'I got: "\d+"')
     listener(r"center \d+\.0 radius 0\.5")
     assert re.search(r"^num: \d+\n---", terminal.run("topic", "echo", "/topic", "--once"), re.MULTILINE)
     assert "int64 sum" in terminal.run("interface", "show", "tutorial_interfaces/srv/AddThreeInts")

@@ -13,7 +13,7 @@ class Subscriber(Node):
         self.create_subscription(Sphere, "spheres", self.sphere, 10)
 
     def number(self, msg):
-        self.get_logger().info('I heard: "%d"' % msg.num)
+        self.get_logger().info('I got: "%d"' % msg.num)
 
     def sphere(self, msg):
         self.get_logger().info(f"center {msg.center.x} radius {msg.radius}")
