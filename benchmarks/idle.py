@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Measure what an idle node costs: `python -m benchmarks.idle KIND QUANTITY`.
 
-KIND is `node` (rclpy with a TransformListener, spun by `spin`), `loop` (the same, spun by `spin_once` in a loop), or
 KIND is `node` (rclpy with a TransformListener, spun by `spin`), `loop` (the same, spun by `spin_once`), or
-of the process), `cpu` (percent of one core) or `wakes` (how often its threads wake per second).
+`participant` (a bare DDS participant). QUANTITY is `start` (nanoseconds until it exists), `memory` (bytes of the
+process), `cpu` (percent of one core) or `wakes` (how often its threads wake per second).
 """
 
 import os

@@ -6,6 +6,7 @@ import time
 import pytest
 
 import rclpy
+import tf2_ros
 from rclpy import event_handler, qos_event
 from rclpy.callback_groups import MutuallyExclusiveCallbackGroup
 from rclpy.duration import Duration
@@ -13,6 +14,7 @@ from rclpy.event_handler import PublisherEventCallbacks, SubscriptionEventCallba
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.qos import DurabilityPolicy, LivelinessPolicy, QoSPolicyKind, QoSProfile, ReliabilityPolicy
 from std_msgs.msg import Int32, String
+from tf2_msgs.msg import TFMessage
 
 DEADLINE = QoSProfile(depth=1, deadline=Duration(nanoseconds=100_000_000))
 BEST_EFFORT = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
@@ -167,3 +169,18 @@ def test_a_handler_is_a_waitable(node):
     assert handler.take_data() is None
     assert isinstance(handler.callback_group, MutuallyExclusiveCallbackGroup)
     assert not handler.is_ready(None)
+
+
+def test_a_listener_with_another_qos_is_logged_by_its_node(make_node, wait_until, capfd):
+    node = make_node("looker")
+    broadcaster = node.create_publisher(TFMessage, "/tf", BEST_EFFORT)
+    listener = tf2_ros.TransformListener(tf2_ros.Buffer(), node)
+    logged = []
+
+    def both() -> bool:
+        logged.append(capfd.readouterr().err)
+        return "".join(logged).count("Last incompatible policy: RELIABILITY") == 2
+
+    wait_until(both)
+    assert "[looker]: New publisher discovered on topic '/tf', offering incompatible QoS." in "".join(logged)
+    assert broadcaster.get_subscription_count() == listener.tf_sub.get_publisher_count() == 0

@@ -304,6 +304,7 @@ class Participant:
         authority: str | None = "default_authority",
         renaming: _core.Renaming | None = None,
         on_data: _core.Event | None = None,
+        on_mismatch: Callable[[str, str], object] | None = None,
     ) -> TfReader:
         """Create a subscription of `node` that stores transforms in `buffer` on the DDS thread, without the GIL.
 
@@ -316,6 +317,7 @@ class Participant:
             authority: The source that the buffer records for the transforms. If None, it is the publishing node.
             renaming: The renaming of frames (see `coframe.frame_names.renaming`). If None, frames keep their names.
             on_data: An event that is set whenever a status changes, and by the next message after `TfReader.arm`.
+            on_mismatch: The attribute of the reader; see `LocalEndpoint`.
 
         Raises:
             WireError: DDS cannot create the subscription.
@@ -330,7 +332,16 @@ class Participant:
             ),
             topic,
         )
-        reader = TfReader(native, node, name, type_name, chosen, static=static, name_writers=authority is None)
+        reader = TfReader(
+            native,
+            node,
+            name,
+            type_name,
+            chosen,
+            static=static,
+            name_writers=authority is None,
+            on_mismatch=on_mismatch,
+        )
         reader.name_writers(self._graph)
         self._rejections.add(reader, buffer)
         return reader

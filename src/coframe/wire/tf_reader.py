@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING, NamedTuple
 from coframe.wire.endpoints import LocalEndpoint
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from coframe import _core
     from coframe.wire.endpoints import GraphNode, Sample
     from coframe.wire.graph import Graph
@@ -62,7 +64,9 @@ class TfReader(LocalEndpoint):
         *,
         static: bool,
         name_writers: bool,
+        on_mismatch: Callable[[str, str], object] | None = None,
     ) -> None:
+        self.on_mismatch = on_mismatch
         self.static = static
         self._reader = native
         self._node_names: dict[int, str] | None = {} if name_writers else None

@@ -339,10 +339,9 @@ class QoSPresetProfiles(Enum):
 
 
 def qos_policy_name_from_kind(policy_kind: QoSPolicyKind | int) -> str:
-    """Return the name of a policy as upstream's C library writes it, for example `DURABILITY_QOS_POLICY`.
+    """Return the name of a policy, for example `DURABILITY`.
 
     Raises:
         ValueError: There is no such policy.
     """
-    kind = QoSPolicyKind(policy_kind)
-    return "INVALID_QOS_POLICY" if kind is QoSPolicyKind.INVALID else f"{kind.name}_QOS_POLICY"
+    return QoSPolicyKind(policy_kind).name

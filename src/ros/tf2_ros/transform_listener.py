@@ -11,6 +11,7 @@ import rclpy
 import tf2_py as tf2
 from coframe.frame_names import renaming
 from rclpy.callback_groups import ReentrantCallbackGroup
+from rclpy.event_handler import MismatchReporter, SubscriptionEventCallbacks
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, as_qos_profile
@@ -155,6 +156,7 @@ class TransformListener:
             authority=_AUTHORITY,
             renaming=self.__renaming,
             on_data=self.node.context._Coframe__wakeup.event,
+            on_mismatch=MismatchReporter(SubscriptionEventCallbacks(), self.node.get_logger(), self.__topics[static]),
         )
         self.__readers.append(reader)
         callback = self.static_callback if static else self.callback
