@@ -38,6 +38,11 @@ def test_the_wheel_has_everything(tmp_path):
     run(python, "-c", f"import {packages}, sensor_msgs_py")
     converters = "cv_bridge, image_geometry, laser_geometry, ros2_numpy, rosidl_runtime_py"
     run(python, "-c", f"import {converters}, angles, diagnostic_updater, message_filters")
+    run(python, "-c", "import rosbag2_py, turtlesim.turtlesim_node; from nav2_msgs.action import NavigateToPose")
+    (tmp_path / "own_msgs/msg").mkdir(parents=True)
+    (tmp_path / "own_msgs/msg/Num.msg").write_text("int64 num 3\n")
+    first = "from own_msgs.msg import Num; print(Num())"
+    assert run(python, "-c", first, COFRAME_INTERFACES=str(tmp_path)) == "own_msgs.msg.Num(num=3)\n"
     shown = run(tmp_path / "env" / "bin" / "coframe", "demo", "--duration", "5", "--no-browser", ROS_DOMAIN_ID="201")
     assert re.search(r"^http://127\.0\.0\.1:\d+/$", shown, re.MULTILINE)
     page = "import coframe, urllib.request as u; print(u.urlopen(coframe.show(coframe.Buffer(), port=0).url).read())"
