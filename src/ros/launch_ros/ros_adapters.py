@@ -8,10 +8,6 @@ import os
 import threading
 from typing import TYPE_CHECKING
 
-import rclpy
-from rclpy.context import Context
-from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
-
 if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
     from rclpy.node import Node
@@ -27,6 +23,11 @@ class ROSAdapter:
     """
 
     def __init__(self, *, argv: list[str] | None = None) -> None:
+        # Most launch files need no node, and rclpy is slow to import.
+        import rclpy  # noqa: PLC0415
+        from rclpy.context import Context  # noqa: PLC0415
+        from rclpy.executors import SingleThreadedExecutor  # noqa: PLC0415
+
         self.__context = Context()
         rclpy.init(args=argv or [], context=self.__context)
         self.__node = rclpy.create_node(f"launch_ros_{os.getpid()}", context=self.__context)
@@ -36,6 +37,8 @@ class ROSAdapter:
         self.__thread.start()
 
     def _run(self) -> None:
+        from rclpy.executors import ExternalShutdownException  # noqa: PLC0415
+
         with contextlib.suppress(ExternalShutdownException):
             self.__executor.spin()
 

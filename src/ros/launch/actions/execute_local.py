@@ -15,8 +15,8 @@ import launch.logging
 from coframe.packages.entry_point import LAUNCHER
 from launch.action import Action
 from launch.actions.opaque_function import OpaqueFunction
+from launch.actions.process_options import performed_bool, performed_float, performed_output, timeout
 from launch.actions.running_process import RunningProcess
-from launch.conditions import evaluate_condition_expression
 from launch.event import Event
 from launch.event_handler import EventHandler
 from launch.event_handlers import OnProcessExit, OnShutdown
@@ -30,12 +30,9 @@ from launch.events.process import (
     ShutdownProcess,
     SignalProcess,
 )
-from launch.substitutions import LaunchConfiguration
 from launch.utilities import (
     create_future,
     normalize_to_list_of_entities,
-    normalize_to_list_of_substitutions,
-    perform_substitutions,
 )
 
 if TYPE_CHECKING:
@@ -92,8 +89,8 @@ class ExecuteLocal(Action):
         super().__init__(**options)
         self.__process_description = process_description
         self.__shell = shell
-        self.__sigterm_timeout = _timeout(sigterm_timeout, "sigterm_timeout")
-        self.__sigkill_timeout = _timeout(sigkill_timeout, "sigkill_timeout")
+        self.__sigterm_timeout = timeout(sigterm_timeout, "sigterm_timeout")
+        self.__sigkill_timeout = timeout(sigkill_timeout, "sigkill_timeout")
         self.__emulate_tty = emulate_tty
         self.__output_option = output
         self.__output_format = output_format
@@ -223,18 +220,18 @@ class ExecuteLocal(Action):
         self.__logger = launch.logging.get_logger(name)
         self.__output = launch.logging.ProcessOutput(
             name,
-            _performed_output(context, self.__output_option),
+            performed_output(context, self.__output_option),
             lambda line: self.__output_format.format(line=line, this=self),
         )
         tty = self.__emulate_tty
         if tty is None:
             tty = context.launch_configurations.get("emulate_tty", False)
-        self.__use_tty = _performed_bool(context, tty)
-        self.__use_respawn = _performed_bool(context, self.__respawn)
+        self.__use_tty = performed_bool(context, tty)
+        self.__use_respawn = performed_bool(context, self.__respawn)
         delay = self.__respawn_delay
-        self.__delay = 0.0 if delay is None else _performed_float(context, delay)
+        self.__delay = 0.0 if delay is None else performed_float(context, delay)
         self.__timeouts = tuple(
-            _performed_float(context, each) for each in (self.__sigterm_timeout, self.__sigkill_timeout)
+            performed_float(context, each) for each in (self.__sigterm_timeout, self.__sigkill_timeout)
         )
         self.__register_handlers(context)
         self.__completed_future = create_future(context.asyncio_loop)
@@ -409,29 +406,3 @@ class ExecuteLocal(Action):
     def __write(self, text: bytes) -> None:
         if self.__process is not None and self.__process.is_running:
             self.__process.write(text)
-
-
-def _timeout(seconds: SomeSubstitutionsType | float | None, name: str) -> list[Substitution]:
-    if seconds is None:
-        return [LaunchConfiguration(name, default="5")]
-    return normalize_to_list_of_substitutions(str(seconds) if isinstance(seconds, int | float) else seconds)
-
-
-def _performed_text(context: LaunchContext, value: Any) -> str:
-    return perform_substitutions(context, normalize_to_list_of_substitutions(value))
-
-
-def _performed_float(context: LaunchContext, value: Any) -> float:
-    return float(value) if isinstance(value, int | float) else float(_performed_text(context, value))
-
-
-def _performed_bool(context: LaunchContext, value: Any) -> bool:
-    if isinstance(value, bool):
-        return value
-    return evaluate_condition_expression(context, normalize_to_list_of_substitutions(value))
-
-
-def _performed_output(context: LaunchContext, output: Any) -> Any:
-    if isinstance(output, dict):
-        return output
-    return _performed_text(context, output)

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 
 __all__ = ["RunningProcess"]
 
+_REST_OF_LINE = 0.02  # seconds in which the rest of a line may arrive
 _GRACE = 0.5  # seconds in which output may still arrive after the process has ended
 _STREAMS = {1: "stdout", 2: "stderr"}
 
@@ -29,6 +30,8 @@ class RunningProcess(asyncio.SubprocessProtocol):
     def __init__(self) -> None:
         self._on_output: Callable[[str, bytes], None] | None = None
         self._early_output: list[tuple[str, bytes]] = []
+        self._pending: dict[int, bytes] = {}
+        self._timers: dict[int, asyncio.TimerHandle] = {}
         self._transport: Any = None
         self._terminals: list[asyncio.ReadTransport] = []
         self._open_streams = set(_STREAMS)
@@ -85,7 +88,20 @@ class RunningProcess(asyncio.SubprocessProtocol):
         self._terminals.append(transport)
 
     def pipe_data_received(self, fd: int, data: bytes) -> None:
-        """Pass output on, or keep it until :meth:`wait` is called."""
+        """Pass output on; unbuffered programs write a line and its end separately, which are put together."""
+        self._pending[fd] = self._pending.get(fd, b"") + data
+        if data.endswith(b"\n"):
+            self._pass_on(fd)
+        elif fd not in self._timers:
+            self._timers[fd] = asyncio.get_running_loop().call_later(_REST_OF_LINE, self._pass_on, fd)
+
+    def _pass_on(self, fd: int) -> None:
+        """Pass pending output on, or keep it until :meth:`wait` is called."""
+        if fd in self._timers:
+            self._timers.pop(fd).cancel()
+        data = self._pending.pop(fd, b"")
+        if not data:
+            return
         if self._on_output is None:
             self._early_output.append((_STREAMS[fd], data))
         else:
@@ -94,6 +110,7 @@ class RunningProcess(asyncio.SubprocessProtocol):
     def pipe_connection_lost(self, fd: int, exc: Exception | None) -> None:
         """Take note that a stream has ended."""
         del exc
+        self._pass_on(fd)
         self._open_streams.discard(fd)
         if not self._open_streams:
             self._all_read.set()
@@ -127,6 +144,8 @@ class RunningProcess(asyncio.SubprocessProtocol):
             # A child of the process may hold the other end of a pipe for longer.
             with contextlib.suppress(asyncio.TimeoutError):
                 await asyncio.wait_for(self._all_read.wait(), _GRACE)
+            for fd in _STREAMS:
+                self._pass_on(fd)
             code: int = self._transport.get_returncode()
             return code
         finally:

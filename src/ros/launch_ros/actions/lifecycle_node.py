@@ -14,8 +14,6 @@ from launch_ros.actions.lifecycle_transition import LifecycleTransition
 from launch_ros.actions.node import Node
 from launch_ros.events.lifecycle import ChangeState, StateTransition
 from launch_ros.ros_adapters import get_ros_node
-from lifecycle_msgs.msg import TransitionEvent
-from lifecycle_msgs.srv import ChangeState as ChangeStateService
 
 if TYPE_CHECKING:
     from launch.action import Action
@@ -23,6 +21,7 @@ if TYPE_CHECKING:
     from launch.frontend import Entity, Parser
     from launch.launch_context import LaunchContext
     from launch.some_substitutions_type import SomeSubstitutionsType
+    from lifecycle_msgs.msg import TransitionEvent
 
 __all__ = ["LifecycleNode"]
 
@@ -74,6 +73,9 @@ class LifecycleNode(Node):
 
     def execute(self, context: LaunchContext) -> list[Any] | None:
         """Start the node, and subscribe to its transitions."""
+        from lifecycle_msgs.msg import TransitionEvent  # noqa: PLC0415 - slow to import
+        from lifecycle_msgs.srv import ChangeState as ChangeStateService  # noqa: PLC0415
+
         self._perform_substitutions(context)
         if not self.is_node_name_fully_specified():
             raise RuntimeError("node_name unexpectedly incomplete for lifecycle node")
@@ -119,7 +121,7 @@ class LifecycleNode(Node):
                 self.__logger.warning(f"Abandoning wait for the '{service}' service, due to shutdown")
                 return
             self.__logger.info(f"Waiting for the '{service}' service")
-        request = ChangeStateService.Request()
+        request = self.__client.srv_type.Request()
         request.transition.id = transition_id
         response = self.__client.call_async(request)
         while not response.done():

@@ -10,7 +10,6 @@ from launch.frontend.expose import expose_action
 from launch.substitutions import SubstitutionFailure
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 from launch_ros.utilities import make_namespace_absolute, prefix_namespace
-from rclpy.validate_namespace import validate_namespace
 
 if TYPE_CHECKING:
     from launch.frontend import Entity, Parser
@@ -43,6 +42,8 @@ class PushRosNamespace(Action):
 
     def execute(self, context: LaunchContext) -> list[Any] | None:
         """Set the namespace."""
+        from rclpy.validate_namespace import validate_namespace  # noqa: PLC0415 - rclpy is slow to import
+
         pushed = perform_substitutions(context, self.__namespace)
         previous = context.launch_configurations.get("ros_namespace")
         namespace = make_namespace_absolute(prefix_namespace(previous, pushed)) or "/"

@@ -3,10 +3,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
 
 from launch.event import Event
-from lifecycle_msgs.msg import Transition
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -26,19 +25,17 @@ class ChangeState(Event):
 
     name = "launch_ros.events.lifecycle.ChangeState"
 
-    valid_transitions = {  # noqa: RUF012 - upstream's attribute
-        getattr(Transition, name): name.removeprefix("TRANSITION_").lower()
-        for name in (
-            "TRANSITION_CREATE",
-            "TRANSITION_CONFIGURE",
-            "TRANSITION_CLEANUP",
-            "TRANSITION_ACTIVATE",
-            "TRANSITION_DEACTIVATE",
-            "TRANSITION_UNCONFIGURED_SHUTDOWN",
-            "TRANSITION_INACTIVE_SHUTDOWN",
-            "TRANSITION_ACTIVE_SHUTDOWN",
-            "TRANSITION_DESTROY",
-        )
+    # The constants of lifecycle_msgs.msg.Transition; its package is slow to import.
+    valid_transitions: ClassVar[dict[int, str]] = {
+        0: "create",
+        1: "configure",
+        2: "cleanup",
+        3: "activate",
+        4: "deactivate",
+        5: "unconfigured_shutdown",
+        6: "inactive_shutdown",
+        7: "active_shutdown",
+        8: "destroy",
     }
 
     def __init__(self, *, lifecycle_node_matcher: Callable[[Action], bool], transition_id: int) -> None:
