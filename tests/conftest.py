@@ -16,8 +16,10 @@ import pytest
 signal.signal(signal.SIGINT, signal.default_int_handler)
 
 # Test processes that run side by side each have domains of their own.
-_WORKERS = 4
-_worker = int(os.environ.get("PYTEST_XDIST_WORKER", "gw0").removeprefix("gw")) % _WORKERS
+_WORKERS = int(os.environ.get("PYTEST_XDIST_WORKER_COUNT", "1"))
+_worker = int(os.environ.get("PYTEST_XDIST_WORKER", "gw0").removeprefix("gw"))
+# The ports of higher domains are in the range from which the system takes ports for other sockets.
+_DOMAINS = 96
 _PATIENCE = 20.0  # seconds; two cores that others use too
 _domain_ids = itertools.count(os.getpid() % 97)
 
@@ -25,7 +27,7 @@ _domain_ids = itertools.count(os.getpid() % 97)
 @pytest.fixture
 def domain_id(monkeypatch: pytest.MonkeyPatch) -> int:
     """A DDS domain of this test's own, also set as ROS_DOMAIN_ID for this process and its children."""
-    number = 1 + _worker + _WORKERS * (next(_domain_ids) % 50)
+    number = 1 + _worker + _WORKERS * (next(_domain_ids) % (_DOMAINS // _WORKERS))
     monkeypatch.setenv("ROS_DOMAIN_ID", str(number))
     monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
     return number

@@ -44,7 +44,7 @@ def test_commands_and_links_exist(document):
     for link in re.findall(r"\]\(([^)#:]+)\)", text):
         assert (document.parent / link).exists(), f"{document.name} links to {link}"
     commands = typer.main.get_command(app).commands
-    for command in re.findall(r"`coframe ([a-z]+)", text):
+    for command in re.findall(r"`coframe ([a-z0-9]+)", text):
         assert command in commands, f"{document.name} names coframe {command}"
 
 

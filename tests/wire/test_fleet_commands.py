@@ -140,7 +140,19 @@ def options():
 
 # These and the commands of these groups copy messages of all topics unchanged, or have nothing to do with transforms.
 OTHER_COMMANDS = {"bag convert", "bag merge", "bag slice", "run", "launch"}
-OTHER_GROUPS = {"action", "daemon", "interface", "interfaces", "lab", "node", "param", "pkg", "service", "topic"}
+OTHER_GROUPS = {
+    "action",
+    "daemon",
+    "interface",
+    "interfaces",
+    "lab",
+    "node",
+    "param",
+    "pkg",
+    "ros2",
+    "service",
+    "topic",
+}
 
 
 def is_about_transforms(command):

@@ -63,6 +63,7 @@ COMMANDS: dict[str, tuple[str, dict[str, Any]]] = {
     "param": ("Read and set parameters of nodes, like ros2 param.", {"module": "ros2.param"}),
     "lifecycle": ("Change the states of lifecycle nodes, like ros2 lifecycle.", {"module": "ros2.lifecycle"}),
     "interface": ("Show message, service and action types, like ros2 interface.", {"module": "ros2.interface"}),
+    "ros2": ("Add the executables ros2 and rviz2 where no ROS is installed.", {"module": "ros2.installing"}),
     "pkg": ("Create and find packages, like ros2 pkg.", {"module": "ros2.pkg"}),
 }
 

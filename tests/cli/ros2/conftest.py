@@ -18,7 +18,8 @@ from coframe.cli.app import app
 @pytest.fixture(scope="session")
 def graph():
     """The node of graph_program.py, in a domain of its own."""
-    environment = {"ROS_DOMAIN_ID": str(201 + os.getpid() % 30), "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
+    # A domain that the fixture domain_id does not use.
+    environment = {"ROS_DOMAIN_ID": str(97 + os.getpid() % 4), "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
     program = subprocess.Popen(
         [sys.executable, Path(__file__).with_name("graph_program.py")],
         stdout=subprocess.PIPE,

@@ -76,6 +76,42 @@ def test_rviz2_opens_the_viewer(execute):
     assert "coframe view --help" in output
 
 
+def test_executables_are_added_and_removed(tmp_path):
+    """In an environment of its own; an existing executable of a real ROS is not touched."""
+    environment = tmp_path / "environment"
+    subprocess.run([sys.executable, "-m", "venv", "--without-pip", environment], check=True)
+    python = environment / "bin" / "python"
+    paths = os.pathsep.join(path for path in sys.path if path)
+
+    def coframe(*words):
+        result = subprocess.run(
+            [python, "-m", "coframe.cli", "ros2", *words],
+            capture_output=True,
+            text=True,
+            check=True,
+            env={**os.environ, "PYTHONPATH": paths, "PATH": os.defpath, "AMENT_PREFIX_PATH": str(tmp_path / "ros")},
+        )
+        return result.stdout
+
+    real = tmp_path / "ros" / "bin" / "rviz2"
+    real.parent.mkdir(parents=True)
+    real.write_text("#!/bin/sh\n")
+    real.chmod(0o755)
+    output = coframe("install")
+    assert f"created {environment}/bin/ros2" in output
+    assert f"rviz2: {real} exists, and is not replaced" in output
+    result = subprocess.run(
+        [environment / "bin" / "ros2", "--help"],
+        capture_output=True,
+        text=True,
+        check=True,
+        env={**os.environ, "PYTHONPATH": paths, "PATH": os.defpath, "AMENT_PREFIX_PATH": ""},
+    )
+    assert result.stdout.startswith("Usage: ros2")
+    assert f"removed {environment}/bin/ros2" in coframe("remove")
+    assert not (environment / "bin" / "ros2").exists()
+
+
 def test_options_of_ros2_bag(execute):
     code, output = execute("ros2", "bag", "play", "missing", "-s", "mcap", "-l", "-p", "-d", "1")
     assert code == 1

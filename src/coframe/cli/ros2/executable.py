@@ -9,7 +9,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-__all__ = ["ros2", "rviz2"]
+__all__ = ["is_own_script", "real_executable", "ros2", "rviz2"]
 
 _COMMANDS = (
     "action",
@@ -38,8 +38,8 @@ _ABSENT = {
 # Options of `ros2 bag play` that have another form in coframe.
 _PLAY_OPTIONS = {"-l": "--loop", "-p": "--start-paused", "-d": "--delay"}
 _STORAGE_OPTIONS = {"-s", "--storage"}  # coframe detects the storage of a recording, and records MCAP
-_OWN_SCRIPT = b"coframe.cli.ros2.executable"  # in the scripts that installers write for this module
-_SCRIPT_SIZE = 100_000  # bytes; the launchers of Windows contain the script at their end
+_OWN_SCRIPT = b"coframe.cli.ros2.executable"  # in the executables that `coframe ros2 install` writes
+_SCRIPT_SIZE = 1000  # bytes of an executable to read: those of coframe are shorter
 
 
 def ros2() -> None:
@@ -88,7 +88,7 @@ def _bag_words(words: list[str]) -> list[str]:
 
 def _run_real(name: str) -> None:
     """Replace this process by the executable of an installed ROS, if there is one."""
-    real = _real(name)
+    real = real_executable(name)
     if real is None:
         return
     command = [str(real), *sys.argv[1:]]
@@ -97,27 +97,24 @@ def _run_real(name: str) -> None:
     sys.exit(subprocess.run(command, check=False).returncode)  # noqa: S603
 
 
-def _real(name: str) -> Path | None:
+def real_executable(name: str) -> Path | None:
     """Return the executable of ROS in AMENT_PREFIX_PATH or PATH; scripts of coframe do not count."""
     folders = [Path(prefix, "bin") for prefix in os.environ.get("AMENT_PREFIX_PATH", "").split(os.pathsep) if prefix]
     folders += [Path(folder) for folder in os.environ.get("PATH", "").split(os.pathsep) if folder]
-    names = [name, f"{name}.exe"] if os.name == "nt" else [name]
+    names = [name, f"{name}.exe", f"{name}.cmd", f"{name}.bat"] if os.name == "nt" else [name]
     candidates = (folder / each for folder in folders for each in names)
     return next(
-        (path for path in candidates if os.access(path, os.X_OK) and path.is_file() and not _is_own(path)), None
+        (path for path in candidates if os.access(path, os.X_OK) and path.is_file() and not is_own_script(path)), None
     )
 
 
-def _is_own(path: Path) -> bool:
+def is_own_script(path: Path) -> bool:
+    """Return whether a file is an executable of coframe, or cannot be read."""
     try:
         with path.open("rb") as file:
-            size = file.seek(0, os.SEEK_END)
-            file.seek(max(0, size - _SCRIPT_SIZE))
-            content = file.read()
+            content = file.read(_SCRIPT_SIZE)
     except OSError:
         return True  # It cannot be run either.
-    if path.suffix == ".exe":  # The script is in a compressed archive at the end.
-        return path.parent == Path(sys.executable).parent
     return _OWN_SCRIPT in content
 
 

@@ -1,0 +1,96 @@
+# SPDX-License-Identifier: Apache-2.0
+"""``coframe ros2``: adds the executables ``ros2`` and ``rviz2`` to the environment, and removes them.
+
+They are not installed with the package, because pip overwrites files of the same names: in a conda environment with ROS
+(RoboStack), the real ``ros2`` and ``rviz2`` are in the same folder.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import importlib.metadata
+import os
+import sys
+import sysconfig
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import typer
+
+from coframe.cli.help_format import PlainCommand, PlainGroup
+from coframe.cli.output import fail, printable
+from coframe.cli.ros2.executable import is_own_script, real_executable
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+__all__ = ["ros2"]
+
+_NAMES = ("ros2", "rviz2")
+ros2 = typer.Typer(
+    cls=PlainGroup,
+    help="Add the executables ros2 and rviz2 where no ROS is installed.\n\nExample: coframe ros2 install",
+    no_args_is_help=True,
+    rich_markup_mode=None,
+)
+
+
+@ros2.command(cls=PlainCommand, short_help="Add the executables ros2 and rviz2.")
+def install() -> None:
+    """Add the executables ros2 and rviz2 to this Python environment. Existing ones of a real ROS are not replaced.
+
+    They run the commands of coframe. pip uninstall coframe removes them as well.
+
+    Example: coframe ros2 install
+    """
+    for name, path in _scripts():
+        real = real_executable(name)
+        if real is not None:
+            print(f"{name}: {printable(str(real))} exists, and is not replaced")
+            continue
+        try:
+            path.write_text(_script(name), encoding="utf-8")
+            path.chmod(0o755)
+        except OSError as error:
+            fail(f"cannot write {path}: {error.strerror}", "Use a virtual environment: python -m venv .venv")
+        _add_to_record(path)
+        print(f"created {printable(str(path))}")
+
+
+@ros2.command(cls=PlainCommand, short_help="Remove the executables that coframe has added.")
+def remove() -> None:
+    """Remove the executables ros2 and rviz2 that coframe ros2 install has added.
+
+    Example: coframe ros2 remove
+    """
+    for _, path in _scripts():
+        if path.is_file() and is_own_script(path):
+            path.unlink()
+            print(f"removed {printable(str(path))}")
+
+
+def _scripts() -> Iterator[tuple[str, Path]]:
+    """Yield the name and the path of each executable."""
+    folder = Path(sysconfig.get_path("scripts"))
+    for name in _NAMES:
+        yield name, folder / (f"{name}.cmd" if os.name == "nt" else name)
+
+
+def _script(name: str) -> str:
+    """Return the text of an executable; the path of Python may contain spaces and may be long."""
+    code = f"from coframe.cli.ros2.executable import {name}; {name}()"
+    if os.name == "nt":
+        return f'@"{sys.executable}" -c "{code}" %*\n'
+    return f'#!/bin/sh\nexec "{sys.executable}" -c "{code}" "$@"\n'
+
+
+def _add_to_record(path: Path) -> None:
+    """Add an executable to the files of the installed package, so that uninstalling removes it."""
+    with contextlib.suppress(importlib.metadata.PackageNotFoundError, OSError):
+        package = importlib.metadata.distribution("coframe")
+        records = [Path(str(package.locate_file(file))) for file in package.files or () if file.name == "RECORD"]
+        for record in records:
+            line = f"{Path(os.path.relpath(path, record.parent.parent)).as_posix()},,"
+            text = record.read_text(encoding="utf-8")
+            if line not in text.splitlines():
+                record.write_text(text.rstrip("\n") + f"\n{line}\n", encoding="utf-8")
