@@ -17,6 +17,7 @@ from coframe.cli.app import app
 
 ROOT = Path(__file__).parents[1]
 DOCUMENTS = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").glob("*.md"))]
+DOCUMENTS += sorted((ROOT / "docs" / "handbook").glob("*.md"))
 
 
 def blocks(document, language):
@@ -46,6 +47,12 @@ def test_commands_and_links_exist(document):
     commands = typer.main.get_command(app).commands
     for command in re.findall(r"`coframe ([a-z0-9]+)", text):
         assert command in commands, f"{document.name} names coframe {command}"
+
+
+def test_figures_of_the_handbook_are_current():
+    command = [sys.executable, ROOT / "scripts" / "handbook_figures.py", "--check"]
+    result = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert result.returncode == 0, result.stdout + result.stderr
 
 
 def test_the_steps_of_the_architecture_exist():
