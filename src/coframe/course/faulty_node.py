@@ -27,8 +27,9 @@ def _late(_module: Any) -> None:
 
 def _offset(_module: Any) -> None:
     def shift(transforms: list[Any]) -> list[Any]:
-        for each in transforms:
-            each.header.stamp.sec -= _OFFSET
+        stamps = {id(each.header.stamp): each.header.stamp for each in transforms}  # transforms may share one
+        for stamp in stamps.values():
+            stamp.sec -= _OFFSET
         return transforms
 
     _change_transforms(shift)
