@@ -17,6 +17,8 @@ from importlib.machinery import ModuleSpec, PathFinder
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from coframe.ros_folders import foreign_packages
+
 if TYPE_CHECKING:
     from collections.abc import Sequence
     from types import ModuleType
@@ -95,8 +97,6 @@ def _folder_of(package: str) -> Path | None:
 
 def _is_foreign() -> bool:
     """Return whether a ROS installation provides rclpy, which has no use for coframe's classes."""
-    from coframe.ros_side import foreign_packages  # noqa: PLC0415 - it imports this module
-
     return bool(foreign_packages(tuple(sys.path)))
 
 

@@ -13,7 +13,7 @@ import re
 import shutil
 from pathlib import Path
 
-from coframe import ros_side
+from coframe import ros_folders
 
 THEIRS = "theirs"  # the package with the copies of coframe.messages and coframe.wire
 _OTHER = ("tf2_geometry_msgs", "sensor_msgs_py")
@@ -25,11 +25,13 @@ _RCL_ERROR = re.compile(r"\bRCLError\b")
 
 def make(folder: Path) -> None:
     """Write the packages of the stand-in into a folder."""
-    coframe = Path(ros_side.__file__).parent
+    coframe = Path(ros_folders.__file__).parent
     for part in ("messages", "wire"):
         shutil.copytree(coframe / part, folder / THEIRS / part, ignore=shutil.ignore_patterns("__pycache__"))
-    for package in (*ros_side.PACKAGES, *_OTHER):
-        shutil.copytree(ros_side.ros_folder() / package, folder / package, ignore=shutil.ignore_patterns("__pycache__"))
+    for package in (*ros_folders.PACKAGES, *_OTHER):
+        shutil.copytree(
+            ros_folders.ros_folder() / package, folder / package, ignore=shutil.ignore_patterns("__pycache__")
+        )
     for file in folder.rglob("*.py"):
         text = _MODULES.sub(rf"{THEIRS}.\1", _CHECK.sub("", file.read_text()))
         if file.is_relative_to(folder / "rclpy"):

@@ -11,10 +11,10 @@ from pathlib import Path
 import pytest
 import ros_stand_in
 
-from coframe import ros_side
+from coframe import ros_folders
 from coframe.cli.commands import COMMANDS
 
-ARM = Path(ros_side.__file__).parent / "lab" / "two_link_arm.urdf.xacro"
+ARM = Path(ros_folders.__file__).parent / "lab" / "two_link_arm.urdf.xacro"
 
 TRANSFORMS = """
 import sys
@@ -178,9 +178,9 @@ def test_demo_robot_and_joints_run(sourced):
 def test_only_names_of_humble_are_used(shared):
     """Whatever runs on a sourced ROS uses only names that Humble's packages have."""
     names = json.loads((shared / "interop" / "api_humble.json").read_text())
-    home = ros_side.ros_folder()
-    package = Path(ros_side.__file__).parent
-    own = {*ros_side.PACKAGES, "ament_index_python"}
+    home = ros_folders.ros_folder()
+    package = Path(ros_folders.__file__).parent
+    own = {*ros_folders.PACKAGES, "ament_index_python"}
     files = [
         *(file for folder in home.iterdir() if folder.name not in own for file in folder.rglob("*.py")),
         *(package / "lab").glob("*.py"),

@@ -8,11 +8,11 @@ from pathlib import Path
 
 import pytest
 
-from coframe import ros_side
+from coframe import ros_folders, ros_side
 
 
 def test_only_coframes_packages():
-    assert ros_side.foreign_packages(tuple(sys.path)) == {}
+    assert ros_folders.foreign_packages(tuple(sys.path)) == {}
     ros_side.check("rclpy")
 
 
@@ -20,8 +20,8 @@ def test_partial_ros_installation_before_coframe_is_rejected(tmp_path):
     package = tmp_path / "geometry_msgs"
     package.mkdir()
     (package / "__init__.py").touch()
-    path = [str(tmp_path), str(ros_side.ros_folder())]
-    assert ros_side.foreign_packages(tuple(path)) == {"geometry_msgs": str(tmp_path)}
+    path = [str(tmp_path), str(ros_folders.ros_folder())]
+    assert ros_folders.foreign_packages(tuple(path)) == {"geometry_msgs": str(tmp_path)}
     with pytest.raises(ImportError, match=r"import coframe's tf2_ros: geometry_msgs would .* a complete ROS 2"):
         ros_side.check("tf2_ros", path)
 
@@ -30,7 +30,7 @@ def test_documentation_quotes_the_error(tmp_path):
     (tmp_path / "geometry_msgs").mkdir()
     (tmp_path / "geometry_msgs" / "__init__.py").touch()
     with pytest.raises(ImportError) as caught:
-        ros_side.check("tf2_ros", [str(tmp_path), str(ros_side.ros_folder())])
+        ros_side.check("tf2_ros", [str(tmp_path), str(ros_folders.ros_folder())])
     page = (Path(__file__).parents[2] / "docs" / "migration.md").read_text()
     assert f"ImportError: {caught.value}".replace(str(tmp_path), "/opt/ros/humble/lib/python3.10/site-packages") in page
 
@@ -38,12 +38,12 @@ def test_documentation_quotes_the_error(tmp_path):
 def test_packages_after_coframes_are_ignored(tmp_path):
     (tmp_path / "rclpy").mkdir()
     (tmp_path / "rclpy" / "__init__.py").touch()
-    ros_side.check("rclpy", [str(ros_side.ros_folder()), str(tmp_path)])
+    ros_side.check("rclpy", [str(ros_folders.ros_folder()), str(tmp_path)])
 
 
 def test_directories_without_code_are_ignored(tmp_path):
     (tmp_path / "std_msgs").mkdir()
-    ros_side.check("rclpy", [str(tmp_path), str(ros_side.ros_folder())])
+    ros_side.check("rclpy", [str(tmp_path), str(ros_folders.ros_folder())])
 
 
 def test_sourced_ros_takes_precedence(tmp_path):

@@ -15,7 +15,6 @@ from rich.live import Live
 from rich.text import Text
 
 import coframe
-from coframe.cli.keys import keys
 from coframe.cli.lifecycle import run_until_interrupted
 from coframe.cli.node_arguments import reported_node_errors, xacro_arguments
 from coframe.cli.options import (
@@ -30,6 +29,7 @@ from coframe.cli.options import (
 from coframe.cli.output import fail
 from coframe.cli.sliders import HELP, Sliders
 from coframe.cli.view import NoBrowserOption, PortOption, announce
+from coframe.keys import keys
 from coframe.robots import RobotDescriptionError, load
 
 if TYPE_CHECKING:

@@ -14,7 +14,6 @@ from rich.text import Text
 
 import coframe
 from coframe.cli.help_format import PlainCommand
-from coframe.cli.keys import keys
 from coframe.cli.lifecycle import run_until_interrupted
 from coframe.cli.options import (
     TF_STATIC_TOPIC,
@@ -29,6 +28,7 @@ from coframe.cli.options import (
 )
 from coframe.cli.output import fail, warn
 from coframe.formatting import count
+from coframe.keys import keys
 from coframe.recorder import FASTEST
 from coframe.recorder import play as start_playing
 from coframe.time import SECOND

@@ -7,7 +7,7 @@ import importlib.util
 from pathlib import Path
 from typing import Final
 
-from coframe.ros_side import ros_folder
+from coframe.ros_folders import ros_folder
 
 __all__ = ["EXECUTABLES", "share"]
 
