@@ -7,14 +7,13 @@ import atexit
 import logging
 import os
 import threading
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
 from coframe import _core
 from coframe.errors import WireError
 from coframe.frame_names import naming_problems
 from coframe.time import SECOND
-from coframe.wire import config, dds, names, types
-from coframe.wire.batch_subscription import BatchSubscription
+from coframe.wire import config, dds, names
 from coframe.wire.discovery_info import (
     ADAPTS,
     MAX_NAME,
@@ -24,23 +23,21 @@ from coframe.wire.discovery_info import (
     gid_size,
     unseen_text,
 )
+from coframe.wire.endpoint_factory import EndpointFactory, native_qos
 from coframe.wire.endpoint_mismatch import MismatchMonitor
-from coframe.wire.endpoints import GraphNode, LocalEndpoint, Publisher, RawPublisher, Subscription
-from coframe.wire.graph import DiscoveredEndpoint, EndpointInfo, Graph
+from coframe.wire.endpoints import GraphNode, LocalEndpoint
+from coframe.wire.graph import Graph
+from coframe.wire.graph_queries import GraphQueries
 from coframe.wire.parameter_services import ParameterServices
-from coframe.wire.qos import GRAPH_WRITER, TF, TF_STATIC_READER, QoS
+from coframe.wire.qos import GRAPH_WRITER
 from coframe.wire.rejected_transforms import RejectedTransformMonitor
-from coframe.wire.service_endpoints import ServicePublisher, ServiceSubscription
 from coframe.wire.static_broadcaster import SharedStaticPublisher, StaticBroadcaster
-from coframe.wire.tf_reader import NO_AUTHORITY, TfReader
-from coframe.wire.user_data import TF_MESSAGE, endpoint_user_data
+from coframe.wire.tf_reader import TfReader
 from coframe.wire.warn_once import WarnOnce
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from coframe import Buffer
-    from coframe.wire.names import Kind
 
 _logger = logging.getLogger("coframe.wire")
 
@@ -48,7 +45,7 @@ _GRAPH_TYPE = "rmw_dds_common::msg::dds_::ParticipantEntitiesInfo_"
 _ENCLAVE = "enclave=/;"  # the user data that every ROS participant has
 
 
-class Participant:
+class Participant(EndpointFactory, GraphQueries):
     """The participant of this process in a DDS domain. All methods are thread-safe.
 
     The participant is shared by reference counting: each call of `get` needs one call of `close`.
@@ -69,7 +66,7 @@ class Participant:
         self._gid_size = self._preferred_gid_size = gid_size(os.environ)
 
         self._info_writer = _core.Writer(
-            self._native.entity, self._topic(TOPIC, _GRAPH_TYPE), _native_qos(GRAPH_WRITER), ADAPTS
+            self._native.entity, self._topic(TOPIC, _GRAPH_TYPE), native_qos(GRAPH_WRITER), ADAPTS
         )
         self._wake = _core.Event()
         self._graph = Graph(self._native.entity, self._topic(TOPIC, _GRAPH_TYPE), self._wake)
@@ -147,205 +144,6 @@ class Participant:
                 self._nodes.remove(node)
                 self.announce()
 
-    def publisher(
-        self,
-        node: GraphNode,
-        topic: str,
-        message_type: type,
-        qos: QoS,
-        *,
-        kind: Kind = "topic",
-        user_data: str = "",
-        on_change: _core.Event | None = None,
-        on_mismatch: Callable[[str, str], object] | None = None,
-    ) -> Publisher:
-        """Create a publisher of `node`.
-
-        Args:
-            node: The node that owns the publisher.
-            topic: The fully qualified name of the topic, such as "/scan", or of the service if `kind` is "request" or
-                "reply".
-            message_type: The message class. For requests and replies, the caller writes the 16-byte ROS header
-                (client identifier, sequence number) between the encapsulation and the message.
-            qos: The offered quality of service.
-            kind: "topic", "request" or "reply". The type and the bytes of requests and replies are not checked.
-            user_data: The DDS user data, which subscribers can read before the first message.
-            on_change: An event that is set whenever a status changes (see `LocalEndpoint.take_status`).
-            on_mismatch: The attribute of the publisher; see `LocalEndpoint`.
-
-        Raises:
-            WireError: DDS cannot create the publisher.
-        """
-        ros_type = types.ros_type(message_type)
-        data = endpoint_user_data(ros_type, user_data)
-        name, type_name, entity = self._topic_of(topic, ros_type, kind)
-        checked = kind == "topic" and ros_type == TF_MESSAGE
-        native = _create(
-            lambda: _core.Writer(self._native.entity, entity, _native_qos(qos), data, checked, on_change), topic
-        )
-        if kind != "topic":
-            return ServicePublisher(native, node, name, type_name, qos, self._graph)
-        return Publisher(native, node, name, type_name, qos, on_mismatch=on_mismatch)
-
-    def subscription(
-        self,
-        node: GraphNode,
-        topic: str,
-        message_type: type,
-        qos: QoS,
-        *,
-        on_data: _core.Event | None = None,
-        kind: Kind = "topic",
-        adapts: bool = False,
-        on_mismatch: Callable[[str, str], object] | None = None,
-    ) -> Subscription:
-        """Create a subscription of `node`.
-
-        Args:
-            node: The node that owns the subscription.
-            topic: The fully qualified name of the topic or service.
-            message_type: The message class.
-            qos: The requested quality of service.
-            on_data: An event that is set whenever messages arrive or a status changes (see
-                `LocalEndpoint.take_status`).
-            kind: "topic", "request" or "reply". The type and the bytes of requests and replies are not checked.
-            adapts: Whether the caller replaces the subscription when publishers offer less than `qos`. If so, no
-                warning about incompatible QoS is logged.
-            on_mismatch: The attribute of the subscription; see `LocalEndpoint`.
-
-        Raises:
-            WireError: DDS cannot create the subscription.
-        """
-        ros_type = types.ros_type(message_type)
-        data = endpoint_user_data(ros_type)
-        name, type_name, entity = self._topic_of(topic, ros_type, kind)
-        native = _create(lambda: _core.Reader(self._native.entity, entity, _native_qos(qos), data, on_data), topic)
-        if kind != "topic":
-            return ServiceSubscription(native, node, name, type_name, qos, self._graph)
-        return Subscription(native, node, name, type_name, qos, adapts=adapts, on_mismatch=on_mismatch)
-
-    def raw_publisher(self, node: GraphNode, topic: str, ros_type: str, qos: QoS) -> RawPublisher:
-        """Create a publisher of `node` for serialized messages of any type.
-
-        Args:
-            node: The node that owns the publisher.
-            topic: The fully qualified name of the topic, such as "/scan".
-            ros_type: The type, such as "sensor_msgs/msg/LaserScan". It does not have to be known in this process.
-            qos: The offered quality of service.
-
-        Raises:
-            WireError: DDS cannot create the publisher.
-        """
-        name, type_name, entity = self._topic_of(topic, ros_type)
-        data = endpoint_user_data(ros_type)
-        native = _create(lambda: _core.Writer(self._native.entity, entity, _native_qos(qos), data), topic)
-        return RawPublisher(native, node, name, type_name, qos)
-
-    def raw_subscription(
-        self,
-        node: GraphNode,
-        topic: str,
-        ros_type: str,
-        qos: QoS,
-        *,
-        on_data: _core.Event | None = None,
-        adapts: bool = False,
-    ) -> Subscription:
-        """Create a subscription of `node` to messages of any type. The bytes of the messages are not checked.
-
-        Args:
-            node: The node that owns the subscription.
-            topic: The fully qualified name of the topic, such as "/scan".
-            ros_type: The type, such as "sensor_msgs/msg/LaserScan". It does not have to be known in this process.
-            qos: The requested quality of service.
-            on_data: An event that is set whenever messages arrive.
-            adapts: Whether the caller replaces the subscription when publishers offer less than `qos`. If so, no
-                warning about incompatible QoS is logged.
-
-        Raises:
-            WireError: DDS cannot create the subscription.
-        """
-        name, type_name, entity = self._topic_of(topic, ros_type)
-        data = endpoint_user_data(ros_type)
-        native = _create(lambda: _core.Reader(self._native.entity, entity, _native_qos(qos), data, on_data), topic)
-        return Subscription(native, node, name, type_name, qos, adapts=adapts)
-
-    def batch_subscription(
-        self, node: GraphNode, topic: str, ros_type: str, qos: QoS, *, max_bytes: int, capacity: int = 100_000
-    ) -> BatchSubscription:
-        """Create a subscription of `node` that records messages and their arrival times on the DDS thread.
-
-        Args:
-            node: The node that owns the subscription.
-            topic: The fully qualified name of the topic, such as "/scan".
-            ros_type: The type, such as "sensor_msgs/msg/LaserScan". It does not have to be known in this process.
-            qos: The requested quality of service.
-            max_bytes: The number of bytes to keep of each message.
-            capacity: The number of messages that can be queued; further messages are dropped and counted.
-
-        Raises:
-            WireError: DDS cannot create the subscription.
-        """
-        name, type_name, entity = self._topic_of(topic, ros_type)
-        data = endpoint_user_data(ros_type)
-        native = _create(
-            lambda: _core.Tap(self._native.entity, entity, _native_qos(qos), data, max_bytes, capacity), topic
-        )
-        return BatchSubscription(native, node, name, type_name, qos)
-
-    def tf_reader(
-        self,
-        node: GraphNode,
-        topic: str,
-        buffer: Buffer,
-        *,
-        static: bool,
-        qos: QoS | None = None,
-        authority: str | None = "default_authority",
-        renaming: _core.Renaming | None = None,
-        on_data: _core.Event | None = None,
-        on_mismatch: Callable[[str, str], object] | None = None,
-    ) -> TfReader:
-        """Create a subscription of `node` that stores transforms in `buffer` on the DDS thread, without the GIL.
-
-        Args:
-            node: The node that owns the subscription.
-            topic: The fully qualified name of the topic, such as "/tf".
-            buffer: The buffer that stores the transforms.
-            static: Whether the transforms are static.
-            qos: The requested quality of service. If None, it is that of tf2's listener.
-            authority: The source that the buffer records for the transforms. If None, it is the publishing node.
-            renaming: The renaming of frames (see `coframe.frame_names.renaming`). If None, frames keep their names.
-            on_data: An event that is set whenever a status changes, and by the next message after `TfReader.arm`.
-            on_mismatch: The attribute of the reader; see `LocalEndpoint`.
-
-        Raises:
-            WireError: DDS cannot create the subscription.
-        """
-        chosen = qos or (TF_STATIC_READER if static else TF)
-        name, type_name, entity = self._topic_of(topic, TF_MESSAGE)
-        source = NO_AUTHORITY if authority is None else authority
-        data = endpoint_user_data(TF_MESSAGE)
-        native = _create(
-            lambda: _core.TfReader(
-                self._native.entity, entity, _native_qos(chosen), data, buffer, static, source, renaming, on_data
-            ),
-            topic,
-        )
-        reader = TfReader(
-            native,
-            node,
-            name,
-            type_name,
-            chosen,
-            static=static,
-            name_writers=authority is None,
-            on_mismatch=on_mismatch,
-        )
-        reader.name_writers(self._graph)
-        self._rejections.add(reader, buffer)
-        return reader
-
     def static_broadcaster(self, node: GraphNode, topic: str = "/tf_static") -> StaticBroadcaster:
         """Create a broadcaster of static transforms for `node`.
 
@@ -360,67 +158,6 @@ class Participant:
             if shared is None or shared.closed:
                 shared = self._statics[topic] = SharedStaticPublisher(self, topic)
             return shared.join(node)
-
-    def nodes(self) -> list[tuple[str, str]]:
-        """Return the (namespace, name) of every node on the graph, including the nodes of this process."""
-        return self._graph.nodes()
-
-    def topics(self) -> dict[str, list[str]]:
-        """Return the topics and their ROS types: {"/tf": ["tf2_msgs/msg/TFMessage"]}."""
-        return self._graph.types(("topic",))
-
-    def services(self) -> dict[str, list[str]]:
-        """Return the services and the ROS types of their requests and replies.
-
-        An example is {"/reset": ["std_srvs/srv/Empty_Request", "std_srvs/srv/Empty_Response"]}.
-        """
-        return self._graph.types(("request", "reply"))
-
-    def dds_topics(self) -> dict[str, list[str]]:
-        """Return all DDS topics and their DDS types, including those of services and of programs without ROS."""
-        self._graph.refresh()
-        found: dict[str, set[str]] = {}
-        for writers in (True, False):
-            for topic, endpoints in self._graph.by_topic(writers=writers).items():
-                found.setdefault(topic, set()).update(endpoint.type for endpoint in endpoints.values())
-        return {topic: sorted(types) for topic, types in sorted(found.items())}
-
-    def publishers(self, topic: str, *, kind: Kind = "topic") -> list[EndpointInfo]:
-        """Return the publishers on a topic, given its ROS name."""
-        return self._describe(self._graph.writers(names.dds_topic(topic, kind)))
-
-    def published(self) -> dict[str, dict[int, EndpointInfo]]:
-        """Return the publishers of every topic: {ROS name of the topic: {handle of the writer: publisher}}.
-
-        The handles are those in `Sample.writer`.
-        """
-        self._graph.refresh()
-        found = {}
-        for name, writers in self._graph.by_topic(writers=True).items():
-            if (topic := names.ros_topic(name)) is not None:
-                found[topic] = {handle: self._graph.describe(writer) for handle, writer in writers.items()}
-        return found
-
-    def endpoints(self, *, writers: bool) -> dict[str, list[tuple[DiscoveredEndpoint, EndpointInfo]]]:
-        """Return all publishers or all subscriptions by the ROS name of their topic."""
-        self._graph.refresh()
-        found = {}
-        for name, endpoints in self._graph.by_topic(writers=writers).items():
-            if (topic := names.ros_topic(name)) is not None:
-                found[topic] = [(endpoint, self._graph.describe(endpoint)) for endpoint in endpoints.values()]
-        return found
-
-    def subscribers(self, topic: str, *, kind: Kind = "topic") -> list[EndpointInfo]:
-        """Return the subscriptions to a topic, given its ROS name."""
-        return self._describe(self._graph.readers(names.dds_topic(topic, kind)))
-
-    def writers(self, topic: str) -> dict[int, DiscoveredEndpoint]:
-        """Return the DDS writers on a topic, given its ROS name, by the handles in `Sample.writer`."""
-        return self._graph.writers(names.dds_topic(topic))
-
-    def writer_node(self, handle: int) -> str | None:
-        """Return the full name of the node that a DDS writer belongs to, such as "/talker"; None if it is unknown."""
-        return self._graph.writer_node(handle)
 
     def watch_graph(self, event: _core.Event) -> None:
         """Set `event` whenever the graph changes, until `unwatch_graph` is called."""
@@ -451,18 +188,6 @@ class Participant:
     def is_inherited(self) -> bool:
         """Return whether this process was forked from the one that created the participant."""
         return self._process != os.getpid()
-
-    def _topic_of(self, topic: str, ros_type: str, kind: Kind = "topic") -> tuple[str, str, int]:
-        """Return the name of the DDS topic, the name of its type, and its handle."""
-        name, type_name = names.dds_topic(topic, kind), names.dds_type(ros_type)
-        return name, type_name, self._topic(name, type_name)
-
-    def _topic(self, name: str, type_name: str) -> int:
-        """Create a topic for one endpoint, which releases it."""
-        return types.create_topic(self._native.entity, name, type_name)
-
-    def _describe(self, endpoints: dict[int, DiscoveredEndpoint]) -> list[EndpointInfo]:
-        return [self._graph.describe(endpoint) for endpoint in endpoints.values()]
 
     def _warn(self, text: str) -> None:
         with self._lock:
@@ -536,28 +261,6 @@ class Participant:
         self._info_writer.close()
         self._graph.close()
         self._native.close()
-
-
-def _native_qos(qos: QoS) -> _core.QosProfile:
-    return _core.QosProfile(
-        qos.depth,
-        qos.reliable,
-        qos.transient_local,
-        qos.keep_all,
-        qos.manual_liveliness,
-        qos.deadline,
-        qos.lifespan,
-        qos.lease,
-    )
-
-
-def _create(make: Callable[[], Any], topic: str) -> Any:
-    try:
-        return make()
-    except _core.DdsError as error:
-        raise WireError(
-            f"DDS cannot create an endpoint on {topic}: {error}.", hint="Check that the participant is not closed."
-        ) from error
 
 
 def _renew_locks() -> None:
