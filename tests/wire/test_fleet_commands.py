@@ -146,6 +146,7 @@ OTHER_GROUPS = {
     "interface",
     "interfaces",
     "lab",
+    "lifecycle",
     "node",
     "param",
     "pkg",
