@@ -10,7 +10,7 @@ from coframe.time import DAY, HOUR, MICROSECOND, MILLISECOND, SECOND
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-__all__ = ["count", "duration", "listed", "quoted", "seconds", "times"]
+__all__ = ["count", "did_you_mean", "duration", "listed", "quoted", "seconds", "times"]
 
 _UNITS = ((DAY, "days"), (HOUR, "h"), (SECOND, "s"), (MILLISECOND, "ms"), (MICROSECOND, "us"))
 _MOST_LISTED = 5
@@ -51,6 +51,19 @@ def listed(names: Iterable[str]) -> str:
 def quoted(names: Iterable[str]) -> str:
     """Return names in quotation marks as a list, shortened as by :func:`listed`."""
     return listed(repr(name) for name in names)
+
+
+def did_you_mean(name: str, known: Iterable[str], *, most: int = 1) -> str:
+    """Return a question that suggests names with a similar spelling; empty if there are none.
+
+    Example:
+        >>> did_you_mean("lidra", ["lidar", "camera"])
+        "Did you mean 'lidar'?"
+    """
+    import difflib  # noqa: PLC0415 - only errors need it
+
+    similar = difflib.get_close_matches(name, list(known), n=most)
+    return f"Did you mean {' or '.join(map(repr, similar))}?" if similar else ""
 
 
 def times(number: int) -> str:

@@ -130,7 +130,7 @@ def test_all_elements(parse, tmp_path, capfd, monkeypatch, text):
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("<launch><nodee pkg='a' exec='b'/></launch>", "Unrecognized entity of the type: nodee. Did you mean node?"),
+        ("<launch><nodee pkg='a' exec='b'/></launch>", "Unrecognized entity of the type: nodee. Did you mean 'node'?"),
         ("<launch><node pkg='a'/></launch>", "<node>: Attribute 'exec' not found in 'node'; attributes there: pkg"),
         (
             "<launch><node pkg='a' exec='b' naem='c'/></launch>",

@@ -207,7 +207,7 @@ def test_arguments_and_the_description_are_shown_without_a_launch(workspace):
     missing = run("demo_pkg", "talk.lunch.py")
     assert missing.returncode == 1
     assert "No launch file 'talk.lunch.py' in the package 'demo_pkg'." in missing.stderr
-    assert "Did you mean talk.launch.py" in missing.stderr
+    assert "Did you mean 'talk.launch.py'" in missing.stderr
     assert "No package named 'demo'. \n" not in run("demo", "x.launch.py").stderr
     assert "Did you mean 'demo_pkg'" in run("demo_pgk", "x.launch.py").stderr
     assert "The name of the launch file is missing. Launch files in demo_pkg: talk.launch.py" in run("demo_pkg").stderr

@@ -159,7 +159,7 @@ def test_text_with_substitutions(context, text, expected):
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("$(vra x)", r"Unknown substitution: \$\(vra ...\). Did you mean var"),
+        ("$(vra x)", r"Unknown substitution: \$\(vra ...\). Did you mean 'var'"),
         ("$(var x", r"a '\)' is missing after"),
         ("$(var 'x)", "a closing ' is missing"),
         ("$()", "expected the name of a substitution"),

@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import difflib
 from array import array
 from contextlib import suppress
 from dataclasses import dataclass, field
@@ -15,6 +14,7 @@ import numpy as np
 from coframe.bags.compression import DamagedError
 from coframe.bags.decoding import ros2_name
 from coframe.errors import RecordingError
+from coframe.formatting import did_you_mean
 from coframe.messages.header_peek import STAMP_BYTES, stamp_reader
 from coframe.messages.slices import Slices
 
@@ -125,10 +125,9 @@ class MessageIndex:
         """
         name = topic if topic in self._tracks else f"/{topic}"
         if name not in self._tracks:
-            near = difflib.get_close_matches(name, self.topics(), n=1)
-            guess = f" Did you mean {near[0]!r}?" if near else ""
+            there = f"Its topics: {', '.join(self.topics()) or 'none'}."
             raise RecordingError(
-                f"{self._path} has no topic {topic!r}", hint=f"Its topics: {', '.join(self.topics()) or 'none'}.{guess}"
+                f"{self._path} has no topic {topic!r}", hint=f"{there} {did_you_mean(name, self.topics())}".rstrip()
             )
         return name
 

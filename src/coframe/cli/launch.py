@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import difflib
 import os
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -12,6 +11,7 @@ import typer
 
 from coframe.cli.output import fail
 from coframe.errors import PackageError
+from coframe.formatting import did_you_mean
 from coframe.packages.finding import find_package, use_sources_near
 
 if TYPE_CHECKING:
@@ -82,8 +82,7 @@ def _launch_file(package_or_file: str, words: list[str]) -> Path:
         return file.resolve()
     if os.sep in package_or_file or package_or_file.endswith(_SUFFIXES):
         siblings = [each.name for each in file.parent.iterdir()] if file.parent.is_dir() else []
-        close = difflib.get_close_matches(file.name, siblings, n=2)
-        fail(f"No launch file {package_or_file}.", f"Did you mean {' or '.join(close)}?" if close else "")
+        fail(f"No launch file {package_or_file}.", did_you_mean(file.name, siblings, most=2))
     try:
         share = find_package(package_or_file).share
     except PackageError as error:
@@ -95,11 +94,9 @@ def _launch_file(package_or_file: str, words: list[str]) -> Path:
     name = words.pop(0)
     path = there.get(name, share / name)
     if not path.is_file():
-        close = difflib.get_close_matches(name, there, n=2)
-        guess = f"Did you mean {' or '.join(close)}? " if close else ""
         fail(
             f"No launch file {name!r} in the package {package_or_file!r}.",
-            f"{guess}Launch files there: {', '.join(there) or 'none'}.",
+            f"{did_you_mean(name, there, most=2)} Launch files there: {', '.join(there) or 'none'}.".lstrip(),
         )
     return path.resolve()
 

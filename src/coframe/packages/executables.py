@@ -3,13 +3,13 @@
 
 from __future__ import annotations
 
-import difflib
 import os
 import re
 import sys
 from typing import TYPE_CHECKING, NamedTuple
 
 from coframe.errors import PackageError
+from coframe.formatting import did_you_mean
 from coframe.packages import builtin, console_scripts
 from coframe.packages.finding import Package, candidates, find_package
 from coframe.packages.folders import crawl
@@ -61,11 +61,10 @@ def find_executable(package: str, name: str) -> Executable:
     found = executables(package)
     if name in found:
         return found[name]
-    close = difflib.get_close_matches(name, found, n=3)
-    guess = f"Did you mean {' or '.join(map(repr, close))}? " if close else ""
+    guess = did_you_mean(name, found, most=3)
     names = sorted(found)
     there = f"Its executables: {', '.join(names[:_MOST_NAMES])}." if names else _where_executables_come_from(package)
-    raise PackageError(f"No executable {name!r} in the package {package!r}.", hint=guess + there)
+    raise PackageError(f"No executable {name!r} in the package {package!r}.", hint=f"{guess} {there}".lstrip())
 
 
 def executables(package: str) -> dict[str, Executable]:

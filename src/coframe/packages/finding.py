@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import difflib
 import os
 import re
 import sys
@@ -11,6 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 from coframe.errors import PackageError
+from coframe.formatting import did_you_mean
 from coframe.packages import builtin
 from coframe.packages.folders import crawl, listed, named, package_around, package_name
 
@@ -58,11 +58,10 @@ def find_package(name: str) -> Package:
     if package is not None:
         return package
     known = package_names()
-    close = difflib.get_close_matches(name, known, n=3)
-    guess = f"Did you mean {' or '.join(map(repr, close))}? " if close else ""
+    guess = did_you_mean(name, known, most=3)
     own = [each for each in known if each not in builtin.EXECUTABLES]
     there = f"Packages: {', '.join(own[:_MOST_NAMES])}{', ...' if len(own) > _MOST_NAMES else ''}. " if own else ""
-    raise PackageError(f"No package named {name!r}.", hint=f"{guess}{there}{_SEARCHED}")
+    raise PackageError(f"No package named {name!r}.", hint=f"{guess} {there}{_SEARCHED}".lstrip())
 
 
 def candidates(name: str) -> Iterator[Package]:

@@ -12,13 +12,13 @@ from coframe.analysis.clocks import clock_of
 from coframe.bags.namespaces import TopicFilter
 from coframe.bags.transforms import ingest_for
 from coframe.errors import DecodeError, PlotError
+from coframe.formatting import did_you_mean
 from coframe.messages.slices import Slices
 from coframe.plotting.expressions import (
     Expression,
     FieldExpression,
     PoseExpression,
     TimingExpression,
-    did_you_mean,
     parse_expression,
 )
 from coframe.plotting.figure import Series
@@ -249,4 +249,4 @@ def _existing_topic(recording: Recording, name: str) -> str:
         return name
     names = list(recording.topics)
     known = f"Topics: {', '.join(names[:_MANY])}{', ...' if len(names) > _MANY else ''}." if names else ""
-    raise PlotError(f"{recording.path} has no topic {name!r}", hint=did_you_mean(name, names) + known)
+    raise PlotError(f"{recording.path} has no topic {name!r}", hint=f"{did_you_mean(name, names)} {known}".strip())

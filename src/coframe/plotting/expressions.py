@@ -16,12 +16,12 @@ quantity:
 
 from __future__ import annotations
 
-import difflib
 import re
 from dataclasses import dataclass
 from typing import TypeAlias
 
 from coframe.errors import PlotError
+from coframe.formatting import did_you_mean
 
 __all__ = [
     "ANGLES",
@@ -31,7 +31,6 @@ __all__ = [
     "FieldExpression",
     "PoseExpression",
     "TimingExpression",
-    "did_you_mean",
     "parse_expression",
 ]
 
@@ -127,12 +126,6 @@ def parse_expression(text: str) -> Expression:
     )
 
 
-def did_you_mean(name: str, known: list[str]) -> str:
-    """Return the question that suggests a similar name, ending with a space; empty if none is similar."""
-    similar = difflib.get_close_matches(name, known, n=1)
-    return f"Did you mean {similar[0]!r}? " if similar else ""
-
-
 def _parse_frames(text: str) -> Expression:
     target, source = (part.strip() for part in _ARROW.split(text, maxsplit=1))
     name, _, quantity = source.rpartition(".")
@@ -142,8 +135,8 @@ def _parse_frames(text: str) -> Expression:
         written = f"{quantity!r}" if name else "nothing"
         raise PlotError(
             f"{text!r} must end with a quantity, not {written}",
-            hint=f"{did_you_mean(quantity if name else '', list(_EDGE_QUANTITIES))}"
-            f"Quantities of two frames: {', '.join(_EDGE_QUANTITIES)}.",
+            hint=f"{did_you_mean(quantity if name else '', _EDGE_QUANTITIES)} "
+            f"Quantities of two frames: {', '.join(_EDGE_QUANTITIES)}.".lstrip(),
         )
     if quantity in TIMINGS:
         return TimingExpression(text, quantity, edge=(target, name))

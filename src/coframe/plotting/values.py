@@ -8,13 +8,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from coframe.errors import CoframeError, PlotError
-from coframe.formatting import listed
+from coframe.formatting import did_you_mean, listed
 from coframe.plotting.expressions import (
     ANGLES,
     Expression,
     FieldExpression,
     PoseExpression,
-    did_you_mean,
 )
 from coframe.time import SECOND
 
@@ -98,7 +97,8 @@ def _step(value: Any, step: str | int, written: str, expression: FieldExpression
                 hint=f"Choose an element, such as {written}[0].{step}.",
             )
         known = f"Fields: {', '.join(names[:_MANY])}{', ...' if len(names) > _MANY else ''}." if names else ""
-        raise PlotError(f"{expression.text}: {written} has no field {step!r}", hint=did_you_mean(step, names) + known)
+        hint = f"{did_you_mean(step, names)} {known}".strip()
+        raise PlotError(f"{expression.text}: {written} has no field {step!r}", hint=hint)
     return value[step] if isinstance(value, dict) else getattr(value, step)
 
 

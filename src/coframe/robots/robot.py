@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import difflib
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, overload
@@ -11,6 +10,7 @@ from typing import TYPE_CHECKING, overload
 import numpy as np
 
 from coframe import quaternion
+from coframe.formatting import did_you_mean
 from coframe.robots.kinematics import KinematicTree
 from coframe.transform import batch_of
 
@@ -296,8 +296,5 @@ def _no_position(joint: str) -> str:
 
 
 def _unknown(what: str, name: str, known: list[str]) -> str:
-    close = difflib.get_close_matches(name, known, n=1)
     known_names = ", ".join(map(repr, sorted(known))) or "none"
-    return f"No {what} named {name!r}. " + (
-        f"Did you mean {close[0]!r}?" if close else f"Known {what}s: {known_names}."
-    )
+    return f"No {what} named {name!r}. " + (did_you_mean(name, known) or f"Known {what}s: {known_names}.")

@@ -3,12 +3,12 @@
 
 from __future__ import annotations
 
-import difflib
 import threading
 import warnings
 from collections.abc import Callable, Sequence
 from typing import Any
 
+from coframe.formatting import did_you_mean
 from rcl_interfaces.msg import ListParametersResult, ParameterDescriptor, ParameterEvent, SetParametersResult
 from rclpy._parameter_ranges import RELATIVE_TOLERANCE, change_fault, range_fault
 from rclpy.exceptions import (
@@ -349,8 +349,8 @@ class NodeParameters:
         return _with_hint(ParameterNotDeclaredException(name), self.__suggestion(name))
 
     def __suggestion(self, name: str) -> str:
-        close = difflib.get_close_matches(name, self.__parameters, n=1)
-        declared = f"Did you mean '{close[0]}'?" if close else f"Declared: {', '.join(sorted(self.__parameters))}."
+        guess = did_you_mean(name, self.__parameters)
+        declared = guess or f"Declared: {', '.join(sorted(self.__parameters))}."
         return f"Call declare_parameter('{name}', ...) first. {declared}"
 
     def __set(self, parameters: list[Parameter[Any]]) -> SetParametersResult:

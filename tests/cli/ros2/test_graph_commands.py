@@ -62,7 +62,7 @@ def test_echo(run):
     assert run("topic", "echo", "/point", "--once", "--csv").strip().endswith(",map,1.5,0.0,0.0")
     ending = run("topic", "echo", "/chatter", "--once", "--filter", "m.data.endswith('7')")
     assert re.fullmatch(r"data: hello \d*7\n---\n", ending)
-    assert "Did you mean /chatter?" in run("topic", "echo", "/chater", code=1)
+    assert "Did you mean '/chatter'?" in run("topic", "echo", "/chater", code=1)
     assert "No message" in run("topic", "echo", "/commands", "std_msgs/msg/String", "--timeout", "0.2", code=1)
     assert "is invalid" in run("topic", "echo", "/chatter", "std_msgs/msg/Sting", "--once", code=1)
     assert "Invalid field 'text'" in run("topic", "echo", "/chatter", "--once", "--field", "text", code=2)

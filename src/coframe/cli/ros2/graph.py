@@ -15,6 +15,7 @@ from coframe.cli.lifecycle import run_to_completion
 from coframe.cli.options import with_leading_slash
 from coframe.cli.output import fail
 from coframe.errors import CoframeError
+from coframe.formatting import did_you_mean
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator
@@ -149,7 +150,8 @@ def topic_type(node: Node, topic: str, *, include_hidden: bool = True) -> str:
     if not found:
         fail(
             f"topic [{topic}] does not appear to be published yet. Could not determine the type for the passed topic",
-            _near(topic, (name for name, _ in node.get_topic_names_and_types())),
+            did_you_mean(topic, (name for name, _ in node.get_topic_names_and_types()), most=2)
+            or "coframe topic list shows all topics.",
         )
     if len(found) > 1:
         fail(f"Cannot echo topic '{topic}', as it contains more than one type: [{', '.join(found)}]")
@@ -176,10 +178,3 @@ def load_type(kind: str, load: Callable[[str], Any]) -> Any:
 def joined(types: Iterable[str]) -> str:
     """Return types as ros2 prints them behind a name."""
     return f"[{', '.join(types)}]"
-
-
-def _near(name: str, known: Iterable[str]) -> str:
-    import difflib  # noqa: PLC0415 - only for an error
-
-    near = difflib.get_close_matches(name, known, n=2)
-    return f"Did you mean {' or '.join(near)}?" if near else "coframe topic list shows all topics."

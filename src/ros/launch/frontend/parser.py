@@ -3,11 +3,11 @@
 
 from __future__ import annotations
 
-import difflib
 import importlib
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from coframe.formatting import did_you_mean
 from launch.frontend.expose import action_parse_methods
 from launch.frontend.substitution_grammar import parse_text
 from launch.invalid_launch_file_error import InvalidLaunchFileError
@@ -105,9 +105,8 @@ class Parser:
         self.load_launch_extensions()
         name = entity.type_name
         if name not in action_parse_methods:
-            close = difflib.get_close_matches(name, action_parse_methods, n=2)
-            guess = f" Did you mean {' or '.join(close)}?" if close else ""
-            raise RuntimeError(f"Unrecognized entity of the type: {name}.{guess}")
+            guess = did_you_mean(name, action_parse_methods, most=2)
+            raise RuntimeError(f"Unrecognized entity of the type: {name}. {guess}".rstrip())
         try:
             kind, options = action_parse_methods[name](entity, self)
             entity.assert_entity_completely_parsed()

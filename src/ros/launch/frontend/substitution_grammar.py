@@ -3,10 +3,10 @@
 
 from __future__ import annotations
 
-import difflib
 import re
 from typing import TYPE_CHECKING
 
+from coframe.formatting import did_you_mean
 from launch.frontend.expose import substitution_parse_methods
 
 if TYPE_CHECKING:
@@ -99,9 +99,8 @@ class _Reader:
 
 def _make(name: str, arguments: list[list[Substitution]]) -> Substitution:
     if name not in substitution_parse_methods:
-        close = difflib.get_close_matches(name, substitution_parse_methods, n=2)
-        guess = f" Did you mean {' or '.join(close)}?" if close else ""
-        raise ValueError(f"Unknown substitution: $({name} ...).{guess}")
+        guess = did_you_mean(name, substitution_parse_methods, most=2)
+        raise ValueError(f"Unknown substitution: $({name} ...). {guess}".rstrip())
     kind, options = substitution_parse_methods[name](arguments)
     positional = options.pop("args", ())
     made: Substitution = kind(*positional, **options)

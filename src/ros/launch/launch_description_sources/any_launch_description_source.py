@@ -3,10 +3,10 @@
 
 from __future__ import annotations
 
-import difflib
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from coframe.formatting import did_you_mean
 from launch.frontend.parser import Parser
 from launch.invalid_launch_file_error import InvalidLaunchFileError
 from launch.launch_description_source import LaunchDescriptionSource
@@ -46,9 +46,8 @@ def get_launch_description_from_any_launch_file(
     path = Path(launch_file_path)
     if not path.is_file():
         siblings = [each.name for each in path.parent.iterdir()] if path.parent.is_dir() else []
-        close = difflib.get_close_matches(path.name, siblings, n=2)
-        guess = f" Did you mean {' or '.join(map(repr, close))}?" if close else ""
-        raise FileNotFoundError(f"No launch file {launch_file_path}.{guess}")
+        guess = did_you_mean(path.name, siblings, most=2)
+        raise FileNotFoundError(f"No launch file {launch_file_path}. {guess}".rstrip())
     if path.suffix == ".py":
         return get_launch_description_from_python_launch_file(launch_file_path)
     if parser.is_filename_valid(launch_file_path):

@@ -3,10 +3,10 @@
 
 from __future__ import annotations
 
-import difflib
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
+from coframe.formatting import did_you_mean
 from launch.frontend.arguments import check_arguments
 from launch.frontend.expose import expose_substitution
 from launch.substitution import Substitution
@@ -61,6 +61,5 @@ class LaunchConfiguration(Substitution):
             return value
         if self.__default is not None:
             return perform_substitutions(context, self.__default)
-        close = difflib.get_close_matches(name, context.launch_configurations, n=2)
-        guess = f". Did you mean {' or '.join(map(repr, close))}?" if close else ""
-        raise SubstitutionFailure(f"launch configuration '{name}' does not exist{guess}")
+        guess = did_you_mean(name, context.launch_configurations, most=2)
+        raise SubstitutionFailure(f"launch configuration '{name}' does not exist" + (f". {guess}" if guess else ""))
