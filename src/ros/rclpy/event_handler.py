@@ -7,14 +7,28 @@
 from __future__ import annotations
 
 import inspect
-from dataclasses import dataclass
-from enum import Enum
 from functools import partial
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Any
 
-from coframe import _core
+from rclpy._qos_event_types import (
+    INCOMPATIBLE_TYPES,
+    PUBLISHER_STATUSES,
+    SUBSCRIPTION_STATUSES,
+    IncompatibleTypeInfo,
+    QoSLivelinessChangedInfo,
+    QoSLivelinessLostInfo,
+    QoSMatchedInfo,
+    QoSMessageLostInfo,
+    QoSOfferedDeadlineMissedInfo,
+    QoSOfferedIncompatibleQoSInfo,
+    QoSPublisherEventType,
+    QoSPublisherMatchedInfo,
+    QoSRequestedDeadlineMissedInfo,
+    QoSRequestedIncompatibleQoSInfo,
+    QoSSubscriptionEventType,
+    QoSSubscriptionMatchedInfo,
+)
 from rclpy._rclpy_pybind11 import UnsupportedEventTypeError
-from rclpy.qos import QoSPolicyKind
 from rclpy.waitable import NumberOfEntities, Waitable, WaitSet
 
 if TYPE_CHECKING:
@@ -43,153 +57,6 @@ __all__ = [
     "SubscriptionEventCallbacks",
     "UnsupportedEventTypeError",
 ]
-
-
-class QoSPublisherEventType(Enum):
-    """Kinds of events of a publisher."""
-
-    RCL_PUBLISHER_OFFERED_DEADLINE_MISSED = 0
-    RCL_PUBLISHER_LIVELINESS_LOST = 1
-    RCL_PUBLISHER_OFFERED_INCOMPATIBLE_QOS = 2
-    RCL_PUBLISHER_INCOMPATIBLE_TYPE = 3
-    RCL_PUBLISHER_MATCHED = 4
-
-
-class QoSSubscriptionEventType(Enum):
-    """Kinds of events of a subscription."""
-
-    RCL_SUBSCRIPTION_REQUESTED_DEADLINE_MISSED = 0
-    RCL_SUBSCRIPTION_LIVELINESS_CHANGED = 1
-    RCL_SUBSCRIPTION_REQUESTED_INCOMPATIBLE_QOS = 2
-    RCL_SUBSCRIPTION_MESSAGE_LOST = 3
-    RCL_SUBSCRIPTION_INCOMPATIBLE_TYPE = 4
-    RCL_SUBSCRIPTION_MATCHED = 5
-
-
-@dataclass(frozen=True)
-class _Counts:
-    total_count: int
-    total_count_change: int
-
-
-@dataclass(frozen=True)
-class QoSOfferedDeadlineMissedInfo(_Counts):
-    """The publisher published later than its deadline allows."""
-
-
-@dataclass(frozen=True)
-class QoSRequestedDeadlineMissedInfo(_Counts):
-    """A message came later than the deadline of the subscription allows."""
-
-
-@dataclass(frozen=True)
-class QoSLivelinessLostInfo(_Counts):
-    """The publisher did not assert its liveliness in time."""
-
-
-@dataclass(frozen=True)
-class QoSMessageLostInfo(_Counts):
-    """Messages were lost."""
-
-
-@dataclass(frozen=True)
-class IncompatibleTypeInfo(_Counts):
-    """An endpoint on the same topic has another message type."""
-
-
-@dataclass(frozen=True)
-class QoSLivelinessChangedInfo:
-    """The number of publishers that are alive has changed."""
-
-    alive_count: int
-    not_alive_count: int
-    alive_count_change: int
-    not_alive_count_change: int
-
-
-@dataclass(frozen=True)
-class QoSMatchedInfo:
-    """The number of matched endpoints has changed."""
-
-    total_count: int
-    total_count_change: int
-    current_count: int
-    current_count_change: int
-
-
-QoSPublisherMatchedInfo = QoSSubscriptionMatchedInfo = QoSMatchedInfo
-
-
-@dataclass(frozen=True)
-class QoSOfferedIncompatibleQoSInfo:
-    """A subscription requests more than the publisher offers."""
-
-    total_count: int
-    total_count_change: int
-    last_policy_kind: QoSPolicyKind
-
-
-@dataclass(frozen=True)
-class QoSRequestedIncompatibleQoSInfo:
-    """A publisher offers less than the subscription requests."""
-
-    total_count: int
-    total_count_change: int
-    last_policy_kind: QoSPolicyKind
-
-
-# The policies that can be incompatible, by their numbers in DDS.
-_POLICY_KINDS: Final = {
-    2: QoSPolicyKind.DURABILITY,
-    4: QoSPolicyKind.DEADLINE,
-    8: QoSPolicyKind.LIVELINESS,
-    11: QoSPolicyKind.RELIABILITY,
-}
-
-
-def _policy(counts: tuple[int, int, int, int]) -> tuple[int, int, QoSPolicyKind]:
-    return *counts[:2], _POLICY_KINDS.get(counts[2], QoSPolicyKind.INVALID)
-
-
-# For each kind of event: the status of DDS, and what the callback receives.
-_PUBLISHER_STATUSES: Final[dict[QoSPublisherEventType, tuple[int, Callable[[Any], Any]]]] = {
-    QoSPublisherEventType.RCL_PUBLISHER_OFFERED_DEADLINE_MISSED: (
-        _core.DEADLINE_MISSED,
-        lambda counts: QoSOfferedDeadlineMissedInfo(*counts[:2]),
-    ),
-    QoSPublisherEventType.RCL_PUBLISHER_LIVELINESS_LOST: (
-        _core.LIVELINESS,
-        lambda counts: QoSLivelinessLostInfo(*counts[:2]),
-    ),
-    QoSPublisherEventType.RCL_PUBLISHER_OFFERED_INCOMPATIBLE_QOS: (
-        _core.INCOMPATIBLE_QOS,
-        lambda counts: QoSOfferedIncompatibleQoSInfo(*_policy(counts)),
-    ),
-    QoSPublisherEventType.RCL_PUBLISHER_MATCHED: (_core.MATCHED, lambda counts: QoSMatchedInfo(*counts)),
-}
-_SUBSCRIPTION_STATUSES: Final[dict[QoSSubscriptionEventType, tuple[int, Callable[[Any], Any]]]] = {
-    QoSSubscriptionEventType.RCL_SUBSCRIPTION_REQUESTED_DEADLINE_MISSED: (
-        _core.DEADLINE_MISSED,
-        lambda counts: QoSRequestedDeadlineMissedInfo(*counts[:2]),
-    ),
-    QoSSubscriptionEventType.RCL_SUBSCRIPTION_LIVELINESS_CHANGED: (
-        _core.LIVELINESS,
-        lambda counts: QoSLivelinessChangedInfo(*counts),
-    ),
-    QoSSubscriptionEventType.RCL_SUBSCRIPTION_REQUESTED_INCOMPATIBLE_QOS: (
-        _core.INCOMPATIBLE_QOS,
-        lambda counts: QoSRequestedIncompatibleQoSInfo(*_policy(counts)),
-    ),
-    QoSSubscriptionEventType.RCL_SUBSCRIPTION_MESSAGE_LOST: (
-        _core.SAMPLE_LOST,
-        lambda counts: QoSMessageLostInfo(*counts[:2]),
-    ),
-    QoSSubscriptionEventType.RCL_SUBSCRIPTION_MATCHED: (_core.MATCHED, lambda counts: QoSMatchedInfo(*counts)),
-}
-_INCOMPATIBLE_TYPES: Final = (
-    QoSPublisherEventType.RCL_PUBLISHER_INCOMPATIBLE_TYPE,
-    QoSSubscriptionEventType.RCL_SUBSCRIPTION_INCOMPATIBLE_TYPE,
-)
 
 
 class EventHandler(Waitable):
@@ -260,13 +127,13 @@ class EventHandler(Waitable):
         return None if event is None else partial(self.callback, event)
 
     def __take(self, endpoint: LocalEndpoint) -> Any:
-        if self.event_type in _INCOMPATIBLE_TYPES:
+        if self.event_type in INCOMPATIBLE_TYPES:
             count, self.__type_mismatches = self.__type_mismatches, 0
             return IncompatibleTypeInfo(count, count) if count else None
         if isinstance(self.event_type, QoSPublisherEventType):
-            status, as_info = _PUBLISHER_STATUSES[self.event_type]
+            status, as_info = PUBLISHER_STATUSES[self.event_type]
         else:
-            status, as_info = _SUBSCRIPTION_STATUSES[self.event_type]
+            status, as_info = SUBSCRIPTION_STATUSES[self.event_type]
         counts = endpoint.take_status(status)
         return None if counts is None else as_info(counts)
 
@@ -418,7 +285,7 @@ class MismatchReporter:
             self._log.info(text)
 
     def _report_type(self, text: str) -> None:
-        handlers = [handler for handler in self.handlers if handler.event_type in _INCOMPATIBLE_TYPES]
+        handlers = [handler for handler in self.handlers if handler.event_type in INCOMPATIBLE_TYPES]
         for handler in handlers:
             handler._Coframe__report_type_mismatch()
         if not handlers and self._callbacks.use_default_callbacks:
