@@ -207,23 +207,23 @@ def interpolation() -> Drawing:
 
 
 def sensors() -> Drawing:
-    drawing = Drawing(260)
+    drawing = Drawing(300)
     right, late = Transform.from_rpy([0.9, 0.0, 0.0], yaw=0.0), Transform.from_rpy([0.88, 0.13, 0.0], yaw=0.25)
-    angles = np.linspace(-0.6, 0.6, 13)
+    angles = np.linspace(-0.55, 0.55, 13)
     ranges = 1.6 / np.cos(angles)  # a wall 1.6 m in front of the sensor
     points = np.column_stack([ranges * np.cos(angles), ranges * np.sin(angles), np.zeros(13)])
 
     def pixel(position: Sequence[float]) -> Point:
-        return 70 + 170 * float(position[0]), 150 - 100 * float(position[1])
+        return 60 + 200 * float(position[0]), 180 - 100 * float(position[1])
 
-    drawing.line([pixel([2.5, -1.2]), pixel([2.5, 1.2])], GRAY, 7)
+    drawing.line([pixel([2.5, -1.1]), pixel([2.5, 1.1])], GRAY, 7)
     for points_base, color in ((right @ points, GREEN), (late @ points, RED)):
         for position in points_base:
             drawing.dot(pixel(position), color, 4.5)
     drawing.axes(pixel([0, 0]), 0.0, "base_link", 40)
     drawing.line([pixel([0, 0]), pixel(right.translation)], BLACK, 3)
     drawing.axes(pixel(right.translation), 0.0, "lidar on the gripper", 40)
-    drawing.text((20, 30), "transform at the stamp of the scan: the points are on the wall", GREEN)
+    drawing.text((20, 30), "at the stamp of the scan: the points are on the wall", GREEN)
     drawing.text((20, 50), "latest transform, 0.1 s later: the wall is turned", RED)
     return drawing
 
@@ -272,12 +272,12 @@ def time_travel() -> Drawing:
     drawing = Drawing(230)
 
     def base(time: float) -> Transform:
-        return Transform.from_rpy([0.9 * time, 0.25 * math.sin(1.1 * time), 0.0], yaw=0.27 * math.cos(1.1 * time))
+        return Transform.from_rpy([0.5 * time, 0.25 * math.sin(1.1 * time), 0.0], yaw=0.5 * math.cos(1.1 * time))
 
     def pixel(position: Sequence[float]) -> Point:
-        return 60 + 110 * float(position[0]), 130 - 150 * float(position[1])
+        return 60 + 200 * float(position[0]), 130 - 150 * float(position[1])
 
-    tip = Transform([0.9, 0.0, 0.0])
+    tip = Transform([0.8, 0.0, 0.0])
     drawing.line([pixel(base(k / 20).translation) for k in range(81)], GRAY, 1.5, dashed=True)
     for time, color, name in ((2.0, BLUE, "one second ago"), (3.0, BLACK, "now")):
         end = (base(time) @ tip).translation
@@ -294,15 +294,14 @@ def time_travel() -> Drawing:
 
 def finding_errors() -> Drawing:
     drawing = Drawing(220)
-    lengths = ((0.5, 0.4), (0.3, 0.6))
+    lengths = (0.5, 0.3)  # of link1
     curves: list[list[Point]] = [[], []]
     both: list[Point] = []
     for k in range(100):
         t = k / 20
-        q1, q2 = 0.5 * math.sin(2 * math.pi * 0.2 * t), 0.3 * math.sin(2 * math.pi * 0.3 * t + math.pi / 4)
-        for curve, (first, second) in zip(curves, lengths, strict=True):
-            y = first * math.sin(q1) + second * math.sin(q1 + q2)
-            curve.append((60 + 5.5 * k, 110 - 120 * y))
+        q1 = 0.5 * math.sin(2 * math.pi * 0.2 * t)
+        for curve, length in zip(curves, lengths, strict=True):
+            curve.append((60 + 5.5 * k, 110 - 320 * length * math.sin(q1)))
         both.append(curves[k % 2][-1])
     drawing.arrow((60, 200), (620, 200), GRAY, 1.5)
     drawing.line(both, RED, 1.5)
@@ -311,7 +310,7 @@ def finding_errors() -> Drawing:
     drawing.text((300, 30), "dynamic_tf_broadcaster", BLUE)
     drawing.text((300, 50), "arm_driver, with other lengths", GREEN)
     drawing.text((300, 70), "what a listener receives", RED)
-    drawing.text((20, 20), "y of end_effector", GRAY)
+    drawing.text((20, 20), "y of link2", GRAY)
     drawing.text((600, 215), "time", GRAY)
     return drawing
 

@@ -40,6 +40,8 @@ def _faulty(fault: str, name: str) -> Program:
 _STATIC, _DYNAMIC = _node("static_tf_broadcaster"), _node("dynamic_tf_broadcaster")
 _LISTENER, _SENSOR = _node("tf_listener"), _node("sensor_transform")
 _LIDAR = _node("simulated_lidar", "fixed_frame:=base_link")
+_DESCRIPTION = Program("robot_description", ("-m", "coframe.course.description"))  # the doctor compares with it
+_JOINTS = _node("dynamic_tf_broadcaster", "publish_joint_states:=true", title="joint_driver")
 _HALF = 0.5**0.5
 
 FAULTS = (
@@ -84,6 +86,7 @@ FAULTS = (
         "swapped quaternion order",
         "The rotation of the camera is in the order w, x, y, z instead of x, y, z, w.",
         (
+            _DESCRIPTION,
             _node("static_tf_broadcaster", f"camera_rotation:=[{_HALF}, 0.0, {_HALF}, 0.0]"),
             _DYNAMIC,
             _LISTENER,
@@ -94,12 +97,12 @@ FAULTS = (
     Fault(
         "degrees",
         "The joint angles are in degrees, but are used as radians: the arm turns around several times.",
-        (_STATIC, _faulty("degrees", "dynamic_tf_broadcaster"), _LISTENER, _LIDAR, _SENSOR),
+        (_DESCRIPTION, _JOINTS, _STATIC, _faulty("degrees", "dynamic_tf_broadcaster"), _LISTENER, _LIDAR, _SENSOR),
     ),
     Fault(
         "wrong parent",
         "The second link is mounted on base_link instead of link1.",
-        (_STATIC, _faulty("wrong parent", "dynamic_tf_broadcaster"), _LISTENER, _LIDAR, _SENSOR),
+        (_DESCRIPTION, _STATIC, _faulty("wrong parent", "dynamic_tf_broadcaster"), _LISTENER, _LIDAR, _SENSOR),
     ),
     Fault(
         "dead listener",
