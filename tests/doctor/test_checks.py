@@ -492,6 +492,19 @@ def test_joint_state_without_joint(only):
     assert "the joint states contain elbow, but" in only(run, "TF022").text
 
 
+def test_parent_that_differs_from_the_model(only):
+    run = Run.healthy()
+    tip = '<link name="tip"/><joint name="tilt" type="continuous"><parent link="wheel"/><child link="tip"/></joint>'
+    describe(run, URDF.replace("</robot>", tip + "</robot>"))
+    for i in range(300):
+        joints(run, later(i / 25), turn=i / 25, tilt=0.0)
+        run.tf("base_link", "wheel", later(i / 25), turn=yaw(i / 25))
+        run.tf("base_link", "tip", later(i / 25), turn=yaw(i / 50))
+    finding = only(run, "TF023")
+    assert finding.edge == ("base_link", "tip")
+    assert "the parent of tip is wheel (joint 'tilt')" in finding.text
+
+
 @pytest.mark.parametrize(
     ("height", "turned", "link", "text"),
     [

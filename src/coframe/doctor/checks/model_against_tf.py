@@ -64,18 +64,48 @@ def find(observation: Observation) -> Iterator[Finding]:
             publishers=edge.publishers,
         )
     yield from _other_mounts(observation, robot)
+    yield from _other_parents(observation, robot)
+
+
+def _other_parents(observation: Observation, robot: Robot) -> Iterator[Finding]:
+    """Yield findings for links whose parent differs from that of their joint, with a movable joint in between."""
+    link_of = {observation.link_name(link): link for link in robot.links}
+    rigid = _rigid(robot)
+    for joint in robot.joints.values():
+        edge = observation.last.get(observation.link_name(joint.child))
+        parent = link_of.get(edge.parent) if edge is not None else None
+        if edge is None or parent is None or rigid[parent] in {rigid[joint.parent], rigid[joint.child]}:
+            continue
+        yield Finding(
+            code=CODE,
+            severity=Severity.WARNING,
+            text=f"in the robot description, the parent of {edge.child} is {observation.link_name(joint.parent)} "
+            f"(joint {joint.name!r})",
+            fix=f"In the publisher: t.header.frame_id = {observation.link_name(joint.parent)!r}; or correct <parent> "
+            "in the URDF, and restart robot_state_publisher.",
+            edge=edge.key,
+            first_stamp=edge.first_stamp,
+            publishers=edge.publishers,
+        )
+
+
+def _rigid(robot: Robot) -> dict[str, str]:
+    """Return the topmost link to which each link is fixed."""
+    joint_above = {joint.child: joint for joint in robot.joints.values()}
+    rigid = {}
+    for link in robot.links:
+        top = link
+        while top in joint_above and joint_above[top].type == "fixed":
+            top = joint_above[top].parent
+        rigid[link] = top
+    return rigid
 
 
 def _other_mounts(observation: Observation, robot: Robot) -> Iterator[Finding]:
     """Yield findings for static transforms between two links that several fixed joints connect."""
     link_of = {observation.link_name(link): link for link in robot.links}
     joint_above = {joint.child: joint for joint in robot.joints.values()}
-    rigid = {}  # the topmost link to which each link is fixed
-    for link in robot.links:
-        top = link
-        while top in joint_above and joint_above[top].type == "fixed":
-            top = joint_above[top].parent
-        rigid[link] = top
+    rigid = _rigid(robot)
     poses = None
     for edge in observation.static:
         parent, child = link_of.get(edge.parent, ""), link_of.get(edge.child, "")

@@ -1,0 +1,27 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The doctor is the hint for the faulty systems of ``coframe lab break``."""
+
+import json
+import subprocess
+import sys
+
+import pytest
+
+COFRAME = (sys.executable, "-m", "coframe.cli")
+# The listener of the tenth system is dead, but all its transforms are right.
+CODES = {1: "TF014", 2: "TF014", 3: "TF008", 4: "TF014", 5: "TF003", 6: "TF013", 7: "TF023", 8: "TF023", 9: "TF023"}
+
+
+@pytest.mark.slow
+@pytest.mark.usefixtures("domain_id")
+@pytest.mark.parametrize("number", CODES)
+def test_the_doctor_finds_the_fault(number):
+    with subprocess.Popen([*COFRAME, "lab", "break", str(number)], stdout=subprocess.PIPE, text=True) as system:
+        try:
+            lines = iter(system.stdout.readline, "")
+            assert any("started" in line or "Published" in line for line in lines)
+            command = [*COFRAME, "doctor", "--duration", "6s", "--json"]
+            report = json.loads(subprocess.run(command, capture_output=True, check=False).stdout)
+        finally:
+            system.terminate()
+    assert CODES[number] in {finding["code"] for finding in report["findings"]}
