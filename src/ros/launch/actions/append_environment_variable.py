@@ -6,12 +6,13 @@ from __future__ import annotations
 import os
 from typing import TYPE_CHECKING, Any
 
-from launch.action import Action
+from launch.actions._named import NamedValueAction
 from launch.conditions import evaluate_condition_expression
 from launch.frontend.expose import expose_action
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 if TYPE_CHECKING:
+    from launch.action import Action
     from launch.frontend import Entity, Parser
     from launch.launch_context import LaunchContext
     from launch.some_substitutions_type import SomeSubstitutionsType
@@ -21,7 +22,7 @@ __all__ = ["AppendEnvironmentVariable"]
 
 
 @expose_action("append_env")
-class AppendEnvironmentVariable(Action):
+class AppendEnvironmentVariable(NamedValueAction):
     """Append to an environment variable, or set it if it does not exist.
 
     Args:
@@ -40,9 +41,7 @@ class AppendEnvironmentVariable(Action):
         separator: SomeSubstitutionsType = os.pathsep,
         **options: Any,
     ) -> None:
-        super().__init__(**options)
-        self.__name = normalize_to_list_of_substitutions(name)
-        self.__value = normalize_to_list_of_substitutions(value)
+        super().__init__(name, value, **options)
         self.__prepend = normalize_to_list_of_substitutions(str(prepend) if isinstance(prepend, bool) else prepend)
         self.__separator = normalize_to_list_of_substitutions(separator)
 
@@ -50,8 +49,6 @@ class AppendEnvironmentVariable(Action):
     def parse(cls, entity: Entity, parser: Parser) -> tuple[type[Action], dict[str, Any]]:
         """Read ``<append_env name=... value=...>``."""
         _, options = super().parse(entity, parser)
-        options["name"] = parser.parse_substitution(entity.get_attr("name"))
-        options["value"] = parser.parse_substitution(entity.get_attr("value"))
         prepend = entity.get_attr("prepend", optional=True, data_type=bool, can_be_str=True)
         if prepend is not None:
             options["prepend"] = parser.parse_if_substitutions(prepend)
@@ -59,16 +56,6 @@ class AppendEnvironmentVariable(Action):
         if separator is not None:
             options["separator"] = parser.parse_substitution(separator)
         return cls, options
-
-    @property
-    def name(self) -> list[Substitution]:
-        """The name of the variable."""
-        return self.__name
-
-    @property
-    def value(self) -> list[Substitution]:
-        """The text to append."""
-        return self.__value
 
     @property
     def prepend(self) -> list[Substitution]:
@@ -82,8 +69,8 @@ class AppendEnvironmentVariable(Action):
 
     def execute(self, context: LaunchContext) -> list[Any] | None:
         """Change the variable."""
-        name = perform_substitutions(context, self.__name)
-        parts = [perform_substitutions(context, self.__value)]
+        name = perform_substitutions(context, self.name)
+        parts = [perform_substitutions(context, self.value)]
         if name in context.environment:
             old = context.environment[name]
             parts = [*parts, old] if evaluate_condition_expression(context, self.__prepend) else [old, *parts]

@@ -6,14 +6,13 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from launch.action import Action
+from launch.actions._named import NamedAction, NamedValueAction
 from launch.frontend.expose import expose_action
-from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+from launch.utilities import perform_substitutions
 
 if TYPE_CHECKING:
     from launch.frontend import Entity, Parser
     from launch.launch_context import LaunchContext
-    from launch.some_substitutions_type import SomeSubstitutionsType
-    from launch.substitution import Substitution
 
 __all__ = [
     "PopEnvironment",
@@ -25,61 +24,23 @@ __all__ = [
 
 
 @expose_action("set_env")
-class SetEnvironmentVariable(Action):
+class SetEnvironmentVariable(NamedValueAction):
     """Set an environment variable."""
-
-    def __init__(self, name: SomeSubstitutionsType, value: SomeSubstitutionsType, **options: Any) -> None:
-        super().__init__(**options)
-        self.__name = normalize_to_list_of_substitutions(name)
-        self.__value = normalize_to_list_of_substitutions(value)
-
-    @classmethod
-    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[Action], dict[str, Any]]:
-        """Read ``<set_env name=... value=...>``."""
-        _, options = super().parse(entity, parser)
-        options["name"] = parser.parse_substitution(entity.get_attr("name"))
-        options["value"] = parser.parse_substitution(entity.get_attr("value"))
-        return cls, options
-
-    @property
-    def name(self) -> list[Substitution]:
-        """The name of the variable."""
-        return self.__name
-
-    @property
-    def value(self) -> list[Substitution]:
-        """The value."""
-        return self.__value
 
     def execute(self, context: LaunchContext) -> list[Any] | None:
         """Set the variable."""
-        name = perform_substitutions(context, self.__name)
-        context.environment[name] = perform_substitutions(context, self.__value)
+        name = perform_substitutions(context, self.name)
+        context.environment[name] = perform_substitutions(context, self.value)
         return None
 
 
 @expose_action("unset_env")
-class UnsetEnvironmentVariable(Action):
+class UnsetEnvironmentVariable(NamedAction):
     """Unset an environment variable, if it is set."""
-
-    def __init__(self, name: SomeSubstitutionsType, **options: Any) -> None:
-        super().__init__(**options)
-        self.__name = normalize_to_list_of_substitutions(name)
-
-    @classmethod
-    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[Action], dict[str, Any]]:
-        """Read ``<unset_env name=...>``."""
-        _, options = super().parse(entity, parser)
-        return cls, options | {"name": parser.parse_substitution(entity.get_attr("name"))}
-
-    @property
-    def name(self) -> list[Substitution]:
-        """The name of the variable."""
-        return self.__name
 
     def execute(self, context: LaunchContext) -> list[Any] | None:
         """Unset the variable."""
-        context.environment.pop(perform_substitutions(context, self.__name), None)
+        context.environment.pop(perform_substitutions(context, self.name), None)
         return None
 
 

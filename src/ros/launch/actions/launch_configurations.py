@@ -6,6 +6,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from launch.action import Action
+from launch.actions._named import NamedAction, NamedValueAction
 from launch.frontend.expose import expose_action
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
@@ -13,7 +14,6 @@ if TYPE_CHECKING:
     from launch.frontend import Entity, Parser
     from launch.launch_context import LaunchContext
     from launch.some_substitutions_type import SomeSubstitutionsType
-    from launch.substitution import Substitution
 
 __all__ = [
     "PopLaunchConfigurations",
@@ -25,61 +25,23 @@ __all__ = [
 
 
 @expose_action("let")
-class SetLaunchConfiguration(Action):
+class SetLaunchConfiguration(NamedValueAction):
     """Set a launch configuration."""
-
-    def __init__(self, name: SomeSubstitutionsType, value: SomeSubstitutionsType, **options: Any) -> None:
-        super().__init__(**options)
-        self.__name = normalize_to_list_of_substitutions(name)
-        self.__value = normalize_to_list_of_substitutions(value)
-
-    @classmethod
-    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[Action], dict[str, Any]]:
-        """Read ``<let name=... value=...>``."""
-        _, options = super().parse(entity, parser)
-        options["name"] = parser.parse_substitution(entity.get_attr("name"))
-        options["value"] = parser.parse_substitution(entity.get_attr("value"))
-        return cls, options
-
-    @property
-    def name(self) -> list[Substitution]:
-        """The name of the launch configuration."""
-        return self.__name
-
-    @property
-    def value(self) -> list[Substitution]:
-        """The value."""
-        return self.__value
 
     def execute(self, context: LaunchContext) -> list[Any] | None:
         """Set the launch configuration."""
-        name = perform_substitutions(context, self.__name)
-        context.launch_configurations[name] = perform_substitutions(context, self.__value)
+        name = perform_substitutions(context, self.name)
+        context.launch_configurations[name] = perform_substitutions(context, self.value)
         return None
 
 
 @expose_action("unset")
-class UnsetLaunchConfiguration(Action):
+class UnsetLaunchConfiguration(NamedAction):
     """Unset a launch configuration, if it is set."""
-
-    def __init__(self, name: SomeSubstitutionsType, **options: Any) -> None:
-        super().__init__(**options)
-        self.__name = normalize_to_list_of_substitutions(name)
-
-    @classmethod
-    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[Action], dict[str, Any]]:
-        """Read ``<unset name=...>``."""
-        _, options = super().parse(entity, parser)
-        return cls, options | {"name": parser.parse_substitution(entity.get_attr("name"))}
-
-    @property
-    def name(self) -> list[Substitution]:
-        """The name of the launch configuration."""
-        return self.__name
 
     def execute(self, context: LaunchContext) -> list[Any] | None:
         """Unset the launch configuration."""
-        context.launch_configurations.pop(perform_substitutions(context, self.__name), None)
+        context.launch_configurations.pop(perform_substitutions(context, self.name), None)
         return None
 
 
