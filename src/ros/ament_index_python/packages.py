@@ -8,6 +8,7 @@ packages do not need to be built or installed. The workspace around the current 
 import re
 from pathlib import Path
 
+from ament_index_python.constants import AMENT_PREFIX_PATH_ENV_VAR
 from coframe.errors import PackageError
 from coframe.packages.finding import find_package, package_names
 from coframe.packages.folders import listed
@@ -20,7 +21,6 @@ __all__ = [
     "get_packages_with_prefixes",
 ]
 
-AMENT_PREFIX_PATH = "AMENT_PREFIX_PATH"
 COFRAME_PACKAGE_PATH = "COFRAME_PACKAGE_PATH"
 
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_\-]*")
@@ -76,7 +76,9 @@ def _find(package_name: str) -> tuple[Path, Path]:
     try:
         package = find_package(package_name)
     except PackageError as error:
-        searched = [str(folder) for name in (AMENT_PREFIX_PATH, COFRAME_PACKAGE_PATH) for folder in listed(name)]
+        searched = [
+            str(folder) for name in (AMENT_PREFIX_PATH_ENV_VAR, COFRAME_PACKAGE_PATH) for folder in listed(name)
+        ]
         raise PackageNotFoundError(
             f"package '{package_name}' not found, searching: {searched}. {error.hint} "
             f"Set {COFRAME_PACKAGE_PATH} to the directory that contains the package directory."
