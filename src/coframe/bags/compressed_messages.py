@@ -5,9 +5,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-import numpy as np
-
-from coframe.bags.compression import LARGEST, DamagedError, unpack
+from coframe.bags.compression import DamagedError, unpack_message
 from coframe.bags.storage import Batch, Storage
 from coframe.messages.slices import Slices
 
@@ -17,6 +15,8 @@ if TYPE_CHECKING:
     from coframe.bags.storage import Channel
 
 __all__ = ["UnpackedMessages"]
+
+_PART = 64 << 20  # bytes of unpacked messages in a batch
 
 
 class UnpackedMessages(Storage):
@@ -39,21 +39,35 @@ class UnpackedMessages(Storage):
             if batch.messages is None:
                 yield batch
                 continue
-            unpacked = [self._unpack(batch.channel, message) for message in batch.messages.each()]
-            readable = np.array([message is not None for message in unpacked], dtype=bool)
-            messages = Slices.join([message for message in unpacked if message is not None])
-            yield Batch(batch.channel, batch.received[readable], batch.positions[readable], messages)
+            yield from self._unpacked(batch.channel, batch, batch.messages)
+
+    def _unpacked(self, channel: Channel, packed: Batch, messages: Slices) -> Iterator[Batch]:
+        """Yield a batch in parts, so that not all unpacked messages are in memory at the same time."""
+        rows: list[int] = []
+        unpacked: list[bytes] = []
+        size = 0
+        for row, message in enumerate(messages.each()):
+            data = self._unpack(channel, message)
+            if data is None:
+                continue
+            rows.append(row)
+            unpacked.append(data)
+            size += len(data)
+            if size >= _PART:
+                yield Batch(channel, packed.received[rows], packed.positions[rows], Slices.join(unpacked))
+                rows, unpacked, size = [], [], 0
+        yield Batch(channel, packed.received[rows], packed.positions[rows], Slices.join(unpacked))
 
     def _unpack(self, channel: Channel, message: memoryview) -> bytes | None:
         try:
-            return unpack(self._compression, message, LARGEST)
+            return unpack_message(self._compression, message)
         except DamagedError as error:
             self.add_problem(f"messages on {channel.topic} cannot be unpacked: {error}")
             return None
 
     def read(self, position: int) -> bytes:
         """Return the unpacked bytes of one message."""
-        return unpack(self._compression, self._packed.read(position), LARGEST)
+        return unpack_message(self._compression, self._packed.read(position))
 
     def close(self) -> None:
         """Close the file."""

@@ -14,9 +14,14 @@ from coframe.errors import CoframeError, RecordingError
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-__all__ = ["LARGEST", "DamagedError", "unpack"]
+__all__ = ["LARGEST", "LARGEST_MESSAGE", "DamagedError", "unpack", "unpack_message"]
 
-LARGEST = 512 << 20  # bytes: real chunks and messages are smaller
+LARGEST = 512 << 20  # bytes of a record or an unpacked chunk: real ones are smaller
+LARGEST_MESSAGE = 128 << 20  # bytes of an unpacked message
+# Recorders finish a chunk at about 1 MB, so only a chunk with one huge message is larger than this; and such a message
+# does not consist of zeros only.
+_PLAUSIBLE = 64 << 20
+_HIGHEST_RATIO = 1000  # unpacked to packed size, above _PLAUSIBLE
 
 
 class DamagedError(CoframeError):
@@ -32,7 +37,8 @@ def unpack(compression: str, data: bytes | memoryview, size: int) -> bytes:
         size: The unpacked size in bytes, as the file states it.
 
     Raises:
-        DamagedError: No data can be unpacked, the stated size is above :data:`LARGEST`, or the compression is unknown.
+        DamagedError: No data can be unpacked, the stated size is above :data:`LARGEST` or implausible for the packed
+            size, or the compression is unknown.
         RecordingError: The package for this compression is not installed.
     """
     if compression in {"", "none"}:
@@ -41,6 +47,10 @@ def unpack(compression: str, data: bytes | memoryview, size: int) -> bytes:
         raise DamagedError(f"unknown compression {compression[:20]!r}; known: {', '.join(_OPENERS)}")
     if size > LARGEST:
         raise DamagedError(f"a chunk claims to have {size} bytes, more than the limit of {LARGEST}")
+    if size > max(_PLAUSIBLE, _HIGHEST_RATIO * len(data)) + 1:
+        raise DamagedError(
+            f"a chunk of {len(data)} bytes claims to unpack to {size} bytes, more than {_HIGHEST_RATIO} times as many"
+        )
     open_ = _OPENERS[compression]()
     try:
         unpacked: bytes = open_(data).read(size)
@@ -49,6 +59,35 @@ def unpack(compression: str, data: bytes | memoryview, size: int) -> bytes:
         if not unpacked:
             raise DamagedError(f"{compression} reports: {error}") from None
     return unpacked
+
+
+def unpack_message(compression: str, data: bytes | memoryview) -> bytes:
+    """Unpack a message that was compressed by itself, or the part of it before the first damage.
+
+    Args:
+        compression: ``"zstd"``, ``"lz4"`` (frames), ``"bz2"`` or ``""``.
+        data: The compressed bytes.
+
+    Raises:
+        DamagedError: No data can be unpacked, the message is larger than :data:`LARGEST_MESSAGE` or implausibly large
+            for its packed size, or the compression is unknown.
+        RecordingError: The package for this compression is not installed.
+    """
+    limit = min(LARGEST_MESSAGE, max(_PLAUSIBLE, _HIGHEST_RATIO * len(data)))
+    # One byte more than the limit shows that the message is too large, also if the file states another size.
+    if _stated_size(compression, data) > limit or len(unpacked := unpack(compression, data, limit + 1)) > limit:
+        raise DamagedError(f"a message of {len(data)} bytes unpacks to more than {limit} bytes, the limit")
+    return unpacked
+
+
+def _stated_size(compression: str, data: bytes | memoryview) -> int:
+    """Return the unpacked size that compressed data states; 0 if it states none."""
+    if compression != "zstd":
+        return 0
+    zstandard = _module("zstandard")
+    with contextlib.suppress(zstandard.ZstdError):
+        return max(int(zstandard.frame_content_size(data)), 0)
+    return 0
 
 
 def _undamaged(reader: Any, size: int) -> bytes:

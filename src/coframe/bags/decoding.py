@@ -8,6 +8,7 @@ import json
 import re
 from typing import TYPE_CHECKING, Any
 
+from coframe.bags.definition_limits import check_definitions
 from coframe.errors import CoframeError, DecodeError
 from coframe.messages import deserialize, find
 
@@ -152,7 +153,9 @@ def store_for(name: str, definition: bytes, definition_format: str) -> Any:
     text = definition.decode("utf-8", "replace")
     store = get_typestore(Stores.EMPTY)
     try:
-        store.register(get_types_from_idl(text) if definition_format == "ros2idl" else get_types_from_msg(text, name))
+        types = get_types_from_idl(text) if definition_format == "ros2idl" else get_types_from_msg(text, name)
+        check_definitions(types)
+        store.register(types)
         store.get_msgdef(name)
     except Exception as error:  # noqa: BLE001 - the parser raises errors of many kinds for damaged definitions
         reason = str(error).partition("\n")[0] or type(error).__name__

@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from coframe.bags import mcap_file, ros1_file, sqlite_file
 from coframe.bags.compressed_messages import UnpackedMessages
 from coframe.bags.storage import Channel
+from coframe.bounded_yaml import read_yaml
 from coframe.errors import RecordingError
 from coframe.formatting import listed
 
@@ -38,7 +39,7 @@ _READERS: dict[bytes, type[Storage]] = {
 }
 _SUFFIXES = (".mcap", ".db3", ".bag")
 _METADATA = "metadata.yaml"
-_LARGEST_METADATA = 64 << 20
+_LARGEST_METADATA = 16 << 20
 _ROS1_DATE = re.compile(r"[_-]?\d{4}(-\d\d){5}$", re.ASCII)
 
 
@@ -77,8 +78,8 @@ def open_files(path: Path, problems: Problems, closing: ExitStack) -> OpenedFile
             f"{path} is not a recording" + (f": {reasons[0].removeprefix(f'{path}: ')}" if reasons else ""),
             hint=_inner_recordings(path) or "Give a .mcap, .db3 or .bag file, or the folder that contains such files.",
         )
-    if str(metadata.get("compression_mode", "")).lower() == "message":
-        compression = str(metadata.get("compression_format", ""))
+    if _word(metadata, "compression_mode").lower() == "message":
+        compression = _word(metadata, "compression_format")
         found = [UnpackedMessages(storage, compression) for storage in found]
     return OpenedFiles(found, list(_listed_topics(metadata)))
 
@@ -191,20 +192,23 @@ def _metadata(file: Path, problems: Problems) -> dict[str, Any]:
     if not file.is_file():
         return {}
     try:
-        yaml: Any = importlib.import_module("yaml")
+        with file.open("rb") as opened:
+            text = opened.read(_LARGEST_METADATA + 1)
+        found = dict(read_yaml(text, _LARGEST_METADATA)["rosbag2_bagfile_information"])
     except ModuleNotFoundError:
         problems.add(f"{_METADATA} was not read: the package PyYAML is not installed")
-        return {}
-    try:
-        with file.open("rb") as opened:
-            text = opened.read(_LARGEST_METADATA)
-        loader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
-        found = dict(yaml.load(text, Loader=loader)["rosbag2_bagfile_information"])
-    except (yaml.YAMLError, ValueError, TypeError, KeyError, RecursionError, OverflowError) as error:
+        found = {}
+    except (ValueError, TypeError, KeyError) as error:
         reason = " ".join(str(error).split())[:200]
         problems.add(f"{_METADATA} is damaged ({reason}); the files were read without it")
         found = {}
     return found
+
+
+def _word(metadata: dict[str, Any], key: str) -> str:
+    """Return a value that is a word; "" if it is of another type."""
+    value = metadata.get(key)
+    return value if isinstance(value, str) else ""
 
 
 def _listed_topics(metadata: dict[str, Any]) -> Iterator[Channel]:
@@ -217,7 +221,7 @@ def _listed_topics(metadata: dict[str, Any]) -> Iterator[Channel]:
             yield Channel(
                 topic["name"],
                 topic["type"],
-                str(topic.get("serialization_format", "cdr")),
+                _word(topic, "serialization_format") or "cdr",
                 offered_qos=offered if isinstance(offered, str) else "",
             )
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from coframe import _core
 from coframe.bags.compression import LARGEST, DamagedError, unpack
-from coframe.bags.storage import Batch, Channel, ChunkedStorage
+from coframe.bags.storage import MOST_DAMAGED, Batch, Channel, ChunkedStorage, next_chunk
 from coframe.messages.slices import Slices
 
 if TYPE_CHECKING:
@@ -67,17 +67,19 @@ class McapStorage(ChunkedStorage):
 
     def _walk(self, chunks: list[int]) -> Iterator[tuple[int, int, int]]:
         """Yield offset, opcode and end of each record of the data section; continue at the next chunk after damage."""
-        offset = len(MAGIC)
+        offset, damaged = len(MAGIC), 0
         while (head := self.bytes_at(offset, _RECORD.size)) and len(head) == _RECORD.size:
             opcode, length = _RECORD.unpack(head)
             end = offset + _RECORD.size + length
             is_intact = _is_record(opcode) and end <= self.size
             if is_intact and opcode in {_DATA_END, _FOOTER}:
+                self._check_footer(offset if opcode == _FOOTER else end)
                 return
-            later = [] if is_intact else [chunk for chunk in chunks if chunk > offset]
-            if later:
-                self.add_problem(f"bytes {offset} to {later[0]} are damaged")
-                end = later[0]
+            damaged += not is_intact
+            later = None if is_intact or damaged > MOST_DAMAGED else next_chunk(chunks, offset)
+            if later is not None:
+                self.add_problem(f"bytes {offset} to {later} are damaged")
+                end = later
             elif is_intact or opcode == _CHUNK:
                 yield offset, opcode, min(end, self.size)
             else:
@@ -107,6 +109,19 @@ class McapStorage(ChunkedStorage):
                 self._define(opcode, content)
             position += _RECORD.size + length
         return sorted(chunk for chunk in chunks if 0 < chunk < self.size)
+
+    def _check_footer(self, data_end: int) -> None:
+        """Report a footer that does not match the end of the data."""
+        tail = self.bytes_at(self.size - _FOOTER_RECORD.size - len(MAGIC), _FOOTER_RECORD.size)
+        if len(tail) < _FOOTER_RECORD.size or tail[0] != _FOOTER:
+            self.add_problem("the footer is missing; the recorder may have been killed")
+            return
+        start = _FOOTER_RECORD.unpack(tail)[2]
+        if start not in {0, data_end}:
+            self.add_problem(
+                f"the footer is damaged: it says that the summary begins at byte {start}, but the data end at byte "
+                f"{data_end}"
+            )
 
     def _chunk_batches(self, offset: int) -> Iterator[Batch]:
         base = self.add_chunk(offset)

@@ -3,8 +3,9 @@
 
 from __future__ import annotations
 
-import importlib
 from typing import TYPE_CHECKING, Any, NamedTuple
+
+from coframe.bounded_yaml import read_yaml
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -63,12 +64,10 @@ def to_yaml(profiles: Iterable[OfferedQos]) -> str:
 
 def from_yaml(text: str) -> tuple[OfferedQos, ...]:
     """Return the profiles in YAML of any metadata version; empty if it cannot be read."""
-    if not text or len(text) > _MAX_LENGTH:
+    if not text:
         return ()
     try:
-        yaml: Any = importlib.import_module("yaml")
-        profiles = yaml.load(text, Loader=getattr(yaml, "CSafeLoader", yaml.SafeLoader))
-        return tuple(_profile(profile) for profile in profiles)
+        return tuple(_profile(profile) for profile in read_yaml(text, _MAX_LENGTH))
     except Exception:  # noqa: BLE001 - without PyYAML or with damaged YAML, the offer is unknown
         return ()
 

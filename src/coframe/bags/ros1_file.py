@@ -11,7 +11,7 @@ import numpy as np
 from coframe import time
 from coframe.bags.compression import LARGEST, DamagedError, unpack
 from coframe.bags.offered_qos import OfferedQos, to_yaml
-from coframe.bags.storage import Batch, Channel, ChunkedStorage
+from coframe.bags.storage import MOST_DAMAGED, Batch, Channel, ChunkedStorage, next_chunk
 from coframe.messages.slices import Slices
 
 if TYPE_CHECKING:
@@ -28,7 +28,7 @@ _MESSAGE, _CHUNK, _CHUNK_INFO, _CONNECTION = 0x02, 0x05, 0x06, 0x07
 _KNOWN = {0x02, 0x03, 0x04, 0x05, 0x06, 0x07}
 _LENGTH = struct.Struct("<I")
 _TIME = struct.Struct("<II")
-_LONGEST_HEADER = 1 << 20
+_LONGEST_HEADER = 1 << 16
 
 
 class Ros1Storage(ChunkedStorage):
@@ -61,17 +61,18 @@ class Ros1Storage(ChunkedStorage):
 
     def _walk(self, chunks: list[int]) -> Iterator[tuple[int, int, dict[bytes, bytes], int, int]]:
         """Yield offset, opcode, header, start and end of each record; continue at the next chunk after damage."""
-        offset = len(MAGIC)
+        offset, damaged = len(MAGIC), 0
         while offset < self.size:
-            later = [chunk for chunk in chunks if chunk > offset]
+            later = next_chunk(chunks, offset)
             try:
-                header, start, end = self._record(offset, may_be_truncated=not later)
+                header, start, end = self._record(offset, may_be_truncated=later is None)
             except DamagedError as error:
-                if not later:
+                damaged += 1
+                if later is None or damaged > MOST_DAMAGED:
                     self.add_problem(f"truncated at byte {offset} of {self.size}: {error}")
                     return
-                self.add_problem(f"bytes {offset} to {later[0]} are damaged")
-                offset = later[0]
+                self.add_problem(f"bytes {offset} to {later} are damaged")
+                offset = later
                 continue
             yield offset, _opcode(header), header, start, end
             offset = end

@@ -117,6 +117,10 @@ class SqliteStorage(Storage):
         for name in ("topics", "messages"):
             if not str(tables.get(name)).upper().startswith("CREATE TABLE"):
                 raise sqlite3.DatabaseError(f"no table {name}: the file is not a recording of rosbag2")
+        for name in ("topics", "messages", "message_definitions"):
+            if any(hidden for *_, hidden in self._query(f"PRAGMA table_xinfo({name})")):
+                # Their expressions can ask for any amount of memory and time.
+                raise sqlite3.DatabaseError(f"the table {name} has generated columns, unlike recordings of rosbag2")
         definitions = {}
         if "message_definitions" in tables:
             for type_, kind, text in self._query(

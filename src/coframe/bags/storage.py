@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import bisect
 import threading
 from abc import ABC, abstractmethod
 from collections import OrderedDict
@@ -21,7 +22,9 @@ if TYPE_CHECKING:
     from coframe.bags.problems import Problems
     from coframe.messages.slices import Slices
 
-__all__ = ["Batch", "Channel", "ChunkedStorage", "Storage"]
+__all__ = ["MOST_DAMAGED", "Batch", "Channel", "ChunkedStorage", "Storage", "next_chunk"]
+
+MOST_DAMAGED = 1000  # places in a file after which a reader continues; an index can name any number of them
 
 
 @dataclass(frozen=True, eq=False)
@@ -108,6 +111,17 @@ class Storage(ABC):
     def add_problem(self, sentence: str, times: int = 1) -> None:
         """Add a problem of this file."""
         self.problems.add(f"{self.path.name}: {sentence}", times)
+
+
+def next_chunk(chunks: list[int], offset: int) -> int | None:
+    """Return the first chunk after an offset; None if there is none.
+
+    Args:
+        chunks: The offsets of the chunks, sorted.
+        offset: The offset.
+    """
+    place = bisect.bisect_right(chunks, offset)
+    return chunks[place] if place < len(chunks) else None
 
 
 _OFFSET_BITS = 40

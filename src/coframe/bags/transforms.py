@@ -25,6 +25,7 @@ __all__ = ["Ingest", "ingest_for", "is_static"]
 # Offset of the first parent's name in a TFMessage: after the count, the stamp, the length of the name, and the
 # encapsulation (CDR) or the sequence number (ROS 1).
 _FIRST_PARENT = 20
+_EARLIEST, _LATEST = -(1 << 63), (1 << 63) - 1  # nanoseconds
 # The exceptions that the decoding functions below raise for damaged bytes.
 _DAMAGE = (struct.error, ValueError, TypeError, KeyError, IndexError, AttributeError, OverflowError, RecursionError)
 
@@ -80,7 +81,7 @@ class Ingest:
         damaged, reason = 0, ""
         for message in messages.each():
             try:
-                for transform in list(self._decode(message)):
+                for transform in _decoded(self._decode, message):
                     self._set(buffer, transform)
             except _DAMAGE as error:
                 damaged, reason = damaged + 1, reason or f"{type(error).__name__}: {error}"
@@ -94,7 +95,7 @@ class Ingest:
         damaged = 0
         for number, message in enumerate(messages.each()):
             try:
-                rows += [(number, transform) for transform in list(self._decode(message))]
+                rows += [(number, transform) for transform in _decoded(self._decode, message)]
             except _DAMAGE:
                 damaged += 1
         numbers: dict[str, int] = {}
@@ -114,6 +115,14 @@ class Ingest:
         names = (transform.parent, transform.child)
         parent, child = names if self._renaming is None else map(self._renaming, names)
         buffer._set_values(parent, child, transform.stamp, *transform.values, self.static, self._authority)
+
+
+def _decoded(decode: Callable[[bytes | memoryview], Iterator[_Stamped]], message: bytes | memoryview) -> list[_Stamped]:
+    transforms = list(decode(message))
+    for transform in transforms:
+        if not _EARLIEST <= transform.stamp <= _LATEST:
+            raise ValueError("a stamp is beyond the range of ROS times")
+    return transforms
 
 
 def is_static(topic: str) -> bool:

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Limits on messages: how large a message with default values, and the code that serializes it, can become.
 
-A definition of a few bytes can ask for any amount of memory, such as ``string[4000000000] x``.
+A definition of a few bytes, of a user or in a recording, can ask for any amount of memory, such as
+``string[4000000000] x``.
 """
 
 from __future__ import annotations
@@ -13,7 +14,7 @@ from coframe.messages.fields import number_of
 from coframe.messages.registry import find
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Callable, Iterable
 
 __all__ = ["MOST_BYTES", "check_limits"]
 
@@ -32,12 +33,65 @@ class _Extent(NamedTuple):
     loops: int = 0
 
 
-_known: dict[str, _Extent] = {}  # by message type
+class _Extents:
+    """Computes extents of types, each message type once.
+
+    Args:
+        fields_of: Returns the types of the fields of a message type.
+    """
+
+    def __init__(self, fields_of: Callable[[str], Iterable[AbstractType]]) -> None:
+        self._fields_of = fields_of
+        self._known: dict[str, _Extent] = {}  # by message type
+
+    def total(self, types: Iterable[AbstractType]) -> _Extent:
+        """Return the extent of a message with fields of these types."""
+        listed = [self._of(type_) for type_ in types]
+        return _Extent(
+            _OBJECT + sum(extent.size for extent in listed),
+            sum(extent.fields for extent in listed),
+            max((extent.loops for extent in listed), default=0),
+        )
+
+    def _of(self, type_: AbstractType) -> _Extent:
+        if isinstance(type_, NamespacedType):
+            return self._of_message("/".join(type_.namespaced_name()))
+        if not isinstance(type_, AbstractNestedType):
+            return _Extent()
+        number = number_of(type_)
+        if number is not None:
+            return _Extent(_OBJECT + (type_.size * number.dtype.itemsize if isinstance(type_, Array) else 0))
+        inner = self._of(type_.value_type)
+        count = type_.size if isinstance(type_, Array) else 0
+        # The encoder writes booleans and octets without a loop.
+        loops = inner.loops + (0 if isinstance(type_.value_type, BasicType) else 1)
+        return _Extent(_OBJECT + count * (_REFERENCE + inner.size), inner.fields, loops)
+
+    def _of_message(self, ros_type: str) -> _Extent:
+        if ros_type not in self._known:
+            self._known[ros_type] = self.total(self._fields_of(ros_type))
+        return self._known[ros_type]
 
 
-def check_limits(types: Iterable[AbstractType]) -> None:
-    """Raise ValueError if a message with fields of these types exceeds a limit."""
-    extent = _sum(map(_extent, types))
+def _slot_types(ros_type: str) -> Iterable[AbstractType]:
+    cls: Any = find(ros_type)
+    types: tuple[AbstractType, ...] = cls.SLOT_TYPES
+    return types
+
+
+_registered = _Extents(_slot_types)
+
+
+def check_limits(
+    types: Iterable[AbstractType], fields_of: Callable[[str], Iterable[AbstractType]] | None = None
+) -> None:
+    """Raise ValueError if a message with fields of these types exceeds a limit.
+
+    Args:
+        types: The types of the fields.
+        fields_of: Returns the types of the fields of a message type inside the message; None: those of coframe's class.
+    """
+    extent = (_registered if fields_of is None else _Extents(fields_of)).total(types)
     if extent.size > MOST_BYTES:
         raise ValueError(
             f"a message with default values would need {extent.size} bytes of memory, more than the limit of "
@@ -47,34 +101,3 @@ def check_limits(types: Iterable[AbstractType]) -> None:
         raise ValueError(f"the message and those inside it have {extent.fields} fields, more than {_MOST_FIELDS}")
     if extent.loops > _MOST_LOOPS:
         raise ValueError(f"more than {_MOST_LOOPS} sequences inside each other")
-
-
-def _extent(type_: AbstractType) -> _Extent:
-    if isinstance(type_, NamespacedType):
-        return _message_extent("/".join(type_.namespaced_name()))
-    if not isinstance(type_, AbstractNestedType):
-        return _Extent()
-    number = number_of(type_)
-    if number is not None:
-        return _Extent(_OBJECT + (type_.size * number.dtype.itemsize if isinstance(type_, Array) else 0))
-    inner = _extent(type_.value_type)
-    count = type_.size if isinstance(type_, Array) else 0
-    # The encoder writes booleans and octets without a loop.
-    loops = inner.loops + (0 if isinstance(type_.value_type, BasicType) else 1)
-    return _Extent(_OBJECT + count * (_REFERENCE + inner.size), inner.fields, loops)
-
-
-def _message_extent(ros_type: str) -> _Extent:
-    if ros_type not in _known:
-        cls: Any = find(ros_type)
-        _known[ros_type] = _sum(map(_extent, cls.SLOT_TYPES))
-    return _known[ros_type]
-
-
-def _sum(extents: Iterable[_Extent]) -> _Extent:
-    listed = list(extents)
-    return _Extent(
-        _OBJECT + sum(extent.size for extent in listed),
-        sum(extent.fields for extent in listed),
-        max((extent.loops for extent in listed), default=0),
-    )

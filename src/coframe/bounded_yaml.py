@@ -1,0 +1,106 @@
+# SPDX-License-Identifier: Apache-2.0
+"""YAML of untrusted files, with limits on its size, depth and aliases."""
+
+from __future__ import annotations
+
+import importlib
+from typing import Any
+
+__all__ = ["YamlError", "read_yaml"]
+
+MAX_DEPTH = 100
+MAX_VALUES = 1 << 18
+MAX_DIGITS = 100  # of an integer; one in base 60, such as 1:30:00, takes quadratic time
+_INTEGER = "tag:yaml.org,2002:int"
+
+
+class YamlError(ValueError):
+    """A text is not YAML or exceeds a limit; the message says why, in one line."""
+
+
+def read_yaml(text: str | bytes, max_bytes: int) -> Any:
+    """Return the content of a YAML document, with aliases replaced by copies.
+
+    Args:
+        text: The document.
+        max_bytes: The largest size that is read.
+
+    Raises:
+        YamlError: The text is not valid YAML or exceeds a limit.
+        ModuleNotFoundError: PyYAML is missing.
+    """
+    yaml: Any = importlib.import_module("yaml")
+    if len(text) > max_bytes:
+        raise YamlError(f"it has more than {max_bytes >> 20} MiB, the limit")
+    base = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+    loader = type("BoundedLoader", (base,), {})
+    yaml.add_constructor(_INTEGER, _integer, Loader=loader)
+    try:
+        # PyYAML recurses without a limit and follows aliases of aliases; the events show both beforehand.
+        _check(yaml.parse(text, Loader=base), yaml)
+        return _copied(yaml.load(text, Loader=loader))
+    except (yaml.YAMLError, ValueError, TypeError, OverflowError) as error:
+        raise YamlError(" ".join(str(error).split())) from None
+
+
+def _integer(loader: Any, node: Any) -> Any:
+    if len(loader.construct_scalar(node)) > MAX_DIGITS:
+        raise YamlError(f"an integer has more than {MAX_DIGITS} digits")
+    return loader.construct_yaml_int(node)
+
+
+class _Extents:
+    """Adds up how many values a document has with its aliases replaced by copies, and how deep they are nested."""
+
+    def __init__(self) -> None:
+        self._of_anchor: dict[str, tuple[int, int]] = {}  # values and levels
+        self._open: list[tuple[str | None, int, int]] = [(None, 0, 0)]  # anchor, values and levels of the collections
+
+    def begin(self, anchor: str | None) -> None:
+        self._open.append((anchor, 1, 0))
+        self._check_depth(0)
+
+    def end(self) -> None:
+        anchor, values, levels = self._open.pop()
+        self.add(values, levels + 1, anchor)
+
+    def add(self, values: int, levels: int, anchor: str | None = None) -> None:
+        if anchor is not None:
+            self._of_anchor[anchor] = (values, levels)
+        around, before, deepest = self._open[-1]
+        self._open[-1] = (around, before + values, max(deepest, levels))
+        if before + values > MAX_VALUES:
+            raise YamlError(f"with its aliases (*) replaced by copies it has more than {MAX_VALUES} values")
+        self._check_depth(levels)
+
+    def alias(self, anchor: str) -> None:
+        if any(anchor == around for around, _, _ in self._open):
+            raise YamlError("an alias (*) refers to a node that contains it")
+        self.add(*self._of_anchor.get(anchor, (1, 1)))
+
+    def _check_depth(self, levels: int) -> None:
+        if len(self._open) + levels > MAX_DEPTH + 1:
+            raise YamlError(f"it is nested more than {MAX_DEPTH} levels deep")
+
+
+def _check(events: Any, yaml: Any) -> None:
+    """Raise YamlError if a document is nested too deeply, or is too large with its aliases replaced by copies."""
+    extents = _Extents()
+    for event in events:
+        if isinstance(event, yaml.AliasEvent):
+            extents.alias(event.anchor)
+        elif isinstance(event, yaml.CollectionStartEvent):
+            extents.begin(event.anchor)
+        elif isinstance(event, yaml.CollectionEndEvent):
+            extents.end()
+        elif isinstance(event, yaml.ScalarEvent):
+            extents.add(1, 1, event.anchor)
+
+
+def _copied(value: Any) -> Any:
+    """Return a copy in which no part occurs twice, so that a change of one part does not change another."""
+    if isinstance(value, dict):
+        return {key: _copied(part) for key, part in value.items()}
+    if isinstance(value, list):
+        return [_copied(part) for part in value]
+    return value
