@@ -106,6 +106,25 @@ def test_other_host_names_are_rejected(page, host):
     assert get(page, Host=f"localhost:{port}")[0] == 200
 
 
+@pytest.mark.parametrize(
+    ("lines", "status"),
+    [
+        *[(f"{method} / HTTP/1.1\r\nHost: {{host}}", 405) for method in ("POST", "PUT", "DELETE", "OPTIONS", "HEAD")],
+        ("GET / HTTP/1.1\r\nHost: {host}\r\nHost: {host}", 400),
+        ("GET / HTTP/1.1\r\nHost: {host}\r\nHost: evil.example", 400),
+        ("GET //[ HTTP/1.1\r\nHost: {host}", 400),
+        ("GET / HTTP/1.1\r\nHost: {host}", 200),
+    ],
+)
+def test_unusual_requests_are_refused_without_a_traceback(page, capfd, caplog, lines, status):
+    address = urlsplit(page)
+    with socket.create_connection((address.hostname, address.port), timeout=20) as connection:
+        connection.sendall(f"{lines.format(host=address.netloc)}\r\n\r\n".encode())
+        assert connection.makefile("rb").readline().split()[1] == str(status).encode()
+    assert not capfd.readouterr().err
+    assert not caplog.records
+
+
 @pytest.mark.parametrize("origin", ["http://evil.example", "https://127.0.0.1:{port}", "http://127.0.0.1:1", "null"])
 def test_pages_of_other_sites_cannot_connect(page, origin):
     port = urlsplit(page).port

@@ -24,7 +24,7 @@ from coframe.cli.options import (
     TfTopicOption,
     parse_duration,
 )
-from coframe.cli.output import awaited_statics_text, fail, log, with_doctor_command
+from coframe.cli.output import awaited_statics_text, fail, log, printable, with_doctor_command
 from coframe.cli.ros_arguments import node_identity
 from coframe.errors import TransformException
 from coframe.time import MICROSECOND, SECOND
@@ -180,8 +180,8 @@ def _print_answer(buffer: Buffer, source: str, target: str, stamp: int, write: C
         transform = buffer.lookup(source, target, stamp)
     except TransformException as error:
         print(f"Failure at {time.time()}")
-        print(f"Exception thrown:{error}")
-        print(f"The current list of frames is:\n{buffer.all_frames_as_string()}", flush=True)
+        print(printable(f"Exception thrown:{error}"))
+        print(printable(f"The current list of frames is:\n{buffer.all_frames_as_string()}"), flush=True)
         return 0
     print(write(transform), flush=True)
     return 1

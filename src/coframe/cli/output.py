@@ -45,9 +45,9 @@ def warn(text: str) -> None:
 
 
 def log(level: str, node: str, text: str) -> None:
-    """Print a line on stderr in the format of ROS's console logger."""
+    """Print a line on stderr in the format of ROS's console logger, without control characters."""
     seconds, nanoseconds = divmod(time.time_ns(), SECOND)
-    print(f"[{level}] [{seconds}.{nanoseconds:09d}] [{node}]: {text}", file=sys.stderr, flush=True)
+    print(f"[{level}] [{seconds}.{nanoseconds:09d}] [{node}]: {printable(text)}", file=sys.stderr, flush=True)
 
 
 def printable(text: str) -> str:

@@ -106,13 +106,13 @@ def relay(
                 split=split,
                 domain=domain,
                 node_name=NODE,
-                warn=lambda text: log("WARN", NODE, printable(text)),
+                warn=lambda text: log("WARN", NODE, text),
             )
         except ValueError as error:
             fail(str(error), "coframe relay --help shows an example.", code=2)
         stack.enter_context(running)
         for line in running.routes:
-            log("INFO", NODE, printable(line))
+            log("INFO", NODE, line)
         if status:
             _show(running)
         threading.Event().wait()

@@ -141,9 +141,8 @@ class ViewerServer:
 
     async def _answer(self, request: Request) -> Response | None:
         """Return the response to a request; None opens a WebSocket."""
-        policy = self._access.content_security
-        if not self._access.allows_host(request.headers.get("Host")):
-            return text_response(HTTPStatus.FORBIDDEN, "The Host header does not name this server.", policy)
+        if (refusal := self._refusal(request)) is not None:
+            return refusal
         parts = urlsplit(request.path)
         path = unquote(parts.path)
         if path == "/ws":
@@ -155,6 +154,24 @@ class ViewerServer:
         if path in {"/replay", "/curves.csv"}:
             return await (self._answer_replay if path == "/replay" else self._answer_curves)(parts.query)
         return self._answer_page(path, request.headers.get("If-None-Match"))
+
+    def _refusal(self, request: Request) -> Response | None:
+        """Return the response to a request that is not allowed or not valid; None for others."""
+        policy = self._access.content_security
+        hosts = request.headers.get_all("Host")
+        if len(hosts) > 1:
+            return text_response(HTTPStatus.BAD_REQUEST, "The request has more than one Host header.", policy)
+        if not self._access.allows_host(hosts[0] if hosts else None):
+            return text_response(HTTPStatus.FORBIDDEN, "The Host header does not name this server.", policy)
+        # Older versions of websockets accept only GET, and do not tell the method.
+        if getattr(request, "method", "GET") != "GET":
+            text, allowed = b"This server answers only GET.\n", {"Allow": "GET"}
+            return response(HTTPStatus.METHOD_NOT_ALLOWED, text, "text/plain; charset=utf-8", policy, allowed)
+        try:
+            urlsplit(request.path)
+        except ValueError:  # such as an address that begins with a bracket
+            return text_response(HTTPStatus.BAD_REQUEST, "The address of the request is not valid.", policy)
+        return None
 
     async def _in_thread(self, make_response: Callable[..., Response], *args: Any) -> Response:
         return await self._loop.run_in_executor(self._state.executor, make_response, *args)
