@@ -91,6 +91,7 @@ def test_invalid_definitions_are_reported_with_file_and_line(tmp_path: Path) -> 
     assert "no package with .msg, .srv, .action or .idl files in" in run("add", "empty").stderr
 
 
+@pytest.mark.slow
 def test_mypy_knows_the_fields_from_the_stubs(tmp_path: Path) -> None:
     run("add", "ws/src")
     assert run("stubs", "--output", "typings").exit_code == 0

@@ -194,6 +194,7 @@ def test_process_whose_clock_is_ahead(start, only, clock_ahead):
     assert [effect["code"] for effect in finding["explains"]] == ["TF008"]
 
 
+@pytest.mark.slow
 def test_watch_prints_repeatedly_and_ends_by_a_signal(start, inside):
     start("robot", ROBOT)
     options = ("--watch", "--json", "--duration", "5s")

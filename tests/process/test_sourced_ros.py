@@ -147,6 +147,7 @@ def test_every_command_and_lab_node_starts(sourced):
     assert result.returncode == 0, result.stderr
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("domain_id")
 def test_demo_robot_and_joints_run(sourced):
     pytest.importorskip("cyclonedds", reason="the nodes speak DDS")

@@ -50,6 +50,7 @@ PROGRAM = """
 """
 
 
+@pytest.mark.slow
 def test_mypy_finds_only_the_errors(tmp_path):
     source = textwrap.dedent(PROGRAM).strip()
     (tmp_path / "program.py").write_text(source)

@@ -92,6 +92,7 @@ def terminal(network, domain_id, tmp_path):  # noqa: ARG001 - the domain is in t
     opened.close()
 
 
+@pytest.mark.slow
 def test_own_messages_and_services(terminal):
     listener = terminal.start("run", "py_pubsub", "listener")
     terminal.start("run", "py_pubsub", "talker")

@@ -54,7 +54,8 @@ def kill_robot(demo, name):
     os.kill(int(process), signal.SIGKILL)
 
 
-@pytest.mark.parametrize("own_topics", [False, pytest.param(True, marks=pytest.mark.slow)])
+@pytest.mark.slow
+@pytest.mark.parametrize("own_topics", [False, True])
 def test_a_demo_with_several_robots_of_which_one_stops(command, ros, eventually, own_topics):
     options = ["--own-topics"] if own_topics else []
     demo = command("demo", "--robots", "2", "--no-browser", "--port", "0", *options)

@@ -110,9 +110,9 @@ def graph_node(spin_time: float = 0.0, *, use_sim_time: bool = False, name: str 
             rclpy.try_shutdown()
 
 
-def wait_until(condition: Callable[[], Any], seconds: float = PATIENCE) -> Any:
-    """Return the first true result of a function; its last result if none is true for some seconds."""
-    deadline = time.monotonic() + seconds
+def wait_until(condition: Callable[[], Any]) -> Any:
+    """Return the first true result of a function; its last result if none is true for PATIENCE."""
+    deadline = time.monotonic() + PATIENCE
     while not (result := condition()) and time.monotonic() < deadline:
         time.sleep(_PERIOD)
     return result
