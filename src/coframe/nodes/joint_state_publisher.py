@@ -50,6 +50,14 @@ class JointStatePublisher(Node):
 
     def __init__(self, robot: Robot | None = None, **options: Any) -> None:
         super().__init__("joint_state_publisher", automatically_declare_parameters_from_overrides=True, **options)
+        try:
+            self._set_up(robot)
+        except BaseException:
+            self.destroy_node()  # The caller has no reference to the node.
+            raise
+
+    def _set_up(self, robot: Robot | None) -> None:
+        """Read the parameters, then publish."""
         for name, default in _DEFAULTS.items():
             with contextlib.suppress(ParameterAlreadyDeclaredException):
                 self.declare_parameter(name, default, ParameterDescriptor(dynamic_typing=True))
