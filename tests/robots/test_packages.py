@@ -5,7 +5,7 @@ import os
 
 import pytest
 
-from coframe.robots import PackageError, Packages, RobotDescriptionError, load
+from coframe.robots import PackageError, Packages, RobotDescriptionError, files, load
 
 PATHS = ("COFRAME_PACKAGE_PATH", "AMENT_PREFIX_PATH", "ROS_PACKAGE_PATH")
 
@@ -110,6 +110,28 @@ def test_xacro_is_expanded_and_finds_packages_without_ros(tmp_path, monkeypatch)
     robot = load(tmp_path / "arm.urdf.xacro", arguments={"tool": "gripper"})
     assert robot.path == tmp_path / "arm.urdf.xacro"
     assert robot.frames()["gripper"].translation.tolist() == [0.5, 0, 0]
+
+
+@pytest.mark.parametrize(
+    "body",
+    [
+        "<link name=\"${'x' * 10**10}\"/>",
+        '<link name="${9**9**9}"/>',
+        '<xacro:macro name="m30"><link name="a"/></xacro:macro>'
+        + "".join(
+            f'<xacro:macro name="m{i}"><xacro:m{i + 1}/><xacro:m{i + 1}/></xacro:macro>' for i in reversed(range(30))
+        )
+        + "<xacro:m0/>",
+    ],
+)
+def test_a_xacro_file_cannot_exhaust_memory_or_time(tmp_path, monkeypatch, body):
+    pytest.importorskip("xacro")
+    monkeypatch.setattr(files, "_MOST_SECONDS", 2.0)
+    (tmp_path / "a.urdf.xacro").write_text(
+        f'<robot name="a" xmlns:xacro="http://www.ros.org/wiki/xacro">{body}</robot>'
+    )
+    with pytest.raises(RobotDescriptionError, match="the limit"):
+        load(tmp_path / "a.urdf.xacro")
 
 
 def test_load_errors_contain_the_file_and_the_line(tmp_path):

@@ -199,11 +199,21 @@ def test_saving_without_a_loaded_file_writes_a_file_that_rviz_reads():
         ("{a: " * 200_000, "nested more than 100 levels deep"),
         ("x" * (2 << 20), "more than 1 MiB"),
         ("a: 2020-99-99", "is not valid YAML"),
+        (f"Visualization Manager: {{Global Options: {{Frame Rate: 1{':10' * 5000}}}}}", "more than 100 digits"),
+        (f"a: {'9' * 5000}", "more than 100 digits"),
     ],
 )
 def test_an_invalid_rviz_file_is_rejected_with_a_message(text, says):
     with pytest.raises(coframe.ViewerError, match=says):
         RvizConfig.parse(text)
+
+
+def test_a_file_with_10_000_displays_is_read_soon():
+    display = "    - {Class: rviz_default_plugins/Axes, Name: a, Enabled: true}\n"
+    started = time.monotonic()
+    config = RvizConfig.parse(f"Visualization Manager:\n  Displays:\n{display * 10_000}")
+    assert len(config.description()["displays"]) == 10_000
+    assert time.monotonic() - started < 10
 
 
 def test_aliases_become_copies():

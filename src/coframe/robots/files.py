@@ -3,26 +3,26 @@
 
 from __future__ import annotations
 
-import contextlib
 import dataclasses
-import io
+import importlib.util
+import json
 import os
-import threading
+import subprocess
+import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from coframe.errors import RobotDescriptionError
-from coframe.robots.packages import Packages
 from coframe.robots.urdf import parse_urdf
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator, Mapping
+    from collections.abc import Iterable, Mapping
 
     from coframe.robots.robot import Robot
 
 __all__ = ["expand_xacro", "load"]
 
-_xacro_lock = threading.Lock()  # xacro keeps its state in module variables
+_MOST_SECONDS = 20.0  # to expand a xacro file
 
 
 def load(
@@ -76,31 +76,34 @@ def expand_xacro(
         RobotDescriptionError: xacro fails, or is not installed.
         OSError: The file cannot be read.
     """
-    try:
-        import xacro  # noqa: PLC0415 - optional dependency
-    except ModuleNotFoundError:
+    if importlib.util.find_spec("xacro") is None:
         reason = "the file is xacro, and the package xacro is not installed"
-        raise RobotDescriptionError(reason, file=str(path), hint="pip install 'coframe[robots]'") from None
-    finder = Packages(path, packages)
+        raise RobotDescriptionError(reason, file=str(path), hint="pip install 'coframe[robots]'")
+    answer = _expanded(
+        {
+            "path": os.fspath(path),
+            "arguments": dict(arguments or {}),
+            "packages": [os.fspath(folder) for folder in packages],
+        }
+    )
+    if "os_error" in answer:
+        raise OSError(*answer["os_error"])
+    if "text" not in answer:
+        raise RobotDescriptionError(answer["error"], file=str(path), hint=answer.get("hint", ""))
+    return str(answer["text"])
+
+
+def _expanded(request: dict[str, Any]) -> dict[str, Any]:
+    """Return the answer of a process that expands a file: Python expressions in it can take any time and memory."""
+    command = [sys.executable, "-m", "coframe.robots.xacro_process"]
     try:
-        with _xacro_lock, _finding(finder), contextlib.redirect_stderr(io.StringIO()):
-            document = xacro.process_file(os.fspath(path), mappings=dict(arguments or {}))
-            return str(document.toprettyxml(indent="  "))
-    except OSError:
-        raise
-    except Exception as error:  # noqa: BLE001 - Python expressions in the file can raise any exception
-        reason = f"xacro: {str(error) or type(error).__name__}"
-        raise RobotDescriptionError(reason, file=str(path), hint=getattr(error, "hint", "")) from None
-
-
-@contextlib.contextmanager
-def _finding(packages: Packages) -> Iterator[None]:
-    """Resolve ``$(find PACKAGE)`` with `packages` instead of an installed ROS."""
-    from xacro import substitution_args  # noqa: PLC0415
-
-    previous: Any = substitution_args._eval_find  # noqa: SLF001 - xacro has no public hook for this
-    substitution_args._eval_find = lambda name: str(packages.find(name))  # noqa: SLF001
+        done = subprocess.run(  # noqa: S603 - the command contains nothing from the file
+            command, input=json.dumps(request).encode(), capture_output=True, timeout=_MOST_SECONDS, check=False
+        )
+    except subprocess.TimeoutExpired:
+        return {"error": f"xacro: expanding the file takes more than {_MOST_SECONDS:g} s, the limit"}
     try:
-        yield
-    finally:
-        substitution_args._eval_find = previous  # noqa: SLF001
+        answer: dict[str, Any] = json.loads(done.stdout)
+    except ValueError:
+        return {"error": f"xacro: the process that expands the file ended with exit code {done.returncode}"}
+    return answer

@@ -1,0 +1,58 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Expands one xacro file in a process of its own, whose memory is limited; see :mod:`coframe.robots.files`.
+
+The request and the answer are JSON on standard input and output.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import sys
+from typing import TYPE_CHECKING, Any
+
+import xacro
+from xacro import substitution_args
+
+from coframe.robots.packages import Packages
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+__all__: list[str] = []
+
+_MOST_MEMORY = 2 << 30  # bytes
+_LONGEST = 64 << 20  # characters of a URDF
+
+
+def _answer(request: Mapping[str, Any]) -> dict[str, Any]:
+    finder = Packages(request["path"], request["packages"])
+    # xacro has no public hook for $(find PACKAGE), which otherwise requires an installed ROS.
+    substitution_args._eval_find = lambda name: str(finder.find(name))  # noqa: SLF001
+    try:
+        text = xacro.process_file(request["path"], mappings=request["arguments"]).toprettyxml(indent="  ")
+    except OSError as error:
+        return {"os_error": [error.errno, error.strerror or str(error), error.filename]}
+    except Exception as error:  # noqa: BLE001 - Python expressions in the file can raise any exception
+        if isinstance(getattr(error, "exc", None) or error, MemoryError):  # xacro wraps exceptions
+            return {"error": f"xacro: the file needs more than {_MOST_MEMORY >> 30} GiB of memory, the limit"}
+        return {"error": f"xacro: {str(error) or type(error).__name__}", "hint": getattr(error, "hint", "")}
+    if len(text) > _LONGEST:
+        return {"error": f"the expanded file has more than {_LONGEST >> 20} MiB, the limit"}
+    return {"text": text}
+
+
+def _main() -> None:
+    with contextlib.suppress(ImportError):  # Windows has no limits of this kind.
+        import resource  # noqa: PLC0415
+
+        _, most = resource.getrlimit(resource.RLIMIT_AS)
+        with contextlib.suppress(ValueError, OSError):  # macOS refuses the limit.
+            resource.setrlimit(resource.RLIMIT_AS, (_MOST_MEMORY, most))
+    request = json.load(sys.stdin)
+    output, sys.stdout = sys.stdout, sys.stderr  # What a file prints is not the answer.
+    json.dump(_answer(request), output)
+
+
+if __name__ == "__main__":
+    _main()
