@@ -37,6 +37,7 @@ _MAGIC = b"\x89CFZ\r\n\x1a\n"
 _VERSION = 1
 _PAGE = 4096
 _CHUNK = 256 * (8 + 64)
+_OTHER_FILE = "Buffer.save() writes frozen buffers; open_bag() reads recordings."
 _BLOCK = 256  # chunks that are written together
 _CRC = struct.Struct("<I")
 BLOCK_SIZE = _BLOCK * _CHUNK  # bytes that are written or checked at once
@@ -127,9 +128,7 @@ def opened(path: Path) -> Iterator[BinaryIO]:
         if isinstance(error, FrozenFileError):
             raise
         reason = getattr(error, "strerror", None) or error
-        raise FrozenFileError(
-            f"{path} cannot be opened: {reason}", hint="Pass the path of a file that Buffer.save() wrote."
-        ) from None
+        raise FrozenFileError(f"{path} cannot be opened: {reason}", hint=_OTHER_FILE) from None
 
 
 def read_header(path: Path, file: BinaryIO) -> Header:
@@ -143,7 +142,7 @@ def read_header(path: Path, file: BinaryIO) -> Header:
     if not data.startswith(_MAGIC):
         raise FrozenFileError(
             f"{path} is not a frozen buffer",
-            hint="Buffer.save() writes frozen buffers; open_bag() reads recordings.",
+            hint=_OTHER_FILE,
         )
     if len(data) < _HEADER.size + _CRC.size:
         raise damaged(path, "it is truncated")

@@ -149,7 +149,12 @@ def _number_ns(value: Any, name: str, accepted: str) -> int:
         return int(value.sec) * SECOND + int(value.nanosec)
     if hasattr(value, "nanoseconds"):
         return int(value.nanoseconds)
-    reason = ". A float of seconds cannot hold the current time to the nanosecond." if isinstance(value, float) else ""
+    reason = (
+        ". A float of seconds cannot hold the current time to the nanosecond: write the nanoseconds as an int, such as "
+        "1_500_000_000."
+        if isinstance(value, float)
+        else ""
+    )
     raise TypeError(f"{name} must be {accepted}, not {type(value).__name__}{reason}")
 
 

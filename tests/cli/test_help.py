@@ -80,6 +80,11 @@ def test_options_of_the_same_name_have_the_same_text():
     assert all(len(variants) == 1 for variants in texts.values()), texts
 
 
+def test_short_option_of_the_help(monkeypatch):
+    for words in ((), ("lab",), ("topic", "echo"), ("static",)):
+        assert CliRunner().invoke(app, [*words, "-h"], prog_name="coframe").output == help_of(words, monkeypatch)
+
+
 def test_unknown_commands_and_options_are_reported():
     for words, text in ((["frobnicate"], "No such command"), (["doctor", "--colour"], "No such option")):
         result = CliRunner().invoke(app, words)

@@ -155,8 +155,9 @@ def test_verify_finds_a_flipped_bit_in_the_samples(path):
 def test_paths_that_cannot_be_written_or_read(tmp_path, where):
     with pytest.raises(coframe.FrozenFileError, match="cannot be written"):
         filled().save(tmp_path / where)
-    with pytest.raises(coframe.FrozenFileError, match="cannot be opened"):
+    with pytest.raises(coframe.FrozenFileError, match="cannot be opened") as caught:
         coframe.load(tmp_path / where)
+    assert "open_bag() reads recordings" in caught.value.hint
 
 
 def sealed(data):

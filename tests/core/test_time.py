@@ -40,7 +40,7 @@ def test_text_that_is_not_a_duration(written):
 
 
 def test_float_seconds_are_refused():
-    with pytest.raises(TypeError, match="float of seconds"):
+    with pytest.raises(TypeError, match=r"float of seconds.*1_500_000_000"):
         duration_ns(0.1)
 
 

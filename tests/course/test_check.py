@@ -65,6 +65,7 @@ def test_stubs_run_and_every_fact_says_what_is_missing(tmp_path):
     for criterion in report["criteria"]:
         assert not criterion["problem"]
         assert all(fact["expected"] and fact["observed"] for fact in lost(criterion).values())
+        assert "different stamps" not in {fact["observed"] for fact in lost(criterion).values()}
 
 
 @pytest.mark.slow
@@ -121,6 +122,18 @@ def test_reports_in_other_formats(folder):
     assert scored["tests"][0]["status"] == "failed"
     assert "expected: " in scored["tests"][0]["output"]
     assert formats.classroom(report)["tests"][0]["status"] == "fail"
+
+
+def test_the_current_folder_is_the_default_if_it_is_a_lab(tmp_path, monkeypatch):
+    create_folder(tmp_path / "mine", None)
+    for stub in (tmp_path / "mine").glob("*.py"):
+        stub.unlink()
+    for folder, expected in (
+        (tmp_path / "mine", f"{tmp_path / 'mine'} contains none"),
+        (tmp_path, "lab contains none"),
+    ):
+        monkeypatch.chdir(folder)
+        assert f"coframe: {expected} of the files" in CliRunner().invoke(app, ["lab", "run"]).output
 
 
 def test_errors_are_sentences(tmp_path):

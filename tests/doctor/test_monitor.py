@@ -11,9 +11,10 @@ from runs import MS, SECOND, Run
 from typer.testing import CliRunner
 
 from coframe.cli.app import app
-from coframe.cli.monitor import _print_classic
+from coframe.cli.monitor import _print_classic, _printer
 from coframe.doctor import observe_recording
 from coframe.doctor.figures import chain_figures, edge_figures, publisher_figures
+from coframe.doctor.live import LiveObserver
 
 
 @pytest.fixture
@@ -163,6 +164,16 @@ def test_wrong_usage_gives_a_message(arguments, text):
     result = CliRunner().invoke(app, ["monitor", *arguments])
     assert result.exit_code == 2
     assert text in result.output
+
+
+def test_a_silent_graph_says_what_to_check(domain_id, capsys):
+    with LiveObserver(domain_id, window=SECOND) as observer:
+        observation = observer.observe()
+    _printer(as_json=False, classic=False)(observation, None)
+    question = "s a broadcaster running in the same ROS domain?"
+    assert f"no transforms received yet: i{question}" in capsys.readouterr().out.replace("\n", " ")
+    output = CliRunner().invoke(app, ["doctor", "--duration", "0.3s"]).output
+    assert f"nothing to examine. I{question}" in output
 
 
 def test_live_command_names_publishers(inside):

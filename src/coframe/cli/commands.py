@@ -88,6 +88,8 @@ def build_app(names: Iterable[str], existing: Iterable[str] = COMMANDS, program:
         cls=PlainGroup,
         help=_DESCRIPTIONS[program],
         no_args_is_help=True,
+        # The commands of ros2 have -h, too.
+        context_settings={"help_option_names": ["--help", "-h"]},
         pretty_exceptions_enable=False,
         # Plain text: panels cut the descriptions of options to half of an 80-column terminal.
         rich_markup_mode=None,

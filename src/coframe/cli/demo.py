@@ -137,7 +137,7 @@ def demo(
                 tree_table(ros.buffer, name("base_link"), liveness, wide=console.width >= 100),
                 Text(str(clouds)),
                 *(Text(warning, style="red") for warning in _duplicate_nodes(ros, nodes)),
-                Text(state, style="dim", no_wrap=True),
+                Text(state, style="dim"),
             )
 
         with Live(get_renderable=screen, console=console, refresh_per_second=1 / REFRESH, transient=False):

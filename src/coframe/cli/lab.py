@@ -19,6 +19,7 @@ from coframe.cli.output import fail, printable, report_console, warn
 from coframe.cli.progress import item_progress
 from coframe.cli.view import PortOption, optional_viewer
 from coframe.course import formats
+from coframe.course.assignment import FILE
 from coframe.course.checking import check_class, check_folder, submissions
 from coframe.course.faults import FAULTS
 from coframe.course.folders import create_folder
@@ -34,7 +35,12 @@ if TYPE_CHECKING:
 __all__ = ["lab"]
 
 FolderArgument = Annotated[
-    Path, typer.Argument(metavar="[FOLDER]", help="Folder of the lab. [default: lab]", show_default=False)
+    Path | None,
+    typer.Argument(
+        metavar="[FOLDER]",
+        help=f"Folder of the lab. [default: the current folder if it contains {FILE}, otherwise lab]",
+        show_default=False,
+    ),
 ]
 VariantOption = Annotated[
     int | None,
@@ -48,9 +54,11 @@ lab = typer.Typer(
 )
 
 
-@lab.command(cls=PlainCommand, short_help="Create a folder with the five files as stubs.")
+@lab.command(cls=PlainCommand, short_help="Create a folder with the files of the lab as stubs.")
 def new(
-    folder: FolderArgument = Path("lab"),
+    folder: Annotated[
+        Path, typer.Argument(metavar="[FOLDER]", help="Folder to create. [default: lab]", show_default=False)
+    ] = Path("lab"),
     variant: VariantOption = None,
 ) -> None:
     """Create a folder with the files of the lab: stubs with a task in each docstring, an RViz configuration, a README.
@@ -65,7 +73,7 @@ def new(
 
 @lab.command(cls=PlainCommand, short_help="Run the nodes of a folder beside a simulated robot.")
 def run(
-    folder: FolderArgument = Path("lab"),
+    folder: FolderArgument = None,
     complete: Annotated[
         bool, typer.Option("--complete", help="Run complete_tf_tree.py in place of the two broadcasters.")
     ] = False,
@@ -82,13 +90,13 @@ def run(
     seconds = duration_in_seconds("--duration", duration)
     simulation = SIMULATION[1:] if complete else SIMULATION
     with run_until_interrupted():
-        programs = [*programs_of(folder, COMPLETE_TREE if complete else STEPS), *simulation]
+        programs = [*programs_of(_folder(folder), COMPLETE_TREE if complete else STEPS), *simulation]
         _run(programs, seconds, browser=not no_browser, port=port)
 
 
 @lab.command(cls=PlainCommand, short_help="Grade a folder, or the folders of a class.")
 def check(
-    folder: FolderArgument = Path("lab"),
+    folder: FolderArgument = None,
     everyone: Annotated[
         bool, typer.Option("--all", help="FOLDER contains the folders of a class: grade all of them.")
     ] = False,
@@ -125,10 +133,10 @@ def check(
         if problem := isolation_problem():
             warn(problem)
         if everyone:
-            _check_class(folder, output, jobs, variant, chosen)
+            _check_class(folder or Path("lab"), output, jobs, variant, chosen)
             return
         with item_progress("checking", len(chosen)) as progress:
-            report = check_folder(folder, variant=variant, only=chosen, record=record, progress=progress)
+            report = check_folder(_folder(folder), variant=variant, only=chosen, record=record, progress=progress)
         for path, convert in ((gradescope, formats.gradescope), (classroom, formats.classroom)):
             if path is not None:
                 path.write_text(json.dumps(convert(report), indent=2) + "\n", encoding="utf-8")
@@ -152,7 +160,7 @@ def break_(
 ) -> None:
     """Start the robot of the lab with one of ten faults. Find it with the viewer, echo, monitor and frames.
 
-    coframe doctor is the hint. Then give your answer: coframe lab break N --answer FAULT.
+    coframe doctor is the hint. Then give your answer: coframe lab break N --answer "FAULT".
 
     Example: coframe lab break 3
     """
@@ -161,10 +169,17 @@ def break_(
         return
     seconds = duration_in_seconds("--duration", duration)
     print(f"System {number} is running in this ROS domain. What is wrong with it? Stop it with Ctrl-C.")
-    print(f"Then answer with: coframe lab break {number} --answer FAULT, where FAULT is one of:")
+    print(f'Then answer with: coframe lab break {number} --answer "FAULT", where FAULT is one of:')
     print(f"  {', '.join(sorted(each.name for each in FAULTS))}", flush=True)
     with run_until_interrupted():
         _run(FAULTS[number - 1].programs, seconds, browser=browser, port=None)
+
+
+def _folder(given: Path | None) -> Path:
+    """Return the folder of the lab: the given one, or the current one if it is one, or lab."""
+    if given is not None:
+        return given
+    return Path.cwd() if Path(FILE).is_file() else Path("lab")
 
 
 def _run(programs: Sequence[Program], seconds: float | None, *, browser: bool, port: int | None) -> None:

@@ -123,6 +123,8 @@ def _watch(observer: LiveObserver, pair: Pair) -> NoReturn:
 
 
 def _tables(observation: Observation, pair: Pair) -> Group:
+    if not observation.edges:
+        return Group(Text("no transforms received yet: is a broadcaster running in the same ROS domain?"))
     edges = _table("edge", "publisher", "Hz", "jitter ms", "delay ms", "p99 ms", "age ms", "count")
     for row in edge_figures(observation):
         figures = (row.jitter, row.delay, row.delay_p99, row.age)

@@ -54,7 +54,8 @@ def programs_of(folder: Path, names: Sequence[str]) -> list[Program]:
     found = [Program(Path(name).stem, (str(folder / name),)) for name in names if (folder / name).is_file()]
     if not found:
         raise CourseError(
-            f"{folder} contains none of the files {', '.join(names)}.", hint="Create a folder with coframe lab new."
+            f"{folder} contains none of the files {', '.join(names)}.",
+            hint="Create a folder with coframe lab new, or give the path of yours.",
         )
     return found
 

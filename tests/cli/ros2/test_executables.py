@@ -155,6 +155,6 @@ def test_definitions_of_types(execute):
     ]
     code, output = execute("ros2", "interface", "show", "geometry_msgs/msg/Pnt")
     assert code == 1
-    assert "coframe interface package geometry_msgs" in output
+    assert "Did you mean 'geometry_msgs/msg/Point" in output
     assert "    std_srvs/srv/SetBool" in execute("ros2", "interface", "list")[1].splitlines()
     assert execute("ros2", "interface", "proto", "std_msgs/msg/String") == (0, "\"data: ''\n\"\n")

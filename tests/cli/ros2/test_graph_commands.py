@@ -66,14 +66,18 @@ def test_echo(run):
     assert run("topic", "echo", "/point", "--once", "--csv").strip().endswith(",map,1.5,0.0,0.0")
     ending = run("topic", "echo", "/chatter", "--once", "--filter", "m.data.endswith('7')")
     assert re.fullmatch(r"data: hello \d*7\n---\n", ending)
-    assert "is invalid" in run("topic", "echo", "/chatter", "std_msgs/msg/Sting", "--once", code=1)
+    unknown = run("topic", "echo", "/chatter", "std_msgs/msg/Sting", "--once", code=1)
+    assert "is invalid" in unknown
+    assert "Did you mean 'std_msgs/msg/String'" in unknown
     assert "Invalid field 'text'" in run("topic", "echo", "/chatter", "--once", "--field", "text", code=2)
 
 
 @pytest.mark.usefixtures("impatient")
 def test_unknown_names(run):
     assert "Unknown topic '/nothing'" in run("topic", "info", "/nothing", code=1)
-    assert "Unable to find node '/nobody'" in run("node", "info", "/nobody", code=1)
+    assert "Unable to find node '/nobody'\n  coframe node list" in run("node", "info", "/nobody", code=1)
+    misspelt = NODE[:-1]
+    assert f"Unable to find node '{misspelt}'\n  Did you mean '{NODE}'?" in run("node", "info", misspelt, code=1)
     assert "Did you mean '/chatter'?" in run("topic", "echo", "/chater", code=1)
     assert "No message" in run("topic", "echo", "/commands", "std_msgs/msg/String", "--timeout", "0.2", code=1)
     assert "Node not found: /nobody" in run("param", "get", "/nobody", "rate", code=1)

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from coframe.cli.output import fail
+from coframe.cli.ros2.near_names import near_types
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -54,7 +55,8 @@ def _parts(name: str) -> tuple[str, str, str]:
     if len(parts) == 2:
         parts.insert(1, "msg")
     if len(parts) != 3 or parts[1] not in _KINDS or not all(parts):
-        fail(f"{name!r} is not the name of a type.", "Examples: geometry_msgs/msg/Pose, std_srvs/srv/SetBool", code=2)
+        examples = "Examples: geometry_msgs/msg/Pose, std_srvs/srv/SetBool"
+        fail(f"{name!r} is not the name of a type.", near_types(name) or examples, code=2)
     return parts[0], parts[1], parts[2]
 
 
@@ -71,4 +73,5 @@ def _definition(package: str, kind: str, name: str) -> str:
     except (LookupError, OSError):
         if found is None:
             fail(f"Unknown package '{package}'", "coframe interface packages shows all packages with types.")
-        fail(f"Unknown type '{package}/{kind}/{name}'", f"coframe interface package {package} shows its types.")
+        whole = f"{package}/{kind}/{name}"
+        fail(f"Unknown type '{whole}'", near_types(whole) or f"coframe interface package {package} shows its types.")

@@ -6,7 +6,7 @@ from __future__ import annotations
 import contextlib
 import os
 import time
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, NoReturn
 
 import typer
 
@@ -14,6 +14,7 @@ from coframe.cli.completion import complete_live_topics
 from coframe.cli.lifecycle import run_to_completion
 from coframe.cli.options import with_leading_slash
 from coframe.cli.output import fail
+from coframe.cli.ros2.near_names import near_types
 from coframe.errors import CoframeError
 from coframe.formatting import did_you_mean
 
@@ -30,6 +31,7 @@ __all__ = [
     "SimTimeOption",
     "SpinTimeOption",
     "TopicArgument",
+    "fail_without_node",
     "graph_node",
     "is_hidden",
     "joined",
@@ -171,10 +173,24 @@ def load_type(kind: str, load: Callable[[str], Any]) -> Any:
     except (AttributeError, ImportError, LookupError, ValueError) as error:
         fail(
             f"The passed type '{kind}' is invalid: {error}",
-            "coframe interface list shows all types. COFRAME_INTERFACES adds packages of your own.",
+            near_types(kind) or "coframe interface list shows all types. COFRAME_INTERFACES adds packages of your own.",
         )
 
 
 def joined(types: Iterable[str]) -> str:
     """Return types as ros2 prints them behind a name."""
     return f"[{', '.join(types)}]"
+
+
+def fail_without_node(node: Node, message: str, name: str) -> NoReturn:
+    """End the command because there is no node of a name; suggest similar names.
+
+    Args:
+        node: Node of the command.
+        message: What ros2cli prints.
+        name: Full name of the missing node.
+    """
+    fail(
+        message,
+        did_you_mean(name, node_names(node, include_hidden=True), most=2) or "coframe node list shows all nodes.",
+    )

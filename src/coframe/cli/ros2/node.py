@@ -9,13 +9,14 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from coframe.cli.help_format import PlainCommand, PlainGroup
-from coframe.cli.output import fail, printable
+from coframe.cli.output import printable
 from coframe.cli.ros2.graph import (
     DISCOVERY,
     AllOption,
     DaemonOption,
     NodeArgument,
     SpinTimeOption,
+    fail_without_node,
     graph_node,
     is_hidden,
     node_names,
@@ -81,7 +82,7 @@ def info(
     del no_daemon
     with graph_node(spin_time) as own:
         if not wait_until(lambda: node_name in node_names(own, include_hidden=True)):
-            fail(f"Unable to find node '{node_name}'", "coframe node list shows all nodes.")
+            fail_without_node(own, f"Unable to find node '{node_name}'", node_name)
         print(printable(node_name))
         for title, rows in _sections(own, node_name):
             print(f"  {title}:")

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from coframe.cli.output import fail
 from coframe.cli.ros2.calls import call_service
-from coframe.cli.ros2.graph import PATIENCE, node_names, wait_until
+from coframe.cli.ros2.graph import PATIENCE, fail_without_node, node_names, wait_until
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
@@ -33,7 +33,7 @@ class ParameterClient:
         self._node = node
         self._target = target
         if required and not wait_until(lambda: target in node_names(node, include_hidden=True)):
-            fail(f"Node not found: {target}", "coframe node list shows all nodes.")
+            fail_without_node(node, f"Node not found: {target}", target)
         from rcl_interfaces.srv import ListParameters  # noqa: PLC0415 - slow import
 
         probe = node.create_client(ListParameters, f"{target}/list_parameters")

@@ -208,7 +208,7 @@ def _check_times(sheet: Sheet, task: Task, received: list[Received]) -> None:
         "all three transforms have the same stamp",
         bool(sets[0]) and sets[0] == sets[1] == sets[2],
         expected="one stamp for the whole arm",
-        observed="different stamps",
+        observed="different stamps" if all(sets) else "no transform",
         cause="now() is called for each transform",
         read="handbook chapter 5, time, interpolation, waiting",
     )

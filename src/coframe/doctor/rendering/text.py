@@ -61,12 +61,14 @@ def _summary(report: Report) -> Iterator[tuple[str, str]]:
 
 
 def _elsewhere(seen: Observation) -> str:
-    """Return which other topics have transforms."""
+    """Return which other topics have transforms, or what to check."""
     # The type is tf/tfMessage in ROS 1.
     topics = [
         topic.name for topic in seen.topics.values() if topic.type.lower().endswith("/tfmessage") and topic.messages
     ]
-    return f"; there are transforms on {listed(topics)}" if topics else ""
+    if topics:
+        return f"; there are transforms on {listed(topics)}"
+    return ". Is a broadcaster running in the same ROS domain?" if seen.live else ""
 
 
 def _sensor(sensor: SensorFacts) -> str:

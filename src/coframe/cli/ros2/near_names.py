@@ -1,0 +1,34 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Types similar to one that does not exist, as a question for the user."""
+
+from __future__ import annotations
+
+import difflib
+
+from coframe.formatting import did_you_mean
+
+__all__ = ["near_types"]
+
+_KINDS = ("msg", "srv", "action")
+_MOST_NAMES = 3
+
+
+def near_types(name: str) -> str:
+    """Return "Did you mean ...?" for a type that does not exist, also if parts of its name are missing.
+
+    Args:
+        name: What the user wrote, e.g. "std_msgs/String" or "TransformStamped".
+    """
+    from coframe.messages.packages import find_package, shipped, shipped_names  # noqa: PLC0415 - slow import
+
+    package, _, last = name.rpartition("/")
+    package = package.partition("/")[0]
+    found = find_package(package) if package else None
+    packages = [found] if found else [each for each in map(shipped, shipped_names()) if each]
+    types = [f"{each.name}/{kind}/{type_}" for each in packages for kind in _KINDS for type_ in each.names(kind)]
+    same = [each for each in types if each.rpartition("/")[2] == last]
+    if same:
+        nearest = difflib.get_close_matches(name, same, n=_MOST_NAMES, cutoff=0.0)
+        return f"Did you mean {' or '.join(map(repr, nearest))}?"
+    # Types of other packages are no answer to a package that was not found.
+    return did_you_mean(name, types, most=2) if found else ""
