@@ -84,6 +84,7 @@ def expand_xacro(
             "path": os.fspath(path),
             "arguments": dict(arguments or {}),
             "packages": [os.fspath(folder) for folder in packages],
+            "module_folders": sys.path,
         }
     )
     if "os_error" in answer:
@@ -95,7 +96,7 @@ def expand_xacro(
 
 def _expanded(request: dict[str, Any]) -> dict[str, Any]:
     """Return the answer of a process that expands a file: Python expressions in it can take any time and memory."""
-    command = [sys.executable, "-m", "coframe.robots.xacro_process"]
+    command = [sys.executable, str(Path(__file__).with_name("xacro_process.py"))]
     try:
         done = subprocess.run(  # noqa: S603 - the command contains nothing from the file
             command, input=json.dumps(request).encode(), capture_output=True, timeout=_MOST_SECONDS, check=False

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Expands one xacro file in a process of its own, whose memory is limited; see :mod:`coframe.robots.files`.
 
-The request and the answer are JSON on standard input and output.
+The request and the answer are JSON on standard input and output. The file is run as a script, and imports coframe only
+for ``$(find PACKAGE)``, because that takes longer than the rest.
 """
 
 from __future__ import annotations
@@ -10,11 +11,6 @@ import contextlib
 import json
 import sys
 from typing import TYPE_CHECKING, Any
-
-import xacro
-from xacro import substitution_args
-
-from coframe.robots.packages import Packages
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -26,9 +22,16 @@ _LONGEST = 64 << 20  # characters of a URDF
 
 
 def _answer(request: Mapping[str, Any]) -> dict[str, Any]:
-    finder = Packages(request["path"], request["packages"])
+    import xacro  # noqa: PLC0415 - found in the folders of the request
+    from xacro import substitution_args  # noqa: PLC0415
+
+    def find(name: str) -> str:
+        from coframe.robots.packages import Packages  # noqa: PLC0415
+
+        return str(Packages(request["path"], request["packages"]).find(name))
+
     # xacro has no public hook for $(find PACKAGE), which otherwise requires an installed ROS.
-    substitution_args._eval_find = lambda name: str(finder.find(name))  # noqa: SLF001
+    substitution_args._eval_find = find  # noqa: SLF001
     try:
         text = xacro.process_file(request["path"], mappings=request["arguments"]).toprettyxml(indent="  ")
     except OSError as error:
@@ -50,6 +53,7 @@ def _main() -> None:
         with contextlib.suppress(ValueError, OSError):  # macOS refuses the limit.
             resource.setrlimit(resource.RLIMIT_AS, (_MOST_MEMORY, most))
     request = json.load(sys.stdin)
+    sys.path[:] = request["module_folders"]
     output, sys.stdout = sys.stdout, sys.stderr  # What a file prints is not the answer.
     json.dump(_answer(request), output)
 
