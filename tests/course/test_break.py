@@ -46,6 +46,17 @@ def test_every_system_runs(number, domain_id):  # noqa: ARG001 - the domain is i
 
 
 @pytest.mark.slow
+def test_a_closed_pipe_ends_the_system(domain_id):  # noqa: ARG001 - the domain is in the environment
+    words = [sys.executable, "-m", "coframe.cli", "lab", "break", "4"]
+    process = subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    process.stdout.readline()
+    process.stdout.close()
+    assert process.wait(30) is not None
+    assert process.stderr.read() == ""
+    process.stderr.close()
+
+
+@pytest.mark.slow
 def test_faults_can_be_observed(start, eventually):
     ros, _ = start("wrong parent")
     eventually(lambda: ("base_link", "link2") in {(edge.parent, edge.child) for edge in ros.buffer.edges()})

@@ -185,12 +185,18 @@ def _folder(given: Path | None) -> Path:
 def _run(programs: Sequence[Program], seconds: float | None, *, browser: bool, port: int | None) -> None:
     """Run programs and the viewer until Ctrl-C, or for some seconds; print the output of the programs."""
     width = max(len(program.name) for program in programs)
+    closed = threading.Event()  # The reader of a pipe, such as `head`, has closed it.
 
     def write(name: str, line: str) -> None:
-        print(f"{name:>{width}} | {printable(line)}", flush=True)
+        try:
+            print(f"{name:>{width}} | {printable(line)}", flush=True)
+        except BrokenPipeError:
+            closed.set()
 
     with coframe.connect("coframe_lab") as ros, optional_viewer(ros, port, browser=browser), running(programs, write):
-        threading.Event().wait(seconds)
+        closed.wait(seconds)
+    if closed.is_set():
+        raise BrokenPipeError
 
 
 def _print_verdict(number: int, answer: str) -> None:
