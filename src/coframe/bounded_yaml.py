@@ -6,16 +6,12 @@ from __future__ import annotations
 import importlib
 from typing import Any
 
-__all__ = ["YamlError", "read_yaml"]
+__all__ = ["read_yaml"]
 
 MAX_DEPTH = 100
 MAX_VALUES = 1 << 18
 MAX_DIGITS = 100  # of an integer; one in base 60, such as 1:30:00, takes quadratic time
 _INTEGER = "tag:yaml.org,2002:int"
-
-
-class YamlError(ValueError):
-    """A text is not YAML or exceeds a limit; the message says why, in one line."""
 
 
 def read_yaml(text: str | bytes, max_bytes: int) -> Any:
@@ -26,12 +22,12 @@ def read_yaml(text: str | bytes, max_bytes: int) -> Any:
         max_bytes: The largest size that is read.
 
     Raises:
-        YamlError: The text is not valid YAML or exceeds a limit.
+        ValueError: The text is not valid YAML or exceeds a limit.
         ModuleNotFoundError: PyYAML is missing.
     """
     yaml: Any = importlib.import_module("yaml")
     if len(text) > max_bytes:
-        raise YamlError(f"it has more than {max_bytes >> 20} MiB, the limit")
+        raise ValueError(f"it has more than {max_bytes >> 20} MiB, the limit")
     base = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
     loader = type("BoundedLoader", (base,), {})
     yaml.add_constructor(_INTEGER, _integer, Loader=loader)
@@ -40,12 +36,12 @@ def read_yaml(text: str | bytes, max_bytes: int) -> Any:
         _check(yaml.parse(text, Loader=base), yaml)
         return _copied(yaml.load(text, Loader=loader))
     except (yaml.YAMLError, ValueError, TypeError, OverflowError) as error:
-        raise YamlError(" ".join(str(error).split())) from None
+        raise ValueError(" ".join(str(error).split())) from None
 
 
 def _integer(loader: Any, node: Any) -> Any:
     if len(loader.construct_scalar(node)) > MAX_DIGITS:
-        raise YamlError(f"an integer has more than {MAX_DIGITS} digits")
+        raise ValueError(f"an integer has more than {MAX_DIGITS} digits")
     return loader.construct_yaml_int(node)
 
 
@@ -70,21 +66,21 @@ class _Extents:
         around, before, deepest = self._open[-1]
         self._open[-1] = (around, before + values, max(deepest, levels))
         if before + values > MAX_VALUES:
-            raise YamlError(f"with its aliases (*) replaced by copies it has more than {MAX_VALUES} values")
+            raise ValueError(f"with its aliases (*) replaced by copies it has more than {MAX_VALUES} values")
         self._check_depth(levels)
 
     def alias(self, anchor: str) -> None:
         if any(anchor == around for around, _, _ in self._open):
-            raise YamlError("an alias (*) refers to a node that contains it")
+            raise ValueError("an alias (*) refers to a node that contains it")
         self.add(*self._of_anchor.get(anchor, (1, 1)))
 
     def _check_depth(self, levels: int) -> None:
         if len(self._open) + levels > MAX_DEPTH + 1:
-            raise YamlError(f"it is nested more than {MAX_DEPTH} levels deep")
+            raise ValueError(f"it is nested more than {MAX_DEPTH} levels deep")
 
 
 def _check(events: Any, yaml: Any) -> None:
-    """Raise YamlError if a document is nested too deeply, or is too large with its aliases replaced by copies."""
+    """Raise ValueError if a document is nested too deeply, or is too large with its aliases replaced by copies."""
     extents = _Extents()
     for event in events:
         if isinstance(event, yaml.AliasEvent):

@@ -18,7 +18,9 @@ with coframe.connect("quiet", namespace="/robot1") as ros:
 @pytest.fixture
 def node(domain_id):
     rclpy.init(domain_id=domain_id)
-    yield rclpy.create_node("asker")
+    asker = rclpy.create_node("asker")
+    yield asker
+    asker.destroy_node()
     rclpy.shutdown()
 
 

@@ -50,17 +50,21 @@ class ROSAdapter:
     def shutdown(self) -> None:
         """Destroy the node and end its thread."""
         self.__executor.shutdown()
+        self.__node.destroy_node()
         self.__context.try_shutdown()
         self.__thread.join(5.0)
 
 
 def get_ros_adapter(context: LaunchContext) -> ROSAdapter:
-    """Return the adapter of a launch; it is created at the first call."""
+    """Return the adapter of a launch; it is created at the first call, and ends when the launch shuts down."""
+    from launch.event_handlers import OnShutdown  # noqa: PLC0415 - not needed without a node
+
     found = context.get_locals_as_dict().get("ros_adapter")
     if isinstance(found, ROSAdapter):
         return found
     adapter = ROSAdapter(argv=context.argv)
     context.extend_globals({"ros_adapter": adapter})
+    context.register_event_handler(OnShutdown(on_shutdown=lambda _event, _context: adapter.shutdown()))
     return adapter
 
 

@@ -41,5 +41,5 @@ def read_yaml(text: str, source: str) -> Any:
         raise ViewerError(f"{source} has more than {MAX_FILE_BYTES >> 20} MiB, the limit for an RViz configuration")
     try:
         return bounded_yaml.read_yaml(text, MAX_FILE_BYTES)
-    except bounded_yaml.YamlError as error:
+    except ValueError as error:
         raise ViewerError(f"{source} is not valid YAML: {error}", hint="Is it an .rviz file?") from None
