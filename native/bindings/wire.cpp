@@ -174,7 +174,8 @@ void define_writer(nb::module_& wire) {
       .def("write", &write_bytes<&Writer::write>, nb::arg("message"), "Send one serialised message without the GIL.")
       .def("forward", &write_bytes<&Writer::forward>, nb::arg("message"),
            "Send a message without a check of its bytes.")
-      .def("assert_liveliness", &PyWriter::assert_liveliness, ReleaseGil(), "Show the readers that the writer is alive.")
+      .def("assert_liveliness", &PyWriter::assert_liveliness, ReleaseGil(),
+           "Show the readers that the writer is alive.")
       .def("wait_for_acks", &PyWriter::wait_for_acks, nb::arg("timeout_ns"), ReleaseGil(),
            "Wait until all reliable readers have received all messages; False after the timeout.")
       .def("take_status", &take_status<PyWriter>, nb::arg("kind"),
@@ -194,7 +195,8 @@ void define_reader_properties(Class& cls) {
   cls.def_prop_ro("guid", [](const Reader& self) { return to_bytes(guid_of(self.reader())); })
       .def(
           "take_status", [](Reader& self, std::size_t kind) { return take_status(self.reader(), kind); },
-          nb::arg("kind"), "Return the counts of the status DEADLINE_MISSED, ... if it has changed since the last call.")
+          nb::arg("kind"),
+          "Return the counts of the status DEADLINE_MISSED, ... if it has changed since the last call.")
       .def_prop_ro(
           "matched", [](const Reader& self) { return self.reader().matched(); },
           "How many writers the reader has found.", ReleaseGil())

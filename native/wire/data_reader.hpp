@@ -15,8 +15,8 @@ namespace coframe {
 // The topic is released. With `on_change`, status changes are recorded in `events()`.
 class DataReader {
  public:
-  DataReader(dds::Entity participant, dds::Entity topic, const dds::Qos* qos, dds::DataCallback on_data,
-             void* argument, std::shared_ptr<Event> on_change = nullptr);
+  DataReader(dds::Entity participant, dds::Entity topic, const dds::Qos* qos, dds::DataCallback on_data, void* argument,
+             std::shared_ptr<Event> on_change = nullptr);
   ~DataReader() { close(); }
   DataReader(const DataReader&) = delete;
   DataReader& operator=(const DataReader&) = delete;

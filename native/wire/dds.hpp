@@ -133,76 +133,74 @@ inline constexpr Code kTimeout = -10;
 inline constexpr Code kPreconditionNotMet = -4;
 
 // X(return type, name, arguments) for every function that is used.
-#define COFRAME_DDS_FUNCTIONS(X)                                                                          \
-  X(Entity, dds_create_domain, (std::uint32_t id, const char* config))                                    \
-  X(Entity, dds_create_participant, (std::uint32_t domain, const Qos*, const Listener*))                  \
-  X(Entity, dds_create_topic,                                                                             \
-    (Entity participant, const TypeDescriptor*, const char* name, const Qos*, const Listener*))           \
-  X(Entity, dds_create_writer, (Entity participant, Entity topic, const Qos*, const Listener*))           \
-  X(Entity, dds_create_reader, (Entity participant, Entity topic, const Qos*, const Listener*))           \
-  X(Code, dds_delete, (Entity))                                                                           \
-  X(Code, dds_writecdr, (Entity writer, Serdata*))                                                        \
-  X(Code, dds_get_entity_sertype, (Entity, const Sertype**))                                              \
-  X(Code, dds_take, (Entity reader, void** samples, SampleInfo*, std::size_t size, std::uint32_t limit))  \
-  X(Code, dds_return_loan, (Entity reader, void** samples, std::int32_t count))                           \
-  X(Code, dds_takecdr, (Entity reader, Serdata**, std::uint32_t limit, SampleInfo*, std::uint32_t mask))  \
-  X(Code, dds_get_guid, (Entity, Guid*))                                                                  \
-  X(Code, dds_get_publication_matched_status, (Entity writer, MatchedStatus*))                            \
-  X(Code, dds_get_subscription_matched_status, (Entity reader, MatchedStatus*))                           \
-  X(Code, dds_get_matched_subscriptions, (Entity writer, Handle*, std::size_t size))                      \
-  X(Code, dds_get_matched_publications, (Entity reader, Handle*, std::size_t size))                       \
-  X(Code, dds_get_offered_incompatible_qos_status, (Entity writer, IncompatibleQosStatus*))               \
-  X(Code, dds_get_requested_incompatible_qos_status, (Entity reader, IncompatibleQosStatus*))             \
-  X(Listener*, dds_create_listener, (void* argument))                                                     \
-  X(void, dds_delete_listener, (Listener*))                                                               \
-  X(void, dds_lset_data_available, (Listener*, DataCallback))                                             \
-  X(Code, dds_set_listener, (Entity, const Listener*))                                                    \
-  X(Code, dds_lset_offered_deadline_missed_arg,                                                           \
-    (Listener*, StatusCallback<DeadlineMissedStatus>, void* argument, bool reset))                        \
-  X(Code, dds_lset_requested_deadline_missed_arg,                                                         \
-    (Listener*, StatusCallback<DeadlineMissedStatus>, void* argument, bool reset))                        \
-  X(Code, dds_lset_offered_incompatible_qos_arg,                                                          \
-    (Listener*, StatusCallback<IncompatibleQosStatus>, void* argument, bool reset))                       \
-  X(Code, dds_lset_requested_incompatible_qos_arg,                                                        \
-    (Listener*, StatusCallback<IncompatibleQosStatus>, void* argument, bool reset))                       \
-  X(Code, dds_lset_liveliness_lost_arg, (Listener*, StatusCallback<LostStatus>, void* argument, bool reset)) \
-  X(Code, dds_lset_liveliness_changed_arg,                                                                \
-    (Listener*, StatusCallback<LivelinessChangedStatus>, void* argument, bool reset))                     \
-  X(Code, dds_lset_sample_lost_arg, (Listener*, StatusCallback<LostStatus>, void* argument, bool reset))  \
-  X(Code, dds_lset_publication_matched_arg,                                                               \
-    (Listener*, StatusCallback<MatchedStatus>, void* argument, bool reset))                               \
-  X(Code, dds_lset_subscription_matched_arg,                                                              \
-    (Listener*, StatusCallback<MatchedStatus>, void* argument, bool reset))                               \
-  X(Code, dds_assert_liveliness, (Entity writer))                                                         \
-  X(Code, dds_wait_for_acks, (Entity writer, std::int64_t timeout_ns))                                    \
-  X(void, dds_qset_deadline, (Qos*, std::int64_t nanoseconds))                                            \
-  X(void, dds_qset_lifespan, (Qos*, std::int64_t nanoseconds))                                            \
-  X(void, dds_qset_liveliness, (Qos*, std::int32_t kind, std::int64_t lease_ns))                          \
-  X(bool, dds_qget_deadline, (const Qos*, std::int64_t* nanoseconds))                                     \
-  X(bool, dds_qget_lifespan, (const Qos*, std::int64_t* nanoseconds))                                     \
-  X(bool, dds_qget_liveliness, (const Qos*, std::int32_t* kind, std::int64_t* lease_ns))                  \
-  X(Qos*, dds_create_qos, ())                                                                             \
-  X(void, dds_delete_qos, (Qos*))                                                                         \
-  X(void, dds_qset_userdata, (Qos*, const void* data, std::size_t size))                                  \
-  X(void, dds_qset_durability, (Qos*, std::int32_t kind))                                                 \
-  X(void, dds_qset_history, (Qos*, std::int32_t kind, std::int32_t depth))                                \
-  X(void, dds_qset_reliability, (Qos*, std::int32_t kind, std::int64_t max_blocking_ns))                  \
-  X(void, dds_qset_ignorelocal, (Qos*, std::int32_t kind))                                                \
-  X(void, dds_qset_data_representation, (Qos*, std::uint32_t count, const std::int16_t* values))          \
-  X(void, dds_qset_durability_service,                                                                    \
-    (Qos*, std::int64_t cleanup_delay_ns, std::int32_t history_kind, std::int32_t history_depth,          \
-     std::int32_t max_samples, std::int32_t max_instances, std::int32_t max_samples_per_instance))        \
-  X(bool, dds_qget_userdata, (const Qos*, void** data, std::size_t* size))                                \
-  X(void, dds_free, (void*))                                                                              \
-  X(bool, dds_qget_durability, (const Qos*, std::int32_t* kind))                                          \
-  X(bool, dds_qget_history, (const Qos*, std::int32_t* kind, std::int32_t* depth))                        \
-  X(bool, dds_qget_reliability, (const Qos*, std::int32_t* kind, std::int64_t* max_blocking_ns))          \
-  X(const char*, dds_strretcode, (Code))                                                                  \
-  X(Serdata*, ddsi_serdata_from_ser_iov,                                                                  \
-    (const Sertype*, std::int32_t kind, std::size_t count, const IoVector*, std::size_t size))            \
-  X(std::uint32_t, ddsi_serdata_size, (const Serdata*))                                                   \
-  X(Serdata*, ddsi_serdata_to_ser_ref, (const Serdata*, std::size_t offset, std::size_t size, IoVector*)) \
-  X(void, ddsi_serdata_to_ser_unref, (Serdata*, const IoVector*))                                         \
+#define COFRAME_DDS_FUNCTIONS(X)                                                                                     \
+  X(Entity, dds_create_domain, (std::uint32_t id, const char* config))                                               \
+  X(Entity, dds_create_participant, (std::uint32_t domain, const Qos*, const Listener*))                             \
+  X(Entity, dds_create_topic,                                                                                        \
+    (Entity participant, const TypeDescriptor*, const char* name, const Qos*, const Listener*))                      \
+  X(Entity, dds_create_writer, (Entity participant, Entity topic, const Qos*, const Listener*))                      \
+  X(Entity, dds_create_reader, (Entity participant, Entity topic, const Qos*, const Listener*))                      \
+  X(Code, dds_delete, (Entity))                                                                                      \
+  X(Code, dds_writecdr, (Entity writer, Serdata*))                                                                   \
+  X(Code, dds_get_entity_sertype, (Entity, const Sertype**))                                                         \
+  X(Code, dds_take, (Entity reader, void** samples, SampleInfo*, std::size_t size, std::uint32_t limit))             \
+  X(Code, dds_return_loan, (Entity reader, void** samples, std::int32_t count))                                      \
+  X(Code, dds_takecdr, (Entity reader, Serdata**, std::uint32_t limit, SampleInfo*, std::uint32_t mask))             \
+  X(Code, dds_get_guid, (Entity, Guid*))                                                                             \
+  X(Code, dds_get_publication_matched_status, (Entity writer, MatchedStatus*))                                       \
+  X(Code, dds_get_subscription_matched_status, (Entity reader, MatchedStatus*))                                      \
+  X(Code, dds_get_matched_subscriptions, (Entity writer, Handle*, std::size_t size))                                 \
+  X(Code, dds_get_matched_publications, (Entity reader, Handle*, std::size_t size))                                  \
+  X(Code, dds_get_offered_incompatible_qos_status, (Entity writer, IncompatibleQosStatus*))                          \
+  X(Code, dds_get_requested_incompatible_qos_status, (Entity reader, IncompatibleQosStatus*))                        \
+  X(Listener*, dds_create_listener, (void* argument))                                                                \
+  X(void, dds_delete_listener, (Listener*))                                                                          \
+  X(void, dds_lset_data_available, (Listener*, DataCallback))                                                        \
+  X(Code, dds_set_listener, (Entity, const Listener*))                                                               \
+  X(Code, dds_lset_offered_deadline_missed_arg,                                                                      \
+    (Listener*, StatusCallback<DeadlineMissedStatus>, void* argument, bool reset))                                   \
+  X(Code, dds_lset_requested_deadline_missed_arg,                                                                    \
+    (Listener*, StatusCallback<DeadlineMissedStatus>, void* argument, bool reset))                                   \
+  X(Code, dds_lset_offered_incompatible_qos_arg,                                                                     \
+    (Listener*, StatusCallback<IncompatibleQosStatus>, void* argument, bool reset))                                  \
+  X(Code, dds_lset_requested_incompatible_qos_arg,                                                                   \
+    (Listener*, StatusCallback<IncompatibleQosStatus>, void* argument, bool reset))                                  \
+  X(Code, dds_lset_liveliness_lost_arg, (Listener*, StatusCallback<LostStatus>, void* argument, bool reset))         \
+  X(Code, dds_lset_liveliness_changed_arg,                                                                           \
+    (Listener*, StatusCallback<LivelinessChangedStatus>, void* argument, bool reset))                                \
+  X(Code, dds_lset_sample_lost_arg, (Listener*, StatusCallback<LostStatus>, void* argument, bool reset))             \
+  X(Code, dds_lset_publication_matched_arg, (Listener*, StatusCallback<MatchedStatus>, void* argument, bool reset))  \
+  X(Code, dds_lset_subscription_matched_arg, (Listener*, StatusCallback<MatchedStatus>, void* argument, bool reset)) \
+  X(Code, dds_assert_liveliness, (Entity writer))                                                                    \
+  X(Code, dds_wait_for_acks, (Entity writer, std::int64_t timeout_ns))                                               \
+  X(void, dds_qset_deadline, (Qos*, std::int64_t nanoseconds))                                                       \
+  X(void, dds_qset_lifespan, (Qos*, std::int64_t nanoseconds))                                                       \
+  X(void, dds_qset_liveliness, (Qos*, std::int32_t kind, std::int64_t lease_ns))                                     \
+  X(bool, dds_qget_deadline, (const Qos*, std::int64_t* nanoseconds))                                                \
+  X(bool, dds_qget_lifespan, (const Qos*, std::int64_t* nanoseconds))                                                \
+  X(bool, dds_qget_liveliness, (const Qos*, std::int32_t* kind, std::int64_t* lease_ns))                             \
+  X(Qos*, dds_create_qos, ())                                                                                        \
+  X(void, dds_delete_qos, (Qos*))                                                                                    \
+  X(void, dds_qset_userdata, (Qos*, const void* data, std::size_t size))                                             \
+  X(void, dds_qset_durability, (Qos*, std::int32_t kind))                                                            \
+  X(void, dds_qset_history, (Qos*, std::int32_t kind, std::int32_t depth))                                           \
+  X(void, dds_qset_reliability, (Qos*, std::int32_t kind, std::int64_t max_blocking_ns))                             \
+  X(void, dds_qset_ignorelocal, (Qos*, std::int32_t kind))                                                           \
+  X(void, dds_qset_data_representation, (Qos*, std::uint32_t count, const std::int16_t* values))                     \
+  X(void, dds_qset_durability_service,                                                                               \
+    (Qos*, std::int64_t cleanup_delay_ns, std::int32_t history_kind, std::int32_t history_depth,                     \
+     std::int32_t max_samples, std::int32_t max_instances, std::int32_t max_samples_per_instance))                   \
+  X(bool, dds_qget_userdata, (const Qos*, void** data, std::size_t* size))                                           \
+  X(void, dds_free, (void*))                                                                                         \
+  X(bool, dds_qget_durability, (const Qos*, std::int32_t* kind))                                                     \
+  X(bool, dds_qget_history, (const Qos*, std::int32_t* kind, std::int32_t* depth))                                   \
+  X(bool, dds_qget_reliability, (const Qos*, std::int32_t* kind, std::int64_t* max_blocking_ns))                     \
+  X(const char*, dds_strretcode, (Code))                                                                             \
+  X(Serdata*, ddsi_serdata_from_ser_iov,                                                                             \
+    (const Sertype*, std::int32_t kind, std::size_t count, const IoVector*, std::size_t size))                       \
+  X(std::uint32_t, ddsi_serdata_size, (const Serdata*))                                                              \
+  X(Serdata*, ddsi_serdata_to_ser_ref, (const Serdata*, std::size_t offset, std::size_t size, IoVector*))            \
+  X(void, ddsi_serdata_to_ser_unref, (Serdata*, const IoVector*))                                                    \
   X(void, ddsi_serdata_unref, (Serdata*))
 
 struct Functions {

@@ -6,8 +6,9 @@
 namespace coframe {
 namespace {
 
-
-StatusEvents::Counts status_counts(const dds::DeadlineMissedStatus& s) { return {s.total_count, s.total_count_change, 0, 0}; }
+StatusEvents::Counts status_counts(const dds::DeadlineMissedStatus& s) {
+  return {s.total_count, s.total_count_change, 0, 0};
+}
 StatusEvents::Counts status_counts(const dds::LostStatus& s) { return {s.total_count, s.total_count_change, 0, 0}; }
 StatusEvents::Counts status_counts(const dds::IncompatibleQosStatus& s) {
   return {s.total_count, s.total_count_change, s.last_policy_id, 0};
@@ -20,7 +21,8 @@ StatusEvents::Counts status_counts(const dds::LivelinessChangedStatus& s) {
 }
 
 // Adds the changes of an earlier status that was not taken yet.
-void add_status_changes(StatusEvents::Counts& now, const StatusEvents::Counts& before, const dds::LivelinessChangedStatus&) {
+void add_status_changes(StatusEvents::Counts& now, const StatusEvents::Counts& before,
+                        const dds::LivelinessChangedStatus&) {
   now[2] += before[2];
   now[3] += before[3];
 }

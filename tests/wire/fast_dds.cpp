@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A program on Fast DDS that tests control by lines on its standard input, because rmw_fastrtps cannot be installed with
-// pip. Payloads are serialized by the tests. Usage: fast_dds DOMAIN
+// A program on Fast DDS that tests control by lines on its standard input, because rmw_fastrtps cannot be installed
+// with pip. Payloads are serialized by the tests. Usage: fast_dds DOMAIN
 //
 //   writer TOPIC TYPE volatile|transient   -> guid HEX
 //   reader TOPIC TYPE volatile|transient   -> guid HEX; later: received TOPIC SIZE CHECKSUM FIRST_BYTES
