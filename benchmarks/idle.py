@@ -76,7 +76,12 @@ def spin(watcher: threading.Thread, *, in_a_loop: bool) -> None:
         while watcher.is_alive():
             rclpy.spin_once(node, timeout_sec=0.5)
     else:
-        threading.Thread(target=lambda: (watcher.join(), rclpy.shutdown())).start()
+
+        def shut_down_after_the_watcher() -> None:
+            watcher.join()
+            rclpy.shutdown()
+
+        threading.Thread(target=shut_down_after_the_watcher).start()
         rclpy.spin(node)
     del listener
 
