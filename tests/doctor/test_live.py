@@ -66,6 +66,7 @@ def test_two_publishers_of_one_edge_are_named(start, only):
     assert finding["severity"] == "error"
 
 
+@pytest.mark.slow
 def test_topic_without_messages_is_named_with_its_publisher(start, only):
     start("robot", ROBOT)
     start(

@@ -176,6 +176,7 @@ def test_a_silent_graph_says_what_to_check(domain_id, capsys):
     assert f"nothing to examine. I{question}" in output
 
 
+@pytest.mark.slow
 def test_live_command_names_publishers(inside):
     inside.start("-m", "coframe.lab.complete_tf_tree")
 

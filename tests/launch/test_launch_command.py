@@ -192,6 +192,7 @@ def test_nodes_end_when_they_are_killed_and_when_the_launcher_is(launch, workspa
         eventually(lambda: are_gone([listener]))
 
 
+@pytest.mark.slow
 def test_arguments_and_the_description_are_shown_without_a_launch(workspace):
     def run(*words):
         command = [sys.executable, "-m", "coframe.cli", "launch", *words]

@@ -37,6 +37,7 @@ def start_lab(processes, shared, *names):
         processes.start(name, "python", shared / "lab" / f"{name}.py")
 
 
+@pytest.mark.slow
 @pytest.mark.timeout(180)
 def test_five_scripts_as_five_processes(processes, shared):
     four = ("static_tf_broadcaster", "dynamic_tf_broadcaster", "tf_listener", "sensor_transform")

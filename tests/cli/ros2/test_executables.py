@@ -119,6 +119,7 @@ def test_options_of_ros2_bag(execute):
     assert "No such option" not in output
 
 
+@pytest.mark.slow
 def test_a_new_package_runs_without_a_build(execute, tmp_path):
     code, output = execute(
         "ros2", "pkg", "create", "my_robot", "--node-name", "hello", "--dependencies", "rclpy", "std_msgs"

@@ -72,6 +72,7 @@ def test_echo(run):
     assert "Invalid field 'text'" in run("topic", "echo", "/chatter", "--once", "--field", "text", code=2)
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("impatient")
 def test_unknown_names(run):
     assert "Unknown topic '/nothing'" in run("topic", "info", "/nothing", code=1)
