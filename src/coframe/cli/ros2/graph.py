@@ -42,7 +42,7 @@ __all__ = [
     "wait_until",
 ]
 
-DISCOVERY = 0.5  # seconds; what ros2cli waits without its daemon
+DISCOVERY = 0.4  # seconds; ros2cli waits 0.5 s without its daemon
 # Fast DDS may need seconds to announce an endpoint, so a name that was asked for is awaited longer than a list.
 PATIENCE = 3.0  # seconds
 _PERIOD = 0.02  # seconds between two looks at the graph
