@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Record docs/demo.webp: a few seconds of `coframe demo` in the viewer.
+"""Record docs/images/demo.webp: a few seconds of `coframe demo` in the viewer.
 
 Needs Chromium, the package playwright and the package pillow.
 
@@ -25,7 +25,7 @@ from typing import Any
 from PIL import Image
 from playwright.sync_api import Page, sync_playwright
 
-TARGET = Path(__file__).parents[1] / "docs" / "demo.webp"
+TARGET = Path(__file__).parents[1] / "docs" / "images" / "demo.webp"
 PORT = 7699
 SIZE = (960, 540)  # pixels of the page
 WIDTH = 800  # pixels of the animation

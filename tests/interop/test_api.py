@@ -31,7 +31,7 @@ STANDARD |= {
 }
 # Classes whose objects methods of a node create; their constructors take the parts of an implementation.
 CREATED_BY_NODES = {"Client", "Publisher", "Service", "Subscription"}
-MIGRATION = Path(__file__).parents[2] / "docs" / "migration.md"
+MIGRATION = Path(__file__).parents[2] / "docs" / "how-to" / "coming-from-tf2.md"
 
 
 @pytest.fixture(scope="module")
@@ -100,7 +100,7 @@ def test_absent_names_say_what_to_use_instead(api):
         assert re.search(r"\b(Use|Pass|Override)\b", reason), f"{name}: the sentence names no replacement"
         with pytest.raises(ImportError, match=re.escape(f"{name} does not exist in coframe. {reason}")):
             getattr(importlib.import_module(module), attribute)
-        assert f"`{attribute}`" in text, f"docs/migration.md does not list {attribute}"
+        assert f"`{attribute}`" in text, f"docs/how-to/coming-from-tf2.md does not list {attribute}"
 
 
 def test_handles_say_that_they_do_not_exist():
