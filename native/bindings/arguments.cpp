@@ -26,7 +26,7 @@ std::int64_t converted(const char* function, nb::handle given) {
 }
 
 // Whether coframe.time.duration_ns refuses the int: 2 is two nanoseconds, but its caller means two seconds.
-bool is_meant_as_seconds(std::int64_t nanoseconds) { return nanoseconds > 0 && nanoseconds < 1000; }
+bool is_meant_as_seconds(std::int64_t nanoseconds) { return nanoseconds > 0 && nanoseconds < 100'000; }
 
 std::int64_t text_duration(PyObject* text) {
   KnownDuration& known = known_durations[(reinterpret_cast<std::uintptr_t>(text) >> 4) % known_durations.size()];

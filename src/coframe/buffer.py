@@ -147,8 +147,8 @@ class Buffer(_core.Buffer):
 
     Raises:
         TypeError: ``cache`` is not a duration; a float of seconds is not accepted.
-        ValueError: ``cache`` is negative, or its text is not a number and a unit, or it is an int from 1 to 999: such
-            a cache would have a length of a few nanoseconds.
+        ValueError: ``cache`` is negative, or its text is not a number and a unit, or it is a positive int below
+            100 000: such a cache would be shorter than 100 us.
 
     Example:
         >>> import coframe

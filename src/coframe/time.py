@@ -34,6 +34,10 @@ MINUTE = 60 * SECOND
 HOUR = 3_600 * SECOND
 DAY = 86_400 * SECOND
 
+# Smaller ints are refused as durations: a day has 86 400 seconds, and nothing here waits or stores for less than 100 us.
+# The native core has the same limit (is_meant_as_seconds).
+_SHORTEST_INT = 100 * MICROSECOND
+
 _UNITS = {"ns": 1, "us": MICROSECOND, "ms": MILLISECOND, "s": SECOND, "min": MINUTE, "h": HOUR}
 _DURATION = re.compile(r"\s*(\d+)(?:\.(\d+))?\s*([a-z]+)\s*", re.ASCII)
 
@@ -89,13 +93,13 @@ def duration_ns(duration: DurationLike) -> int:
 
     Args:
         duration: Text such as ``"100ms"`` or ``"1.5s"`` (units ns, us, ms, s, min, h), int nanoseconds,
-            ``timedelta``, numpy.timedelta64, rclpy's Duration or a Duration message. An int from 1 to 999 is refused,
-            because its caller most likely means seconds; shorter durations than a microsecond have the other forms.
+            ``timedelta``, numpy.timedelta64, rclpy's Duration or a Duration message. A positive int below 100 000
+            is refused, because its caller most likely means seconds; durations below 100 us have the other forms.
 
     Raises:
         TypeError: The duration has another type, such as a float of seconds.
-        ValueError: The text is not a number and a unit, or the duration is NaT or does not fit 64 bits, or is an int
-            from 1 to 999.
+        ValueError: The text is not a number and a unit, or the duration is NaT or does not fit 64 bits, or is a
+            positive int below 100 000.
 
     Example:
         >>> duration_ns("1.5s")
@@ -111,8 +115,7 @@ def duration_ns(duration: DurationLike) -> int:
         return int(duration.astype("timedelta64[ns]").astype(np.int64))
     accepted = 'text such as "100ms", int nanoseconds, timedelta or a Duration'
     nanoseconds = _in_range(_number_ns(duration, "a duration", accepted))
-    # The native core has the same limit (is_meant_as_seconds).
-    if 0 < nanoseconds < MICROSECOND and isinstance(duration, SupportsIndex):
+    if 0 < nanoseconds < _SHORTEST_INT and isinstance(duration, SupportsIndex) and not hasattr(duration, "nanoseconds"):
         raise ValueError(
             f"the duration {nanoseconds} has no unit: an int is in nanoseconds. For seconds, write "
             f'"{nanoseconds}s" or {nanoseconds * SECOND:_}; for nanoseconds, write "{nanoseconds}ns".'

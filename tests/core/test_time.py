@@ -20,8 +20,8 @@ from coframe.time import duration_ns, stamp_ns
         ("7ns", 7),
         (0, 0),
         (-7, -7),
-        (7_000, 7_000),
-        (np.int64(7_000), 7_000),
+        (100_000, 100_000),
+        (np.int64(700_000), 700_000),
         (np.timedelta64(7, "ns"), 7),
         (SimpleNamespace(nanoseconds=7), 7),
         (SimpleNamespace(sec=0, nanosec=7), 7),
@@ -44,7 +44,7 @@ def test_float_seconds_are_refused():
         duration_ns(0.1)
 
 
-@pytest.mark.parametrize("number", [1, 2, 999, np.int64(10)])
+@pytest.mark.parametrize("number", [1, 2, 999, 86_400, np.int64(10)])
 def test_small_ints_are_refused_with_the_right_spellings(number):
     with pytest.raises(ValueError, match="has no unit") as caught:
         duration_ns(number)

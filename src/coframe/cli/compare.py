@@ -17,6 +17,7 @@ from coframe.cli.lifecycle import run_to_completion
 from coframe.cli.options import (
     KeepOption,
     NamespaceOption,
+    NonNegativeDuration,
     PrefixOption,
     RecordedTfStaticTopicOption,
     RecordedTfTopicOption,
@@ -26,7 +27,6 @@ from coframe.cli.plot import check_figure_package, save_figure
 from coframe.cli.recordings import open_recording
 from coframe.formatting import count
 from coframe.plotting import FIGURE_FORMATS, Figure, Series
-from coframe.time import duration_ns
 from coframe.trajectories import compare_trajectories, parse_delta, read_trajectory
 
 if TYPE_CHECKING:
@@ -36,6 +36,7 @@ if TYPE_CHECKING:
 __all__ = ["compare"]
 
 _SUFFIXES = tuple(f".{kind}" for kind in (*FIGURE_FORMATS, "json", "csv"))
+_MAX_DIFFERENCE = NonNegativeDuration("10ms")
 _RECORDINGS = {".mcap", ".db3", ".bag"}
 
 
@@ -57,8 +58,13 @@ def compare(
         ),
     ] = "none",
     max_difference: Annotated[
-        str, typer.Option(metavar="DURATION", help="Largest difference between the stamps of two compared poses.")
-    ] = "10ms",
+        NonNegativeDuration,
+        typer.Option(
+            metavar="DURATION",
+            parser=NonNegativeDuration,
+            help="Largest difference between the stamps of two compared poses.",
+        ),
+    ] = _MAX_DIFFERENCE,
     delta: Annotated[
         str,
         typer.Option(metavar="DELTA", help="Distance between the poses of a relative error: 10 (poses), 0.5m, or 1s."),
@@ -84,13 +90,13 @@ def compare(
     """
     files = [_checked_output(path) for path in output or []]
     try:
-        distance, limit = parse_delta(delta), duration_ns(max_difference)
+        distance = parse_delta(delta)
     except ValueError as error:
-        fail(f"--delta/--max-difference: {error}", code=2)
+        fail(f"--delta: {error}", code=2)
     with run_to_completion():
         options = (namespace, tf_topic, tf_static_topic, prefix, keep)
         reference, estimate = _read(ref, options), _read(est, options)
-        result = compare_trajectories(reference, estimate, align=align, max_difference=limit, delta=distance)
+        result = compare_trajectories(reference, estimate, align=align, max_difference=max_difference, delta=distance)
         for path in files:
             _write(path, result, f"{est} compared with {ref}")
         if as_json:

@@ -27,7 +27,6 @@ from coframe.cli.options import (
     PrefixOption,
     TfStaticTopicOption,
     TfTopicOption,
-    duration_in_seconds,
 )
 from coframe.cli.output import fail
 from coframe.cli.robots_demo import show_robots
@@ -100,7 +99,7 @@ def demo(
     Example: coframe demo --duration 10
     """
     console = Console()
-    seconds = duration_in_seconds("--duration", duration)
+    seconds = None if duration is None else duration.seconds
     listener_options = {"tf_topic": tf_topic, "tf_static_topic": tf_static_topic, "prefix": prefix, "keep": keep}
     if robots is not None:
         if urdf:

@@ -21,10 +21,10 @@ from coframe.cli.options import (
     DomainOption,
     KeepOption,
     NamespaceOption,
+    PositiveDuration,
     PrefixOption,
     RecordedTfStaticTopicOption,
     RecordedTfTopicOption,
-    positive_duration,
     recorded_tf_topics,
     reject_namespace_of_live_graph,
 )
@@ -34,7 +34,6 @@ from coframe.doctor import codes, diagnose, observe_recording, page
 from coframe.doctor.rendering.plain import as_data
 from coframe.doctor.rendering.sarif import as_sarif
 from coframe.doctor.rendering.text import lines
-from coframe.time import SECOND
 
 if TYPE_CHECKING:
     from coframe.doctor import Report
@@ -42,6 +41,7 @@ if TYPE_CHECKING:
 
 __all__ = ["doctor"]
 
+_TEN_SECONDS = PositiveDuration("10s")
 _STYLES = {"error": "bold red", "warning": "yellow", "note": "cyan", "good": "green", "dim": "dim", "plain": ""}
 # --watch uses at most this fraction of a CPU core for its diagnoses.
 _CPU_SHARE = 0.006
@@ -65,11 +65,19 @@ def doctor(
         bool, typer.Option("--list", help="List all codes with their titles and exit; with --json, as JSON.")
     ] = False,
     duration: Annotated[
-        str, typer.Option(metavar="DURATION", help="Observation time; with --watch, the time window of the findings.")
-    ] = "10s",
+        PositiveDuration,
+        typer.Option(
+            metavar="DURATION",
+            parser=PositiveDuration,
+            help="Observation time; with --watch, the time window of the findings.",
+        ),
+    ] = _TEN_SECONDS,
     cache: Annotated[
-        str, typer.Option(metavar="DURATION", help="Cache length of the nodes that use the transforms.")
-    ] = "10s",
+        PositiveDuration,
+        typer.Option(
+            metavar="DURATION", parser=PositiveDuration, help="Cache length of the nodes that use the transforms."
+        ),
+    ] = _TEN_SECONDS,
     namespace: NamespaceOption = None,
     domain: DomainOption = None,
     tf_topic: RecordedTfTopicOption = None,
@@ -90,12 +98,11 @@ def doctor(
         _explain(explain)
         return
     ignored = _known_codes(ignore or [])
-    window, buffers = positive_duration("--duration", duration), positive_duration("--cache", cache)
     if as_json and sarif:
         fail("--json cannot be combined with --sarif", code=2)
     if watch and (sarif or bag is not None):
         fail(f"--watch cannot be combined with {'--sarif' if sarif else 'a recording'}", code=2)
-    shared: Any = {"cache": buffers, "prefix": prefix, "keep": keep}
+    shared: Any = {"cache": cache, "prefix": prefix, "keep": keep}
     if bag is None:
         reject_namespace_of_live_graph(namespace)
     with run_until_interrupted() if watch else run_to_completion():
@@ -110,13 +117,13 @@ def doctor(
         from coframe.doctor.live import LiveObserver  # noqa: PLC0415 - recordings need no DDS
 
         shared |= {"tf_topic": tf_topic or TF_TOPIC, "tf_static_topic": tf_static_topic or TF_STATIC_TOPIC}
-        with LiveObserver(domain, window=window if watch else None, **shared) as observer:
+        with LiveObserver(domain, window=duration if watch else None, **shared) as observer:
             if watch:
                 _watch(observer, ignored, as_json)
                 return
             if Console(stderr=True).is_terminal:
                 typer.echo(f"observing for {duration} ...", err=True)
-            observer.listen(window / SECOND)
+            observer.listen(duration.seconds)
             observer.listen_for_statics()
             report = diagnose(observer.observe(), ignore=ignored)
         _print_and_exit({"": report}, as_json, sarif, None)

@@ -18,11 +18,11 @@ from coframe.cli.options import (
     TF_STATIC_TOPIC,
     TF_TOPIC,
     DomainOption,
+    Duration,
     KeepOption,
     PrefixOption,
     TfStaticTopicOption,
     TfTopicOption,
-    parse_duration,
 )
 from coframe.cli.output import awaited_statics_text, fail, log, printable, with_doctor_command
 from coframe.cli.ros_arguments import node_identity
@@ -37,6 +37,7 @@ if TYPE_CHECKING:
 __all__ = ["echo"]
 
 NODE = "tf2_echo"
+_CACHE_TIME = Duration("10s")
 MAX_RATE = 10_000.0  # Hz; no terminal is faster
 MAX_SECONDS = 4e9  # 126 years: the sum of two such times still fits into int64 nanoseconds
 MAX_DIGITS = 17  # significant digits of a float64
@@ -57,15 +58,21 @@ def echo(
         float | None, typer.Option("--rate", "-r", metavar="HZ", help="The same as RATE.", show_default=False)
     ] = None,
     cache_time: Annotated[
-        str, typer.Option("--cache-time", "-c", metavar="DURATION", help="How long transforms are kept.")
-    ] = "10s",
+        Duration,
+        typer.Option("--cache-time", "-c", metavar="DURATION", parser=Duration, help="How long transforms are kept."),
+    ] = _CACHE_TIME,
     offset: Annotated[
-        str | None,
-        typer.Option("--offset", metavar="DURATION", help="Look up at the current time plus this offset, e.g. -1s."),
+        Duration | None,
+        typer.Option(
+            "--offset",
+            metavar="DURATION",
+            parser=Duration,
+            help="Look up at the current time plus this offset, e.g. -1s.",
+        ),
     ] = None,
     upstream_offset: Annotated[
-        str | None,
-        typer.Option("-o", metavar="DURATION", hidden=True),
+        Duration | None,
+        typer.Option("-o", metavar="DURATION", parser=Duration, hidden=True),
     ] = None,
     at: Annotated[
         float | None,
@@ -96,9 +103,9 @@ def echo(
     hertz = _positive("Rate", rate if rate is not None else _positional_rate(echo_rate), MAX_RATE)
     _positive("Period", 1.0 / hertz, MAX_SECONDS)
     # The texts and exit codes for values out of range are tf2_echo's.
-    cache = _positive("Cache time", parse_duration("--cache-time", cache_time) / SECOND, MAX_SECONDS)
+    cache = _positive("Cache time", cache_time.seconds, MAX_SECONDS)
     given = offset if offset is not None else upstream_offset
-    ahead = None if given is None else parse_duration("--offset", given) / SECOND
+    ahead = None if given is None else given.seconds
     _positive("Limit", 1 if limit is None else limit)
     _positive("Precision", precision, MAX_DIGITS)
     for option, value in (("--at", at), ("--offset", ahead)):

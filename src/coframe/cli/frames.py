@@ -20,10 +20,10 @@ from coframe.cli.options import (
     DomainOption,
     KeepOption,
     NamespaceOption,
+    PositiveDuration,
     PrefixOption,
     RecordedTfStaticTopicOption,
     RecordedTfTopicOption,
-    positive_duration,
     recorded_tf_topics,
     reject_namespace_of_live_graph,
 )
@@ -31,7 +31,6 @@ from coframe.cli.output import fail, printable, report_console, warn
 from coframe.cli.progress import reading_progress
 from coframe.cli.ros_arguments import node_identity
 from coframe.doctor import observe_recording
-from coframe.time import SECOND
 from coframe.tree_drawing import grow
 from coframe.tree_drawing.graphviz import as_graphviz
 from coframe.tree_drawing.labels import summary
@@ -59,6 +58,7 @@ def _png(forest: Forest, title: str) -> bytes:
     return as_png(forest, title)
 
 
+_WINDOW = PositiveDuration("5s")
 _FORMATS: dict[str, Callable[[Forest, str], str | bytes]] = {
     ".gv": as_graphviz,
     ".dot": as_graphviz,
@@ -89,8 +89,13 @@ def frames(
     ] = False,
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON; times are in nanoseconds.")] = False,
     duration: Annotated[
-        str, typer.Option(metavar="DURATION", help="Observation time; with --watch, the time window of the statistics.")
-    ] = "5s",
+        PositiveDuration,
+        typer.Option(
+            metavar="DURATION",
+            parser=PositiveDuration,
+            help="Observation time; with --watch, the time window of the statistics.",
+        ),
+    ] = _WINDOW,
     namespace: NamespaceOption = None,
     prefix: PrefixOption = "",
     keep: KeepOption = "",
@@ -105,7 +110,6 @@ def frames(
     Example: coframe frames run.mcap -o frames.svg
     """
     files = [_checked_output(path) for path in output or []]
-    window = positive_duration("--duration", duration)
     if watching and (files or bag is not None):
         fail(f"--watch cannot be combined with {'--output' if files else 'a recording'}", code=2)
     names: dict[str, Any] = {"prefix": prefix, "keep": keep}
@@ -128,13 +132,13 @@ def frames(
         from coframe.doctor.live import LiveObserver  # noqa: PLC0415 - recordings need no DDS
 
         names |= {"tf_topic": tf_topic or TF_TOPIC, "tf_static_topic": tf_static_topic or TF_STATIC_TOPIC}
-        with LiveObserver(domain, window=window, **node_identity("coframe_frames"), **names) as observer:
+        with LiveObserver(domain, window=duration, **node_identity("coframe_frames"), **names) as observer:
             if watching:
                 watch(observer, as_json)
                 return
             if Console(stderr=True).is_terminal:
                 typer.echo(f"observing for {duration} ...", err=True)
-            observer.listen(window / SECOND)
+            observer.listen(duration.seconds)
             observer.listen_for_statics()
             forest = grow(observer.observe())
         if not forest.frames:

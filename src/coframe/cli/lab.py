@@ -14,7 +14,7 @@ import typer
 import coframe
 from coframe.cli.help_format import PlainCommand, PlainGroup
 from coframe.cli.lifecycle import run_to_completion, run_until_interrupted
-from coframe.cli.options import DurationOption, duration_in_seconds
+from coframe.cli.options import DurationOption
 from coframe.cli.output import fail, printable, report_console, warn
 from coframe.cli.progress import item_progress
 from coframe.cli.view import PortOption, optional_viewer
@@ -87,7 +87,7 @@ def run(
 
     Example: coframe lab run my_lab
     """
-    seconds = duration_in_seconds("--duration", duration)
+    seconds = None if duration is None else duration.seconds
     simulation = SIMULATION[1:] if complete else SIMULATION
     with run_until_interrupted():
         programs = [*programs_of(_folder(folder), COMPLETE_TREE if complete else STEPS), *simulation]
@@ -167,7 +167,7 @@ def break_(
     if answer is not None:
         _print_verdict(number, answer)
         return
-    seconds = duration_in_seconds("--duration", duration)
+    seconds = None if duration is None else duration.seconds
     print(f"System {number} is running in this ROS domain. What is wrong with it? Stop it with Ctrl-C.")
     print(f'Then answer with: coframe lab break {number} --answer "FAULT", where FAULT is one of:')
     print(f"  {', '.join(sorted(each.name for each in FAULTS))}", flush=True)

@@ -21,10 +21,10 @@ from coframe.cli.options import (
     DomainOption,
     KeepOption,
     NamespaceOption,
+    PositiveDuration,
     PrefixOption,
     RecordedTfStaticTopicOption,
     RecordedTfTopicOption,
-    positive_duration,
     reject_namespace_of_live_graph,
 )
 from coframe.cli.output import awaited_statics_text, fail
@@ -42,6 +42,7 @@ if TYPE_CHECKING:
 __all__ = ["lookup"]
 
 _ALWAYS = (0, 0)  # the span of static transforms
+_WINDOW = PositiveDuration("5s")
 _RETRY_PERIOD = 0.05  # seconds
 
 
@@ -75,9 +76,15 @@ def lookup(
         typer.Option(metavar="TIME", help="Time travel: time of SOURCE; --at is the time of TARGET."),
     ] = None,
     duration: Annotated[
-        str,
-        typer.Option("--duration", "--timeout", metavar="DURATION", help="Live: time to wait for the transform."),
-    ] = "5s",
+        PositiveDuration,
+        typer.Option(
+            "--duration",
+            "--timeout",
+            metavar="DURATION",
+            parser=PositiveDuration,
+            help="Live: time to wait for the transform.",
+        ),
+    ] = _WINDOW,
     namespace: NamespaceOption = None,
     domain: DomainOption = None,
     tf_topic: RecordedTfTopicOption = None,
@@ -102,7 +109,6 @@ def lookup(
     if len(names) not in {2, 3}:
         fail("Give the frames TARGET and SOURCE, or a recording and the two frames.", code=2)
     *bags, target, source = names
-    window = positive_duration("--duration", duration)
 
     def transform(buffer: Buffer, parse: Callable[[str, str], int]) -> Transform:
         when = 0 if at is None else parse("--at", at)
@@ -127,7 +133,7 @@ def lookup(
             topics = {"tf_topic": tf_topic or TF_TOPIC, "tf_static_topic": tf_static_topic or TF_STATIC_TOPIC}
             with coframe.connect("coframe_lookup", domain=domain, **topics, prefix=prefix, keep=keep) as ros:
                 try:
-                    found = _when_possible(lambda: transform(ros.buffer, _clock_time(window)), window)
+                    found = _when_possible(lambda: transform(ros.buffer, _clock_time(duration)), duration)
                 except TransformException as error:
                     if awaited := ros.awaited_statics():
                         fail(str(error), awaited_statics_text(awaited))

@@ -19,10 +19,10 @@ from coframe.cli.options import (
     TF_TOPIC,
     DomainOption,
     KeepOption,
+    PositiveDuration,
     PrefixOption,
     TfStaticTopicOption,
     TfTopicOption,
-    positive_duration,
 )
 from coframe.cli.output import fail, printable, report_console
 from coframe.cli.ros_arguments import node_identity
@@ -43,6 +43,8 @@ __all__ = ["monitor"]
 
 _BROADCASTERS = "\nAll Broadcasters:"
 
+_WINDOW = PositiveDuration("10s")
+
 
 def monitor(
     target: Annotated[
@@ -54,7 +56,10 @@ def monitor(
         bool, typer.Option("--json", help="Print one line of JSON per report; times are in nanoseconds.")
     ] = False,
     classic: Annotated[bool, typer.Option("--classic", help="Print in the format of ROS 2's tf2_monitor.")] = False,
-    duration: Annotated[str, typer.Option(metavar="DURATION", help="Time window of the statistics.")] = "10s",
+    duration: Annotated[
+        PositiveDuration,
+        typer.Option(metavar="DURATION", parser=PositiveDuration, help="Time window of the statistics."),
+    ] = _WINDOW,
     domain: DomainOption = None,
     tf_topic: TfTopicOption = TF_TOPIC,
     tf_static_topic: TfStaticTopicOption = TF_STATIC_TOPIC,
@@ -71,14 +76,13 @@ def monitor(
         fail("SOURCE is missing", "Give two frames, TARGET and SOURCE, or none.", code=2)
     if as_json and classic:
         fail("--json cannot be combined with --classic", code=2)
-    window = positive_duration("--duration", duration)
     pair = (target, source) if target is not None and source is not None else None
     with run_until_interrupted():
         from coframe.doctor.live import LiveObserver  # noqa: PLC0415 - slow import
 
         with LiveObserver(
             domain,
-            window=window,
+            window=duration,
             tf_topic=tf_topic,
             tf_static_topic=tf_static_topic,
             **node_identity("coframe_monitor"),
@@ -87,10 +91,10 @@ def monitor(
         ) as observer:
             if classic:
                 what = " -> ".join(pair) if pair else "all frames"
-                print(f"Gathering data on {what} for {window / SECOND:g} seconds...", flush=True)
+                print(f"Gathering data on {what} for {duration.seconds:g} seconds...", flush=True)
             if not (once or as_json or classic):
                 _watch(observer, pair)
-            _report(observer, pair, window / SECOND, _printer(as_json, classic), once=once)
+            _report(observer, pair, duration.seconds, _printer(as_json, classic), once=once)
 
 
 def _printer(as_json: bool, classic: bool) -> Callable[[Observation, Pair], None]:

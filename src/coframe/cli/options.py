@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -17,6 +17,9 @@ from coframe.cli.completion import complete_tf_topics
 from coframe.cli.output import fail, warn
 from coframe.time import SECOND, duration_ns
 
+if TYPE_CHECKING:
+    from typing_extensions import Self
+
 __all__ = [
     "DURATIONS",
     "TF_STATIC_TOPIC",
@@ -24,18 +27,18 @@ __all__ = [
     "TIMES",
     "BagArgument",
     "DomainOption",
+    "Duration",
     "DurationOption",
     "KeepOption",
     "NamespaceOption",
+    "NonNegativeDuration",
+    "PositiveDuration",
     "PrefixOption",
     "RecordedTfStaticTopicOption",
     "RecordedTfTopicOption",
     "TfStaticTopicOption",
     "TfTopicOption",
     "checked_prefix",
-    "duration_in_seconds",
-    "parse_duration",
-    "positive_duration",
     "recorded_tf_topics",
     "reject_namespace_of_live_graph",
     "with_leading_slash",
@@ -47,6 +50,66 @@ DURATIONS = "Write a number of seconds, or a number and a unit: 3, 3s, 500ms, 10
 _BARE_NUMBER = re.compile(r"\d+(\.\d+)?", re.ASCII)
 # How a time of a recording is written.
 TIMES = "seconds (1666859837.36), 10s after the start, -2s before the end, ISO 8601, 'start' or 'end'"
+
+
+class Duration(int):
+    """The value of an option that is a duration, in nanoseconds.
+
+    An option takes this class, or one of those below, as its ``parser``. Users write 3, 3s, 500ms or -1min;
+    a bare number is in seconds. ``str()`` returns the text as it was written.
+    """
+
+    _text: str
+
+    def __new__(cls, text: str | Duration) -> Self:
+        """Read a duration.
+
+        Raises:
+            typer.BadParameter: The text is not a duration, or not one of this class.
+        """
+        text = str(text)
+        bare = text.strip().removeprefix("+")
+        sign, bare = (-1, bare[1:]) if bare.startswith("-") else (1, bare)
+        if _BARE_NUMBER.fullmatch(bare):
+            bare += "s"
+        try:
+            duration = super().__new__(cls, sign * duration_ns(bare))
+        except (ValueError, TypeError):
+            raise typer.BadParameter(f"{text[:60]!r} is not a duration. {DURATIONS}") from None
+        duration._text = text
+        if reason := duration._refusal():
+            raise typer.BadParameter(f"{reason}, not {text[:60]!r}.")
+        return duration
+
+    def _refusal(self) -> str:
+        return ""
+
+    def __str__(self) -> str:
+        return self._text
+
+    @property
+    def nanoseconds(self) -> int:
+        """The duration in nanoseconds; with this attribute, coframe's functions accept any duration."""
+        return int(self)
+
+    @property
+    def seconds(self) -> float:
+        """The duration in seconds."""
+        return self / SECOND
+
+
+class NonNegativeDuration(Duration):
+    """A duration that is not negative."""
+
+    def _refusal(self) -> str:
+        return "the duration must not be negative" if self < 0 else ""
+
+
+class PositiveDuration(Duration):
+    """A duration greater than 0."""
+
+    def _refusal(self) -> str:
+        return "the duration must be greater than 0" if self <= 0 else ""
 
 
 def with_leading_slash(topic: str | None) -> str | None:
@@ -77,8 +140,12 @@ NamespaceOption = Annotated[
     ),
 ]
 DurationOption = Annotated[
-    str | None,
-    typer.Option(metavar="DURATION", help="Stop after this time, e.g. 30s or 10min. [default: on Ctrl-C]"),
+    NonNegativeDuration | None,
+    typer.Option(
+        metavar="DURATION",
+        parser=NonNegativeDuration,
+        help="Stop after this time, e.g. 30s or 10min. [default: on Ctrl-C]",
+    ),
 ]
 DomainOption = Annotated[
     int | None,
@@ -156,33 +223,3 @@ def reject_namespace_of_live_graph(namespace: str | None) -> None:
         root = "/" + namespace.strip("/")
         topics = f"--tf-topic {root}/tf --tf-static-topic {root}/tf_static"
         fail("--namespace needs a recording", f"For live transforms, use {topics}.", code=2)
-
-
-def parse_duration(option: str, text: str) -> int:
-    """Return the value of an option such as 3, 3s, 500ms or -1min in nanoseconds; a bare number is in seconds."""
-    bare = text.strip().removeprefix("+")
-    sign, bare = (-1, bare[1:]) if bare.startswith("-") else (1, bare)
-    if _BARE_NUMBER.fullmatch(bare):
-        bare += "s"
-    try:
-        return sign * duration_ns(bare)
-    except (ValueError, TypeError):
-        fail(f"{option}: {text[:60]!r} is not a duration. {DURATIONS}", code=2)
-
-
-def positive_duration(option: str, text: str) -> int:
-    """Return the value of an option in nanoseconds; end the command unless it is a positive duration."""
-    nanoseconds = parse_duration(option, text)
-    if nanoseconds <= 0:
-        fail(f"{option} must be greater than 0, not {text!r}", code=2)
-    return nanoseconds
-
-
-def duration_in_seconds(option: str, text: str | None) -> float | None:
-    """Return the value of an option in seconds; None stays None; end the command if the duration is negative."""
-    if text is None:
-        return None
-    nanoseconds = parse_duration(option, text)
-    if nanoseconds < 0:
-        fail(f"{option} must not be negative, not {text!r}", code=2)
-    return nanoseconds / SECOND

@@ -20,11 +20,11 @@ from coframe.cli.options import (
     TF_TOPIC,
     BagArgument,
     DomainOption,
+    Duration,
     KeepOption,
     PrefixOption,
     TfStaticTopicOption,
     TfTopicOption,
-    parse_duration,
 )
 from coframe.cli.output import fail, warn
 from coframe.formatting import count
@@ -38,6 +38,8 @@ if TYPE_CHECKING:
 
 __all__ = ["PlayCommand", "play"]
 
+_START_OFFSET = Duration("0s")
+_DELAY = Duration("1s")
 _REFRESH = 0.1  # seconds
 _CLOCK_RATE = "40"  # Hz, as in rosbag2
 _HELP = "space: pause, right: next message, up/down: faster/slower, Ctrl-C: stop"
@@ -77,8 +79,9 @@ def play(
     loop: Annotated[bool, typer.Option("--loop", help="Start again at the end.")] = False,
     upstream_loop: Annotated[bool, typer.Option("-l", hidden=True)] = False,
     start_offset: Annotated[
-        str, typer.Option(metavar="DURATION", help="Skip this much at the start, e.g. 10s or 2min.")
-    ] = "0s",
+        Duration,
+        typer.Option(metavar="DURATION", parser=Duration, help="Skip this much at the start, e.g. 10s or 2min."),
+    ] = _START_OFFSET,
     start_paused: Annotated[bool, typer.Option("--start-paused", help="Start paused.")] = False,
     upstream_paused: Annotated[bool, typer.Option("-p", hidden=True)] = False,
     clock: Annotated[
@@ -90,8 +93,9 @@ def play(
         ),
     ] = None,
     delay: Annotated[
-        str, typer.Option(metavar="DURATION", help="Time to wait for subscribers before the start.")
-    ] = "1s",
+        Duration,
+        typer.Option(metavar="DURATION", parser=Duration, help="Time to wait for subscribers before the start."),
+    ] = _DELAY,
     domain: DomainOption = None,
     tf_topic: TfTopicOption = TF_TOPIC,
     tf_static_topic: TfStaticTopicOption = TF_STATIC_TOPIC,
@@ -118,10 +122,10 @@ def play(
                 rate=rate,
                 # The short options of `ros2 bag play` are accepted; in the other commands they mean something else.
                 loop=loop or upstream_loop,
-                start_offset=parse_duration("--start-offset", start_offset),
+                start_offset=start_offset,
                 paused=start_paused or upstream_paused,
                 clock=clock,
-                delay=parse_duration("--delay", delay),
+                delay=delay,
                 domain=domain,
                 prefix=prefix,
                 keep=keep,

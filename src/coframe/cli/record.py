@@ -23,11 +23,10 @@ from coframe.cli.options import (
     DomainOption,
     DurationOption,
     KeepOption,
+    PositiveDuration,
     PrefixOption,
     TfStaticTopicOption,
     TfTopicOption,
-    duration_in_seconds,
-    positive_duration,
 )
 from coframe.cli.output import fail, printable, warn
 from coframe.formatting import count
@@ -72,7 +71,12 @@ def record(
         str | None, typer.Option(metavar="SIZE", help="Start a new file at this size, e.g. 500MB or 2GB.")
     ] = None,
     max_duration: Annotated[
-        str | None, typer.Option(metavar="DURATION", help="Start a new file after this duration, e.g. 30s or 10min.")
+        PositiveDuration | None,
+        typer.Option(
+            metavar="DURATION",
+            parser=PositiveDuration,
+            help="Start a new file after this duration, e.g. 30s or 10min.",
+        ),
     ] = None,
     duration: DurationOption = None,
     backlog: Annotated[
@@ -101,7 +105,6 @@ def record(
         )
     if everything and (topics or regex):
         fail("--all cannot be combined with TOPIC or --regex", code=2)
-    seconds = duration_in_seconds("--duration", duration)
     with run_until_interrupted():
         try:
             recorder = start_recording(
@@ -112,7 +115,7 @@ def record(
                 domain=domain,
                 compression=compression,
                 max_size=None if max_size is None else _bytes("--max-size", max_size),
-                max_duration=None if max_duration is None else positive_duration("--max-duration", max_duration),
+                max_duration=max_duration,
                 backlog=_bytes("--backlog", backlog),
                 on_topic=_print_topic,
                 tf_topic=tf_topic,
@@ -125,7 +128,7 @@ def record(
         except ValueError as error:
             fail(str(error), code=2)
         try:
-            _watch(recorder, seconds)
+            _watch(recorder, None if duration is None else duration.seconds)
         except KeyboardInterrupt:
             pass
         finally:

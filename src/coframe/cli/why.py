@@ -28,10 +28,10 @@ from coframe.cli.options import (
     DomainOption,
     KeepOption,
     NamespaceOption,
+    PositiveDuration,
     PrefixOption,
     RecordedTfStaticTopicOption,
     RecordedTfTopicOption,
-    positive_duration,
     recorded_tf_topics,
     reject_namespace_of_live_graph,
 )
@@ -57,6 +57,7 @@ if TYPE_CHECKING:
 
 __all__ = ["why"]
 
+_WINDOW = PositiveDuration("2s")
 _NAMES = "[BAG] TARGET SOURCE"
 # The node of the connection receives static transforms at about the same time as the doctor's node, which waits first.
 _SECOND_LISTENER = 0.5  # seconds
@@ -110,8 +111,9 @@ def why(
         ),
     ] = None,
     duration: Annotated[
-        str, typer.Option("--duration", "--timeout", metavar="DURATION", help="Observation time.")
-    ] = "2s",
+        PositiveDuration,
+        typer.Option("--duration", "--timeout", metavar="DURATION", parser=PositiveDuration, help="Observation time."),
+    ] = _WINDOW,
     watch: Annotated[bool, typer.Option("--watch", help="Update the answer every second.")] = False,
     as_json: Annotated[
         bool, typer.Option("--json", help="Print one line of JSON per answer; times are in nanoseconds.")
@@ -139,7 +141,6 @@ def why(
             fail(f"{target} is a file or a folder. Give TARGET and SOURCE after the recording.", code=2)
     if watch and bags:
         fail("--watch cannot be combined with a recording", code=2)
-    window = positive_duration("--duration", duration)
     renaming_options = _Names(prefix, keep)
     live = _LiveSource(domain, tf_topic or TF_TOPIC, tf_static_topic or TF_STATIC_TOPIC, renaming_options)
     with run_until_interrupted() if watch else run_to_completion():
@@ -147,9 +148,9 @@ def why(
             topics = {"tf_topic": tf_topic, "tf_static_topic": tf_static_topic}
             answer = _answer_recorded(Path(bags[0]), target, source, at, namespace, topics, renaming_options)
         elif watch:
-            _watch(live, target, source, at, window, as_json=as_json)
+            _watch(live, target, source, at, duration, as_json=as_json)
         else:
-            answer = _answer_live(live, target, source, at, window)
+            answer = _answer_live(live, target, source, at, duration)
         _print(answer, as_json=as_json)
         raise typer.Exit(0 if answer.found.possible else 1)
 

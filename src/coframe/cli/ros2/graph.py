@@ -12,7 +12,7 @@ import typer
 
 from coframe.cli.completion import complete_live_topics
 from coframe.cli.lifecycle import run_to_completion
-from coframe.cli.options import with_leading_slash
+from coframe.cli.options import NonNegativeDuration, with_leading_slash
 from coframe.cli.output import fail
 from coframe.cli.ros2.near_names import near_types
 from coframe.errors import CoframeError
@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from rclpy.node import Node
 
 __all__ = [
+    "AT_ONCE",
     "AllOption",
     "DaemonOption",
     "HiddenTopicsOption",
@@ -42,14 +43,20 @@ __all__ = [
     "wait_until",
 ]
 
-DISCOVERY = 0.4  # seconds; ros2cli waits 0.5 s without its daemon
+DISCOVERY = NonNegativeDuration("0.4s")  # ros2cli waits 0.5 s without its daemon
+AT_ONCE = NonNegativeDuration("0s")
 # Fast DDS may need seconds to announce an endpoint, so a name that was asked for is awaited longer than a list.
 PATIENCE = 3.0  # seconds
 _PERIOD = 0.02  # seconds between two looks at the graph
 
 SpinTimeOption = Annotated[
-    float,
-    typer.Option("--spin-time", metavar="SECONDS", min=0.0, help="Time to wait for the discovery of other nodes."),
+    NonNegativeDuration,
+    typer.Option(
+        "--spin-time",
+        metavar="DURATION",
+        parser=NonNegativeDuration,
+        help="Time to wait for the discovery of other nodes.",
+    ),
 ]
 DaemonOption = Annotated[
     bool, typer.Option("--no-daemon", help="Accepted for compatibility: coframe has no daemon.", hidden=True)
@@ -76,11 +83,13 @@ NodeArgument = Annotated[
 
 
 @contextlib.contextmanager
-def graph_node(spin_time: float = 0.0, *, use_sim_time: bool = False, name: str = "") -> Iterator[Node]:
+def graph_node(
+    spin_time: NonNegativeDuration = AT_ONCE, *, use_sim_time: bool = False, name: str = ""
+) -> Iterator[Node]:
     """Run a hidden node for the duration of a command, and wait for the discovery of other nodes.
 
     Args:
-        spin_time: How long to wait for discovery, in seconds.
+        spin_time: How long to wait for discovery.
         use_sim_time: Whether the clock of the node follows ``/clock``.
         name: Name of the node; a hidden name with the process ID by default.
     """
@@ -100,7 +109,7 @@ def graph_node(spin_time: float = 0.0, *, use_sim_time: bool = False, name: str 
                 start_parameter_services=False,
                 parameter_overrides=[Parameter("use_sim_time", value=use_sim_time)],
             )
-            time.sleep(spin_time)
+            time.sleep(spin_time.seconds)
             yield node
         except (RuntimeError, ValueError) as error:
             if isinstance(error, (CoframeError, typer.Exit)):

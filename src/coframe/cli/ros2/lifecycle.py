@@ -11,6 +11,7 @@ from coframe.cli.help_format import PlainCommand, PlainGroup
 from coframe.cli.output import fail, printable
 from coframe.cli.ros2.calls import call_service
 from coframe.cli.ros2.graph import (
+    AT_ONCE,
     DISCOVERY,
     AllOption,
     DaemonOption,
@@ -50,7 +51,7 @@ def get(
     Example: coframe lifecycle get /lidar
     """
     del no_daemon
-    with graph_node(0.0 if node_name else spin_time) as node:
+    with graph_node(AT_ONCE if node_name else spin_time) as node:
         names = [_existing(node, node_name)] if node_name else _lifecycle_nodes(node, include_hidden=include_hidden)
         for name in names:
             state = _call(node, name, "GetState", "get_state").current_state
@@ -61,7 +62,7 @@ def get(
 def list_transitions(
     node_name: NodeArgument,
     show_all: Annotated[bool, typer.Option("--all", "-a", help="List all transitions of the node.")] = False,
-    spin_time: SpinTimeOption = 0.0,
+    spin_time: SpinTimeOption = AT_ONCE,
     no_daemon: DaemonOption = False,
 ) -> None:
     """List the transitions that a lifecycle node can make in its state.
@@ -99,7 +100,7 @@ def set_state(
     transition: Annotated[
         str, typer.Argument(metavar="TRANSITION", help="Name or ID of a transition, e.g. configure or activate.")
     ],
-    spin_time: SpinTimeOption = 0.0,
+    spin_time: SpinTimeOption = AT_ONCE,
     no_daemon: DaemonOption = False,
 ) -> None:
     """Change the state of a lifecycle node.

@@ -13,6 +13,7 @@ import typer
 from coframe.cli.help_format import PlainCommand, PlainGroup
 from coframe.cli.output import fail, printable
 from coframe.cli.ros2.graph import (
+    AT_ONCE,
     DISCOVERY,
     DaemonOption,
     NodeArgument,
@@ -47,7 +48,7 @@ param = typer.Typer(
 def delete(
     node_name: NodeArgument,
     name: ParameterArgument,
-    spin_time: SpinTimeOption = 0.0,
+    spin_time: SpinTimeOption = AT_ONCE,
     no_daemon: DaemonOption = False,
 ) -> None:
     """Delete a parameter of a node.
@@ -66,7 +67,7 @@ def delete(
 def describe(
     node_name: NodeArgument,
     names: Annotated[list[str], typer.Argument(metavar="NAME...", help="Names of parameters.")],
-    spin_time: SpinTimeOption = 0.0,
+    spin_time: SpinTimeOption = AT_ONCE,
     no_daemon: DaemonOption = False,
 ) -> None:
     """Show the type, the description and the limits of parameters of a node.
@@ -85,7 +86,7 @@ def describe(
 @param.command(cls=PlainCommand, short_help="Print all parameters of a node as a YAML file.")
 def dump(
     node_name: NodeArgument,
-    spin_time: SpinTimeOption = 0.0,
+    spin_time: SpinTimeOption = AT_ONCE,
     no_daemon: DaemonOption = False,
 ) -> None:
     """Print all parameters of a node in the format of --params-file.
@@ -105,7 +106,7 @@ def get(
     node_name: NodeArgument,
     name: ParameterArgument,
     hide_type: Annotated[bool, typer.Option("--hide-type", help="Print the value only.")] = False,
-    spin_time: SpinTimeOption = 0.0,
+    spin_time: SpinTimeOption = AT_ONCE,
     no_daemon: DaemonOption = False,
 ) -> None:
     """Print a parameter of a node.
@@ -147,7 +148,7 @@ def list_parameters(
         pattern = re.compile(expression or "")
     except re.error as error:
         fail(f"--filter: {expression!r} is not a regular expression: {error}", code=2)
-    with graph_node(0.0 if node_name else spin_time) as node:
+    with graph_node(AT_ONCE if node_name else spin_time) as node:
         for each in [node_name] if node_name else node_names(node, include_hidden=include_hidden):
             client = ParameterClient(node, each, required=node_name is not None)
             if not client.is_available:
@@ -168,7 +169,7 @@ def load(
     no_use_wildcard: Annotated[
         bool, typer.Option("--no-use-wildcard", help="Do not use the parameters below /**.")
     ] = False,
-    spin_time: SpinTimeOption = 0.0,
+    spin_time: SpinTimeOption = AT_ONCE,
     no_daemon: DaemonOption = False,
 ) -> None:
     """Set the parameters of a node from a YAML file.
@@ -194,7 +195,7 @@ def set_parameter(
     node_name: NodeArgument,
     name: ParameterArgument,
     value: Annotated[str, typer.Argument(metavar="VALUE", help="Value as YAML, e.g. 1.5, true or '[1, 2]'.")],
-    spin_time: SpinTimeOption = 0.0,
+    spin_time: SpinTimeOption = AT_ONCE,
     no_daemon: DaemonOption = False,
 ) -> None:
     """Set a parameter of a node.

@@ -12,6 +12,7 @@ from coframe.cli.help_format import PlainCommand, PlainGroup
 from coframe.cli.options import with_leading_slash
 from coframe.cli.output import fail, printable
 from coframe.cli.ros2.graph import (
+    AT_ONCE,
     DISCOVERY,
     DaemonOption,
     SpinTimeOption,
@@ -123,7 +124,7 @@ def list_services(
 
 
 @service.command("type", cls=PlainCommand, short_help="Print the type of a service.")
-def type_(service_name: ServiceArgument, spin_time: SpinTimeOption = 0.0, no_daemon: DaemonOption = False) -> None:
+def type_(service_name: ServiceArgument, spin_time: SpinTimeOption = AT_ONCE, no_daemon: DaemonOption = False) -> None:
     """Print the type of a service; the exit code is 1 if the service is unknown.
 
     Example: coframe service type /reset

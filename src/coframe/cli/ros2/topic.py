@@ -10,6 +10,7 @@ import typer
 from coframe.cli.help_format import PlainCommand, PlainGroup
 from coframe.cli.output import fail, printable
 from coframe.cli.ros2.graph import (
+    AT_ONCE,
     DISCOVERY,
     DaemonOption,
     HiddenTopicsOption,
@@ -121,7 +122,7 @@ topic.command(cls=PlainCommand, short_help="Publish messages on a topic.")(pub)
 
 
 @topic.command("type", cls=PlainCommand, short_help="Print the type of a topic.")
-def type_(topic_name: TopicArgument, spin_time: SpinTimeOption = 0.0, no_daemon: DaemonOption = False) -> None:
+def type_(topic_name: TopicArgument, spin_time: SpinTimeOption = AT_ONCE, no_daemon: DaemonOption = False) -> None:
     """Print the type of a topic; the exit code is 1 if the topic is unknown.
 
     Example: coframe topic type /tf

@@ -8,8 +8,10 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from coframe.cli.options import NonNegativeDuration
 from coframe.cli.output import fail, printable
 from coframe.cli.ros2.graph import (
+    AT_ONCE,
     DaemonOption,
     HiddenTopicsOption,
     SimTimeOption,
@@ -48,7 +50,13 @@ def echo(
     ] = None,
     once: Annotated[bool, typer.Option("--once", help="Print the first message and exit.")] = False,
     timeout: Annotated[
-        float | None, typer.Option("--timeout", metavar="SECONDS", help="Exit with 1 if no message arrives in time.")
+        NonNegativeDuration | None,
+        typer.Option(
+            "--timeout",
+            metavar="DURATION",
+            parser=NonNegativeDuration,
+            help="Exit with 1 if no message arrives in time.",
+        ),
     ] = None,
     csv: Annotated[
         bool, typer.Option("--csv", help="Print each message as one line of comma-separated values.")
@@ -84,7 +92,7 @@ def echo(
     qos_durability: DurabilityOption = None,
     include_hidden: HiddenTopicsOption = False,
     use_sim_time: SimTimeOption = False,
-    spin_time: SpinTimeOption = 0.0,
+    spin_time: SpinTimeOption = AT_ONCE,
     no_daemon: DaemonOption = False,
 ) -> None:
     """Print the messages of a topic. The QoS is chosen so that every publisher matches, unless it is given.
@@ -109,12 +117,12 @@ def echo(
             raw=raw,
             report_lost=not no_lost_messages,
         )
-        for message in stream.messages(timeout):
+        for message in stream.messages(None if timeout is None else timeout.seconds):
             if raw or accepts(message):
                 print(write(message), flush=True)
                 if once:
                     return
-        fail(f"No message arrived on {topic_name} within {timeout:g} s.", "coframe topic info shows its publishers.")
+        fail(f"No message arrived on {topic_name} within {timeout}.", "coframe topic info shows its publishers.")
 
 
 def _writer(

@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from coframe.cli.options import with_leading_slash
+from coframe.cli.options import NonNegativeDuration, with_leading_slash
 from coframe.cli.output import fail
-from coframe.cli.ros2.graph import DaemonOption, SimTimeOption, SpinTimeOption, graph_node, load_type
+from coframe.cli.ros2.graph import AT_ONCE, DaemonOption, SimTimeOption, SpinTimeOption, graph_node, load_type
 from coframe.cli.ros2.qos import (
     DepthOption,
     DurabilityOption,
@@ -28,6 +28,7 @@ if TYPE_CHECKING:
 
 __all__ = ["pub"]
 
+_KEEP_ALIVE = NonNegativeDuration("100ms")
 _POLL = 0.1  # seconds between two looks for matching subscriptions, as in ros2cli
 
 
@@ -67,9 +68,14 @@ def pub(
         ),
     ] = None,
     keep_alive: Annotated[
-        float,
-        typer.Option("--keep-alive", metavar="SECONDS", min=0.0, help="Keep the node alive after the last message."),
-    ] = 0.1,
+        NonNegativeDuration,
+        typer.Option(
+            "--keep-alive",
+            metavar="DURATION",
+            parser=NonNegativeDuration,
+            help="Keep the node alive after the last message.",
+        ),
+    ] = _KEEP_ALIVE,
     node_name: Annotated[
         str | None, typer.Option("--node-name", "-n", metavar="NAME", help="Name of the publishing node.")
     ] = None,
@@ -79,7 +85,7 @@ def pub(
     qos_reliability: ReliabilityOption = None,
     qos_durability: DurabilityOption = None,
     use_sim_time: SimTimeOption = False,
-    spin_time: SpinTimeOption = 0.0,
+    spin_time: SpinTimeOption = AT_ONCE,
     no_daemon: DaemonOption = False,
 ) -> None:
     """Publish messages on a topic. In VALUES, "stamp: now" and "header: auto" stand for the current time.
@@ -99,7 +105,7 @@ def pub(
         publisher = node.create_publisher(type(message), topic_name, qos)
         _wait_for_subscriptions(publisher, (1 if count else 0) if wait_matching is None else wait_matching)
         _publish(node, publisher, message, fill_stamps, 1.0 / rate, print_every, count)
-        time.sleep(keep_alive)
+        time.sleep(keep_alive.seconds)
 
 
 def _wait_for_subscriptions(publisher: Publisher, number: int) -> None:

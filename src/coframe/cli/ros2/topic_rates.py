@@ -13,6 +13,7 @@ import typer
 
 from coframe.cli.output import fail
 from coframe.cli.ros2.graph import (
+    AT_ONCE,
     DaemonOption,
     SimTimeOption,
     SpinTimeOption,
@@ -47,7 +48,7 @@ def hz(
     ] = None,
     wall_time: Annotated[bool, typer.Option("--wall-time", help="Use the system time, not that of /clock.")] = False,
     use_sim_time: SimTimeOption = False,
-    spin_time: SpinTimeOption = 0.0,
+    spin_time: SpinTimeOption = AT_ONCE,
     no_daemon: DaemonOption = False,
 ) -> None:
     """Show the rate at which messages arrive on a topic: mean, shortest, longest period and standard deviation.
@@ -72,7 +73,7 @@ def bw(
         int, typer.Option("--window", "-w", metavar="N", min=2, help="Number of messages of the statistics.")
     ] = _BANDWIDTH_WINDOW,
     use_sim_time: SimTimeOption = False,
-    spin_time: SpinTimeOption = 0.0,
+    spin_time: SpinTimeOption = AT_ONCE,
     no_daemon: DaemonOption = False,
 ) -> None:
     """Show the bytes per second that arrive on a topic, and the sizes of the messages.
@@ -97,7 +98,7 @@ def delay(
         int, typer.Option("--window", "-w", metavar="N", min=2, help="Number of messages of the statistics.")
     ] = _WINDOW,
     use_sim_time: SimTimeOption = False,
-    spin_time: SpinTimeOption = 0.0,
+    spin_time: SpinTimeOption = AT_ONCE,
     no_daemon: DaemonOption = False,
 ) -> None:
     """Show how long after the stamp in its header a message arrives.
