@@ -34,7 +34,7 @@ MINUTE = 60 * SECOND
 HOUR = 3_600 * SECOND
 DAY = 86_400 * SECOND
 
-# Smaller ints are refused as durations: a day has 86 400 seconds, and nothing here waits or stores for less than 100 us.
+# Smaller ints are refused as durations: a day has 86 400 seconds, and nothing here waits or stores for under 100 us.
 # The native core has the same limit (is_meant_as_seconds).
 _SHORTEST_INT = 100 * MICROSECOND
 
