@@ -7,7 +7,7 @@ DEMO_STAMP := $(VENV)/.demo_ready
 NATIVE := $(shell find native -name '*.cpp' -o -name '*.hpp' -o -name '*.inc') CMakeLists.txt
 
 .DEFAULT_GOAL := help
-.PHONY: help setup build build-split demo test test-slow test-long test-ros sanitize lint typecheck format conformance bench generate page page-check clean
+.PHONY: help setup build build-split demo test test-slow test-long test-ros sanitize faults soak lint typecheck format conformance bench generate page page-check clean
 
 help: ## list the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  make %-12s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -59,6 +59,9 @@ sanitize: ## run the native core under ThreadSanitizer and AddressSanitizer, als
 	tests/native/sanitized.sh build/sanitize/address/latest 10
 	tests/native/sanitized.sh build/sanitize/address/fuzz_ingest 200000
 	tests/native/sanitized.sh build/sanitize/address/fuzz_frozen 3000
+
+faults: $(STAMP) ## cause faults between real processes, and check what docs/reliability.md promises (15 minutes)
+	@$(BIN)/python -E -m benchmarks.faults $(ARGS)
 
 conformance: $(STAMP) ## check tf2's semantics case by case
 	@$(BIN)/python conformance/run.py $(ARGS)

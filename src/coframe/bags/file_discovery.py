@@ -10,7 +10,6 @@ import difflib
 import importlib
 import re
 import shutil
-import tempfile
 from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -21,6 +20,7 @@ from coframe.bags.storage import Channel
 from coframe.bounded_yaml import read_yaml
 from coframe.errors import RecordingError
 from coframe.formatting import listed
+from coframe.temporary_folders import temporary_folder
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -178,7 +178,7 @@ def _unpacked(file: Path, closing: ExitStack) -> tuple[Path, bytes]:
         raise RecordingError(
             f"{file} is compressed, and the package zstandard is not installed", hint="pip install 'coframe[bags]'"
         ) from None
-    folder = Path(closing.enter_context(tempfile.TemporaryDirectory(prefix="coframe-")))
+    folder = Path(closing.enter_context(temporary_folder("coframe-unpacked-")))
     target = folder / file.name.removesuffix(".zstd")
     # A damaged file yields a truncated one, and reading that reports the damage.
     with file.open("rb") as packed, target.open("wb") as whole, suppress(zstandard.ZstdError):

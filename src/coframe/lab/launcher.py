@@ -4,13 +4,13 @@
 from __future__ import annotations
 
 import os
-import shutil
 import subprocess
 import sys
-import tempfile
 import time
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
+
+from coframe.temporary_folders import temporary_folder
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -20,7 +20,6 @@ if TYPE_CHECKING:
 
 __all__ = ["COMPLETE_LAB", "DESCRIBED_LAB", "FailedNode", "Launcher", "NodeCommand"]
 
-_PREFIX = "coframe-lab-"  # of temporary folders
 STOP_TIMEOUT = 5.0  # seconds between SIGTERM and SIGKILL
 
 
@@ -67,26 +66,6 @@ DESCRIBED_LAB = (
 )
 
 
-def _remove_stale_folders() -> None:
-    """Remove the temporary folders of launchers that were killed; their names contain the id of the process."""
-    for folder in Path(tempfile.gettempdir()).glob(f"{_PREFIX}*-*"):
-        number = folder.name.removeprefix(_PREFIX).partition("-")[0]
-        if number.isdecimal() and not _is_running(int(number)):
-            shutil.rmtree(folder, ignore_errors=True)
-
-
-def _is_running(process: int) -> bool:
-    if os.name != "posix":  # On Windows, os.kill() with the signal 0 ends the process.
-        return True
-    try:
-        os.kill(process, 0)
-    except ProcessLookupError:
-        return False
-    except (PermissionError, OverflowError):
-        return True
-    return True
-
-
 class Launcher:
     """A context manager that runs nodes. Their output goes to files in a temporary folder.
 
@@ -99,8 +78,7 @@ class Launcher:
         self._commands = commands
         self._environment = {**os.environ} if domain is None else {**os.environ, "ROS_DOMAIN_ID": str(domain)}
         self._processes: dict[str, subprocess.Popen[bytes]] = {}
-        _remove_stale_folders()
-        self._folder = tempfile.TemporaryDirectory(prefix=f"{_PREFIX}{os.getpid()}-", ignore_cleanup_errors=True)
+        self._folder = temporary_folder("coframe-lab-")
 
     def __enter__(self) -> Self:
         for command in self._commands:

@@ -6,12 +6,14 @@ from __future__ import annotations
 import atexit
 import functools
 import itertools
-import shutil
-import tempfile
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
+from coframe.temporary_folders import temporary_folder
 from launch.utilities.yaml_loading import dump_yaml
+
+if TYPE_CHECKING:
+    import tempfile
 
 __all__ = ["write_parameters_file", "write_temporary_file"]
 
@@ -19,15 +21,15 @@ _numbers = itertools.count()
 
 
 @functools.cache
-def _folder() -> Path:
-    folder = Path(tempfile.mkdtemp(prefix="launch_params_"))
-    atexit.register(shutil.rmtree, folder, ignore_errors=True)
+def _folder() -> tempfile.TemporaryDirectory[str]:
+    folder = temporary_folder("launch_params_")
+    atexit.register(folder.cleanup)
     return folder
 
 
 def write_temporary_file(text: str, suffix: str = ".yaml") -> Path:
     """Write a text to a new file and return its path."""
-    path = _folder() / f"{next(_numbers)}{suffix}"
+    path = Path(_folder().name) / f"{next(_numbers)}{suffix}"
     path.write_text(text, encoding="utf-8")
     return path
 

@@ -1,0 +1,49 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A fault: its promise, its measurement and its verdict."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, NamedTuple
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+
+class SkippedError(Exception):
+    """The fault cannot be caused on this machine; the text says why."""
+
+
+class Measurement(NamedTuple):
+    """What was measured, and whether the promise was kept."""
+
+    text: str
+    kept: bool
+
+
+@dataclass(frozen=True)
+class Case:
+    """A fault.
+
+    Attributes:
+        name: The name at the command line.
+        promise: What coframe promises under this fault.
+        run: Causes the fault and measures; raises `SkippedError` if that is impossible here.
+    """
+
+    name: str
+    promise: str
+    run: Callable[[], Measurement]
+
+
+CASES: list[Case] = []
+
+
+def case(name: str, promise: str) -> Callable[[Callable[[], Measurement]], Callable[[], Measurement]]:
+    """Add the decorated function to the cases."""
+
+    def add(run: Callable[[], Measurement]) -> Callable[[], Measurement]:
+        CASES.append(Case(name, promise, run))
+        return run
+
+    return add
