@@ -15,7 +15,7 @@ from pathlib import Path
 
 import coframe
 from benchmarks.faults.case import Measurement, case
-from benchmarks.faults.links import NS, RATE, RECOVERY, ROBOTS, SETTLING, first_after, heard
+from benchmarks.faults.links import NS, RATE, RECOVERY, ROBOTS, SETTLING, evaluate, first_after
 from benchmarks.faults.processes import Program, processes, wait_for
 
 UNDISTURBED = 0.5  # seconds; the longest gap of nodes that have nothing to do with the fault
@@ -79,7 +79,7 @@ def _lose_listener(how: signal.Signals) -> Measurement:
         time.sleep(SETTLING)
         said = talker.ask()
         sent = json.dumps({robot: said["stamps"]})
-        undisturbed, recovered = heard(other.ask(sent), other.started), lost.ask(sent)
+        undisturbed, recovered = evaluate(other.ask(sent), other.started), lost.ask(sent)
     again = first_after(continued, recovered["arrivals"][robot]) - continued
     gap, missing, slowest = undisturbed.gap, undisturbed.missing, said["slowest"]
     text = (

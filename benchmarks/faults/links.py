@@ -25,7 +25,7 @@ SETTLING = 5.0  # seconds
 NS = 1_000_000_000
 
 
-class Heard(NamedTuple):
+class Reception(NamedTuple):
     """What a listener received.
 
     Attributes:
@@ -60,7 +60,7 @@ def lan(hosts: int = 2) -> Iterator[Lan]:
         made.close()
 
 
-def heard(report: dict[str, Any], started: float) -> Heard:
+def evaluate(report: dict[str, Any], started: float) -> Reception:
     """Evaluate the report of a listener."""
     sent = missing = 0
     gap = 0.0
@@ -68,7 +68,7 @@ def heard(report: dict[str, Any], started: float) -> Heard:
     offset = time.time_ns() - time.monotonic_ns()
     for robot, arrivals in report["arrivals"].items():
         if not arrivals:
-            return Heard(0, 0, float("inf"), None, 0.0)
+            return Reception(0, 0, float("inf"), None, 0.0)
         stored = report["stored"][robot]
         first = stored.index(True) if True in stored else len(stored)
         sent += len(stored) - first
@@ -77,7 +77,7 @@ def heard(report: dict[str, Any], started: float) -> Heard:
         delays += [arrival - (stamp - offset) / NS for arrival, stamp in arrivals]
     statics = report["statics"]
     complete = max(statics.values()) - started if len(statics) == len(report["arrivals"]) else None
-    return Heard(sent, missing, gap, complete, sorted(delays)[len(delays) // 2])
+    return Reception(sent, missing, gap, complete, sorted(delays)[len(delays) // 2])
 
 
 def first_after(begin: float, arrivals: list[tuple[float, int]]) -> float:
@@ -85,11 +85,11 @@ def first_after(begin: float, arrivals: list[tuple[float, int]]) -> float:
     return next((arrived for arrived, _ in arrivals if arrived > begin), float("inf"))
 
 
-def stop_and_evaluate(talkers: dict[str, Any], listener: Any, recovery: float = RECOVERY) -> Heard:
+def stop_and_evaluate(talkers: dict[str, Any], listener: Any, recovery: float = RECOVERY) -> Reception:
     """End the talkers, wait for messages that are sent again, and evaluate the listener."""
     sent = {robot: talker.ask()["stamps"] for robot, talker in talkers.items()}
     time.sleep(recovery)
-    return heard(listener.ask(json.dumps(sent)), listener.started)
+    return evaluate(listener.ask(json.dumps(sent)), listener.started)
 
 
 def _under(impairment: Impairment) -> Measurement:

@@ -112,7 +112,7 @@ def processes(**environment: str) -> Iterator[Processes]:
 
 
 def wait_for(condition: Callable[[], object], what: str, seconds: float = PATIENCE) -> float:
-    """Wait until a condition holds, and return the time that took in seconds."""
+    """Wait until a condition holds, and return the duration in seconds."""
     begin = time.monotonic()
     while not condition():
         if time.monotonic() - begin > seconds:
