@@ -58,7 +58,7 @@ def run(case: Case) -> Outcome:
         measured = case.run()
     except SkippedError as reason:
         return Outcome(case, "skipped", str(reason))
-    except Exception as error:  # noqa: BLE001 - the next case shall run
+    except Exception as error:  # noqa: BLE001 - the other cases must run
         traceback.print_exc()
         return Outcome(case, "BROKEN", str(error).strip().rpartition("\n")[2][:200])
     return Outcome(case, "kept" if measured.kept else "BROKEN", measured.text)
