@@ -43,7 +43,7 @@ HostOption = Annotated[
     str,
     typer.Option(
         metavar="ADDRESS",
-        help="Address to listen on; 0.0.0.0 lets other machines connect.",
+        help="Address to listen on; 0.0.0.0 lets other machines connect, with the token in the printed address.",
     ),
 ]
 PortOption = Annotated[
@@ -220,6 +220,8 @@ def optional_viewer(
 def announce(viewer: Viewer, *, browser: bool) -> None:
     """Print the address on its own line, and open it in the browser if the output is a terminal."""
     print(viewer.url, flush=True)
+    if viewer.remote_url not in {"", viewer.url}:
+        print(f"from other machines: {viewer.remote_url}", flush=True)
     if browser and sys.stdout.isatty():
         threading.Thread(target=_open_browser, args=(viewer.url,), daemon=True).start()
 

@@ -57,6 +57,11 @@ class Viewer:
         """The page's address, such as ``http://127.0.0.1:7676/``."""
         return self._server.url
 
+    @property
+    def remote_url(self) -> str:
+        """The page's address for other machines, with its token; empty if only this machine can connect."""
+        return self._server.remote_url
+
     def set_source(self, source: Source) -> None:
         """Show another source, which the viewer closes at the end."""
         self._sources.append(source)
@@ -106,7 +111,7 @@ def show(
         rviz: A configuration file of RViz 2 or RViz 1.
         robot: A robot, or its URDF or xacro file, shown in addition to those on ``/robot_description``.
         mesh_roots: Folders below which meshes may be fetched, in addition to those of ROS packages.
-        host: The address to listen on. Anyone who can reach it may use the viewer; there is no password.
+        host: The address to listen on. If other machines can reach it, ``url`` contains a token that they need.
         port: The port; None selects 7676, or any free port if that is in use; 0 selects any free port.
         joint_states: The topic on which the sliders of a robot's joints publish.
 

@@ -3,10 +3,14 @@
 
 from __future__ import annotations
 
+import contextlib
 import hashlib
+import hmac
 import ipaddress
+import secrets
 import socket
 from http import HTTPStatus
+from http.cookies import CookieError, SimpleCookie
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -14,7 +18,7 @@ from websockets.datastructures import Headers
 from websockets.http11 import Response
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Iterable, Mapping
 
 __all__ = ["STATIC", "AccessPolicy", "file_response", "page_file", "response", "text_response"]
 
@@ -39,6 +43,7 @@ _CONTENT_SECURITY_POLICY = (
     "font-src 'self' data:; connect-src 'self' blob: data: {sockets}; worker-src 'self' blob:; manifest-src 'self'; "
     "base-uri 'none'; form-action 'none'; frame-ancestors 'self' http://localhost:* http://127.0.0.1:*"
 )
+_TOKEN_BYTES = 24
 _LOOPBACK = ("127.0.0.1", "localhost", "[::1]")
 
 
@@ -51,9 +56,11 @@ class AccessPolicy:
 
     Attributes:
         content_security: The Content-Security-Policy of all responses.
+        token: What a request from another machine must contain; "" if only this machine can connect.
     """
 
     def __init__(self, host: str, port: int) -> None:
+        self.token = "" if _is_loopback(host) else secrets.token_urlsafe(_TOKEN_BYTES)
         names = {*_LOOPBACK, f"[{host}]" if ":" in host else host}
         self._all_addresses = host in {"0.0.0.0", "::"}  # noqa: S104 - the user's own choice
         if self._all_addresses:
@@ -74,6 +81,33 @@ class AccessPolicy:
         """Return whether an Origin header is that of this server's page; programs other than browsers send none."""
         return origin is None or (origin.startswith("http://") and self.allows_host(origin.removeprefix("http://")))
 
+    def is_token(self, given: str) -> bool:
+        """Return whether a text is the token; the time that this takes does not depend on the text."""
+        return hmac.compare_digest(given.encode(errors="replace"), self.token.encode())
+
+    def has_cookie(self, cookies: Iterable[str]) -> bool:
+        """Return whether Cookie headers contain the token."""
+        for header in cookies:
+            with contextlib.suppress(CookieError):
+                cookie = SimpleCookie(header).get(self._cookie)
+                if cookie is not None and self.is_token(cookie.value):
+                    return True
+        return False
+
+    def redirection(self, path: str) -> Response:
+        """Return the response to a page request with the token: the address without it, and the token as a cookie.
+
+        Scripts cannot read the cookie. Pages of other sites can only follow links with it (Lax); they cannot connect.
+        """
+        cookie = f"{self._cookie}={self.token}; Path=/; HttpOnly; SameSite=Lax"
+        return response(
+            HTTPStatus.SEE_OTHER, b"", "text/plain", self.content_security, {"Location": path, "Set-Cookie": cookie}
+        )
+
+    @property
+    def _cookie(self) -> str:
+        return f"coframe_{self._port}"  # Browsers send the cookies of one port to all ports of a machine.
+
     def _is_address(self, host: str) -> bool:
         address, _, port = host.rpartition(":")
         try:
@@ -81,6 +115,15 @@ class AccessPolicy:
         except ValueError:
             return False
         return port == str(self._port)
+
+
+def _is_loopback(host: str) -> bool:
+    if host == "localhost":
+        return True
+    try:
+        return ipaddress.ip_address(host).is_loopback
+    except ValueError:
+        return False
 
 
 def response(

@@ -12,7 +12,7 @@ import socket
 import threading
 from http import HTTPStatus
 from typing import TYPE_CHECKING, Any
-from urllib.parse import parse_qsl, unquote, urlsplit
+from urllib.parse import parse_qsl, unquote, urlencode, urlsplit
 
 from coframe.errors import PlotError, ViewerError
 from coframe.viewer.replay.page import ReplayContent, replay_page
@@ -24,6 +24,7 @@ from coframe.viewer.server.websocket import WebSocket
 if TYPE_CHECKING:
     from collections.abc import Callable
     from pathlib import Path
+    from urllib.parse import SplitResult
 
     from typing_extensions import Self
     from websockets.http11 import Request, Response
@@ -36,6 +37,7 @@ _logger = logging.getLogger("coframe.viewer")
 
 # Browsers store the layout of a page by its address, so the port stays the same if possible.
 DEFAULT_PORT = 7676
+_TOKEN = "token"  # noqa: S105 - its name in addresses
 _END_TIMEOUT = 5.0
 # Seconds between checks whether all clients have disconnected.
 _END_STEP = 0.01
@@ -46,7 +48,7 @@ class ViewerServer:
 
     Args:
         state: What all clients share. Only the server's thread may use it from now on.
-        host: The address to listen on; anyone who can reach it may use the viewer.
+        host: The address to listen on. If other machines can reach it, their requests need a token; see :attr:`url`.
         port: The port; None selects the default port, or any free port if that is in use; 0 selects any free port.
         static: The folder of the page.
 
@@ -77,9 +79,21 @@ class ViewerServer:
 
     @property
     def url(self) -> str:
-        """The page's address."""
+        """The page's address; with the token that other machines need, unless only this machine can connect."""
         host = {"0.0.0.0": "127.0.0.1", "::": "[::1]"}.get(self._host, self._host)  # noqa: S104 - for display
-        return f"http://{f'[{host}]' if ':' in host and '[' not in host else host}:{self.port}/"
+        return f"http://{f'[{host}]' if ':' in host and '[' not in host else host}:{self.port}/{self._query}"
+
+    @property
+    def remote_url(self) -> str:
+        """The page's address for other machines; empty if only this machine can connect."""
+        if not self._access.token:
+            return ""
+        is_any = self._host in {"0.0.0.0", "::"}  # noqa: S104 - for display
+        return f"http://{socket.gethostname()}:{self.port}/{self._query}" if is_any else self.url
+
+    @property
+    def _query(self) -> str:
+        return f"?{_TOKEN}={self._access.token}" if self._access.token else ""
 
     def call(self, callback: Callable[..., object], *args: Any) -> None:
         """Call a function in the server's thread soon; do nothing if the server is closed."""
@@ -144,6 +158,10 @@ class ViewerServer:
         if (refusal := self._refusal(request)) is not None:
             return refusal
         parts = urlsplit(request.path)
+        reply = self._token_reply(request, parts) if self._access.token else None
+        return reply or await self._content(request, parts)
+
+    async def _content(self, request: Request, parts: SplitResult) -> Response | None:
         path = unquote(parts.path)
         if path == "/ws":
             return self._answer_socket(request)
@@ -172,6 +190,20 @@ class ViewerServer:
         except ValueError:  # such as an address that begins with a bracket
             return text_response(HTTPStatus.BAD_REQUEST, "The address of the request is not valid.", policy)
         return None
+
+    def _token_reply(self, request: Request, parts: SplitResult) -> Response | None:
+        """Return the response to a request without the token or with the token in its address; None for others."""
+        query = parse_qsl(parts.query, keep_blank_values=True)
+        if any(key == _TOKEN and self._access.is_token(value) for key, value in query):
+            if parts.path == "/ws":  # programs other than browsers
+                return None
+            rest = urlencode([(key, value) for key, value in query if key != _TOKEN])
+            # A path that begins with two slashes, or a slash and a backslash, would lead to another server.
+            return self._access.redirection("/" + parts.path.lstrip("/\\") + (f"?{rest}" if rest else ""))
+        if self._access.has_cookie(request.headers.get_all("Cookie")):
+            return None
+        text = "This viewer needs the token in its address. Open the complete address that coframe has printed."
+        return text_response(HTTPStatus.FORBIDDEN, text, self._access.content_security)
 
     async def _in_thread(self, make_response: Callable[..., Response], *args: Any) -> Response:
         return await self._loop.run_in_executor(self._state.executor, make_response, *args)

@@ -28,11 +28,12 @@ if TYPE_CHECKING:
     MakeListener: TypeAlias = "Callable[[WebSocket], Listener]"
     _Part: TypeAlias = tuple[int, bytes | bytearray | memoryview, bool]
 
-__all__ = ["LARGEST_REQUEST", "Listener", "WebSocket"]
+__all__ = ["LARGEST_REQUEST", "MAX_CONNECTIONS", "Listener", "WebSocket"]
 
 _logger = logging.getLogger("coframe.viewer")
 
 LARGEST_REQUEST = 1 << 20
+MAX_CONNECTIONS = 512  # a tab has one for its data and, for a moment, some for its files
 # Long messages are sent in parts, so that they neither block other connections nor are copied as a whole.
 _PART = 1 << 18
 # A connection is closed if nothing is sent or received for this many seconds; a WebSocket is pinged once before.
@@ -130,6 +131,10 @@ class WebSocket(asyncio.Protocol):
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
         """Start to receive; see asyncio.Protocol."""
         self._transport = cast("asyncio.Transport", transport)
+        if len(self._connections) >= MAX_CONNECTIONS:
+            _logger.warning("the viewer has %d connections, the limit, and refused another one", MAX_CONNECTIONS)
+            self._transport.abort()
+            return
         self._connections.add(self)
         self._start_idle_timer()
 
@@ -183,7 +188,7 @@ class WebSocket(asyncio.Protocol):
         try:
             response = await self._answer(request)
         except Exception:
-            _logger.exception("the request %s failed", request.path)
+            _logger.exception("the request %s failed", request.path.partition("?")[0])  # without the token
             response = self._protocol.reject(
                 HTTPStatus.INTERNAL_SERVER_ERROR, "The server failed to answer this request.\n"
             )
