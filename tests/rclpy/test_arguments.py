@@ -152,9 +152,17 @@ def test_parameter_files(tmp_path):
     assert of("/hand") == {"use": True}
 
 
-def test_error_of_an_invalid_parameter_file_contains_its_name(tmp_path):
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("arm: 5\n", "ros__parameters"),
+        ("arm:\n  ros__parameters: ;f :yes\n", "expected names and values below `ros__parameters:`, found ';f :yes'"),
+        ("arm:\n  ros__parameters: {[a]: 1}\n", "expected a name on line 2"),
+    ],
+)
+def test_error_of_an_invalid_parameter_file_contains_its_name(tmp_path, text, message):
     pytest.importorskip("yaml")
     path = tmp_path / "params.yaml"
-    path.write_text("arm: 5\n")
-    with pytest.raises(RCLInvalidROSArgsError, match="ros__parameters"):
+    path.write_text(text)
+    with pytest.raises(RCLInvalidROSArgsError, match=message):
         _arguments.parse(["--ros-args", "--params-file", str(path)])

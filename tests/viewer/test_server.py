@@ -112,6 +112,8 @@ def test_other_host_names_are_rejected(page, host):
         *[(f"{method} / HTTP/1.1\r\nHost: {{host}}", 405) for method in ("POST", "PUT", "DELETE", "OPTIONS", "HEAD")],
         ("GET / HTTP/1.1\r\nHost: {host}\r\nHost: {host}", 400),
         ("GET / HTTP/1.1\r\nHost: {host}\r\nHost: evil.example", 400),
+        ("GET /ws HTTP/1.1\r\nHost: {host}\r\nUpgrade: websocket\r\nUpgrade: websocket", 400),
+        ("GET / HTTP/1.1\r\nHost: {host}\r\nIf-None-Match: a\r\nIf-None-Match: b", 400),
         ("GET //[ HTTP/1.1\r\nHost: {host}", 400),
         ("GET / HTTP/1.1\r\nHost: {host}", 200),
     ],

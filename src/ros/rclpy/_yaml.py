@@ -97,10 +97,16 @@ def _python_of(node: Any) -> Any:
     if node is None:
         return {}
     if node.id == "mapping":
-        return {key.value: _python_of(value) for key, value in node.value}
+        return {_name(key): _python_of(value) for key, value in node.value}
     if node.id == "sequence":
         return [_python_of(value) for value in node.value]
     return node.value if node.style else parse_scalar(node.value)
+
+
+def _name(node: Any) -> str:
+    if not isinstance(node.value, str):
+        raise ValueError(f"expected a name on line {node.start_mark.line + 1}, found a list or a mapping")  # noqa: TRY004
+    return node.value
 
 
 def _nodes(tree: Any, prefix: str) -> Iterator[tuple[str, str, Any]]:
@@ -115,6 +121,8 @@ def _nodes(tree: Any, prefix: str) -> Iterator[tuple[str, str, Any]]:
 
 
 def _flatten(tree: Any, prefix: str) -> Iterator[tuple[str, Any]]:
+    if not isinstance(tree, dict) and tree not in (None, ""):
+        raise ValueError(f"expected names and values below `ros__parameters:`, found {tree!r}")
     for key, value in (tree or {}).items():
         if isinstance(value, dict):
             yield from _flatten(value, f"{prefix}{key}.")

@@ -115,7 +115,10 @@ class MeshTable:
         return resolved
 
     def _file_of(self, reference: str, folder: Path | None) -> Path:
-        parts = urlsplit(reference) if "://" in reference else None
+        try:
+            parts = urlsplit(reference) if "://" in reference else None
+        except ValueError:  # such as a host that begins with a bracket
+            raise MeshError(f"{_shown(reference)} is not a valid address") from None
         if parts is None:
             if folder is None:
                 raise MeshError(f"{_shown(reference)} is neither package:// nor file://")

@@ -41,6 +41,8 @@ _TOKEN = "token"  # noqa: S105 - its name in addresses
 _END_TIMEOUT = 5.0
 # Seconds between checks whether all clients have disconnected.
 _END_STEP = 0.01
+# The headers that the server reads; requests that repeat one of them are ambiguous.
+_SINGLE_HEADERS = ("Host", "Origin", "Upgrade", "If-None-Match")
 
 
 class ViewerServer:
@@ -176,10 +178,10 @@ class ViewerServer:
     def _refusal(self, request: Request) -> Response | None:
         """Return the response to a request that is not allowed or not valid; None for others."""
         policy = self._access.content_security
-        hosts = request.headers.get_all("Host")
-        if len(hosts) > 1:
-            return text_response(HTTPStatus.BAD_REQUEST, "The request has more than one Host header.", policy)
-        if not self._access.allows_host(hosts[0] if hosts else None):
+        for name in _SINGLE_HEADERS:
+            if len(request.headers.get_all(name)) > 1:
+                return text_response(HTTPStatus.BAD_REQUEST, f"The request has more than one {name} header.", policy)
+        if not self._access.allows_host(request.headers.get("Host")):
             return text_response(HTTPStatus.FORBIDDEN, "The Host header does not name this server.", policy)
         # Older versions of websockets accept only GET, and do not tell the method.
         if getattr(request, "method", "GET") != "GET":
