@@ -7,7 +7,7 @@ DEMO_STAMP := $(VENV)/.demo_ready
 NATIVE := $(shell find native -name '*.cpp' -o -name '*.hpp' -o -name '*.inc') CMakeLists.txt
 
 .DEFAULT_GOAL := help
-.PHONY: help setup build build-split demo test test-slow test-long test-ros sanitize faults soak lint typecheck format conformance bench generate page page-check clean
+.PHONY: help setup build build-split demo test test-slow test-long test-ros sanitize sanitize-suite fuzz faults soak lint typecheck format conformance bench generate page page-check clean
 
 help: ## list the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  make %-12s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -59,6 +59,16 @@ sanitize: ## run the native core under ThreadSanitizer and AddressSanitizer, als
 	tests/native/sanitized.sh build/sanitize/address/latest 10
 	tests/native/sanitized.sh build/sanitize/address/fuzz_ingest 200000
 	tests/native/sanitized.sh build/sanitize/address/fuzz_frozen 3000
+
+sanitize-suite: $(STAMP) ## run the test suite with AddressSanitizer and UndefinedBehaviorSanitizer in the native module
+	tests/native/sanitized_suite.sh $(ARGS)
+
+$(VENV)/.fuzz: pyproject.toml | $(STAMP)
+	@$(BIN)/python -m pip install --quiet "pip>=25.1" && $(BIN)/python -m pip install --quiet --group fuzz && touch $@ || \
+		echo "fuzz: the package index does not provide atheris; targets in Python are skipped"
+
+fuzz: $(VENV)/.fuzz ## run coverage-guided fuzzing of all decoders and readers for SECONDS=60 in total; ARGS selects targets
+	$(BIN)/python tests/fuzz/run.py --seconds $(or $(SECONDS),60) $(ARGS)
 
 faults: $(STAMP) ## cause faults between real processes, and check what docs/reliability.md promises (15 minutes)
 	@$(BIN)/python -E -m benchmarks.faults $(ARGS)

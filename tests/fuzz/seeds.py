@@ -1,0 +1,343 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The first inputs of each fuzz target: small valid samples by coframe, `mcap`, `rosbags` and by hand."""
+
+from __future__ import annotations
+
+import json
+import math
+import struct
+import sys
+import tempfile
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "bags"))
+
+import recordings
+from recordings import START, walk
+from rosbags.rosbag1.writer import Writer as Rosbag1Writer
+
+import coframe
+from coframe import _core
+from coframe.bags.offered_qos import OfferedQos, to_yaml
+from coframe.messages import find, serialize
+from coframe.wire.discovery_info import NodeInfo, encode_info
+
+
+def part(data: bytes) -> bytes:
+    """Return bytes preceded by their length, as the native targets divide their inputs."""
+    return struct.pack("<I", len(data)) + data
+
+
+def transforms(encode: Callable[..., bytes], most: int = 4) -> list[bytes]:
+    return [encode(parent, child, transform, at) for _, at, parent, child, transform in list(walk())[:most]]
+
+
+def big_endian(parent: str, child: str, transform: coframe.Transform, at: int) -> bytes:
+    body = struct.pack(">IiI", 1, *divmod(at, recordings.SECOND))
+    for name in (parent, child):
+        body += b"\0" * (-len(body) % 4) + struct.pack(">I", len(name) + 1) + name.encode() + b"\0"
+    return b"\0\0\0\0" + body + b"\0" * (-len(body) % 8) + struct.pack(">7d", *transform.values)
+
+
+def many(names: Iterable[str]) -> bytes:
+    buffer = coframe.Buffer(None)
+    for name in names:
+        buffer.set("frame1/odom", name, coframe.Transform([1, 2, 3], [0, 0, 0, 1]), START)
+    return buffer.encode(static=False)
+
+
+def tf_message() -> Iterable[bytes]:
+    cdr = [*transforms(recordings.cdr), *transforms(big_endian), many(["a", "größe", "frame2", "x" * 300])]
+    yield from (b"\0" + data for data in cdr)
+    yield from (b"\1" + data for data in transforms(recordings.ros1))
+
+
+def ingest() -> Iterable[bytes]:
+    several = many(["a", "größe", "frame2", "x" * 300])
+    for options in (0, 1, 4, 8, 16, 33):
+        yield bytes([options]) + b"".join(map(part, [*transforms(recordings.cdr), several]))
+    yield b"\0" + b"".join(map(part, transforms(big_endian)))
+    yield b"\2" + b"".join(map(part, transforms(recordings.ros1)))
+
+
+def relay() -> Iterable[bytes]:
+    for options in range(4):
+        yield bytes([options]) + b"".join(
+            bytes([i % 5, 30]) + part(data)
+            for i, data in enumerate([*transforms(recordings.cdr, 8), many(["frame1/a", "frame2", "b"])])
+        )
+
+
+def moving(count: int) -> coframe.Buffer:
+    buffer = coframe.Buffer(None)
+    for i in range(count):
+        buffer.set("odom", "base", coframe.Transform([i, 0, 0], [0, 0, 0, 1]), START + i * 20_000_000)
+    buffer.set("base", "lidar", coframe.Transform([0, 0, 1], [0, 0, 0, 1]), START, static=True)
+    return buffer
+
+
+def frozen() -> Iterable[bytes]:
+    for count in (3, 300):
+        snapshot = moving(count).snapshot()
+        table, chunks = _core.frozen_parts(snapshot)
+        yield part(table) + _core.frozen_chunks(snapshot, 0, chunks)
+
+
+def recording_files(write: Callable[[Path], object]) -> bytes:
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "recording"
+        write(path)
+        if path.is_dir():
+            path = next(file for file in path.iterdir() if file.name != "metadata.yaml")
+        return path.read_bytes()
+
+
+def short_rows(encode: Callable[..., bytes] = recordings.cdr) -> list[tuple[str, int, bytes]]:
+    return recordings.messages(encode)[:6]
+
+
+def mcap() -> Iterable[bytes]:
+    kinds = recordings.CompressionType
+    schemas = {
+        "/tf": (
+            "lab/msg/Own",
+            "ros2msg",
+            b"\n".join(
+                [b"string<=4 s", b"float64[] x", b"lab/P[2] p", b"=" * 16, b"MSG: lab/P", b"int8 a", b"wstring b"]
+            ),
+            "cdr",
+        ),
+        "/tf_static": ("foxglove.FrameTransform", "jsonschema", b"{}", "json"),
+    }
+    foxglove = [(t, at, recordings.foxglove_json(*facts, at)) for t, at, *facts in list(walk())[:2]]
+    protobuf = [(t, at, recordings.foxglove_protobuf(*facts, at)) for t, at, *facts in list(walk())[:2]]
+    binary = ("foxglove.FrameTransform", "protobuf", recordings.foxglove_protobuf_definition(), "protobuf")
+    for options in (
+        {"compression": kinds.ZSTD},
+        {"compression": kinds.LZ4},
+        {"compression": kinds.NONE},
+        {"chunked": False},
+        {"compression": kinds.NONE, "finish": False},
+        {"compression": kinds.NONE, "types": schemas},
+        {"compression": kinds.NONE, "types": {"/tf": schemas["/tf_static"]}, "rows": foxglove},
+        {"compression": kinds.NONE, "types": {"/tf": binary}, "rows": protobuf},
+    ):
+        yield recording_files(
+            lambda path, options=options: recordings.write_mcap(path, **{"rows": short_rows(), **options})
+        )
+
+
+def repair() -> Iterable[bytes]:
+    yield from mcap()
+
+
+def frozen_file() -> Iterable[bytes]:
+    for count in (3, 300):
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "buffer.cfz"
+            moving(count).save(path)
+            yield path.read_bytes()
+
+
+def mcap_records() -> Iterable[bytes]:
+    message = struct.pack("<BQHIQQ", 5, 25, 1, 7, START, START) + b"abc"
+    channel = struct.pack("<BQ", 4, 5) + b"12345"
+    yield channel + message * 3
+    yield message + struct.pack("<BQ", 0x80, 3) + b"own" + message[:-1]
+    yield from mcap()
+
+
+def sqlite() -> Iterable[bytes]:
+    for version in (1, 4):
+        yield recording_files(
+            lambda path, version=version: recordings.write_sqlite(path / "walk.db3", version, short_rows())
+        )
+
+
+def ros1_bag() -> Iterable[bytes]:
+    for compression in (None, Rosbag1Writer.CompressionFormat.BZ2, Rosbag1Writer.CompressionFormat.LZ4):
+        yield recording_files(
+            lambda path, compression=compression: recordings.write_rosbag1(
+                path, compression, short_rows(recordings.ros1)
+            )
+        )
+
+
+def metadata() -> Iterable[bytes]:
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "walk"
+        recordings.write_rosbag2(path, rows=short_rows())
+        yield (path / "metadata.yaml").read_bytes()
+    yield to_yaml([OfferedQos(), OfferedQos(5, False, True, True)]).encode()
+
+
+def messages() -> Iterable[bytes]:
+    from python_targets import MESSAGE_TYPES
+
+    for number, name in enumerate(MESSAGE_TYPES):
+        message = find(name)()
+        yield bytes([number]) + serialize(message)
+        if hasattr(message, "header"):
+            message.header.frame_id = "base"
+            yield bytes([number]) + serialize(message)
+    yield bytes([MESSAGE_TYPES.index("tf2_msgs/msg/TFMessage")]) + many(["a", "b"])
+
+
+def definitions() -> Iterable[bytes]:
+    yield b"m# a comment\nstd_msgs/Header header\nint32 X=3\nstring<=5 name 'a'\nfloat64[<=9] v [1.5, 2]\nuint8[4] d\n"
+    yield b"m" + b'int32 a\n---\nbool b true\nstring t "x\\"y"\n'
+    yield b"ibool a\n"
+    yield (
+        b"imodule lab { module msg { const long N = 3; typedef double v[3]; enum E { A, B };\n"
+        b'@verbatim (language="comment", text="x") struct P { @default (value=3) long a;\n'
+        b"sequence<string<5>, 2> s; v w; }; }; };"
+    )
+
+
+def discovery() -> Iterable[bytes]:
+    nodes = [NodeInfo("/", "talker", (bytes(range(16)),), (bytes(16), bytes(range(16)))), NodeInfo("/robot", "größe")]
+    for size in (16, 24):
+        yield encode_info(bytes(range(1, 17)), nodes, size)
+        yield encode_info(bytes(16), [], size)
+    yield b"typehash=RIHS01_" + b"a0" * 32 + b";enclave=/;"
+
+
+ARM = """<?xml version="1.0"?>
+<robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
+  <material name="red"><color rgba="1 0 0 1"/></material>
+  <link name="base"><visual><origin xyz="0 0 1" rpy="0 0.5 0"/><geometry><box size="1 2 3"/></geometry>
+    <material name="red"/></visual><collision><geometry><mesh filename="package://lab/a.stl" scale="1 1 1"/></geometry>
+    </collision><inertial><mass value="2"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial></link>
+  <link name="upper"><visual><geometry><cylinder radius="0.1" length="1"/></geometry></visual></link>
+  <link name="tip"><visual><geometry><sphere radius="0.1"/></geometry></visual></link>
+  <joint name="turn" type="revolute"><parent link="base"/><child link="upper"/><origin xyz="1 0 0"/><axis xyz="0 0 1"/>
+    <limit lower="-1" upper="1" effort="1" velocity="1"/></joint>
+  <joint name="slide" type="prismatic"><parent link="upper"/><child link="tip"/><axis xyz="1 0 0"/>
+    <limit lower="-1" upper="1" effort="1" velocity="1"/><mimic joint="turn" multiplier="2" offset="0.1"/></joint>
+</robot>
+"""
+
+
+def urdf() -> Iterable[bytes]:
+    yield ARM.encode()
+    yield ARM.replace('<?xml version="1.0"?>', '<?xml version="1.0" encoding="latin-1"?>').encode("latin-1")
+    yield ARM.encode("utf-16")
+
+
+def xacro() -> Iterable[bytes]:
+    yield ARM.replace(
+        "</robot>",
+        """<xacro:property name="n" value="${2 * 3}"/><xacro:arg name="a" default="1"/>
+        <xacro:macro name="part" params="name *origin size:=^|2"><link name="${name}_${size}"/>
+        <xacro:if value="${n > 3}"><xacro:insert_block name="origin"/></xacro:if></xacro:macro>
+        <xacro:part name="x$(arg a)"><origin xyz="0 0 ${n}"/></xacro:part></robot>""",
+    ).encode()
+
+
+def rviz() -> Iterable[bytes]:
+    yield b"""Panels: []
+Visualization Manager:
+  Class: ""
+  Displays:
+    - {Alpha: 0.5, Class: rviz_default_plugins/Grid, Enabled: true, Name: Grid, Cell Size: 1, Color: 160; 160; 164}
+    - {Class: rviz_default_plugins/TF, Enabled: true, Name: TF, Frame Timeout: 15, Frames: {All Enabled: true}}
+    - Class: rviz_common/Group
+      Displays:
+        - Class: rviz_default_plugins/LaserScan
+          Topic: {Depth: 5, Value: /scan, Reliability Policy: Best Effort, Durability Policy: Volatile}
+          Size (m): 0.01
+      Enabled: true
+      Name: Group
+  Global Options: {Background Color: 48; 48; 48, Fixed Frame: odom, Frame Rate: 30}
+  Tools: [{Class: rviz_default_plugins/SetGoal, Topic: {Value: /goal_pose}}]
+  Views:
+    Current: {Class: rviz_default_plugins/Orbit, Distance: 10, Focal Point: {X: 0, Y: 0, Z: 0}, Pitch: 0.5, Yaw: 0.7}
+"""
+
+
+def mesh_names() -> Iterable[bytes]:
+    for name in ("package://lab/meshes/a.stl", "file:///tmp/a%20b.dae", "a/../b.obj", "http://x/a.stl", "a.stl\0x"):
+        yield name.encode()
+
+
+def viewer_messages() -> Iterable[bytes]:
+    frames = [
+        {"type": "ready", "drawn": 1.5},
+        {"type": "set_fixed_frame", "frame": "odom"},
+        {"type": "subscribe", "topic": "/tf"},
+        {"type": "relate", "target": "odom", "source": "base"},
+        {"type": "set_time", "time": 2.5},
+        {"type": "explain", "code": "TF001"},
+        {"type": "load_rviz", "text": next(iter(rviz())).decode()},
+    ]
+    from typing import get_args
+
+    from coframe.viewer.protocol.messages import ClientMessage
+    from coframe.viewer.protocol.schema import record
+
+    frames += [
+        {"type": one.type, **{part.name: 1 for part in record(one).fields if part.name != "type"}}
+        for one in get_args(ClientMessage)
+    ]
+    yield from (json.dumps(fields).encode() for fields in frames)
+    yield "\n".join(map(json.dumps, frames)).encode()
+
+
+def viewer_socket() -> Iterable[bytes]:
+    host = b"Host: 127.0.0.1:7676\r\n"
+    yield b"GET / HTTP/1.1\r\n" + host + b"\r\n"
+    yield b"GET /assets/page.js?x=%2e%2e HTTP/1.1\r\n" + host + b'If-None-Match: "x"\r\n\r\n'
+    yield b"POST /mesh/x/../y HTTP/1.1\r\n" + host + b"Content-Length: 3\r\n\r\nabc"
+    opening = (
+        b"GET /ws HTTP/1.1\r\n" + host + b"Upgrade: websocket\r\nConnection: Upgrade\r\n"
+        b"Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\nSec-WebSocket-Version: 13\r\n\r\n"
+    )
+    frames = b"".join(websocket_frame(data) for data in list(viewer_messages())[:5])
+    yield opening + frames
+    yield opening + websocket_frame(b"{", opcode=1, final=False) + websocket_frame(b"}", opcode=0)
+    yield opening + websocket_frame(b"ping", opcode=9) + websocket_frame(b"\x03\xe8bye", opcode=8)
+
+
+def websocket_frame(data: bytes, opcode: int = 1, *, final: bool = True) -> bytes:
+    length = len(data)
+    size = bytes([0x80 | length]) if length < 126 else b"\xfe" + struct.pack(">H", length)
+    return bytes([0x80 * final | opcode]) + size + bytes(4) + data
+
+
+def launch_xml() -> Iterable[bytes]:
+    yield b"""<launch><arg name="a" default="1" description="x"/><let name="b" value="$(var a)$(env HOME x)"/>
+<group if="$(eval '1 + 1 == 2')"><push_ros_namespace namespace="r"/>
+<node pkg="lab" exec="listener" name="n" args="--x $(var b)" output="screen"><param name="p" value="1.5"/>
+<param name="l" value="1;2" value-sep=";"/><remap from="/a" to="/b"/><env name="E" value="1"/></node></group>
+<executable cmd="ls $(dirname)" shell="false"/><set_env name="X" value="$(find-pkg-share lab)"/>
+<include file="$(dirname)/x.launch.py"><arg name="q" value="$(anon n)"/></include><timer period="1.0"/></launch>"""
+
+
+def launch_yaml() -> Iterable[bytes]:
+    yield b"""launch:
+- arg: {name: a, default: '1'}
+- let: {name: b, value: $(var a)}
+- group:
+  - push_ros_namespace: {namespace: r}
+  - node: {pkg: lab, exec: listener, name: n, param: [{name: p, value: 1.5}], remap: [{from: /a, to: /b}]}
+- executable: {cmd: ls $(dirname), shell: 'false'}
+- include: {file: x.launch.py, arg: [{name: q, value: $(anon n)}]}
+"""
+
+
+def parameters() -> Iterable[bytes]:
+    yield (
+        b"/**:\n  ros__parameters:\n    a: 1\n    b: [1.5, .5, 1e5]\n    c: {d: 'x', e: [a, b]}\n"
+        b"/r/n:\n  ros__parameters: {f: yes}\n"
+    )
+    yield b"[1, 2.5, 'x']"
+
+
+def trajectories() -> Iterable[bytes]:
+    rows = [(START / 1e9 + i / 20, math.cos(i), math.sin(i), 0, 0, 0, 0, 1) for i in range(4)]
+    yield "".join(" ".join(map(str, row)) + "\n" for row in rows).encode()
+    yield b"# t x y z qx qy qz qw\n" + ",".join(map(str, rows[0])).encode()
