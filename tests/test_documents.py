@@ -3,6 +3,7 @@
 
 import doctest
 import importlib
+import os
 import pkgutil
 import re
 import subprocess
@@ -26,7 +27,7 @@ def blocks(document, language):
 @pytest.mark.parametrize("document", [d for d in DOCUMENTS if blocks(d, "python")], ids=lambda d: d.name)
 @pytest.mark.usefixtures("domain_id")
 def test_python_examples_run_and_print_what_they_say(document, capsys):
-    pytest.importorskip("cyclonedds", reason="some examples join the ROS graph")
+    pytest.importorskip("dds_library", reason="some examples join the ROS graph")
     source = "\n".join(blocks(document, "python"))
     exec(compile(source, document.name, "exec"), {"__name__": document.name})  # the examples of one page go together
     printed = capsys.readouterr().out.splitlines()
@@ -91,7 +92,7 @@ def test_importing_coframe_needs_numpy_only():
 import sys
 class Missing:
     def find_spec(self, name, path=None, target=None):
-        if name.partition(".")[0] in {"cyclonedds", "typer", "rich", "typing_extensions", "rosbags", "mcap", "yaml"}:
+        if name.partition(".")[0] in {"typer", "rich", "typing_extensions", "rosbags", "mcap", "yaml"}:
             raise ModuleNotFoundError(f"No module named {name!r}", name=name)
 sys.meta_path.insert(0, Missing())
 import coframe
@@ -103,7 +104,8 @@ except coframe.WireError as error:
 import coframe.cli
 coframe.cli.main()
 """
-    result = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
-    assert "pip install 'coframe[" in result.stdout
+    absent = {**os.environ, "COFRAME_DDS_LIBRARY": "/absent/libddsc.so"}
+    result = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False, env=absent)
+    assert "Use one of these ways: " in result.stdout
     assert "pip install 'coframe[cli]'" in result.stderr
     assert "Traceback" not in result.stderr

@@ -275,7 +275,8 @@ void define_readers(nb::module_& wire) {
 
 void define_wire(nb::module_& wire) {
   nb::exception<dds::Error>(wire, "DdsError", PyExc_RuntimeError);
-  wire.def("load_dds", &dds::load, nb::arg("path"), "Load the DDS library; raise RuntimeError if it is not usable.");
+  wire.def("load_dds", &dds::load, nb::arg("path"),
+           "Load the DDS library and return its release, \"0.10\" or \"11\"; raise RuntimeError if it is not usable.");
   wire.def("create_unchecked_topic", &dds::create_unchecked_topic, nb::arg("participant"), nb::arg("name"),
            nb::arg("type_name"), ReleaseGil(),
            "Create a topic whose readers check the bytes themselves; return its handle.");

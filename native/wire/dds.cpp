@@ -1,74 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "wire/dds.hpp"
 
-#include <atomic>
 #include <utility>
 
-#ifdef _WIN32
-#include <windows.h>
-#else
-#include <dlfcn.h>
-#include <pthread.h>
-#endif
+#include "wire/library.hpp"
+#include "wire/raw_sample.hpp"
 
 namespace coframe::dds {
-namespace {
-
-Functions loaded;
-bool is_loaded = false;
-std::atomic<int> participants = 0;
-std::atomic<bool> is_forked = false;
-
-#ifdef _WIN32
-void* open_library(const std::string& path) { return reinterpret_cast<void*>(LoadLibraryA(path.c_str())); }
-void* find_symbol(void* library, const char* name) {
-  return reinterpret_cast<void*>(GetProcAddress(reinterpret_cast<HMODULE>(library), name));
-}
-#else
-void* open_library(const std::string& path) { return dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL); }
-void* find_symbol(void* library, const char* name) { return dlsym(library, name); }
-#endif
-
-template <class Function>
-void find(void* library, const char* name, const std::string& path, Function& function) {
-  function = reinterpret_cast<Function>(find_symbol(library, name));
-  if (function == nullptr) {
-    throw std::runtime_error("The DDS library " + path + " has no function " + name +
-                             ". coframe requires cyclonedds 11. Install it with: pip install cyclonedds==11.*");
-  }
-}
-
-}  // namespace
 
 Error::Error(const std::string& what, Code code)
     : std::runtime_error("could not " + what + ": " + loaded.dds_strretcode(code)), code_(code) {}
-
-void load(const std::string& path) {
-  if (is_loaded) return;
-  void* library = open_library(path);
-  if (library == nullptr) throw std::runtime_error("Could not load the DDS library " + path);
-  Functions found;
-#define COFRAME_FIND(result, name, arguments) find(library, #name, path, found.name);
-  COFRAME_DDS_FUNCTIONS(COFRAME_FIND)
-#undef COFRAME_FIND
-  loaded = found;
-  is_loaded = true;
-#ifndef _WIN32
-  pthread_atfork(nullptr, nullptr, [] { is_forked = is_forked || participants > 0; });
-#endif
-}
-
-const Functions& functions() {
-  if (!is_loaded) throw std::logic_error("The DDS library is not loaded.");
-  if (is_forked)
-    throw std::logic_error(
-        "This process was forked while its parent used DDS, so it cannot use DDS. Start processes with 'spawn'.");
-  return loaded;
-}
-
-bool forked() noexcept { return is_forked; }
-
-void count_participants(int change) noexcept { participants += change; }
 
 Code check(Code code, const char* what) {
   if (code < 0) throw Error(what, code);
@@ -94,6 +35,18 @@ Entity create_unchecked_topic(Entity participant, const std::string& name, const
                                   .representations = 0};
   return check(functions().dds_create_topic(participant, &descriptor, name.c_str(), nullptr, nullptr),
                "create the topic");
+}
+
+Code write(Entity writer, const void* data, std::size_t size) {
+  const Functions& f = functions();
+  if (f.dds_get_entity_sertype == nullptr) return RawSample(data, size).write(writer);
+  const Sertype* type;
+  if (const Code code = f.dds_get_entity_sertype(writer, &type); code < 0) return code;
+  IoVector whole{};
+  whole.data = const_cast<void*>(data);
+  whole.size = static_cast<decltype(whole.size)>(size);
+  Serdata* sample = f.ddsi_serdata_from_ser_iov(type, kData, 1, &whole, size);  // copies the bytes
+  return sample ? f.dds_writecdr(writer, sample) : kBadParameter;               // releases the sample
 }
 
 void release_topic(Entity topic) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The functions of Cyclone DDS that the wire uses, loaded at run time from the library of the `cyclonedds` wheel. The
-// wheel contains no headers, so the few structures that are passed to it are declared here as in Cyclone DDS 11.
+// The functions of Cyclone DDS that the wire uses, loaded at run time from the library that coframe.wire.library finds.
+// There need not be headers, so the few structures that are passed to it are declared here. They are the same in
+// Cyclone DDS 0.10 and 11; `load` checks what can be checked.
 #pragma once
 
 #include <cstddef>
@@ -142,7 +143,6 @@ inline constexpr Code kPreconditionNotMet = -4;
   X(Entity, dds_create_reader, (Entity participant, Entity topic, const Qos*, const Listener*))                      \
   X(Code, dds_delete, (Entity))                                                                                      \
   X(Code, dds_writecdr, (Entity writer, Serdata*))                                                                   \
-  X(Code, dds_get_entity_sertype, (Entity, const Sertype**))                                                         \
   X(Code, dds_take, (Entity reader, void** samples, SampleInfo*, std::size_t size, std::uint32_t limit))             \
   X(Code, dds_return_loan, (Entity reader, void** samples, std::int32_t count))                                      \
   X(Code, dds_takecdr, (Entity reader, Serdata**, std::uint32_t limit, SampleInfo*, std::uint32_t mask))             \
@@ -207,6 +207,8 @@ struct Functions {
 #define COFRAME_DECLARE(result, name, arguments) result(*name) arguments = nullptr;
   COFRAME_DDS_FUNCTIONS(COFRAME_DECLARE)
 #undef COFRAME_DECLARE
+  Code (*dds_get_entity_sertype)(Entity, const Sertype**) = nullptr;  // null in Cyclone DDS 0.10
+  const void* ddsi_sertype_v0 = nullptr;                              // a tag; its address is compared
 };
 
 // A DDS call that failed.
@@ -219,9 +221,11 @@ class Error : public std::runtime_error {
   Code code_;
 };
 
-// Loads the library at `path` and finds every function. Throws std::runtime_error that names what is missing. The
-// library stays loaded, because its threads may outlive all objects of this module.
-void load(const std::string& path);
+// Loads the library at `path` (UTF-8), finds every function, checks how it passes arguments, and returns the release
+// whose binary interface it has: "0.10" or "11". Throws std::runtime_error with what is wrong, as a clause about the
+// library ("has no function ..."). A second call returns the same release and does not look at `path`. The library
+// stays loaded, because its threads may outlive all objects of this module.
+std::string load(const std::string& path);
 
 // Returns the functions. Throws std::logic_error before load() and if forked().
 const Functions& functions();
@@ -239,6 +243,9 @@ Code check(Code code, const char* what);
 // real type, Cyclone DDS drops invalid messages with a line on stderr each, which cannot be counted, and its check of
 // sent messages takes three times as long as the rest of sending.
 Entity create_unchecked_topic(Entity participant, const std::string& name, const std::string& type);
+
+// Sends serialised bytes: 4 bytes of encapsulation, then CDR. They are copied.
+Code write(Entity writer, const void* data, std::size_t size);
 
 // Deletes a topic once its reader or writer was created, which keeps what it needs of it. Built-in topics stay.
 void release_topic(Entity topic);

@@ -42,15 +42,8 @@ void Writer::forward(const void* data, std::size_t size) const {
 }
 
 dds::Code Writer::pass_on(const void* data, std::size_t size) const {
-  const dds::Functions& f = dds::functions();
   const std::lock_guard lock(closing_);
-  const dds::Sertype* type;
-  if (const dds::Code code = f.dds_get_entity_sertype(entity_, &type); code < 0) return code;
-  dds::IoVector whole{};
-  whole.data = const_cast<void*>(data);
-  whole.size = static_cast<decltype(whole.size)>(size);
-  dds::Serdata* sample = f.ddsi_serdata_from_ser_iov(type, dds::kData, 1, &whole, size);  // copies the bytes
-  return sample ? f.dds_writecdr(entity_, sample) : dds::kBadParameter;                   // releases the sample
+  return dds::write(entity_, data, size);
 }
 
 void Writer::close() noexcept {

@@ -672,8 +672,8 @@ SUBSCRIPTIONS: int
 class DdsError(RuntimeError):
     """A DDS call failed."""
 
-def load_dds(path: str) -> None:
-    """Load the DDS library; raise RuntimeError if it is not usable."""
+def load_dds(path: str) -> str:
+    """Load the DDS library and return its release, "0.10" or "11"; raise RuntimeError if it is not usable."""
 
 def create_unchecked_topic(participant: int, name: str, type_name: str) -> int:
     """Create a topic whose readers check the bytes themselves; return its handle."""

@@ -340,7 +340,7 @@ def connect(
 
     Raises:
         ValueError: The prefix begins with a slash.
-        WireError: cyclonedds is not installed, or DDS cannot join the graph. `.hint` says what to do.
+        WireError: There is no usable DDS library, or DDS cannot join the graph. `.hint` says what to do.
 
     Example:
         >>> with coframe.connect() as ros:                                    # doctest: +SKIP

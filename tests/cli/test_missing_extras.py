@@ -54,7 +54,7 @@ print(json.dumps(results))
 def run(tmp_path):
     """Return a function that runs commands with some packages hidden, and returns their exit codes and outputs."""
 
-    def run(hidden, *commands):
+    def run(hidden, *commands, **environment):
         script = HIDE.format(hidden=set(hidden)) + RUN_ALL
         result = subprocess.run(
             [sys.executable, "-c", script, json.dumps([[str(word) for word in words] for words in commands])],
@@ -62,7 +62,7 @@ def run(tmp_path):
             check=True,
             text=True,
             timeout=120,
-            env={**os.environ, "COLUMNS": "80"},
+            env={**os.environ, "COLUMNS": "80", **environment},
             cwd=tmp_path,
         )
         return [(code, text) for code, text in json.loads(result.stdout)]
@@ -80,7 +80,6 @@ def test_without_the_extra_cli(run, hidden):
 
 def test_help_needs_only_the_extra_cli(run):
     optional = [
-        "cyclonedds",
         "yaml",
         "mcap",
         "zstandard",
@@ -112,7 +111,7 @@ def test_help_needs_only_the_extra_cli(run):
         assert (code, "Example: coframe" in text) == (0, True), text
 
 
-def test_live_commands_without_the_extra_dds(run):
+def test_live_commands_without_a_dds_library(run, tmp_path):
     commands = [
         ["demo", "--duration", "1", "--no-browser"],
         ["demo", "--robots", "2", "--duration", "1", "--no-browser"],
@@ -126,9 +125,12 @@ def test_live_commands_without_the_extra_dds(run):
         ["record"],
         ["static", "--frame-id", "a", "--child-frame-id", "b"],
     ]
-    for words, (code, text) in zip(commands, run(["cyclonedds"], *commands), strict=True):
+    absent = str(tmp_path / "libddsc.so")
+    results = run([], *commands, COFRAME_DDS_LIBRARY=absent)
+    for words, (code, text) in zip(commands, results, strict=True):
         assert code == 1, (words, text)
-        assert "pip install 'coframe[dds]'" in text, (words, text)
+        assert "libddsc" in text, (words, text)
+        assert "Use one of these ways: " in text, (words, text)
         assert "Traceback" not in text, (words, text)
 
 

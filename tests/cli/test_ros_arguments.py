@@ -25,7 +25,7 @@ REMAPPED = [
 
 @pytest.mark.usefixtures("domain_id")
 def test_commands_are_remapped_as_the_tools_of_ros_are():
-    pytest.importorskip("cyclonedds", reason="the commands speak DDS")
+    pytest.importorskip("dds_library", reason="the commands speak DDS")
     from coframe.wire import Participant
 
     words = ["static", "--z", "0.5", "--frame-id", "base_link", "--child-frame-id", "lidar", *REMAPPED]

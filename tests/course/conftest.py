@@ -5,7 +5,7 @@ import shutil
 
 import pytest
 
-pytest.importorskip("cyclonedds", reason="the nodes of a folder speak DDS")
+pytest.importorskip("dds_library", reason="the nodes of a folder speak DDS")
 
 from grades import SOLUTION  # of this folder
 

@@ -71,7 +71,7 @@ class Inside:
 
 @pytest.fixture
 def inside(network, domain_id):  # noqa: ARG001 - sets the domain for the processes
-    pytest.importorskip("cyclonedds", reason="the processes communicate over DDS")
+    pytest.importorskip("dds_library", reason="the processes communicate over DDS")
     processes = Inside(network)
     yield processes
     processes.close()

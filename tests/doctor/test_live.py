@@ -87,7 +87,7 @@ commands, grid = node.create_publisher(JointState, "/arm", 10), node.create_publ
 
 
 def test_departed_publisher_is_removed_with_its_transforms(domain_id, eventually):
-    pytest.importorskip("cyclonedds", reason="transforms are received over DDS")
+    pytest.importorskip("dds_library", reason="transforms are received over DDS")
     message = find("tf2_msgs/msg/TFMessage")
     with LiveObserver(domain_id, window=300_000_000) as listening:
 

@@ -156,7 +156,7 @@ class TestPlurals:
 
 @pytest.mark.usefixtures("domain_id")
 def test_recording_nothing_is_reported(tmp_path):
-    pytest.importorskip("cyclonedds")
+    pytest.importorskip("dds_library")
     code, out, error = run("record", "/nothing", "-o", tmp_path / "run", "--duration", "500ms")
     assert code == 1
     assert "0 messages on 0 topics" in out

@@ -22,7 +22,7 @@ def test_completion(tmp_path, line, expected):
 
 @pytest.mark.usefixtures("domain_id")
 def test_completion_of_live_topics(tmp_path, eventually):
-    pytest.importorskip("cyclonedds", reason="topics are found over DDS")
+    pytest.importorskip("dds_library", reason="topics are found over DDS")
     with coframe.connect(tf_topic="/robot1/tf"):
         # A busy machine may need longer than the command waits for the discovery of topics.
         eventually(lambda: completed("coframe echo a b --tf-topic /ro", tmp_path) == ["/robot1/tf"])

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-pytest.importorskip("cyclonedds", reason="the programs speak DDS")
+pytest.importorskip("dds_library", reason="the programs speak DDS")
 
 RUNNER = Path(__file__).with_name("run_program.py")
 ARGUMENTS = Path(__file__).with_name("arguments.py")

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-pytest.importorskip("cyclonedds", reason="the nodes speak DDS")
+pytest.importorskip("dds_library", reason="the nodes speak DDS")
 
 TALKER = """
 import rclpy

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-pytest.importorskip("cyclonedds", reason="the nodes speak DDS")
+pytest.importorskip("dds_library", reason="the nodes speak DDS")
 
 from launch.actions import EmitEvent, ExecuteProcess, LogInfo, RegisterEventHandler, Shutdown
 from launch.substitutions import SubstitutionFailure

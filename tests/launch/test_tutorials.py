@@ -5,7 +5,7 @@ import sys
 
 import pytest
 
-pytest.importorskip("cyclonedds", reason="the nodes speak DDS")
+pytest.importorskip("dds_library", reason="the nodes speak DDS")
 
 import rclpy
 from geometry_msgs.msg import Twist

@@ -6,7 +6,7 @@ import sys
 
 PROGRAM = """
 import sys
-HIDDEN = {"cyclonedds", "yaml", "cv2", "PyKDL", "scipy", "transforms3d"}
+HIDDEN = {"yaml", "cv2", "PyKDL", "scipy", "transforms3d"}
 class Hidden:
     def find_spec(self, name, path=None, target=None):
         if name.partition(".")[0] in HIDDEN:

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-pytest.importorskip("cyclonedds")
+pytest.importorskip("dds_library")
 PROGRAMS = Path(__file__).parent / "programs"
 PATIENCE = 60.0
 

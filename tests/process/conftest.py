@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-pytest.importorskip("cyclonedds", reason="the processes speak DDS")
+pytest.importorskip("dds_library", reason="the processes speak DDS")
 pytest.importorskip("rosless", reason="the independent RTPS program")
 
 OBSERVER = Path(__file__).with_name("observer.py")

@@ -150,7 +150,7 @@ def test_every_command_and_lab_node_starts(sourced):
 @pytest.mark.slow
 @pytest.mark.usefixtures("domain_id")
 def test_demo_robot_and_joints_run(sourced):
-    pytest.importorskip("cyclonedds", reason="the nodes speak DDS")
+    pytest.importorskip("dds_library", reason="the nodes speak DDS")
     pytest.importorskip("xacro", reason="the arm is a xacro file")
     environment = ros_stand_in.environment(sourced)
     options = {"env": environment, "stdout": subprocess.PIPE, "stderr": subprocess.STDOUT, "text": True}

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 
 import pytest
 
-pytest.importorskip("cyclonedds", reason="recording and replay need DDS")
+pytest.importorskip("dds_library", reason="recording and replay need DDS")
 
 from coframe.wire import GraphNode, Participant
 

@@ -15,7 +15,7 @@ from pathlib import Path
 
 import pytest
 
-pytest.importorskip("cyclonedds", reason="the programs speak DDS")
+pytest.importorskip("dds_library", reason="the programs speak DDS")
 
 WORKSPACE = Path(__file__).with_name("workspace")
 PATIENCE = 40.0  # seconds; the machine may be busy

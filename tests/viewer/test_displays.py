@@ -8,7 +8,7 @@ from array import array
 import numpy as np
 import pytest
 
-pytest.importorskip("cyclonedds", reason="live displays need DDS")
+pytest.importorskip("dds_library", reason="live displays need DDS")
 
 import coframe
 from coframe.messages import find

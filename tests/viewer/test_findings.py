@@ -86,7 +86,7 @@ def test_a_buffer_is_not_examined(view, open_tab):
 
 @pytest.mark.slow
 def test_the_graph_is_examined_while_a_page_is_open(domain_id, view, open_tab):
-    pytest.importorskip("cyclonedds", reason="transforms come over DDS")
+    pytest.importorskip("dds_library", reason="transforms come over DDS")
     with coframe.connect("looker", domain=domain_id) as ros, Publisher("one", domain_id, 0.0):
         tab = open_tab(view(ros))
         assert findings(tab)["findings"] == []

@@ -7,7 +7,7 @@ import time
 import numpy as np
 import pytest
 
-pytest.importorskip("cyclonedds", reason="live panels need DDS")
+pytest.importorskip("dds_library", reason="live panels need DDS")
 
 import coframe
 from coframe.messages import find

@@ -164,7 +164,7 @@ def test_an_invalid_robot_description_gives_a_message(tmp_path):
 
 @pytest.mark.parametrize(("options", "topic"), [({}, "/joint_states"), ({"joint_states": "/sliders"}, "/sliders")])
 def test_descriptions_are_received_and_joint_states_published(domain_id, view, open_tab, options, topic):
-    pytest.importorskip("cyclonedds", reason="topics need DDS")
+    pytest.importorskip("dds_library", reason="topics need DDS")
     from coframe.messages import find
     from coframe.wire.qos import QoS
 

@@ -21,7 +21,7 @@ STATIC = {"parent": "base", "child": "lidar", "translation": [0.1, 0.0, 0.3], "q
 @pytest.fixture
 def graph(domain_id):
     """A node on the graph, and the connection that the viewer shows, with a static mount."""
-    pytest.importorskip("cyclonedds", reason="topics need DDS")
+    pytest.importorskip("dds_library", reason="topics need DDS")
     with (
         coframe.connect("navigation", domain=domain_id) as node,
         coframe.connect("viewer", domain=domain_id) as shown,

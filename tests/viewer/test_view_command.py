@@ -12,7 +12,7 @@ import urllib.request
 import numpy as np
 import pytest
 
-pytest.importorskip("cyclonedds", reason="the commands join the ROS graph")
+pytest.importorskip("dds_library", reason="the commands join the ROS graph")
 
 COMMAND = [sys.executable, "-m", "coframe.cli"]
 

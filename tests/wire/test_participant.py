@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
 import os
-import subprocess
-import sys
 import threading
 import time
 from pathlib import Path
@@ -161,23 +159,6 @@ def test_the_error_for_a_full_domain(domain_id, monkeypatch, child):
     ) as caught:
         Participant.get(domain_id)
     assert "ROS_DOMAIN_ID" in caught.value.hint
-
-
-def test_without_cyclonedds_only_joining_the_graph_fails(tmp_path):
-    (tmp_path / "cyclonedds.py").write_text("raise ImportError('not installed')\n")
-    code = (
-        "import coframe, coframe.wire\n"
-        "try:\n    coframe.connect()\n"
-        "except coframe.WireError as error:\n    print(error)\n"
-    )
-    run = subprocess.run(
-        [sys.executable, "-c", code],
-        capture_output=True,
-        text=True,
-        check=True,
-        env={**os.environ, "PYTHONPATH": str(tmp_path)},
-    )
-    assert "pip install 'coframe[dds]'" in run.stdout
 
 
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="only where processes fork")

@@ -19,7 +19,6 @@ _COMPLETING = {"_COFRAME_COMPLETE", "_ROS2_COMPLETE"}
 _INTERRUPTED = 130  # exit code: 128 + SIGINT, as shells have it
 # The extra that installs each package which a command may need.
 _EXTRAS = {
-    "cyclonedds": "dds",
     "lz4": "bags",
     "matplotlib": "plot",
     "mcap": "bags",

@@ -28,7 +28,7 @@ from coframe.cli.options import (
 from coframe.cli.output import fail, warn
 from coframe.viewer import start_viewer
 from coframe.viewer.replay.page import MAX_RATE
-from coframe.wire import dds
+from coframe.wire import library
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -141,7 +141,7 @@ def view(
         fail(f"{unused[0]} can only be used with --output", code=2)
     with run_until_interrupted():
         if live:
-            dds.check()
+            library.check()
         viewer = start_viewer(
             "coframe: joining the ROS graph" if live else Path(bag).name,
             "live" if live else "buffer",

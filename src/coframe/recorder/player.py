@@ -241,7 +241,7 @@ def play(
 
     Raises:
         RecordingError: The recording cannot be read, has no such topic, or ends before the start.
-        WireError: cyclonedds is not installed, or DDS cannot join the graph.
+        WireError: There is no usable DDS library, or DDS cannot join the graph.
         ValueError: An argument has an invalid value.
 
     Example:

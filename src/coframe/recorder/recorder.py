@@ -248,7 +248,7 @@ def record(
 
     Raises:
         RecordingError: The folder exists or cannot be created, or a package is not installed.
-        WireError: cyclonedds is not installed, or DDS cannot join the graph.
+        WireError: There is no usable DDS library, or DDS cannot join the graph.
         ValueError: An argument has an invalid value.
 
     Example:

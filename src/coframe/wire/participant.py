@@ -13,7 +13,7 @@ from coframe import _core
 from coframe.errors import WireError
 from coframe.frame_names import naming_problems
 from coframe.time import SECOND
-from coframe.wire import config, dds, names
+from coframe.wire import config, dds, library, names
 from coframe.wire.discovery_info import (
     ADAPTS,
     MAX_NAME,
@@ -55,7 +55,7 @@ class Participant(EndpointFactory, GraphQueries):
     _instances_lock: ClassVar[threading.RLock] = threading.RLock()
 
     def __init__(self, domain_id: int) -> None:
-        dds.load()
+        library.load()
         self.domain_id = domain_id
         self._process = os.getpid()
         self._references = 0
@@ -88,7 +88,7 @@ class Participant(EndpointFactory, GraphQueries):
             domain_id: The domain, 0 to 232. If None, it is ROS_DOMAIN_ID, or 0 if that is not set.
 
         Raises:
-            WireError: cyclonedds is not installed, an environment variable has an invalid value, the domain has no
+            WireError: There is no usable DDS library, an environment variable has an invalid value, the domain has no
                 free participant index, or this process was forked from a process that had joined a domain.
         """
         domain = config.domain_id() if domain_id is None else config.check_domain_id(domain_id)

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-pytest.importorskip("cyclonedds", reason="the commands speak DDS")
+pytest.importorskip("dds_library", reason="the commands speak DDS")
 
 from typer.testing import CliRunner
 

@@ -236,7 +236,7 @@ class Demo:
 @pytest.fixture(scope="session")
 def demo(tmp_path_factory) -> Iterator[Demo]:
     """Start one demo for all tests, in a domain that no other test uses."""
-    pytest.importorskip("cyclonedds", reason="the demo uses DDS")
+    pytest.importorskip("dds_library", reason="the demo uses DDS")
     worker = os.environ.get("PYTEST_XDIST_WORKER", "gw0").removeprefix("gw")
     domain = 201 + (os.getppid() + int(worker)) % 9
     output = tmp_path_factory.mktemp("demo") / "output"

@@ -272,7 +272,7 @@ def test_a_robot_from_a_file_is_drawn_with_its_meshes_and_moved_by_sliders(crane
 
 
 def test_joint_states_are_published_only_if_enabled(crane, domain_id, view, open_page):
-    pytest.importorskip("cyclonedds", reason="joint states are published over DDS")
+    pytest.importorskip("dds_library", reason="joint states are published over DDS")
     received = []
     with coframe.connect("browser_joints", domain=domain_id) as ros:
         ros.buffer.set("map", "post", coframe.Transform(), static=True)

@@ -58,7 +58,7 @@ def test_names_with_markup_and_of_any_length_are_shown_as_text(view, open_page):
 
 
 def test_objects_with_invalid_numbers_are_hidden(domain_id, view, open_page):
-    pytest.importorskip("cyclonedds", reason="messages are received over DDS")
+    pytest.importorskip("dds_library", reason="messages are received over DDS")
     with coframe.connect("browser_hostile", domain=domain_id) as ros:
         ros.buffer.set("map", "base", coframe.Transform([1.0, 0.0, 0.0]), static=True)
         ros.buffer.set("map", "huge", coframe.Transform([1e300, 0.0, 0.0]), static=True)
@@ -114,7 +114,7 @@ def describe(ros, text):
     ],
 )
 def test_meshes_outside_of_the_packages_are_rejected_with_a_message(domain_id, tmp_path, view, open_page, mesh):
-    pytest.importorskip("cyclonedds", reason="robot descriptions are received over DDS")
+    pytest.importorskip("dds_library", reason="robot descriptions are received over DDS")
     (tmp_path / "a" / "crane").mkdir(parents=True)
     (tmp_path / "a" / "crane" / "package.xml").write_text("<package><name>crane</name></package>")
     (tmp_path / "secret.stl").write_bytes(b"\0" * 84)
@@ -129,7 +129,7 @@ def test_meshes_outside_of_the_packages_are_rejected_with_a_message(domain_id, t
 
 
 def test_an_xml_bomb_is_rejected_with_a_message(domain_id, view, open_page):
-    pytest.importorskip("cyclonedds", reason="robot descriptions are received over DDS")
+    pytest.importorskip("dds_library", reason="robot descriptions are received over DDS")
     levels = "".join(f'<!ENTITY {b} "{f"&{a};" * 20}">' for a, b in zip("abcdefgh", "bcdefghi", strict=True))
     with coframe.connect("browser_bomb", domain=domain_id) as ros:
         ros.buffer.set("map", "base", coframe.Transform(), static=True)

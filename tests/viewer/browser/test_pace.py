@@ -64,7 +64,7 @@ with coframe.connect("clouds", domain=int(sys.argv[1])) as ros:
 
 
 def test_a_cloud_of_a_million_points_does_not_stall_the_frames(domain_id, view, open_page):
-    pytest.importorskip("cyclonedds", reason="clouds are received over DDS")
+    pytest.importorskip("dds_library", reason="clouds are received over DDS")
     with coframe.connect("browser_clouds", domain=domain_id) as ros, Broadcaster(ros.buffer, 10):
         publisher = subprocess.Popen([sys.executable, "-c", CLOUDS, str(domain_id)])
         try:

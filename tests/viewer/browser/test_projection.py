@@ -24,7 +24,7 @@ Visualization Manager:
 
 @pytest.fixture
 def graph(domain_id):
-    pytest.importorskip("cyclonedds", reason="topics need DDS")
+    pytest.importorskip("dds_library", reason="topics need DDS")
     with coframe.connect("browser_projection", domain=domain_id) as ros:
         # Optical frames look along z with y down, here along the x axis of the map.
         look = coframe.Transform.from_rpy([0.2, 0.0, 1.0], [-math.pi / 2, 0.0, -math.pi / 2])

@@ -49,7 +49,7 @@ def assert_quick(measured):
 
 @pytest.mark.usefixtures("domain_id")
 def test_the_graph_is_drawn_within_two_seconds_of_the_command(open_page):
-    pytest.importorskip("cyclonedds", reason="the command joins the ROS graph")
+    pytest.importorskip("dds_library", reason="the command joins the ROS graph")
     publisher = subprocess.Popen(PUBLISHER, stderr=subprocess.DEVNULL)
     try:
         assert_quick([until_drawn(open_page) for _ in range(ATTEMPTS)])

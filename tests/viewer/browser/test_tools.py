@@ -31,7 +31,7 @@ def drag(page, start, end):
 
 @pytest.fixture
 def graph(domain_id):
-    pytest.importorskip("cyclonedds", reason="topics need DDS")
+    pytest.importorskip("dds_library", reason="topics need DDS")
     with coframe.connect("browser_tools", domain=domain_id) as ros:
         ros.buffer.set("map", "base", coframe.Transform([1.0, 0.0, 0.0]), static=True)
         ros.buffer.set("base", "arm", coframe.Transform([1.0, 2.0, 0.5]), static=True)
