@@ -4,17 +4,21 @@
 from __future__ import annotations
 
 import importlib
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-__all__ = ["read_yaml"]
+if TYPE_CHECKING:
+    from collections.abc import Callable
 
+__all__ = ["MAX_BYTES", "compose_yaml", "read_yaml"]
+
+MAX_BYTES = 16 << 20  # of a parameter or launch file, and of the metadata of a recording
 MAX_DEPTH = 100
 MAX_VALUES = 1 << 18
 MAX_DIGITS = 100  # of an integer; one in base 60, such as 1:30:00, takes quadratic time
 _INTEGER = "tag:yaml.org,2002:int"
 
 
-def read_yaml(text: str | bytes, max_bytes: int) -> Any:
+def read_yaml(text: str | bytes, max_bytes: int = MAX_BYTES) -> Any:
     """Return the content of a YAML document, with aliases replaced by copies.
 
     Args:
@@ -25,16 +29,33 @@ def read_yaml(text: str | bytes, max_bytes: int) -> Any:
         ValueError: The text is not valid YAML or exceeds a limit.
         ModuleNotFoundError: PyYAML is missing.
     """
+
+    def load(yaml: Any, base: Any) -> Any:
+        loader = type("BoundedLoader", (base,), {})
+        yaml.add_constructor(_INTEGER, _integer, Loader=loader)
+        return _copied(yaml.load(text, Loader=loader))
+
+    return _within_limits(text, max_bytes, load)
+
+
+def compose_yaml(text: str | bytes, max_bytes: int = MAX_BYTES) -> Any:
+    """Return the root node of a YAML document, for callers with typing rules of their own; None if it is empty.
+
+    The arguments and errors are those of :func:`read_yaml`. A node with aliases occurs several times in the tree.
+    """
+    return _within_limits(text, max_bytes, lambda yaml, base: yaml.compose(text, base))
+
+
+def _within_limits(text: str | bytes, max_bytes: int, load: Callable[[Any, Any], Any]) -> Any:
+    """Return what a function that takes the module yaml and a loader reads, after a check of the limits."""
     yaml: Any = importlib.import_module("yaml")
     if len(text) > max_bytes:
         raise ValueError(f"it has more than {max_bytes >> 20} MiB, the limit")
     base = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
-    loader = type("BoundedLoader", (base,), {})
-    yaml.add_constructor(_INTEGER, _integer, Loader=loader)
     try:
         # PyYAML recurses without a limit and follows aliases of aliases; the events show both beforehand.
         _check(yaml.parse(text, Loader=base), yaml)
-        return _copied(yaml.load(text, Loader=loader))
+        return load(yaml, base)
     except (yaml.YAMLError, ValueError, TypeError, OverflowError) as error:
         raise ValueError(" ".join(str(error).split())) from None
 

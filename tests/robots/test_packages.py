@@ -126,7 +126,7 @@ def test_xacro_is_expanded_and_finds_packages_without_ros(tmp_path, monkeypatch)
 )
 def test_a_xacro_file_cannot_exhaust_memory_or_time(tmp_path, monkeypatch, body):
     pytest.importorskip("xacro")
-    monkeypatch.setattr(files, "_MOST_SECONDS", 2.0)
+    monkeypatch.setattr(files, "MAX_SECONDS", 2.0)
     (tmp_path / "a.urdf.xacro").write_text(
         f'<robot name="a" xmlns:xacro="http://www.ros.org/wiki/xacro">{body}</robot>'
     )

@@ -6,7 +6,8 @@ from __future__ import annotations
 import os
 from pathlib import Path
 from typing import TYPE_CHECKING
-from xml.etree import ElementTree as ET
+
+from coframe.bounded_xml import read_xml
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -57,7 +58,7 @@ def named(packages: list[Path]) -> dict[str, Path]:
 def package_name(package: Path) -> str:
     """Return the name in the manifest of a package, or the name of its folder."""
     try:
-        name = ET.parse(package / MANIFEST).findtext("name") or ""  # noqa: S314
-    except (OSError, ET.ParseError, ValueError, LookupError):
+        name = read_xml(package / MANIFEST).findtext("name") or ""
+    except (OSError, ValueError):
         name = ""
     return name.strip() or package.name

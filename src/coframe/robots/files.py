@@ -9,20 +9,22 @@ import json
 import os
 import subprocess
 import sys
+import tempfile
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from coframe.errors import RobotDescriptionError
 from coframe.robots.urdf import parse_urdf
+from coframe.robots.xacro_process import MAX_OUTPUT, MAX_SECONDS
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
 
     from coframe.robots.robot import Robot
 
-__all__ = ["expand_xacro", "load"]
+__all__ = ["expand_xacro", "load", "run_xacro"]
 
-_MOST_SECONDS = 20.0  # to expand a xacro file
+_PROCESS = Path(__file__).with_name("xacro_process.py")
 
 
 def load(
@@ -96,15 +98,46 @@ def expand_xacro(
 
 def _expanded(request: dict[str, Any]) -> dict[str, Any]:
     """Return the answer of a process that expands a file: Python expressions in it can take any time and memory."""
-    command = [sys.executable, str(Path(__file__).with_name("xacro_process.py"))]
+    command = [sys.executable, str(_PROCESS)]
     try:
         done = subprocess.run(  # noqa: S603 - the command contains nothing from the file
-            command, input=json.dumps(request).encode(), capture_output=True, timeout=_MOST_SECONDS, check=False
+            command, input=json.dumps(request).encode(), capture_output=True, timeout=MAX_SECONDS, check=False
         )
     except subprocess.TimeoutExpired:
-        return {"error": f"xacro: expanding the file takes more than {_MOST_SECONDS:g} s, the limit"}
+        return {"error": f"xacro: expanding the file takes more than {MAX_SECONDS:g} s, the limit"}
     try:
         answer: dict[str, Any] = json.loads(done.stdout)
     except ValueError:
         return {"error": f"xacro: the process that expands the file ended with exit code {done.returncode}"}
     return answer
+
+
+def run_xacro(command: list[str], *, capture: bool = False) -> subprocess.CompletedProcess[str]:
+    """Run the program xacro with a limit on its time, its memory and its output; Windows limits only the time.
+
+    Args:
+        command: The path of the program, and its arguments.
+        capture: Whether what it writes to standard error becomes a part of its output.
+
+    Raises:
+        RobotDescriptionError: The limit of the time or of the output was exceeded. Without memory, xacro fails.
+    """
+    limited = [sys.executable, "-I", str(_PROCESS)] if os.name == "posix" else []
+    with tempfile.TemporaryFile() as output, tempfile.TemporaryFile() as errors:
+        try:
+            done = subprocess.run(  # noqa: S603 - the caller's command
+                [*limited, *command],
+                stdout=output,
+                stderr=subprocess.STDOUT if capture else errors,
+                timeout=MAX_SECONDS,
+                check=False,
+            )
+        except subprocess.TimeoutExpired:
+            raise RobotDescriptionError(f"xacro takes more than {MAX_SECONDS:g} s, the limit") from None
+        texts = []
+        for file in (output, errors):
+            if os.fstat(file.fileno()).st_size >= MAX_OUTPUT:
+                raise RobotDescriptionError(f"the output of xacro has {MAX_OUTPUT >> 20} MiB or more, the limit")
+            file.seek(0)
+            texts.append(file.read().decode(errors="replace"))
+    return subprocess.CompletedProcess(command, done.returncode, *texts)

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Expands one xacro file in a process of its own, whose memory is limited; see :mod:`coframe.robots.files`.
 
-The request and the answer are JSON on standard input and output. The file is run as a script, and imports coframe only
+With arguments, it runs them as a command with the same limits. Otherwise the request and the answer are JSON on
+standard input and output. The file is run as a script, and imports coframe only
 for ``$(find PACKAGE)``, because that takes longer than the rest.
 """
 
@@ -9,16 +10,18 @@ from __future__ import annotations
 
 import contextlib
 import json
+import os
 import sys
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-__all__: list[str] = []
+__all__ = ["MAX_MEMORY", "MAX_OUTPUT", "MAX_SECONDS"]
 
-_MOST_MEMORY = 2 << 30  # bytes
-_LONGEST = 64 << 20  # characters of a URDF
+MAX_SECONDS = 20.0
+MAX_MEMORY = 2 << 30  # bytes
+MAX_OUTPUT = 64 << 20  # characters of a URDF
 
 
 def _answer(request: Mapping[str, Any]) -> dict[str, Any]:
@@ -38,10 +41,10 @@ def _answer(request: Mapping[str, Any]) -> dict[str, Any]:
         return {"os_error": [error.errno, error.strerror or str(error), error.filename]}
     except Exception as error:  # noqa: BLE001 - Python expressions in the file can raise any exception
         if isinstance(getattr(error, "exc", None) or error, MemoryError):  # xacro wraps exceptions
-            return {"error": f"xacro: the file needs more than {_MOST_MEMORY >> 30} GiB of memory, the limit"}
+            return {"error": f"xacro: the file needs more than {MAX_MEMORY >> 30} GiB of memory, the limit"}
         return {"error": f"xacro: {str(error) or type(error).__name__}", "hint": getattr(error, "hint", "")}
-    if len(text) > _LONGEST:
-        return {"error": f"the expanded file has more than {_LONGEST >> 20} MiB, the limit"}
+    if len(text) > MAX_OUTPUT:
+        return {"error": f"the expanded file has more than {MAX_OUTPUT >> 20} MiB, the limit"}
     return {"text": text}
 
 
@@ -51,7 +54,12 @@ def _main() -> None:
 
         _, most = resource.getrlimit(resource.RLIMIT_AS)
         with contextlib.suppress(ValueError, OSError):  # macOS refuses the limit.
-            resource.setrlimit(resource.RLIMIT_AS, (_MOST_MEMORY, most))
+            resource.setrlimit(resource.RLIMIT_AS, (MAX_MEMORY, most))
+        _, most = resource.getrlimit(resource.RLIMIT_FSIZE)
+        with contextlib.suppress(ValueError, OSError):
+            resource.setrlimit(resource.RLIMIT_FSIZE, (MAX_OUTPUT, most))
+    if len(sys.argv) > 1:
+        os.execv(sys.argv[1], sys.argv[1:])  # noqa: S606 - the command of the caller
     request = json.load(sys.stdin)
     sys.path[:] = request["module_folders"]
     output, sys.stdout = sys.stdout, sys.stderr  # What a file prints is not the answer.

@@ -4,8 +4,8 @@
 from __future__ import annotations
 
 from typing import Any
-from xml.etree import ElementTree as ET
 
+from coframe.bounded_xml import read_xml
 from launch.frontend import Parser as BaseParser
 from launch_xml.entity import Entity
 
@@ -20,12 +20,12 @@ class Parser(BaseParser):
         """Read a file, and return its root and the parser.
 
         Raises:
-            ValueError: The file is not XML.
+            ValueError: The file is not XML, or exceeds a limit of :mod:`coframe.bounded_xml`.
         """
         try:
-            return Entity(ET.parse(file).getroot()), cls()  # noqa: S314 - launch files are programs anyway
-        except ET.ParseError as error:
-            raise ValueError(f"{getattr(file, 'name', file)}: not valid XML: {error}") from error
+            return Entity(read_xml(file)), cls()
+        except ValueError as error:
+            raise ValueError(f"{getattr(file, 'name', file)}: {error}") from None
 
     @classmethod
     def get_file_extensions(cls) -> set[str]:

@@ -4,9 +4,10 @@
 from __future__ import annotations
 
 import re
-from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
+
+from coframe.bounded_yaml import MAX_BYTES, compose_yaml
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -79,17 +80,14 @@ def load_parameters(path: str) -> Iterator[tuple[str, str, Any]]:
 
     Raises:
         OSError: The file cannot be read.
-        ValueError: It is not a parameter file, or PyYAML is not installed.
+        ValueError: It is not a parameter file, exceeds a limit, or PyYAML is not installed.
     """
     try:
-        yaml = import_module("yaml")
+        with Path(path).open("rb") as file:
+            root = compose_yaml(file.read(MAX_BYTES + 1))
     except ImportError:
         raise ValueError("reading it needs PyYAML: pip install pyyaml") from None
-    try:
-        root = yaml.compose(Path(path).read_text(encoding="utf-8"), yaml.SafeLoader)
-        yield from _nodes(_python_of(root), "")
-    except yaml.YAMLError as error:
-        raise ValueError(str(error)) from error
+    yield from _nodes(_python_of(root), "")
 
 
 def _python_of(node: Any) -> Any:

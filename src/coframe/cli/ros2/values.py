@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from coframe.bounded_yaml import read_yaml
 from coframe.cli.output import fail
 
 if TYPE_CHECKING:
@@ -20,11 +21,9 @@ def yaml_value(text: str, what: str) -> Any:
         text: The text.
         what: What it is, for the error: "VALUES".
     """
-    import yaml  # noqa: PLC0415 - an optional package
-
     try:
-        return yaml.safe_load(text)
-    except (yaml.YAMLError, ValueError, RecursionError) as error:
+        return read_yaml(text)
+    except ValueError as error:
         fail(f"{what}: {text[:60]!r} is not valid YAML: {str(error).splitlines()[0]}", code=2)
 
 

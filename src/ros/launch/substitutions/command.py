@@ -75,13 +75,7 @@ class Command(Substitution):
         program = find_program(words[0])
         if program is None:
             raise SubstitutionFailure(_missing(words[0], text))
-        result = subprocess.run(  # noqa: S603 - the launch file names the command
-            [program, *words[1:]],
-            stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT if on_stderr == "capture" else subprocess.PIPE,
-            text=True,
-            check=False,
-        )
+        result = _run([program, *words[1:]], capture=on_stderr == "capture")
         stderr = result.stderr or ""
         if result.returncode != 0:
             message = f"executed command failed. Command: {text}"
@@ -95,6 +89,25 @@ class Command(Substitution):
                 f"executed command showed stderr output. Command: {text}\nCaptured stderr output:\n{stderr}"
             )
         return result.stdout
+
+
+def _run(command: list[str], *, capture: bool) -> subprocess.CompletedProcess[str]:
+    """Run a command; expressions in a xacro file can take any time and memory, so that xacro has limits."""
+    if PurePath(command[0]).stem == "xacro":
+        from coframe.errors import RobotDescriptionError  # noqa: PLC0415 - few launch files need it
+        from coframe.robots.files import run_xacro  # noqa: PLC0415
+
+        try:
+            return run_xacro(command, capture=capture)
+        except RobotDescriptionError as error:
+            raise SubstitutionFailure(f"{error} Command: {shlex.join(command)}") from None
+    return subprocess.run(  # noqa: S603 - the launch file names the command
+        command,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT if capture else subprocess.PIPE,
+        text=True,
+        check=False,
+    )
 
 
 def _missing(program: str, text: str) -> str:

@@ -6,6 +6,8 @@ from __future__ import annotations
 from importlib import import_module
 from typing import Any
 
+from coframe.bounded_yaml import read_yaml
+
 __all__ = ["dump_yaml", "load_yaml"]
 
 
@@ -13,13 +15,13 @@ def load_yaml(text: str) -> Any:
     """Return the value of a YAML text.
 
     Raises:
-        ValueError: The text is not YAML.
+        ValueError: The text is not YAML, or exceeds a limit of :mod:`coframe.bounded_yaml`.
         RuntimeError: PyYAML is not installed.
     """
-    yaml = _yaml()
+    _yaml()
     try:
-        return yaml.safe_load(text)
-    except yaml.YAMLError as error:
+        return read_yaml(text)
+    except ValueError as error:
         raise ValueError(f"invalid YAML: {error}") from error
 
 
