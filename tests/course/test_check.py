@@ -2,6 +2,7 @@
 """Grades of whole folders: the solution, the stubs, and the lab's scripts as they stand."""
 
 import json
+import re
 import shutil
 
 import pytest
@@ -32,6 +33,7 @@ def test_one_criterion_of_the_solution(grade):
 
 
 @pytest.mark.slow
+@pytest.mark.timeout(600)
 def test_ten_grades_of_one_folder_are_equal(folder):
     path = folder / "dynamic_tf_broadcaster.py"
     path.write_text(path.read_text().replace("0.3 * math.sin", "0.31 * math.sin"))
@@ -52,20 +54,21 @@ def test_the_scripts_of_the_lab(shared, tmp_path):
     assert "use transform.header.stamp, not now()" in listener["each pose is right at its stamp"]["cause"]
     sensor = found["sensor_transform.py"]
     assert sensor["earned"] == 0
-    assert "publish() is never called" in sensor["facts"][0]["cause"]
+    assert sensor["problem"].endswith("it has a publisher on /scan_base_frame, but publish() is never called.")
     assert found["complete_tf_tree.py"]["earned"] == 11
 
 
 @pytest.mark.slow
-def test_stubs_run_and_every_fact_says_what_is_missing(tmp_path):
+def test_stubs_run_and_one_sentence_for_each_says_what_is_missing(tmp_path):
     create_folder(tmp_path / "lab", 7)
-    report = check_folder(tmp_path / "lab", only=("static", "dynamic", "listener", "sensor", "visualization"))
-    assert report["variant"] == 7
-    assert report["earned"] <= 5
+    report = check_folder(tmp_path / "lab")
+    assert (report["variant"], report["earned"], report["bonus"]) == (7, 0, 0)
     for criterion in report["criteria"]:
-        assert not criterion["problem"]
-        assert all(fact["expected"] and fact["observed"] for fact in lost(criterion).values())
-        assert "different stamps" not in {fact["observed"] for fact in lost(criterion).values()}
+        assert re.search("publishes nothing|describes no joint yet", criterion["problem"]), criterion["problem"]
+    printed = "\n".join(formats.text(report))
+    assert "RViz configuration shows nothing of the robot yet" in printed
+    assert "expected:" not in printed
+    assert "Grade: 0 of 100" in printed
 
 
 @pytest.mark.slow
@@ -116,7 +119,7 @@ def test_reports_in_other_formats(folder):
     report = check_folder(folder, only=("urdf",))
     text = "\n".join(formats.text(report))
     assert "the description can be read" in text
-    assert "Grade: 0 of 100" in text
+    assert "Points in this part of the check: 0 of 10 bonus." in text
     scored = formats.gradescope(report)
     assert scored["score"] == 0
     assert scored["tests"][0]["status"] == "failed"
@@ -149,3 +152,20 @@ def test_errors_are_sentences(tmp_path):
         assert result.exit_code in {1, 2}
         assert expected in result.output
     assert "Right: " in CliRunner().invoke(app, ["lab", "break", "8", "--answer", "degrees"]).output
+
+
+def test_the_handbook_is_printed_and_written_as_web_pages(tmp_path):
+    contents = CliRunner().invoke(app, ["lab", "handbook"]).output
+    assert "10 Finding errors" in contents
+    assert "coframe lab new my_lab" in contents
+    assert "Static and dynamic transforms" in CliRunner().invoke(app, ["lab", "handbook", "3"]).output
+    assert CliRunner().invoke(app, ["lab", "handbook", "-o", str(tmp_path)]).exit_code == 0
+    pages = {path.name: path.read_text() for path in tmp_path.glob("*.html")}
+    assert len(pages) == 11
+    for text in pages.values():
+        for address in re.findall(r'(?:href|src)="([^"#]+)', text):
+            assert (tmp_path / address).is_file()
+    assert "<table>" in pages["index.html"]
+    missing = CliRunner().invoke(app, ["lab", "handbook", "11"])
+    assert missing.exit_code == 2
+    assert "Chapters: 1 to 10." in missing.output

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import csv
 import json
+import sys
 import threading
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -17,13 +18,14 @@ from coframe.cli.lifecycle import run_to_completion, run_until_interrupted
 from coframe.cli.options import DurationOption
 from coframe.cli.output import fail, printable, report_console, warn
 from coframe.cli.progress import item_progress
-from coframe.cli.view import PortOption, optional_viewer
+from coframe.cli.view import PortOption, open_browser, optional_viewer
 from coframe.course import formats
 from coframe.course.assignment import FILE
 from coframe.course.checking import check_class, check_folder, submissions
 from coframe.course.faults import FAULTS
 from coframe.course.folders import create_folder
 from coframe.course.grading import CRITERIA
+from coframe.course.handbook import chapters, contents, terminal_text, write_pages
 from coframe.course.isolation import isolation_problem
 from coframe.course.running import COMPLETE_TREE, SIMULATION, STEPS, programs_of, running
 
@@ -34,6 +36,7 @@ if TYPE_CHECKING:
 
 __all__ = ["lab"]
 
+_HANDBOOK_WIDTH = 120  # columns: longer lines are hard to read
 FolderArgument = Annotated[
     Path | None,
     typer.Argument(
@@ -77,7 +80,7 @@ def run(
     complete: Annotated[
         bool, typer.Option("--complete", help="Run complete_tf_tree.py in place of the two broadcasters.")
     ] = False,
-    no_browser: Annotated[bool, typer.Option("--no-browser", help="Do not open a browser.")] = False,
+    browser: Annotated[bool, typer.Option("--browser/--no-browser", help="Open the viewer in the browser.")] = True,
     port: PortOption = None,
     duration: DurationOption = None,
 ) -> None:
@@ -91,7 +94,7 @@ def run(
     simulation = SIMULATION[1:] if complete else SIMULATION
     with run_until_interrupted():
         programs = [*programs_of(_folder(folder), COMPLETE_TREE if complete else STEPS), *simulation]
-        _run(programs, seconds, browser=not no_browser, port=port)
+        _run(programs, seconds, browser=browser, port=port)
 
 
 @lab.command(cls=PlainCommand, short_help="Grade a folder, or the folders of a class.")
@@ -155,12 +158,17 @@ def break_(
     answer: Annotated[
         str | None, typer.Option("--answer", metavar="FAULT", help="Your answer; nothing is started.")
     ] = None,
-    browser: Annotated[bool, typer.Option("--browser", help="Open the viewer as well.")] = False,
+    browser: Annotated[
+        bool, typer.Option("--browser/--no-browser", help="Open the browser; its findings are a hint.")
+    ] = False,
+    port: PortOption = None,
     duration: DurationOption = None,
 ) -> None:
     """Start the robot of the lab with one of ten faults. Find it with the viewer, echo, monitor and frames.
 
-    coframe doctor is the hint. Then give your answer: coframe lab break N --answer "FAULT".
+    coframe doctor and the findings in the viewer are the hint.
+
+    Then give your answer: coframe lab break N --answer "FAULT".
 
     Example: coframe lab break 3
     """
@@ -172,7 +180,49 @@ def break_(
     print(f'Then answer with: coframe lab break {number} --answer "FAULT", where FAULT is one of:')
     print(f"  {', '.join(sorted(each.name for each in FAULTS))}", flush=True)
     with run_until_interrupted():
-        _run(FAULTS[number - 1].programs, seconds, browser=browser, port=None)
+        _run(FAULTS[number - 1].programs, seconds, browser=browser, port=port)
+
+
+@lab.command(cls=PlainCommand, short_help="Read the handbook of the course.")
+def handbook(
+    chapter: Annotated[
+        int | None,
+        typer.Argument(metavar="[CHAPTER]", min=1, help="Number of a chapter. [default: the contents]"),
+    ] = None,
+    output: Annotated[
+        Path | None,
+        typer.Option("--output", "-o", metavar="FOLDER", help="Write all chapters as web pages with their pictures."),
+    ] = None,
+    browser: Annotated[
+        bool, typer.Option("--browser/--no-browser", help="With -o: open the pages in the browser.")
+    ] = True,
+) -> None:
+    """Print the contents of the handbook, or a chapter of it, or write it as web pages.
+
+    Example: coframe lab handbook -o handbook
+    """
+    with run_to_completion():
+        if output is not None:
+            _write_handbook(output, chapter, browser=browser)
+            return
+        found = {each.number: each for each in chapters()}
+        if chapter is not None and chapter not in found:
+            fail(f"There is no chapter {chapter}", f"Chapters: 1 to {len(found)}.", code=2)
+        from rich.markdown import Markdown  # noqa: PLC0415 - only for this text
+
+        file = contents() if chapter is None else found[chapter].file
+        console = report_console()
+        console.print(Markdown(terminal_text(file), hyperlinks=False), width=min(console.width, _HANDBOOK_WIDTH))
+        if chapter is None:
+            print("A chapter: coframe lab handbook 1. With pictures, in the browser: coframe lab handbook -o handbook")
+
+
+def _write_handbook(folder: Path, chapter: int | None, *, browser: bool) -> None:
+    first = write_pages(folder)
+    page = first if chapter is None else next(folder.glob(f"{chapter:02d}_*.html"), first)
+    print(page.resolve())
+    if browser and sys.stdout.isatty():
+        open_browser(page.resolve().as_uri())
 
 
 def _folder(given: Path | None) -> Path:

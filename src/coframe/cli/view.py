@@ -37,7 +37,7 @@ if TYPE_CHECKING:
     from coframe.viewer import Viewer
     from coframe.viewer.sources.recorded import RecordedSource
 
-__all__ = ["announce", "optional_viewer", "view"]
+__all__ = ["announce", "open_browser", "optional_viewer", "view"]
 
 HostOption = Annotated[
     str,
@@ -223,9 +223,10 @@ def announce(viewer: Viewer, *, browser: bool) -> None:
     if viewer.remote_url not in {"", viewer.url}:
         print(f"from other machines: {viewer.remote_url}", flush=True)
     if browser and sys.stdout.isatty():
-        threading.Thread(target=_open_browser, args=(viewer.url,), daemon=True).start()
+        threading.Thread(target=open_browser, args=(viewer.url,), daemon=True).start()
 
 
-def _open_browser(url: str) -> None:
+def open_browser(url: str) -> None:
+    """Open a page in the browser, if there is one."""
     with contextlib.suppress(Exception):  # Without a browser, the printed address is enough.
         webbrowser.open(url)

@@ -27,15 +27,27 @@ def text(report: dict[str, Any]) -> Iterator[str]:
         for fact in criterion["facts"]:
             lost = fact["earned"] < fact["points"]
             yield f"  {'-' if lost else '+'} {_pair(fact)}  {fact['name']}"
-            if lost:
+            if lost and fact["cause"]:  # The problem above explains the others.
                 yield from _indented(fact["expected"], "        expected: ")
                 yield from _indented(fact["observed"], "        observed: ")
                 yield from _indented(fact["cause"], "        likely cause: ")
                 yield from _indented(fact["read"], "        read: ")
         yield ""
     yield from report["notices"]
-    bonus = f" + {report['bonus']:g} bonus" if report["bonus"] else ""
-    yield f"Grade: {report['earned']:g} of {report['points']}{bonus}"
+    yield _sum(report)
+
+
+def _sum(report: dict[str, Any]) -> str:
+    """Return the last line: the grade, or the points of a part of the check."""
+    points, bonus_points = (
+        sum(each["points"] for each in report["criteria"] if each["bonus"] is bonus) for bonus in (False, True)
+    )
+    if points == report["points"]:
+        bonus = f" + {report['bonus']:g} bonus" if report["bonus"] else ""
+        return f"Grade: {report['earned']:g} of {points:g}{bonus}"
+    parts = [f"{report['earned']:g} of {points:g}"] if points else []
+    parts += [f"{report['bonus']:g} of {bonus_points:g} bonus"] if bonus_points else []
+    return f"Points in this part of the check: {' + '.join(parts)}. The grade is that of all parts."
 
 
 def _pair(item: dict[str, Any]) -> str:

@@ -84,6 +84,22 @@ class Sheet:
         self.facts.append(Fact(name, points, earned, expected, *details))
         return not lost
 
+    def add_problem(self, sentence: str) -> None:
+        """Add a sentence about what prevents a check, unless it is there or empty."""
+        if sentence not in self.problem:
+            self.problem = f"{self.problem} {sentence}".strip()
+
+    def withdraw(self, first: int, observed: str) -> None:
+        """Take the points of the facts from number `first` on, which one sentence explains.
+
+        Args:
+            first: The number of the first of these facts, from 0.
+            observed: The sentence.
+        """
+        self.add_problem(observed)
+        for fact in self.facts[first:]:
+            fact.earned, fact.observed, fact.cause = 0.0, observed, ""
+
     @property
     def points(self) -> float:
         """The points of all facts."""

@@ -67,7 +67,7 @@ class World:
         self._clock = self._node.create_publisher(Clock, "/clock", 10)
         self._publishers: dict[str, Any] = {}
         self._subscriptions: list[Any] = []
-        self._messages = 0
+        self._messages = self._messages_before = 0
         self._probes: deque[Any] = deque()
         self._missed = 0
         self._program: Program | None = None
@@ -115,6 +115,14 @@ class World:
         self._subscriptions.append(self._node.create_subscription(message_class, topic, store, qos))
         return received
 
+    def watched_topics(self) -> list[str]:
+        """Return the topics to which the world has subscribed for the running program."""
+        return list(dict.fromkeys(subscription.topic_name for subscription in self._subscriptions))
+
+    def has_received(self) -> bool:
+        """Return whether a message has arrived since the program was started."""
+        return self._messages > self._messages_before
+
     def publishers_of(self, topic: str) -> list[Any]:
         """Return information about the publishers of a topic in other processes."""
         return [info for info in self._node.get_publishers_info_by_topic(topic) if info.node_name != _NODE]
@@ -122,6 +130,7 @@ class World:
     def start(self, program: Program) -> None:
         """Start a program and wait until its node has joined the graph; the program may end before."""
         self._program = program
+        self._messages_before = self._messages
         self._missed = 0
         program.start()
         deadline = time.monotonic() + _START_PATIENCE
@@ -132,9 +141,7 @@ class World:
             self._executor.spin_once(timeout_sec=0.02)
         else:
             if program.is_running():
-                program.violation = (
-                    "The program does not join the ROS graph: it needs rclpy.init() and a node that spins."
-                )
+                program.violation = _NOT_JOINED
         for name in self._other_nodes():
             if self._has_parameters(name):
                 self._probes.append(self._node.create_client(GetParameters, f"{name}/get_parameters"))

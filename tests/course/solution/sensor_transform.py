@@ -4,6 +4,7 @@
 import numpy as np
 import rclpy
 from rclpy.duration import Duration
+from rclpy.executors import MultiThreadedExecutor
 from rclpy.node import Node
 from rclpy.time import Time
 from sensor_msgs.msg import LaserScan, PointCloud2
@@ -18,7 +19,7 @@ class SensorTransformNode(Node):
     def __init__(self):
         super().__init__("sensor_transform")
         self.buffer = Buffer()
-        self.listener = TransformListener(self.buffer, self, spin_thread=True)
+        self.listener = TransformListener(self.buffer, self)
         self.publisher = self.create_publisher(PointCloud2, "/scan_base_frame", 10)
         self.create_subscription(LaserScan, "/scan", self.transform, 10)
 
@@ -54,7 +55,7 @@ def main():
     rclpy.init()
     node = SensorTransformNode()
     try:
-        rclpy.spin(node)
+        rclpy.spin(node, executor=MultiThreadedExecutor())
     except KeyboardInterrupt:
         pass
 

@@ -45,28 +45,41 @@ class Task(NamedTuple):
 def run_program(task: Task, sheet: Sheet) -> Iterator[Program | None]:
     """Yield the program of a sheet, None if its file does not exist; stop it after the block.
 
-    Problems of the program are noted on the sheet afterwards. A program that publishes what only the simulation
-    publishes gets no points.
+    Problems of the program are noted on the sheet afterwards. A program that publishes nothing, or what only the
+    simulation publishes, gets no points for the facts that were added in the block.
     """
+    first = len(sheet.facts)
     file = task.folder / sheet.file
     if not file.is_file():
-        sheet.problem = f"There is no file {sheet.file}."
         yield None
         task.world.stop()
+        sheet.withdraw(first, f"There is no file {sheet.file}.")
         return
     program = Program(file, task.scratch)
     try:
         yield program
         intruder = _intruder(task.world)
+        silence = "" if task.world.has_received() else _silence(sheet.file, task.world)
     finally:
         task.world.stop()
         task.world.stop_publishing()
-    sheet.problem = program_problem(program, intruder)
-    if sheet.problem:
+    problem = program_problem(program, intruder)
+    sheet.add_problem(problem)
+    if problem or silence:
         sheet.last_lines = program.last_lines()
     if intruder:
-        for fact in sheet.facts:
-            fact.earned, fact.observed = 0.0, intruder
+        sheet.withdraw(0, intruder)
+    elif silence and not problem:
+        sheet.withdraw(first, silence)
+
+
+def _silence(file: str, world: World) -> str:
+    """Return a sentence about a program that publishes nothing: whether it has a publisher for what is checked."""
+    topics = [topic for topic in world.watched_topics() if world.publishers_of(topic)]
+    if not topics:
+        return f"{file} publishes nothing yet. Its first lines describe the task."
+    method = "sendTransform()" if topics[0] in {"/tf", "/tf_static"} else "publish()"
+    return f"{file} publishes nothing: it has a publisher on {topics[0]}, but {method} is never called."
 
 
 def program_problem(program: Program, intruder: str) -> str:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from coframe.course.criteria.common import Task, run_program
 from coframe.course.motion import Robot
 from coframe.course.sheet import Sheet
-from coframe.course.world import STEP
+from coframe.time import SECOND
 from coframe.transform import Transform
 from std_msgs.msg import String
 
@@ -18,7 +18,6 @@ if TYPE_CHECKING:
 __all__ = ["check"]
 
 _TOPIC = "/tf_problems"
-_PERIOD = 2 * STEP
 _READ = "handbook chapter 10, finding errors"
 
 
@@ -27,9 +26,10 @@ def check(task: Task) -> Sheet:
     sheet = Sheet("Extension: transform monitor", "tf_monitor.py", bonus=True)
     world = task.world
     robot = Robot(task.assignment)
+    period = round(SECOND / task.assignment.dynamic_rate)
 
     def publish(now: int, *, arm: bool = True, second_parent: bool = False) -> None:
-        if now % _PERIOD == 0:
+        if now % period == 0:
             world.publish_transforms([robot.base(now), *(robot.arm_at(now) if arm else [])], now)
             if second_parent:
                 world.publish_transforms([Transform(target="map", source="base_link")], now)
@@ -47,33 +47,33 @@ def check(task: Task) -> Sheet:
             world.run(3.0, lambda now: publish(now, second_parent=True))
         reparented = problems[healthy + len(stale) :]
         is_alive = program is not None and program.is_running()
-    sheet.check(
-        3,
-        "it is silent while everything is well",
-        is_alive and not healthy and bool(problems),
-        expected=f"no message on {_TOPIC} until something is wrong",
-        observed=f"{healthy} messages" if healthy else "it never publishes anything",
-        cause="a limit that is too strict: the arm is published at 50 Hz",
-        read=_READ,
-    )
-    sheet.check(
-        4,
-        "it names a transform that has stopped",
-        _names(stale, "end_effector") or _names(stale, "link1"),
-        expected="a message with link1, link2 or end_effector within 3 s",
-        observed=_quoted(stale),
-        cause="compare the newest stamp of each child with the clock in a timer",
-        read=_READ,
-    )
-    sheet.check(
-        3,
-        "it names a frame with two parents",
-        _names(reparented, "base_link"),
-        expected="a message with base_link within 3 s",
-        observed=_quoted(reparented),
-        cause="remember the parent of each child, and report another one",
-        read=_READ,
-    )
+        sheet.check(
+            3,
+            "it is silent while everything is well",
+            is_alive and not healthy and bool(problems),
+            expected=f"no message on {_TOPIC} until something is wrong",
+            observed=f"{healthy} messages" if healthy else "it never publishes anything",
+            cause=f"a limit that is too strict: the arm is published at {task.assignment.dynamic_rate:g} Hz",
+            read=_READ,
+        )
+        sheet.check(
+            4,
+            "it names a transform that has stopped",
+            _names(stale, "end_effector") or _names(stale, "link1"),
+            expected="a message with link1, link2 or end_effector within 3 s",
+            observed=_quoted(stale),
+            cause="compare the newest stamp of each child with the clock in a timer",
+            read=_READ,
+        )
+        sheet.check(
+            3,
+            "it names a frame with two parents",
+            _names(reparented, "base_link"),
+            expected="a message with base_link within 3 s",
+            observed=_quoted(reparented),
+            cause="remember the parent of each child, and report another one",
+            read=_READ,
+        )
     return sheet
 
 

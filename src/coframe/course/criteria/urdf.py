@@ -25,7 +25,7 @@ def check(task: Task) -> Sheet:
     files = [task.folder / name for name in ("arm.urdf.xacro", "arm.urdf") if (task.folder / name).is_file()]
     sheet = Sheet("Extension: URDF", files[0].name if files else "arm.urdf", bonus=True)
     description: Description | None = None
-    problem = "there is no file arm.urdf"
+    problem = f"There is no file {sheet.file}."
     if files:
         try:
             description, problem = load(files[0]), ""
@@ -42,6 +42,10 @@ def check(task: Task) -> Sheet:
     )
     _check_joints(sheet, description)
     _check_kinematics(sheet, task, description)
+    if not files:
+        sheet.withdraw(0, problem)
+    elif description is not None and not description.joints:
+        sheet.withdraw(0, f"{sheet.file} describes no joint yet. Its comment describes the task.")
     return sheet
 
 

@@ -29,6 +29,7 @@ _TREE = {
     "lidar_link": "base_link",
     "camera_link": "end_effector",
 }
+_FRAMES = {*_TREE, "world"}
 _MOVING = ("base_link", "link1", "link2")
 # Display, its topic, and its points.
 _DISPLAYS = (("TF", None, 2), ("LaserScan", "/scan", 2), ("PointCloud2", "/scan_base_frame", 2))
@@ -65,6 +66,10 @@ def _configuration(folder: Path) -> RvizConfig | str:
 
 
 def _check_configuration(sheet: Sheet, config: RvizConfig | str) -> None:
+    fixed = "" if isinstance(config, str) else config.fixed_frame
+    displays = [] if isinstance(config, str) else config.description()["displays"]
+    kinds = {kind for kind, _, _ in _DISPLAYS}
+    is_begun = fixed in _FRAMES or any(each["class"] in kinds for each in displays)
     problem = config if isinstance(config, str) else ""
     sheet.check(
         3,
@@ -75,17 +80,15 @@ def _check_configuration(sheet: Sheet, config: RvizConfig | str) -> None:
         cause="a file that was edited by hand: YAML needs the right indentation",
         read=_READ,
     )
-    fixed = "" if isinstance(config, str) else config.fixed_frame
     sheet.check(
         2,
         "its fixed frame exists",
-        fixed in {*_TREE, "world"},
+        fixed in _FRAMES,
         expected="a frame of the tree, for example base_link",
         observed=f"fixed frame {fixed!r}",
         cause="a misspelt frame",
         read=_READ,
     )
-    displays = [] if isinstance(config, str) else config.description()["displays"]
     for kind, topic, points in _DISPLAYS:
         found = [each for each in displays if each["class"] == kind and each["enabled"]]
         right = [each for each in found if topic is None or each["topic"] == topic]
@@ -100,6 +103,8 @@ def _check_configuration(sheet: Sheet, config: RvizConfig | str) -> None:
             cause="Add > By display type, then set the topic, and save the configuration",
             read=_READ,
         )
+    if not problem and not is_begun:
+        sheet.withdraw(0, "The RViz configuration shows nothing of the robot yet. Its first lines describe the task.")
 
 
 def _check_tree(sheet: Sheet, edges: list[Any]) -> None:

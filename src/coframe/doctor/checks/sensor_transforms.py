@@ -29,6 +29,7 @@ _LONGEST_WAIT = 200 * MILLISECOND
 _TOO_MANY = 0.05
 _LEAST = 5
 _SIMILAR = 0.6
+_USUAL_ENDINGS = ("_link", "_frame", "_footprint")
 _SIMILAR_TO_USUAL = 0.8
 
 
@@ -58,13 +59,27 @@ def _unknown(observation: Observation, frame: str, sensors: list[Sensor]) -> Fin
         text=f"{count(messages, 'message')} of {listed(sensor.topic for sensor in sensors)} "
         f"{'is' if messages == 1 else 'are'} expressed in frame {frame!r}, but no transform connects {frame!r} to the "
         f"tree" + (f"; did you mean {similar[0]!r}?" if similar else ""),
-        fix=f"In the node of the sensor: msg.header.frame_id = {similar[0]!r}"
-        if similar
-        else _missing_frame(observation, frame, publishers),
+        fix=_one_name(observation, frame, similar[0]) if similar else _missing_frame(observation, frame, publishers),
         topic=sensors[0].topic,
         frames=frozenset({frame}),
         first_stamp=int(sensors[0].stamp[0]) if len(sensors[0].stamp) else None,
         publishers=publishers,
+    )
+
+
+def _one_name(observation: Observation, frame: str, similar: str) -> str:
+    """Return what to do about a frame of messages that differs in a few letters from a frame of transforms.
+
+    Either of the two may be misspelt. A name with the usual ending is probably the right one.
+    """
+    in_messages = f"In the node of the sensor: msg.header.frame_id = {similar!r}"
+    if not frame.endswith(_USUAL_ENDINGS) or similar.endswith(_USUAL_ENDINGS):
+        return in_messages
+    nodes = sorted({node for edge in observation.edges if edge.child == similar for node in edge.publishers})
+    publisher = f" ({listed(nodes)})" if nodes else ""
+    return (
+        f"In the publisher of {similar!r}{publisher}: child_frame_id = {frame!r}. Or, if {similar!r} is right, in the "
+        f"node of the sensor: msg.header.frame_id = {similar!r}"
     )
 
 

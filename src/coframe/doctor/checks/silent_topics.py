@@ -32,7 +32,10 @@ _REGULAR = {
     "sensor_msgs/msg/PointCloud2",
     "sensor_msgs/msg/Range",
 }
-_EVENT = re.compile("cmd|command|goal|desired|target|request|map|debug|trigger|snapshot")
+# This one also, if its node receives transforms: it may compute the poses from them, and every lookup may fail. Some
+# nodes publish a pose on an event only, so this is a note.
+_COMPUTED = "geometry_msgs/msg/PoseStamped"
+_EVENT = re.compile("cmd|command|goal|desired|target|request|map|debug|trigger|snapshot|initial|click")
 _TRANSFORMS = "tf2_msgs/msg/TFMessage"
 
 
@@ -49,7 +52,9 @@ def find(observation: Observation) -> Iterator[Finding]:
         node = nodes[0] if nodes else "the node that publishes it"
         yield Finding(
             code=CODE,
-            severity=Severity.WARNING,
+            severity=Severity.NOTE
+            if all(observation.topics[topic].type == _COMPUTED for topic in topics)
+            else Severity.WARNING,
             text=f"it has a publisher, but {nothing}"
             if len(topics) == 1
             else f"{len(topics)} topics have a publisher, but {nothing}: {listed(topics)}",
@@ -71,4 +76,17 @@ def _is_promised(observation: Observation, facts: TopicFacts) -> bool:
     name = facts.name.lower()
     if facts.type == "sensor_msgs/msg/JointState" and not name.endswith("joint_states"):
         return False  # other joint states are usually commands
-    return facts.type in _REGULAR and _EVENT.search(name) is None
+    if _EVENT.search(name) is not None:
+        return False
+    return facts.type in _REGULAR or (facts.type == _COMPUTED and _receives_transforms(observation, facts))
+
+
+def _receives_transforms(observation: Observation, facts: TopicFacts) -> bool:
+    """Return whether a node that publishes on a topic subscribes to transforms."""
+    listeners = {
+        endpoint.node
+        for topic in observation.topics.values()
+        if topic.type == _TRANSFORMS
+        for endpoint in topic.subscribers
+    }
+    return any(endpoint.node in listeners for endpoint in facts.publishers if endpoint.node)
