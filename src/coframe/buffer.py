@@ -6,7 +6,7 @@ from __future__ import annotations
 import contextlib
 import sys
 import time as system_time
-from typing import TYPE_CHECKING, Literal, NamedTuple, TypeAlias, overload
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias, overload
 
 import numpy as np
 
@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from coframe.explanation import Explanation
     from coframe.time import DurationLike, StampLike
     from coframe.transform import Transform
+    from coframe.viewer import Viewer
 
 __all__ = ["Buffer", "CallbackHandle", "EdgeInfo", "FrameInfo"]
 
@@ -624,6 +625,16 @@ class Buffer(_core.Buffer):
     def __repr__(self) -> str:
         cache = "everything" if self.cache_ns < 0 else f"{self.cache_ns / time.SECOND:g}s"
         return f"Buffer(cache={cache}, frames={len(self.frame_names())})"
+
+    def show(self, **options: Any) -> Viewer:
+        """Show the frames in the viewer, in a notebook below the cell; the same as :func:`coframe.show`.
+
+        Args:
+            options: The options of :func:`coframe.show`, such as ``fixed="map"``.
+        """
+        import coframe  # noqa: PLC0415 - the viewer is above this module
+
+        return coframe.show(self, **options)
 
     def _repr_html_(self) -> str:
         children = [frame.name for frame in self.frames() if frame.parent]

@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from typing_extensions import Self
 
     from coframe.messages.message import Message
+    from coframe.viewer import Viewer
     from coframe.wire.endpoints import Publisher, Subscription
 
 _logger = logging.getLogger("coframe.wire")
@@ -263,6 +264,16 @@ class Connection:
                 break
             time.sleep(min(left, _STATICS_CHECK_PERIOD) / SECOND)
         return not awaited
+
+    def show(self, **options: Any) -> Viewer:
+        """Show the live graph in the viewer, in a notebook below the cell; the same as :func:`coframe.show`.
+
+        Args:
+            options: The options of :func:`coframe.show`, such as ``fixed="map"``.
+        """
+        import coframe  # noqa: PLC0415 - the viewer is above this module
+
+        return coframe.show(self, **options)
 
     def close(self) -> None:
         """Leave the graph. The buffer keeps its transforms. A second call has no effect."""

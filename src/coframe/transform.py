@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
     from coframe.time import StampLike
+    from coframe.viewer import Viewer
 
 __all__ = ["Transform"]
 
@@ -446,6 +447,16 @@ class Transform(_core.Transform):
             return f"Transform({frames}batch {self.shape})"
         stamp = "" if self.stamp is None else f", stamp={self.stamp}"
         return f"Transform({frames}translation={_numbers(self.translation)}, rpy={_numbers(self.rpy)}{stamp})"
+
+    def show(self, **options: Any) -> Viewer:
+        """Show the frames in the viewer, in a notebook below the cell; the same as :func:`coframe.show`.
+
+        Args:
+            options: The options of :func:`coframe.show`, such as ``fixed="map"``.
+        """
+        import coframe  # noqa: PLC0415 - the viewer is above this module
+
+        return coframe.show(self, **options)
 
     def _repr_html_(self) -> str:
         total = int(np.prod(self.shape))

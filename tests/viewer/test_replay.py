@@ -105,7 +105,7 @@ def test_a_replay_contains_robots_with_their_meshes(buffer, view, tmp_path):
         ({"rate": "fast"}, "must be numbers"),
         ({"rate": 0}, "at most 100 frames per second"),
         ({"rate": "nan"}, "at most 100 frames per second"),
-        ({"from": 5, "to": 1}, "must end after it begins"),
+        ({"from": 5, "to": 1}, "must not end before it begins"),
         ({"from": "inf"}, "must be numbers"),
     ],
 )

@@ -341,7 +341,7 @@ def test_a_port_in_use_is_an_error_unless_it_is_the_default(view):
 
 
 def test_the_viewer_is_displayed_in_a_notebook(view):
-    viewer = view(small_buffer())
+    viewer = view(small_buffer(), inline="viewer")
     assert f'<iframe src="{viewer.url}"' in viewer._repr_html_()
     with pytest.raises(TypeError, match=r"coframe\.Buffer"):
         coframe.show(3)

@@ -38,6 +38,7 @@ if TYPE_CHECKING:
     from coframe.buffer import Buffer
     from coframe.messages.slices import Slices
     from coframe.time import StampLike
+    from coframe.viewer import Viewer
 
 __all__ = ["RecordedMessage", "Recording", "Topic", "open_bag"]
 
@@ -383,6 +384,16 @@ class Recording:
     def __repr__(self) -> str:
         seconds = self.duration / time.SECOND
         return f"Recording({str(self.path)!r}, {len(self.topics)} topics, {seconds:.1f} s)"
+
+    def show(self, **options: Any) -> Viewer:
+        """Show the recording in the viewer, in a notebook below the cell; the same as :func:`coframe.show`.
+
+        Args:
+            options: The options of :func:`coframe.show`, such as ``fixed="map"``.
+        """
+        import coframe  # noqa: PLC0415 - the viewer is above this module
+
+        return coframe.show(self, **options)
 
     def _repr_html_(self) -> str:
         rows = ((topic.name, topic.type, topic.messages, f"{topic.rate:.3g} Hz") for topic in self.topics.values())

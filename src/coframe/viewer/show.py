@@ -3,19 +3,24 @@
 
 from __future__ import annotations
 
-import html
 import os
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from coframe import html_tables
 from coframe.buffer import Buffer
 from coframe.connection import Connection
 from coframe.errors import ViewerError
 from coframe.robots import load
+from coframe.transform import Transform
+from coframe.viewer.notebook import replay_frame, suitable_inline, viewer_frame
+from coframe.viewer.replay.export import export_replay
 from coframe.viewer.robots.joints import JOINT_STATES
 from coframe.viewer.robots.robot_message import make_mesh_table
 from coframe.viewer.rviz.config import RvizConfig
 from coframe.viewer.sources.source import BufferSource
+from coframe.viewer.sources.transforms import buffer_of_transform
 from coframe.viewer.state import ViewerState
 
 if TYPE_CHECKING:
@@ -24,23 +29,34 @@ if TYPE_CHECKING:
     from typing_extensions import Self
 
     from coframe.robots import Robot
+    from coframe.viewer.notebook import Inline
     from coframe.viewer.sources.source import Mode, Source
 
 __all__ = ["Viewer", "show", "start_viewer"]
 
 
 class Viewer:
-    """A running viewer, returned by :func:`show`. In a Jupyter notebook it is displayed below the cell.
+    """A running viewer, returned by :func:`show`. In a notebook it is displayed below the cell.
 
     It may be used by one thread at a time.
 
     Args:
         state: What is shown.
+        export: Returns the HTML file of a replay of a source.
         host: The address to listen on.
         port: The port; see :func:`show`.
+        inline: What notebooks display; see :func:`show`.
     """
 
-    def __init__(self, state: ViewerState, *, host: str, port: int | None) -> None:
+    def __init__(
+        self,
+        state: ViewerState,
+        export: Callable[[Source], bytes],
+        *,
+        host: str,
+        port: int | None,
+        inline: Inline | None = None,
+    ) -> None:
         try:
             # Imported here so that a missing package causes the error below.
             from coframe.viewer.server.server import ViewerServer  # noqa: PLC0415
@@ -49,6 +65,8 @@ class Viewer:
                 raise
             raise ViewerError("the viewer needs the package websockets: pip install 'coframe[viewer]'") from None
         self._state = state
+        self._export = export
+        self._inline = inline
         self._sources = [state.source]
         self._server = ViewerServer(state, host=host, port=port)
 
@@ -87,8 +105,12 @@ class Viewer:
         return f"<coframe viewer at {self.url}>"
 
     def _repr_html_(self) -> str:
-        url = html.escape(self.url, quote=True)
-        return f'<iframe src="{url}" width="100%" height="600" style="border:0" title="coframe viewer"></iframe>'
+        if (self._inline or suitable_inline()) == "viewer":
+            return viewer_frame(self.url)
+        try:
+            return replay_frame(self._export(self._sources[-1]))
+        except ViewerError as error:
+            return html_tables.paragraph(f"{error} {error.hint}")
 
 
 def show(
@@ -101,12 +123,16 @@ def show(
     host: str = "127.0.0.1",
     port: int | None = None,
     joint_states: str = JOINT_STATES,
+    inline: Inline | None = None,
 ) -> Viewer:
-    """Start a viewer and return it; open its ``url`` in a browser, or evaluate it in a Jupyter notebook.
+    """Start a viewer and return it; open its ``url`` in a browser, or evaluate it in a notebook.
+
+    Buffers, transforms, connections and recordings have a method ``show()`` with the same options.
 
     Args:
-        source: A :class:`coframe.Buffer`, a connection to the ROS graph (:func:`coframe.connect`), a recording
-            (:func:`coframe.open_bag`) or the path of one.
+        source: A :class:`coframe.Buffer` or a ``tf2_ros.Buffer``, a :class:`coframe.Transform`, a connection to the
+            ROS graph (:func:`coframe.connect`), a recording (:func:`coframe.open_bag`) or the path of one. A batch of
+            transforms is a motion if it has stamps, otherwise one frame for each transform.
         fixed: The fixed frame; by default that of the .rviz file, or the root of the largest tree.
         rviz: A configuration file of RViz 2 or RViz 1.
         robot: A robot, or its URDF or xacro file, shown in addition to those on ``/robot_description``.
@@ -114,6 +140,10 @@ def show(
         host: The address to listen on. If other machines can reach it, ``url`` contains a token that they need.
         port: The port; None selects 7676, or any free port if that is in use; 0 selects any free port.
         joint_states: The topic on which the sliders of a robot's joints publish.
+        inline: What a notebook displays: the running ``"viewer"``, or a ``"replay"``, which needs no connection to this
+            process and stays in the saved notebook. By default the running viewer, and a replay where the browser
+            cannot reach it: in Colab, Kaggle, VS Code, JupyterHub, containers, over SSH, and where a program such as
+            nbconvert executes the notebook.
 
     Returns:
         The running viewer. Close it, or use it as a context manager.
@@ -122,6 +152,8 @@ def show(
         ViewerError: A package is missing, a file cannot be read, or the server cannot listen on the address.
         RobotDescriptionError: The robot description is invalid.
         RecordingError: The recording cannot be read.
+        TypeError: The source is of another type.
+        ValueError: ``inline`` has another value.
 
     Example:
         >>> import coframe
@@ -131,7 +163,9 @@ def show(
         ...     viewer.url.startswith("http://127.0.0.1:")
         True
     """
-    return _viewer(lambda: _source_of(source), fixed, rviz, robot, mesh_roots, host, port, joint_states)
+    if inline not in {None, "viewer", "replay"}:
+        raise ValueError(f'inline must be "viewer", "replay" or None, not {inline!r}')
+    return _viewer(lambda: _source_of(source), fixed, rviz, robot, mesh_roots, host, port, joint_states, inline)
 
 
 def start_viewer(
@@ -175,6 +209,7 @@ def _viewer(
     host: str,
     port: int | None,
     joint_states: str = JOINT_STATES,
+    inline: Inline | None = None,
 ) -> Viewer:
     config = None if rviz is None else RvizConfig.load(Path(rviz))
     roots = [Path(root) for root in mesh_roots]
@@ -183,12 +218,16 @@ def _viewer(
     state = ViewerState(
         make_source(), fixed=fixed, rviz=config, robot=description, meshes=meshes, joint_states=joint_states
     )
-    return Viewer(state, host=host, port=port)
+    export = partial(export_replay, meshes=meshes, rviz=config, robot=description, fixed=fixed)
+    return Viewer(state, export, host=host, port=port, inline=inline)
 
 
 def _source_of(source: Any) -> Source:
+    source = getattr(source, "_Coframe__buffer", source)  # the buffer inside a tf2_ros.Buffer
     if isinstance(source, Buffer):
         return BufferSource(source)
+    if isinstance(source, Transform):
+        return BufferSource(buffer_of_transform(source))
     if isinstance(source, Connection):
         # Imported here because each kind of source needs packages that the others do not need.
         from coframe.viewer.sources.live import LiveSource  # noqa: PLC0415
@@ -202,6 +241,6 @@ def _source_of(source: Any) -> Source:
     if isinstance(source, str | os.PathLike):
         return RecordedSource(open_bag(source), own=True)
     raise TypeError(
-        "show() expects a coframe.Buffer, a connection from coframe.connect(), a recording from coframe.open_bag() or "
-        f"the path of a recording, not {type(source).__name__}"
+        "show() expects a coframe.Buffer, a coframe.Transform, a connection from coframe.connect(), a recording from "
+        f"coframe.open_bag() or the path of a recording, not {type(source).__name__}"
     )

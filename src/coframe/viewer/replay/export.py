@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Replays of recordings without a browser: what the page would show of a recording, as one HTML file."""
+"""Replays without a browser: what the page would show of a source, as one HTML file."""
 
 from __future__ import annotations
 
+import time
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from coframe.errors import ViewerError
 from coframe.time import SECOND
 from coframe.viewer.displays import Options
 from coframe.viewer.protocol.messages import DisplayOptions, ReplayRviz, RvizDisplay
@@ -21,16 +21,17 @@ from coframe.viewer.replay.page import (
     replay_page,
 )
 from coframe.viewer.robots.descriptions import ROBOT_DESCRIPTION, RobotDescriptions
+from coframe.viewer.scene.scene import Scene
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Collection, Sequence
 
     from coframe.robots import Robot
     from coframe.viewer.replay.displays import Progress
     from coframe.viewer.robots.meshes import MeshTable
     from coframe.viewer.rviz.config import RvizConfig
-    from coframe.viewer.sources.recorded import RecordedSource
-    from coframe.viewer.sources.source import Topic
+    from coframe.viewer.sources.source import Source, Topic
+    from coframe.viewer.sources.topic_messages import TopicMessages
 
 __all__ = ["export_replay"]
 
@@ -43,10 +44,11 @@ _HEAVY = frozenset({"Image"})
 _COLOR_BY = {"Intensity": "intensity", "AxisColor": "axis", "RGB8": "rgb", "FlatColor": "flat", "Distance": "distance"}
 _DEFAULT_TRANSFORMER = {"LaserScan": "Intensity", "PointCloud2": "AxisColor"}
 _DEFAULT_TRAIL = 100
+_FIRST_MESSAGE_TIMEOUT = 2.0  # seconds
 
 
 def export_replay(
-    source: RecordedSource,
+    source: Source,
     meshes: MeshTable,
     *,
     rviz: RvizConfig | None = None,
@@ -57,45 +59,48 @@ def export_replay(
     rate: float | None = None,
     progress: Progress | None = None,
 ) -> bytes:
-    """Return the HTML file of a replay of a recording.
+    """Return the HTML file of a replay of a recording, or of what a buffer or a connection contains now.
 
     Args:
-        source: The recording.
+        source: The recording, the buffer or the connection.
         meshes: The meshes that may be included.
         rviz: The displays and the view; None for those that the page chooses by itself.
         robot: A robot that is shown in addition to recorded ones.
         fixed: The fixed frame; "" for that of `rviz` or the root of the largest tree.
-        first: The first time in nanoseconds; None for the start of the recording.
-        last: The last time in nanoseconds; None for the end of the recording.
-        rate: Frames per second; None for 30, or fewer if a long recording has too many poses.
+        first: The first time in nanoseconds; None for the start of the source.
+        last: The last time in nanoseconds; None for the end of the source.
+        rate: Frames per second; None for 30, or fewer if a long span has too many poses.
         progress: Called with a task, the amount done and the total.
 
     Raises:
         ViewerError: The span is empty or too large.
     """
-    span = source.span
-    if span is None:
-        raise ViewerError(f"{source.title} has no moving frames to replay")
-    first, last = max(span[0], first or span[0]), min(span[1], last or span[1])
-    frames = max(len(source.buffer.frame_names()), 1)
-    if rate is None:
-        most = MAX_POSES / (frames * max((last - first) / SECOND, 1.0 / SECOND) + frames)
-        rate = max(min(_DEFAULT_RATE, most), _LOWEST_RATE)
     displays = _displays(rviz, source.topics())
-    shown = _shown(displays, last)
-    look: ReplayRviz = {
-        "displays": displays,
-        "global": {},
-        "view": None if rviz is None else rviz.description()["view"],
-    }
     topics = [ROBOT_DESCRIPTION, *(rviz.description_topics if rviz is not None else [])]
     descriptions = RobotDescriptions(robot, dict.fromkeys(topics), meshes)
-    for _ in ("read", "store"):
-        descriptions.refresh(source, ImmediateExecutor())
-    opened = {one.topic: messages for one in shown if (messages := source.open(one.topic)) is not None}
+    descriptions.refresh(source, ImmediateExecutor())
+    topics_shown = dict.fromkeys(display["topic"] or "" for display in displays if _shows_topic(display))
+    opened = {topic: messages for topic in topics_shown if (messages := source.open(topic)) is not None}
     try:
+        if source.connection is not None:
+            _await_messages(opened.values())
+        for _ in ("read", "store"):
+            descriptions.refresh(source, ImmediateExecutor())
+        scene = Scene(source.buffer, ages=False)
+        scene.refresh()
+        now = time.time_ns()
+        span = source.span or scene.span or (now, now)  # static frames are the same at all times
+        first, last = max(span[0], first or span[0]), min(span[1], last or span[1])
+        frames = max(len(scene.structure.names), 1)
+        rate = rate or _suitable_rate(frames, (last - first) / SECOND)
+        shown = _shown(displays, last)
+        look: ReplayRviz = {
+            "displays": displays,
+            "global": {},
+            "view": None if rviz is None else rviz.description()["view"],
+        }
         content = ReplayContent(source.buffer, opened, list(descriptions.known.values()), meshes)
-        fixed = fixed or (rviz.fixed_frame if rviz is not None else "") or _root_of_largest_tree(source)
+        fixed = fixed or (rviz.fixed_frame if rviz is not None else "") or scene.structure.largest
         settings = ReplaySettings(tuple(shown), look)
         request = ReplayRequest(first, last, rate, fixed, FRAME_TIMEOUT, source.title, last, settings)
         return replay_page(TEMPLATE, content, request, progress)
@@ -105,12 +110,16 @@ def export_replay(
             messages.close()
 
 
-def _root_of_largest_tree(source: RecordedSource) -> str:
-    from coframe.viewer.scene.scene import Scene  # noqa: PLC0415 - computed only without a fixed frame
+def _suitable_rate(frames: int, seconds: float) -> float:
+    most = MAX_POSES / (frames * max(seconds, 1.0 / SECOND) + frames)
+    return max(min(_DEFAULT_RATE, most), _LOWEST_RATE)
 
-    scene = Scene(source.buffer, ages=False)
-    scene.refresh()
-    return scene.structure.largest
+
+def _await_messages(subscriptions: Collection[TopicMessages]) -> None:
+    """Wait until each topic of a live graph has a message, but not longer than the timeout."""
+    deadline = time.monotonic() + _FIRST_MESSAGE_TIMEOUT
+    while time.monotonic() < deadline and any(messages.at(0) is None for messages in subscriptions):
+        time.sleep(0.02)
 
 
 def _displays(rviz: RvizConfig | None, topics: Sequence[Topic]) -> list[RvizDisplay]:
@@ -128,12 +137,16 @@ def _display(kind: str, name: str, topic: str | None) -> RvizDisplay:
     return {"class": kind, "name": name, "enabled": True, "topic": topic, "options": {}}
 
 
+def _shows_topic(display: RvizDisplay) -> bool:
+    return bool(display["enabled"] and display["topic"] and display["class"] != "RobotModel")
+
+
 def _shown(displays: Sequence[RvizDisplay], origin: int) -> list[ReplayDisplay]:
     """Return the topics of enabled displays, with the options with which the page would subscribe to them."""
     return [
-        ReplayDisplay(display["topic"], Options.from_message(_options(display), origin))
+        ReplayDisplay(display["topic"] or "", Options.from_message(_options(display), origin))
         for display in displays
-        if display["enabled"] and display["topic"] and display["class"] != "RobotModel"
+        if _shows_topic(display)
     ]
 
 

@@ -182,8 +182,8 @@ def _block(content: ReplayContent, request: ReplayRequest, progress: Progress) -
 
 
 def _times(request: ReplayRequest, frames: int) -> NDArray[np.int64]:
-    if request.last <= request.first:
-        raise ViewerError("a replay must end after it begins")
+    if request.last < request.first:
+        raise ViewerError("a replay must not end before it begins")
     if not 0.0 < request.rate <= MAX_RATE:
         raise ViewerError(f"a replay has more than 0 and at most {MAX_RATE:g} frames per second, not {request.rate:g}")
     seconds = (request.last - request.first) / SECOND
