@@ -73,6 +73,9 @@ fuzz: $(VENV)/.fuzz ## run coverage-guided fuzzing of all decoders and readers f
 faults: $(STAMP) ## cause faults between real processes, and check what docs/reliability.md promises (15 minutes)
 	@$(BIN)/python -E -m benchmarks.faults $(ARGS)
 
+soak: $(STAMP) ## run 20 nodes, recorder, viewer and doctor for 30 minutes: nothing may grow
+	@$(BIN)/python -E -m benchmarks.soak $(ARGS)
+
 conformance: $(STAMP) ## check tf2's semantics case by case
 	@$(BIN)/python conformance/run.py $(ARGS)
 

@@ -6,7 +6,6 @@ from __future__ import annotations
 import itertools
 import json
 import signal
-import socket
 import tempfile
 import time
 import urllib.error
@@ -16,7 +15,7 @@ from pathlib import Path
 import coframe
 from benchmarks.faults.case import Measurement, case
 from benchmarks.faults.links import NS, RATE, RECOVERY, ROBOTS, SETTLING, evaluate, first_after
-from benchmarks.faults.processes import Program, processes, wait_for
+from benchmarks.faults.processes import Program, free_port, processes, wait_for
 
 UNDISTURBED = 0.5  # seconds; the longest gap of nodes that have nothing to do with the fault
 STOPPED = 15.0  # seconds; longer than the lease of 10 s, after which DDS gives up a participant
@@ -201,13 +200,6 @@ def _kill_launcher() -> Measurement:
         f"{len(after_kill)} folder left by the kill, {len(remaining)} after the next launch, {len(at_end)} at its end"
     )
     return Measurement(text, not remaining and not at_end)
-
-
-def free_port() -> int:
-    """Return a free TCP port."""
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        return int(probe.getsockname()[1])
 
 
 def _longest_gap(arrivals: list[tuple[float, int]]) -> float:

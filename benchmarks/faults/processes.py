@@ -7,6 +7,8 @@ import contextlib
 import itertools
 import json
 import os
+import signal
+import socket
 import subprocess
 import sys
 import tempfile
@@ -21,6 +23,9 @@ if TYPE_CHECKING:
 
     from benchmarks.faults.network import Host
 
+# Shells start background jobs with Ctrl-C ignored, and the programs would inherit that.
+signal.signal(signal.SIGINT, signal.default_int_handler)
+
 PATIENCE = 60.0  # seconds; for programs that start on a busy machine
 _domains = itertools.count(1)
 
@@ -28,7 +33,7 @@ _domains = itertools.count(1)
 class Program:
     """A child process. Its standard error goes to a file."""
 
-    def __init__(self, command: list[str], environment: dict[str, str]) -> None:
+    def __init__(self, command: list[str], environment: dict[str, str], *, quiet: bool = False) -> None:
         self._errors = tempfile.TemporaryFile()  # noqa: SIM115 - open as long as the process
         self.started = time.monotonic()
         self.process = subprocess.Popen(
@@ -36,7 +41,7 @@ class Program:
             cwd=ROOT,
             env={**os.environ, **environment},
             stdin=subprocess.PIPE,
-            stdout=subprocess.PIPE,
+            stdout=subprocess.DEVNULL if quiet else subprocess.PIPE,
             stderr=self._errors,
             text=True,
         )
@@ -82,21 +87,26 @@ class Processes:
         self.environment = {**own, **environment}
         self._running: list[Program] = []
 
-    def start(self, *command: str, host: Host | None = None, **environment: str) -> Program:
-        """Start a command, where "python" is this Python."""
+    def start(self, *command: str, host: Host | None = None, quiet: bool = False, **environment: str) -> Program:
+        """Start a command, where "python" is this Python. Its output is lost if `quiet` is set."""
         words = [sys.executable if word == "python" else word for word in command]
-        program = Program(host.command(*words) if host else words, {**self.environment, **environment})
+        program = Program(host.command(*words) if host else words, {**self.environment, **environment}, quiet=quiet)
         self._running.append(program)
         return program
 
     def node(self, *arguments: object, host: Host | None = None, **environment: str) -> Program:
         """Start a program of `benchmarks.faults.programs`, and wait until it is ready."""
         command = ("python", "-m", "benchmarks.faults.programs", *map(str, arguments))
-        program = self.start(*command, host=host, **environment)
+        program = self.start(*command, host=host, quiet=False, **environment)
         program.line()
         return program
 
+    def forget(self, program: Program) -> None:
+        """Do not close a program at the end."""
+        self._running.remove(program)
+
     def close(self) -> None:
+        """Kill what is running."""
         for program in self._running:
             program.close()
 
@@ -119,6 +129,13 @@ def wait_for(condition: Callable[[], object], what: str, seconds: float = PATIEN
             raise RuntimeError(f"timed out after {seconds:g} s waiting for {what}")
         time.sleep(0.01)
     return time.monotonic() - begin
+
+
+def free_port() -> int:
+    """Return a free TCP port."""
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        return int(probe.getsockname()[1])
 
 
 def descriptors(process: int) -> int:

@@ -3,6 +3,7 @@
 
     python -m benchmarks.faults.programs talker robot1 100     publish odom_robot1 -> robot1 at 100 Hz
     python -m benchmarks.faults.programs listener robot1       listen, and report what was stored
+    python -m benchmarks.faults.programs listener robot1 10    the same, with a cache of 10 s
 
 Both print "ready", then wait for a line on standard input and print one line of JSON. The line that ends a listener is
 the JSON {robot: [stamps that were sent]}. The translation is a pseudo-random function of the stamp: an interpolated
@@ -31,6 +32,7 @@ from tf2_ros import (
 NS = 1_000_000_000
 JOINTS = 4  # transforms per message in addition to that of the robot
 _POLL = 0.005  # seconds
+_LONG_CACHE = 100_000  # seconds
 
 
 def value(stamp: int) -> float:
@@ -70,10 +72,10 @@ def talk(robot: str, rate: float) -> None:
     sys.stdin.readline()  # The last messages may have to be sent again.
 
 
-def listen(robots: list[str]) -> None:
+def listen(robots: list[str], cache: int) -> None:
     """Listen until a line is read; print when the newest stamp of each robot changed, and which stamps are stored."""
     node = rclpy.create_node("listener")
-    buffer = Buffer(cache_time=Duration(seconds=100_000))
+    buffer = Buffer(cache_time=Duration(seconds=cache))
     listener = TransformListener(buffer, node, spin_thread=True)
     arrivals: dict[str, list[tuple[float, int]]] = {robot: [] for robot in robots}
     statics: dict[str, float] = {}
@@ -127,7 +129,8 @@ def main(program: str, *arguments: str) -> None:
     if program == "talker":
         talk(arguments[0], float(arguments[1]))
     else:
-        listen(list(arguments))
+        robots = [argument for argument in arguments if not argument.isdecimal()]
+        listen(robots, int(arguments[-1]) if arguments[-1].isdecimal() else _LONG_CACHE)
     rclpy.shutdown()
 
 

@@ -1,0 +1,243 @@
+# SPDX-License-Identifier: Apache-2.0
+"""`make soak`: a long run of a whole system, in which memory, descriptors, threads and files must not grow.
+
+make soak                         30 minutes: 20 nodes that publish 20 000 transforms per second in total
+make soak ARGS="--minutes 3"      a short one
+
+A listener, `coframe record`, `coframe view` with a connected page and `coframe doctor --watch` receive all transforms.
+Every 20 s, another node joins and leaves. Each process is measured every second. After a warm-up of a sixth of the time
+(at least 1 minute), the median memory of the last measurements must be at most 1 % above that of the first ones. The
+exit code is 1 if a process grew, if messages were lost, or if anything was left behind.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import signal
+import statistics
+import sys
+import tempfile
+import time
+import urllib.request
+from pathlib import Path
+from typing import NamedTuple
+
+import coframe
+from benchmarks import machine
+from benchmarks.faults.processes import Processes, Program, descriptors, free_port, processes, wait_for
+
+NODES = 20
+RATE = 50  # messages per second and node
+TRANSFORMS = 20  # per message
+GROWTH = 0.01
+PASSING = 20.0  # seconds between two nodes that join and leave
+DOMAIN = "87"
+CLI = ("python", "-m", "coframe.cli")
+
+PAGE = """
+import sys
+from websockets.sync.client import connect
+with connect(sys.argv[1], max_size=None, compression=None) as socket:
+    while True:
+        if isinstance(socket.recv(), bytes):
+            socket.send('{"type":"ready"}')
+"""
+
+
+class Sample(NamedTuple):
+    """The resources of a process."""
+
+    memory: int
+    descriptors: int
+    threads: int
+
+
+class Watched:
+    """A process and its samples."""
+
+    def __init__(self, name: str, program: Program) -> None:
+        self.name = name
+        self.program = program
+        self.samples: list[Sample] = []
+
+    def sample(self) -> None:
+        """Measure its resources."""
+        process = self.program.process.pid
+        if self.program.process.poll() is not None:
+            raise RuntimeError(f"{self.name} ended: {self.program.errors()[-2000:]}")
+        pages = int(Path(f"/proc/{process}/statm").read_text().split()[1])
+        threads = len(list(Path(f"/proc/{process}/task").iterdir()))
+        self.samples.append(Sample(pages * os.sysconf("SC_PAGE_SIZE"), descriptors(process), threads))
+
+    def growth(self, warm_up: int) -> float:
+        """Return the growth of the memory after the warm-up, as a fraction."""
+        first, last = self._ends(warm_up)
+        before = statistics.median(sample.memory for sample in first)
+        return statistics.median(sample.memory for sample in last) / before - 1
+
+    def changes(self, warm_up: int) -> tuple[int, int]:
+        """Return by how much the least numbers of descriptors and threads have changed since the warm-up."""
+        first, last = self._ends(warm_up)
+        return (
+            min(sample.descriptors for sample in last) - min(sample.descriptors for sample in first),
+            min(sample.threads for sample in last) - min(sample.threads for sample in first),
+        )
+
+    def _ends(self, warm_up: int) -> tuple[list[Sample], list[Sample]]:
+        after = self.samples[warm_up:]
+        length = max(min(60, len(after) // 3), 1)
+        return after[:length], after[-length:]
+
+
+def start(started: Processes, folder: Path) -> list[Watched]:
+    """Start all processes; the listeners first, so that they receive every message."""
+    port = free_port()
+    commands = {
+        "listener": ("python", "-m", "benchmarks.soak_programs", "listener", str(NODES)),
+        "record": (*CLI, "record", "-o", str(folder / "run")),
+        "view": (*CLI, "view", "--no-browser", "--port", str(port)),
+        "doctor": (*CLI, "doctor", "--watch", "--json"),
+    }
+    watched = [Watched(name, started.start(*command, quiet=name != "listener")) for name, command in commands.items()]
+    watched[0].program.line()
+    wait_for(lambda: _answers(port), "the viewer")
+    watched.append(Watched("page", started.start("python", "-c", PAGE, f"ws://127.0.0.1:{port}/ws", quiet=True)))
+    wait_for((folder / "run").exists, "the recorder")
+    time.sleep(2.0)  # The commands join the graph.
+    for number in range(NODES):
+        arguments = ("talker", str(number), str(RATE), str(TRANSFORMS))
+        watched.append(Watched(f"node {number}", started.start("python", "-m", "benchmarks.soak_programs", *arguments)))
+    for each in watched[-NODES:]:
+        each.program.line()
+    return watched
+
+
+def _answers(port: int) -> bool:
+    try:
+        with urllib.request.urlopen(f"http://127.0.0.1:{port}/", timeout=5):
+            return True
+    except OSError:
+        return False
+
+
+class Soak:
+    """The measurement."""
+
+    def __init__(self, started: Processes, watched: list[Watched]) -> None:
+        self._started = started
+        self._watched = watched
+        self._passing: Program | None = None
+        self.reports: list[dict[str, float]] = []
+
+    def run(self, seconds: float) -> None:
+        """Sample every second, and print a line every minute."""
+        names = "listener", "record", "view", "doctor", "page"
+        print("minute  transforms/s  lost  p50 ms  p99 ms  " + "  ".join(f"{name:>8}" for name in (*names, "nodes")))
+        begin = time.monotonic()
+        self._report()
+        for second in range(1, int(seconds) + 1):
+            time.sleep(max(begin + second - time.monotonic(), 0.0))
+            for each in self._watched:
+                each.sample()
+            if second % PASSING == 1:
+                self._pass_by(second)
+            if second % 60 == 0:
+                report = self._report()
+                sizes = [each.samples[-1].memory / 1e6 for each in self._watched[: len(names)]]
+                nodes = statistics.mean(each.samples[-1].memory / 1e6 for each in self._watched[len(names) :])
+                figures = f"{report['transforms'] / 60:12.0f}  {report['lost']:4.0f}  {report['p50']:6.2f}  {report['p99']:6.2f}"
+                print(
+                    f"{second // 60:6}  {figures}  {'  '.join(f'{size:5.1f} MB' for size in (*sizes, nodes))}",
+                    flush=True,
+                )
+
+    def _report(self) -> dict[str, float]:
+        report: dict[str, float] = self._watched[0].program.ask("report")
+        self.reports.append(report)
+        return report
+
+    def _pass_by(self, number: int) -> None:
+        if self._passing:
+            self._passing.close()
+            self._started.forget(self._passing)
+        arguments = ("passing", str(number))
+        self._passing = self._started.start("python", "-m", "benchmarks.soak_programs", *arguments, quiet=True)
+
+
+def finish(watched: list[Watched], folder: Path) -> tuple[int, int, list[str]]:
+    """End all processes; return the messages sent and recorded, and what was not ended or removed."""
+    talkers = watched[-NODES:]
+    sent = sum(int(each.program.ask()) for each in talkers)
+    time.sleep(3.0)  # Lost messages are sent again.
+    left = []
+    watched[0].program.ask("end")
+    for each in watched[1:4]:
+        each.program.process.send_signal(signal.SIGINT)
+    for each in talkers:
+        each.program.tell()
+    for each in [*watched[:4], *talkers]:
+        code = each.program.process.wait(60)
+        if code not in (0, 130):
+            left.append(f"{each.name} ended with exit code {code}: {each.program.errors()[-500:]}")
+    with coframe.open_bag(folder / "run") as bag:
+        recorded = bag.topics["/tf"].messages
+        left += bag.problems
+    left += [f"{path.name} in the temporary folder" for path in (folder / "temporary").iterdir()]
+    return sent, recorded, left
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--minutes", type=float, default=30.0, help="how long to measure (default: 30)")
+    seconds = 60 * parser.parse_args().minutes
+    warm_up = int(max(60.0, seconds / 6))
+    if seconds < warm_up + 60:
+        parser.error("--minutes must be at least 2")
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        (folder / "temporary").mkdir()
+        with processes(TMPDIR=str(folder / "temporary"), ROS_DOMAIN_ID=DOMAIN) as started:
+            watched = start(started, folder)
+            soak = Soak(started, watched)
+            soak.run(seconds)
+            sent, recorded, problems = finish(watched, folder)
+    return summarize(watched, soak.reports, warm_up, sent - recorded, problems)
+
+
+def summarize(
+    watched: list[Watched], reports: list[dict[str, float]], warm_up: int, not_recorded: int, problems: list[str]
+) -> int:
+    """Print the summary, and return the exit code."""
+    print("\n| process | memory | growth after the warm-up | descriptors | threads |\n|---|---|---|---|---|")
+    for each in watched:
+        growth, (files, threads) = each.growth(warm_up), each.changes(warm_up)
+        last = each.samples[-1]
+        print(
+            f"| {each.name} | {last.memory / 1e6:.1f} MB | {100 * growth:+.2f} % | {last.descriptors} ({files:+}) | {last.threads} ({threads:+}) |"
+        )
+        if growth > GROWTH:
+            problems.append(f"the memory of {each.name} grew by {100 * growth:.2f} %")
+        if files > 0 or threads > 0:
+            problems.append(f"{each.name} has {files} more descriptors and {threads} more threads")
+    lost = sum(report["lost"] for report in reports)
+    if lost or not_recorded:
+        problems.append(f"{lost:.0f} messages were not received, {not_recorded} were not recorded")
+    facts = machine.facts()
+    print("", *(f"{key}: {facts[key]}" for key in ("Date", "Machine", "Load", "coframe", "Python")), sep="\n")
+    seconds = len(watched[0].samples)
+    transforms = sum(report["transforms"] for report in reports[1:])
+    worst = max((report["p99"] for report in reports[1:]), default=0.0)
+    middle = statistics.median(report["p50"] for report in reports[1:])
+    print(
+        f"\n{seconds / 60:.0f} minutes, {transforms:.0f} transforms received, {lost:.0f} messages lost; latency from "
+        f"the stamp to the callback: median {middle:.2f} ms, 99th percentile {worst:.2f} ms in the worst minute"
+    )
+    print(
+        "\n".join(f"PROBLEM: {problem}" for problem in problems) or "nothing grew, nothing was lost, nothing was left"
+    )
+    return int(bool(problems))
+
+
+if __name__ == "__main__":
+    sys.exit(main())
