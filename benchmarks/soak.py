@@ -146,11 +146,10 @@ class Soak:
                 report = self._report()
                 sizes = [each.samples[-1].memory / 1e6 for each in self._watched[: len(names)]]
                 nodes = statistics.mean(each.samples[-1].memory / 1e6 for each in self._watched[len(names) :])
-                figures = f"{report['transforms'] / 60:12.0f}  {report['lost']:4.0f}  {report['p50']:6.2f}  {report['p99']:6.2f}"
-                print(
-                    f"{second // 60:6}  {figures}  {'  '.join(f'{size:5.1f} MB' for size in (*sizes, nodes))}",
-                    flush=True,
-                )
+                latencies = f"{report['p50']:6.2f}  {report['p99']:6.2f}"
+                memory = "  ".join(f"{size:5.1f} MB" for size in (*sizes, nodes))
+                received = f"{report['transforms'] / 60:12.0f}  {report['lost']:4.0f}"
+                print(f"{second // 60:6}  {received}  {latencies}  {memory}", flush=True)
 
     def _report(self) -> dict[str, float]:
         report: dict[str, float] = self._watched[0].program.ask("report")
@@ -213,9 +212,8 @@ def summarize(
     for each in watched:
         growth, (files, threads) = each.growth(warm_up), each.changes(warm_up)
         last = each.samples[-1]
-        print(
-            f"| {each.name} | {last.memory / 1e6:.1f} MB | {100 * growth:+.2f} % | {last.descriptors} ({files:+}) | {last.threads} ({threads:+}) |"
-        )
+        resources = f"{last.descriptors} ({files:+}) | {last.threads} ({threads:+})"
+        print(f"| {each.name} | {last.memory / 1e6:.1f} MB | {100 * growth:+.2f} % | {resources} |")
         if growth > GROWTH:
             problems.append(f"the memory of {each.name} grew by {100 * growth:.2f} %")
         if files > 0 or threads > 0:

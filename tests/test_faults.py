@@ -30,7 +30,9 @@ def test_each_fault_has_a_promise():
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("fault", ["loss_30", "partition_15", "stop_listener"])
+@pytest.mark.parametrize(
+    "fault", ["loss_30", "partition_15", "stop_listener", "disk_read_only_replay", "disk_read_only_frozen"]
+)
 def test_promise_is_kept(fault):
     done = faults(fault)
     assert done.returncode == 0, done.stdout + done.stderr

@@ -111,7 +111,8 @@ def _replacing(target: Path) -> Iterator[BinaryIO]:
             "On Windows, no other program may have the file open.",
         ) from None
     finally:
-        temporary.unlink(missing_ok=True)
+        with contextlib.suppress(OSError):  # On a read-only disk, this is an error even if there is no such file.
+            temporary.unlink()
 
 
 @contextlib.contextmanager

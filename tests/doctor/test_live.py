@@ -105,6 +105,27 @@ def test_departed_publisher_is_removed_with_its_transforms(domain_id, eventually
         eventually(lambda: observed() == (False, False))
 
 
+def test_what_is_older_than_the_window_is_removed(domain_id, eventually):
+    pytest.importorskip("cyclonedds", reason="messages are received over DDS")
+    transforms, joints = find("tf2_msgs/msg/TFMessage"), find("sensor_msgs/msg/JointState")
+    sent = transforms(transforms=[find("geometry_msgs/msg/TransformStamped")(child_frame_id="base_link")])
+    with LiveObserver(domain_id, window=100_000_000) as listening, coframe.connect("arm", domain=domain_id) as ros:
+        tf, states = ros.publisher("/tf", transforms), ros.publisher("/joint_states", joints)
+
+        def counts():
+            travel = listening.observe().travel.get("/arm", ())
+            return len(travel), sum(len(topic.decoded) for topic in listening._topics.values())
+
+        def received():
+            tf.publish(sent)
+            states.publish(joints())
+            listening.poll()
+            return min(counts()) > 0
+
+        eventually(received)
+        eventually(lambda: listening.poll() or counts() == (0, 0))
+
+
 @pytest.mark.slow
 def test_misspelt_frame_gives_the_line_to_change(start, only):
     start("robot", ROBOT)

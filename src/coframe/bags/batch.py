@@ -14,7 +14,7 @@ import json
 import multiprocessing
 import os
 import signal
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -167,8 +167,14 @@ def _write(part: Path, bag: str, poses: Transform, fingerprint: bytes) -> None:
     try:
         parquet.write_table(arrow.table(columns).replace_schema_metadata({_METADATA_KEY: fingerprint}), temporary)
         temporary.replace(part)
+    except OSError as error:
+        reason = os.strerror(error.errno) if error.errno else str(error)
+        raise RecordingError(
+            f"{part} cannot be written: {reason}", hint="Check the free space and the write permission."
+        ) from None
     finally:
-        temporary.unlink(missing_ok=True)
+        with suppress(OSError):
+            temporary.unlink()
 
 
 _Job = tuple[str, "TrajectoryQuery", str]

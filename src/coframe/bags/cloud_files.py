@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import tempfile
-from contextlib import closing
+from contextlib import closing, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO, Protocol
 
@@ -132,7 +132,8 @@ def _write_one(path: Path, kind: str, clouds: Iterable[Cloud], source: _CloudSou
         source.check_some()
         temporary.replace(path)
     finally:
-        temporary.unlink(missing_ok=True)
+        with suppress(OSError):
+            temporary.unlink()
     return written
 
 

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from typing import TYPE_CHECKING
 
 import typer
@@ -72,4 +73,5 @@ def _write(output: Path, page: bytes) -> None:
     except OSError as error:
         fail(f"{output} cannot be written: {error.strerror}", "Check that the folder exists and is writable.")
     finally:
-        part.unlink(missing_ok=True)
+        with suppress(OSError):  # On a read-only disk, this is an error even if there is no such file.
+            part.unlink()

@@ -46,7 +46,9 @@ def create_folder(folder: Path, variant: int | None) -> list[Path]:
             (folder / name).write_text(_filled(text, assignment), encoding="utf-8")
         (folder / FILE).write_text(assignment_file(assignment), encoding="utf-8")
     except OSError as error:
-        raise CourseError(f"Cannot write {error.filename}: {error.strerror}.", hint="Choose another folder.") from None
+        raise CourseError(
+            f"Cannot write {error.filename or folder}: {error.strerror}.", hint="Choose another folder."
+        ) from None
     return [folder / name for name in (*names, FILE)]
 
 

@@ -74,6 +74,13 @@ class _Writer(NamedTuple):
     process: bytes  # the GUID prefix, which identifies the DDS participant
 
 
+class _Delays(NamedTuple):
+    """The transport times of a batch of messages from one writer, in nanoseconds."""
+
+    arrived: int  # the arrival of the last one, in nanoseconds since 1970
+    values: NDArray[np.int64]
+
+
 class _Topic:
     """A subscribed topic other than those of transforms, with what was received on it."""
 
@@ -128,7 +135,7 @@ class LiveObserver:
         self._participant = Participant.get(domain)
         self._collector = Collector(names)
         self._writers: dict[int, _Writer] = {}
-        self._delays: dict[int, deque[int]] = {}
+        self._delays: dict[int, deque[_Delays]] = {}
         self._static_writers: set[int] = set()  # those that have delivered
         self._topics: dict[str, _Topic] = {}
         try:
@@ -237,6 +244,12 @@ class LiveObserver:
         for topic in self._topics.values():
             while topic.headers and topic.headers[0].arrived < before:
                 topic.headers.popleft()
+            while topic.type in _DECODED and topic.decoded and topic.decoded[0][0] < before:
+                topic.decoded.popleft()
+        for delays in self._delays.values():
+            while delays and delays[0].arrived < before:
+                delays.popleft()
+        self._static_writers &= present
         if (self._writers.keys() | self._delays.keys()) <= present:
             return
         active = present | set(map(int, self._collector.publishers()))
@@ -252,10 +265,10 @@ class LiveObserver:
         return replace(received, publisher=numbers[received.publisher], publishers=tuple(number))
 
     def _delays_by_node(self) -> dict[str, NDArray[np.int64]]:
-        by_name: dict[str, list[int]] = {}
+        by_name: dict[str, list[NDArray[np.int64]]] = {}
         for handle, delays in self._delays.items():
-            by_name.setdefault(self._node_of(handle), []).extend(delays)
-        return {name: np.array(delays, dtype=np.int64) for name, delays in by_name.items()}
+            by_name.setdefault(self._node_of(handle), []).extend(batch.values for batch in delays)
+        return {name: np.concatenate(batches) for name, batches in by_name.items() if batches}
 
     def _awaited_statics(self) -> set[int]:
         """Return the handles of the matched publishers of static transforms that nothing was received from."""
@@ -279,8 +292,10 @@ class LiveObserver:
         else:  # latched messages may have been sent long before this node subscribed
             delay = messages.arrived - messages.sent
             for number, handle in enumerate(handles.tolist()):
-                delays = self._delays.setdefault(handle, deque(maxlen=_MAX_MESSAGES))
-                delays.extend(delay[publisher == number].tolist())
+                delays = self._delays.setdefault(handle, deque())
+                delays.append(_Delays(int(messages.arrived[-1]), delay[publisher == number]))
+                while sum(len(batch.values) for batch in delays) > _MAX_MESSAGES and len(delays) > 1:
+                    delays.popleft()
 
     def _subscribe_if_relevant(self, name: str, types: list[str]) -> None:
         ros_type = types[0]
