@@ -125,4 +125,5 @@ def wait_for(url: str) -> None:
     sys.exit(f"The demo does not answer at {url} after {START_TIMEOUT:.0f} s.")
 
 
-main()
+if __name__ == "__main__":
+    main()

@@ -23,6 +23,8 @@ HANDBOOK = Path(__file__).resolve().parents[1] / "docs" / "handbook"
 FOLDER = HANDBOOK / "notebooks"
 CHAPTERS = sorted(HANDBOOK.glob("[0-9]*.md"))
 _CODE = re.compile(r"^```python\n(?P<block>.*?)^```\n|^<!-- notebook:(?P<comment>.*?)-->\n", re.MULTILINE | re.DOTALL)
+# In a notebook, the view itself takes the place of its picture.
+_PICTURE = re.compile(r"^!\[[^]]*\]\(\d\d_\w+\.webp\)\n+", re.MULTILINE)
 _CHAPTER_LINK = re.compile(r"\]\((\d\d_\w+)\.md(#[\w-]*)?\)")
 _OTHER_LINK = re.compile(r"\]\((?!\w+:|#|\d\d_\w+\.ipynb)([^)]+)\)")
 
@@ -41,7 +43,7 @@ class Cell(NamedTuple):
 
 def cells(chapter: Path) -> Iterator[Cell]:
     """Yield the cells of a chapter."""
-    text = chapter.read_text(encoding="utf-8")
+    text = _PICTURE.sub("", chapter.read_text(encoding="utf-8"))
     end = 0
     for found in _CODE.finditer(text):
         yield from _markdown(text[end : found.start()])
