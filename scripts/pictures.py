@@ -181,7 +181,10 @@ def main() -> None:
                     phone = {"device_scale_factor": 2, "is_mobile": True, "has_touch": True, "color_scheme": "dark"}
                     write_image("viewer_phone.png", drawn(browser, url, PHONE, nothing, **phone))
         if "viewer".startswith(wanted):
-            with coframe.show(coframe.Buffer(), robot=ARM) as viewer:
+            ground = coframe.Buffer()
+            ground.set("map", "base_link", coframe.Transform(), static=True)
+            os.chdir(ARM.parent)  # The page shows the path.
+            with ground.show(robot=ARM.name) as viewer:
                 write_image("viewer_light.png", drawn(browser, viewer.url, SIZE, move_joints, color_scheme="light"))
         browser.close()
 
