@@ -52,7 +52,7 @@ def test_a_chapter_runs_and_shows_its_frames(chapter, open_page, tmp_path):
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # of Jupyter's own packages
         nbclient.NotebookClient(notebook, timeout=TIMEOUT, resources={"metadata": {"path": str(tmp_path)}}).execute()
-        notebook.cells = [cell for cell in notebook.cells if cell.cell_type == "code"]  # the figures are tested elsewhere
+        notebook.cells = [cell for cell in notebook.cells if cell.cell_type == "code"]  # without the chapter's figures
         body, _ = nbconvert.HTMLExporter(template_name="basic").from_notebook_node(notebook)
     file = tmp_path / f"{chapter}.html"
     file.write_text(f"<!doctype html><meta charset=utf-8>{body}", encoding="utf-8")
