@@ -7,7 +7,7 @@ DEMO_STAMP := $(VENV)/.demo_ready
 NATIVE := $(shell find native -name '*.cpp' -o -name '*.hpp' -o -name '*.inc') CMakeLists.txt
 
 .DEFAULT_GOAL := help
-.PHONY: help setup build build-split demo test test-slow test-long test-ros sanitize sanitize-suite fuzz faults soak lint typecheck format conformance bench generate page page-check clean
+.PHONY: help setup build build-split demo test test-slow test-long test-ros sanitize sanitize-suite fuzz faults soak docs lint typecheck format conformance bench generate page page-check clean
 
 help: ## list the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  make %-12s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -43,7 +43,7 @@ $(VENV)/.oracle: pyproject.toml | $(STAMP)
 	@$(BIN)/python -m pip install --quiet "pip>=25.1" && $(BIN)/python -m pip install --quiet --group oracle && touch $@ || \
 		echo "test-slow: the package index does not provide Pinocchio; tests that compare with it are skipped"
 
-test-slow: $(STAMP) $(VENV)/.oracle ## run the tests that take minutes
+test-slow: $(STAMP) $(VENV)/.oracle $(VENV)/.docs ## run the tests that take minutes
 	$(BIN)/python -m pytest -m "slow and not long" $(ARGS)
 
 test-ros: $(STAMP) ## run programs with the sourced ROS 2 and with coframe, and compare their outputs
@@ -75,6 +75,13 @@ faults: $(STAMP) ## cause faults between real processes, and check what docs/rel
 
 soak: $(STAMP) ## run 20 nodes, recorder, viewer and doctor for 30 minutes: nothing may grow
 	@$(BIN)/python -E -m benchmarks.soak $(ARGS)
+
+$(VENV)/.docs: pyproject.toml | $(STAMP)
+	@$(BIN)/python -m pip install --quiet "pip>=25.1" && $(BIN)/python -m pip install --quiet --group docs && touch $@
+
+docs: $(VENV)/.docs ## build the documentation site into build/site and check its links; warnings are errors
+	@NO_MKDOCS_2_WARNING=1 $(BIN)/mkdocs build --strict --quiet
+	@$(BIN)/python scripts/site/check_links.py build/site
 
 conformance: $(STAMP) ## check tf2's semantics case by case
 	@$(BIN)/python conformance/run.py $(ARGS)

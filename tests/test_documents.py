@@ -1,14 +1,24 @@
 # SPDX-License-Identifier: Apache-2.0
 """Every example in the README, the docs and the public docstrings is run."""
 
+import contextlib
 import doctest
+import functools
 import importlib
+import importlib.metadata
+import importlib.util
+import io
+import itertools
+import json
 import os
 import pkgutil
 import re
+import shlex
 import subprocess
 import sys
 from pathlib import Path
+from typing import NamedTuple
+from xml.etree import ElementTree
 
 import pytest
 import typer
@@ -17,18 +27,66 @@ import coframe
 from coframe.cli.app import app
 
 ROOT = Path(__file__).parents[1]
-DOCUMENTS = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").rglob("*.md"))]
+DOCUMENTS = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", ROOT / "benchmarks" / "README.md"]
+DOCUMENTS += sorted((ROOT / "docs").rglob("*.md")) + sorted((ROOT / "src/coframe/doctor/code_pages").glob("*.md"))
+RUN, CHECKED, PARSED, SHOWN = {"python"}, {"console", "bash"}, {"yaml", "json", "xml"}, {"text"}
+# A block may be in a list or a tab. A comment above a block says why it is not run.
+BLOCK = re.compile(
+    r"(?:^[ \t]*<!-- not run: (?P<reason>[^\n]+?) -->\n)?"
+    r"^(?P<indent>[ \t]*)```(?P<language>\w*)[^\n]*\n(?P<text>.*?)^(?P=indent)```[ \t]*$",
+    re.MULTILINE | re.DOTALL,
+)
+COMMAND_LINE = typer.main.get_command(app)
+# Programs of others in the examples. What coframe provides is checked.
+OTHER_PROGRAMS = {
+    "apt",
+    "apt-get",
+    "cd",
+    "docker",
+    "export",
+    "git",
+    "pip",
+    "ros2",
+    "rviz2",
+    "source",
+    "uv",
+    "xcode-select",
+}
 
 
-def blocks(document, language):
-    return re.findall(rf"^```{language}\n(.*?)^```", document.read_text(), re.MULTILINE | re.DOTALL)
+class Block(NamedTuple):
+    """A code block of a document, without its indentation; `reason` says why it is not run, and is "" if it is."""
+
+    language: str
+    text: str
+    reason: str
 
 
-@pytest.mark.parametrize("document", [d for d in DOCUMENTS if blocks(d, "python")], ids=lambda d: d.name)
+def blocks(document, languages):
+    """Return the blocks of some languages that are run or checked."""
+    return [block for block in all_blocks(document) if block.language in languages and not block.reason]
+
+
+def all_blocks(document):
+    for match in BLOCK.finditer(document.read_text(encoding="utf-8")):
+        text = re.sub(rf"^{match['indent']}", "", match["text"], flags=re.MULTILINE)
+        yield Block(match["language"], text, match["reason"] or "")
+
+
+def name_of(document):
+    return str(document.relative_to(ROOT))
+
+
+def with_blocks(*languages):
+    documents = [document for document in DOCUMENTS if blocks(document, languages)]
+    return pytest.mark.parametrize("document", documents, ids=name_of)
+
+
+@with_blocks(*RUN)
 @pytest.mark.usefixtures("domain_id")
 def test_python_examples_run_and_print_what_they_say(document, capsys):
     pytest.importorskip("dds_library", reason="some examples join the ROS graph")
-    source = "\n".join(blocks(document, "python"))
+    source = "\n".join(block.text for block in blocks(document, RUN))
     exec(compile(source, document.name, "exec"), {"__name__": document.name})  # the examples of one page go together
     printed = capsys.readouterr().out.splitlines()
     promised = re.findall(r"print\(.*\) +# (.*)", source)
@@ -36,21 +94,105 @@ def test_python_examples_run_and_print_what_they_say(document, capsys):
         assert line.startswith(promise.removesuffix("...").rstrip()), f"prints {line!r}, the page says {promise!r}"
 
 
-@pytest.mark.parametrize("document", DOCUMENTS, ids=lambda d: d.name)
+@pytest.mark.parametrize("document", DOCUMENTS, ids=name_of)
+def test_no_block_is_skipped_without_a_reason(document):
+    text = document.read_text(encoding="utf-8")
+    found = list(all_blocks(document))
+    assert len(found) * 2 == len(re.findall(r"^[ \t]*```", text, re.MULTILINE)), (
+        "a block is not closed as it was opened"
+    )
+    for block in found:
+        known = block.language in RUN | CHECKED | PARSED | SHOWN
+        assert known or block.reason, f"{block.language or 'no language'}: no test handles {block.text[:60]!r}"
+    assert text.count("<!-- not run:") == sum(bool(block.reason) for block in found), "a reason is not above a block"
+
+
+def test_most_blocks_are_run_or_checked():
+    found = [block for document in DOCUMENTS for block in all_blocks(document)]
+    tested = [block for block in found if block.language in RUN | CHECKED | PARSED and not block.reason]
+    assert len(tested) > 130
+    assert len([block for block in found if block.reason]) <= 4
+
+
+@with_blocks(*CHECKED)
+def test_commands_of_shell_examples_exist(document):
+    for block in blocks(document, CHECKED):
+        for line in block.text.replace("\\\n", " ").splitlines():
+            words = shlex.split(re.sub(r"^\$ ", "", line), comments=True)
+            while words and re.match(r"\w+=", words[0]):  # a variable of the environment
+                words = words[1:]
+            if words:
+                assert (problem := problem_of_command(words)) == "", f"{line}: {problem}"
+
+
+def problem_of_command(words):
+    """Return what is wrong with a command that coframe or Python provides; "" if it exists."""
+    program, *arguments = words
+    if program == "coframe":
+        return problem_of_coframe(arguments)
+    if program == "make":
+        targets = re.findall(r"^([\w-]+):", (ROOT / "Makefile").read_text(encoding="utf-8"), re.MULTILINE)
+        return "" if not arguments or arguments[0] in targets or "=" in arguments[0] else "no such target"
+    if program == "python" and arguments[0] == "-m":
+        return "" if arguments[1] in {"pip", "venv"} or importlib.util.find_spec(arguments[1]) else "no such module"
+    if program == "pip" and "install" in arguments:
+        extras = set(re.findall(r"^(\w+) = \[", (ROOT / "pyproject.toml").read_text("utf-8"), re.MULTILINE))
+        named = {extra for word in arguments for each in re.findall(r"\[([\w,]+)\]", word) for extra in each.split(",")}
+        return f"no extra {named - extras}" if named - extras else ""
+    scripts = {entry.name for entry in importlib.metadata.distribution("coframe").entry_points}
+    return "" if program in OTHER_PROGRAMS | scripts | {"python"} else "unknown program"
+
+
+def problem_of_coframe(arguments):
+    command, path = COMMAND_LINE, ["coframe"]
+    while arguments and hasattr(command, "commands") and not arguments[0].startswith("-"):
+        if arguments[0] not in command.commands:
+            return f"no command {arguments[0]}"
+        path.append(arguments[0])
+        command, arguments = command.commands[arguments[0]], arguments[1:]
+    text = help_of(tuple(path[1:]))
+    # After --ros-args, the words are those of a node.
+    options = {word.partition("=")[0] for word in itertools.takewhile(lambda word: word != "--ros-args", arguments)}
+    known = set(re.findall(r"(?<![\w-])--?[a-zA-Z][\w-]*", text))
+    wrong = [word for word in options if re.match(r"--?[a-zA-Z]", word) and word not in known]
+    return f"no option {', '.join(wrong)}" if wrong else ""
+
+
+@functools.cache
+def help_of(words):
+    output = io.StringIO()
+    with contextlib.redirect_stdout(output), contextlib.suppress(SystemExit):
+        COMMAND_LINE.main([*words, "--help"], prog_name="coframe")
+    return output.getvalue()
+
+
+@with_blocks(*PARSED)
+def test_data_in_examples_is_valid(document):
+    yaml = pytest.importorskip("yaml")
+    for block in blocks(document, {"yaml"}):
+        assert yaml.safe_load(block.text)
+    for block in blocks(document, {"json"}):
+        assert json.loads(block.text)
+    for block in blocks(document, {"xml"}):
+        assert ElementTree.fromstring(block.text) is not None
+
+
+@pytest.mark.parametrize("document", DOCUMENTS, ids=name_of)
 def test_commands_and_links_exist(document):
-    text = document.read_text()
-    makefile = (ROOT / "Makefile").read_text()
+    text = document.read_text(encoding="utf-8")
+    makefile = (ROOT / "Makefile").read_text(encoding="utf-8")
     for target in re.findall(r"\bmake ([a-z-]+)\b", "\n".join(re.findall(r"`[^`\n]+`", text))):
         assert re.search(rf"^{target}:", makefile, re.MULTILINE), f"{document.name} names make {target}"
-    for link in re.findall(r"\]\(([^)#:]+)\)", text):
+    prose = BLOCK.sub("", text)
+    for link in re.findall(r"\]\(([^)#:\s]+)(?:#[^)]*)?\)", prose):
         assert (document.parent / link).exists(), f"{document.name} links to {link}"
-    commands = typer.main.get_command(app).commands
     for command in re.findall(r"`coframe ([a-z0-9]+)", text):
-        assert command in commands, f"{document.name} names coframe {command}"
+        assert command in COMMAND_LINE.commands, f"{document.name} names coframe {command}"
 
 
-def test_figures_of_the_handbook_are_current():
-    command = [sys.executable, ROOT / "scripts" / "handbook_figures.py", "--check"]
+@pytest.mark.parametrize("script", ["handbook_figures.py", "conventions_figures.py"])
+def test_figures_are_current(script):
+    command = [sys.executable, ROOT / "scripts" / script, "--check"]
     result = subprocess.run(command, capture_output=True, text=True, check=False)
     assert result.returncode == 0, result.stdout + result.stderr
 
@@ -62,6 +204,26 @@ def test_the_steps_of_the_architecture_exist():
     for path, name in steps:
         source = (ROOT / path).read_text(encoding="utf-8")
         assert re.search(rf"\b{name}\b", source), f"{path} has no {name}"
+
+
+def test_every_page_is_in_the_navigation_of_the_site():
+    text = (ROOT / "mkdocs.yml").read_text(encoding="utf-8").partition("\nnav:\n")[2]
+    for page in (ROOT / "docs").rglob("*.md"):
+        path = page.relative_to(ROOT / "docs")
+        folder = re.search(rf"\s{re.escape(path.parent.as_posix())}/$", text, re.MULTILINE)
+        named = re.search(rf"\s{re.escape(path.as_posix())}$", text, re.MULTILINE)
+        assert folder or named, f"add docs/{path} to the navigation in mkdocs.yml"
+
+
+def test_reference_contains_every_public_name():
+    pages = "\n".join(page.read_text("utf-8") for page in (ROOT / "docs" / "reference" / "api").glob("*.md"))
+    shown = set(re.findall(r"^::: ([\w.]+)$", pages, re.MULTILINE))
+    for name in coframe.__all__:
+        assert name == "__version__" or f"coframe.{name}" in shown, (
+            f"docs/reference/api does not contain coframe.{name}"
+        )
+    for module in coframe._PUBLIC_MODULES:
+        assert f"coframe.{module}" in shown, f"docs/reference/api does not contain coframe.{module}"
 
 
 def public_modules():

@@ -31,7 +31,7 @@ def test_documentation_quotes_the_error(tmp_path):
     (tmp_path / "geometry_msgs" / "__init__.py").touch()
     with pytest.raises(ImportError) as caught:
         ros_side.check("tf2_ros", [str(tmp_path), str(ros_folders.ros_folder())])
-    page = (Path(__file__).parents[2] / "docs" / "how-to" / "coming-from-tf2.md").read_text()
+    page = (Path(__file__).parents[2] / "docs" / "how-to" / "beside-ros2.md").read_text()
     assert f"ImportError: {caught.value}".replace(str(tmp_path), "/opt/ros/humble/lib/python3.10/site-packages") in page
 
 
