@@ -1,12 +1,30 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A check that all ROS packages are imported from one place: coframe or a ROS installation, never both."""
+"""A check that all ROS packages are imported from one place: coframe or a ROS installation, never both.
+
+The exception is tf2, which `coframe.ros2` replaces in a ROS installation.
+"""
 
 from __future__ import annotations
 
 import sys
+from typing import Final
 
 from coframe import interface_imports
 from coframe.ros_folders import foreign_packages
+
+TF2_PACKAGES: Final = ("tf2_py", "tf2_ros")
+
+_state = {"tf2_is_replaced": False}
+
+
+def tf2_is_replaced() -> bool:
+    """Return whether coframe's tf2_py and tf2_ros are used with the rclpy and the messages of a ROS installation."""
+    return _state["tf2_is_replaced"]
+
+
+def allow_tf2() -> None:
+    """Accept that coframe's tf2_py and tf2_ros are used with the rclpy and the messages of a ROS installation."""
+    _state["tf2_is_replaced"] = True
 
 
 def check(importing: str, path: list[str] | None = None) -> None:
@@ -21,6 +39,8 @@ def check(importing: str, path: list[str] | None = None) -> None:
     Raises:
         ImportError: Some of the packages would be imported from another folder.
     """
+    if importing in TF2_PACKAGES and tf2_is_replaced():
+        return
     found = foreign_packages(tuple(sys.path if path is None else path))
     if not found:
         interface_imports.install()

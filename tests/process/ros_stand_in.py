@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """A stand-in for a sourced ROS 2: packages early on the path whose message classes and nodes are not coframe's.
 
-They are a copy of coframe's packages in which every module for messages and DDS has another name, so that no class is
-shared with coframe. Where ROS 2 Humble differs in a way that matters to coframe's own packages, so does the copy:
-message classes name private modules such as sensor_msgs.msg._imu, `rclpy.init()` returns None, `RCLError` is only in
-`rclpy._rclpy_pybind11`, the Python package joint_state_publisher has no names, and tf2_sensor_msgs, tf2_nav_msgs,
-tf_transformations and robot_state_publisher cannot be imported.
+They are a copy of coframe's packages in which every module for messages and DDS and every private member has another
+name, so that no class is shared with coframe and nothing private can be used. Where ROS 2 Humble differs in a way that
+matters to coframe's own packages, so does the copy: message classes name private modules such as sensor_msgs.msg._imu,
+`rclpy.init()` returns None, `RCLError` is only in `rclpy._rclpy_pybind11`, the Python package joint_state_publisher has
+no names, and tf2_sensor_msgs, tf2_nav_msgs, tf_transformations and robot_state_publisher cannot be imported.
 """
 
 import os
@@ -20,6 +20,7 @@ _OTHER = ("tf2_geometry_msgs", "sensor_msgs_py")
 _CHECK = re.compile(r"^from coframe import ros_side\n|^ros_side\.check\(.*\)\n", re.MULTILINE)
 _MODULES = re.compile(r"\bcoframe\.(messages|wire)\b")
 _CLASS_MODULE = 'cls.__module__ = f"{package}.{kind}'
+_PRIVATE = "_Coframe__"
 _RCL_ERROR = re.compile(r"\bRCLError\b")
 
 
@@ -33,7 +34,7 @@ def make(folder: Path) -> None:
             ros_folders.ros_folder() / package, folder / package, ignore=shutil.ignore_patterns("__pycache__")
         )
     for file in folder.rglob("*.py"):
-        text = _MODULES.sub(rf"{THEIRS}.\1", _CHECK.sub("", file.read_text()))
+        text = _MODULES.sub(rf"{THEIRS}.\1", _CHECK.sub("", file.read_text())).replace(_PRIVATE, "_Theirs__")
         if file.is_relative_to(folder / "rclpy"):
             text = _RCL_ERROR.sub("_RCLError", text)
         file.write_text(text)

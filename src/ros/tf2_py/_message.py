@@ -11,6 +11,7 @@ from typing import Any
 
 from builtin_interfaces.msg import Time as TimeMessage
 from coframe import _core
+from coframe.ros_side import tf2_is_replaced
 from coframe.time import SECOND
 from geometry_msgs.msg import Quaternion, Transform, TransformStamped, Vector3
 from rclpy.time import Time
@@ -33,10 +34,13 @@ def transform_stamped(target: str, source: str, stamp: int, pose: Pose) -> Trans
 
 
 def any_time(nanoseconds: int) -> Time:
-    """Return the `Time` of a stamp, which may be negative."""
+    """Return the `Time` of a stamp, which may be negative with coframe's rclpy."""
+    if tf2_is_replaced():
+        return Time(nanoseconds=nanoseconds)
     result = Time()
     result._nanoseconds = nanoseconds
     return result
 
 
-_core.register_messages(TransformStamped, Header, TimeMessage, Time, Transform, Vector3, Quaternion)
+if not tf2_is_replaced():  # The core contains the layout of coframe's classes only.
+    _core.register_messages(TransformStamped, Header, TimeMessage, Time, Transform, Vector3, Quaternion)

@@ -8,7 +8,7 @@ from enum import IntEnum
 from itertools import takewhile
 from typing import Any, NamedTuple
 
-from rclpy.task import Future
+from rclpy.task import Future  # noqa: TC001 - a name of the module
 
 
 class FilterFailureReason(IntEnum):
@@ -58,7 +58,7 @@ class PendingMessage:
     frame: str
     stamp: int
     deadline: int | None
-    future: Future[Any] | None = None
+    future: "Future[Any] | None" = None
 
 
 class Outcome(NamedTuple):
@@ -105,7 +105,7 @@ class MessageQueue:
             pending.future.cancel()
         return True
 
-    def set_future(self, pending: PendingMessage, future: Future[Any]) -> None:
+    def set_future(self, pending: PendingMessage, future: "Future[Any]") -> None:
         """Set the future that a message waits for, and cancel its previous future."""
         with self._lock:
             obsolete = future
@@ -114,7 +114,7 @@ class MessageQueue:
         if obsolete is not None:
             obsolete.cancel()
 
-    def pending_for(self, number: int, future: Future[Any]) -> PendingMessage | None:
+    def pending_for(self, number: int, future: "Future[Any]") -> PendingMessage | None:
         """Return the message with this number if it still waits for this future, otherwise None."""
         with self._lock:
             pending = self._pending.get(number)

@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Futures that complete when a transform becomes available in a buffer."""
 
-# rclpy and tf2_ros use each other's private members.
-# ruff: noqa: SLF001
+from __future__ import annotations
 
 from collections.abc import Callable
 from typing import TYPE_CHECKING
@@ -10,16 +9,21 @@ from typing import TYPE_CHECKING
 from geometry_msgs.msg import TransformStamped
 from rclpy.task import Future
 from tf2_py import TransformException
+from tf2_ros._rclpy_side import wake_executors
 
 if TYPE_CHECKING:
     from coframe import Transform
     from coframe.dispatcher import Dispatcher, StartWait
 
+    _Future = Future[TransformStamped]
+else:
+    _Future = Future  # Humble's is not generic.
+
 LookUp = Callable[[], TransformStamped]
 Convert = Callable[["Transform"], TransformStamped]
 
 
-class _TransformFuture(Future[TransformStamped]):
+class _TransformFuture(_Future):
     """Future that removes its wait from the buffer when it is cancelled."""
 
     def __init__(self) -> None:
@@ -32,7 +36,7 @@ class _TransformFuture(Future[TransformStamped]):
 
 
 def wait(
-    dispatcher: "Dispatcher", start: "StartWait", convert: Convert, look_up: LookUp, timeout: int | None = None
+    dispatcher: Dispatcher, start: StartWait, convert: Convert, look_up: LookUp, timeout: int | None = None
 ) -> Future[TransformStamped]:
     """Return a future of a transform that becomes available in a buffer.
 
@@ -48,7 +52,7 @@ def wait(
     """
     future = _TransformFuture()
 
-    def complete(found: "Transform | None") -> None:
+    def complete(found: Transform | None) -> None:
         if future.done() or future.cancelled():
             return
         try:
@@ -57,6 +61,7 @@ def wait(
             future.set_exception(error)
         else:
             future.set_result(result)
+        wake_executors()
 
-    future._end_wait = dispatcher.wait(start, complete, timeout)
+    future._end_wait = dispatcher.wait(start, complete, timeout)  # noqa: SLF001 - this module's class
     return future

@@ -19,7 +19,7 @@ from rclpy.clock import Clock, JumpThreshold, TimeJump
 from rclpy.duration import Duration
 from rclpy.logging import get_logger
 from rclpy.node import Node
-from rclpy.task import Future
+from rclpy.task import Future  # noqa: TC001 - programs import names of this module, too
 from rclpy.time import Time
 from tf2_msgs.srv import FrameGraph
 from tf2_py import _convert
@@ -202,7 +202,7 @@ class Buffer(tf2.BufferCore, BufferInterface):
         time: Time | TimeMessage,
         *,
         timeout: Duration | None = None,
-    ) -> Future[TransformStamped]:
+    ) -> "Future[TransformStamped]":
         """Return a future of a transform. After a timeout, it raises the exception of the lookup."""
         target, source = _convert.text(target_frame, 1), _convert.text(source_frame, 2)
         stamp = _convert.nanoseconds(time, "time")
@@ -223,7 +223,7 @@ class Buffer(tf2.BufferCore, BufferInterface):
         fixed_frame: str,
         *,
         timeout: Duration | None = None,
-    ) -> Future[TransformStamped]:
+    ) -> "Future[TransformStamped]":
         """Return a future of a transform between two times; otherwise like `wait_for_transform_async`."""
         query = _convert.full_query(target_frame, target_time, source_frame, source_time, fixed_frame)
         return _transform_futures.wait(

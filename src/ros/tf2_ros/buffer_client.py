@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Client for lookups in the buffer of another node."""
 
-# ruff: noqa: SLF001 - The client uses a private method of rclpy's action client to wait with a timeout.
-
 # The unused names are imported because programs import them from upstream's module.
 import threading  # noqa: F401
 import warnings
@@ -23,11 +21,12 @@ from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.clock import Clock, ClockType
 from rclpy.duration import Duration
 from rclpy.node import Node
-from rclpy.task import Future
+from rclpy.task import Future  # noqa: TC001 - programs import names of this module, too
 from rclpy.time import Time
 from tf2_msgs.action import LookupTransform
 from tf2_py import TimeoutException, TransformException, _convert
 from tf2_ros._lookup_action import QOS, raise_error
+from tf2_ros._rclpy_side import wait_for
 from tf2_ros.buffer_interface import BufferInterface
 
 _NO_WAIT = Duration()
@@ -186,12 +185,12 @@ class BufferClient(BufferInterface):
         wait = Duration.from_msg(goal.timeout).nanoseconds + self.timeout_padding.nanoseconds
         return monotonic() + wait / SECOND
 
-    def __wait_for(self, future: Future[Any], deadline: float) -> Any:
-        self.action_client._Coframe__wait_for(future, deadline - monotonic())
+    def __wait_for(self, future: "Future[Any]", deadline: float) -> Any:
+        wait_for(self.action_client, future, deadline - monotonic())
         _time_out(future)
         return future.result()
 
-    async def __within(self, future: Future[Any], deadline: float) -> Any:
+    async def __within(self, future: "Future[Any]", deadline: float) -> Any:
         remaining = max(deadline - monotonic(), 0.0)
         timer = self.node.create_timer(remaining, lambda: _time_out(future), self.__group, self.__clock)
         try:
@@ -242,7 +241,7 @@ def _duration_message(timeout: Any) -> DurationMessage:
     return timeout.to_msg()
 
 
-def _time_out(future: Future[Any]) -> None:
+def _time_out(future: "Future[Any]") -> None:
     """Set a TimeoutException on a future that is not done."""
     if not future.done():
         text = "The LookupTransform goal sent to the BufferServer did not come back in the specified time."

@@ -18,7 +18,7 @@ from rclpy.logging import get_logger
 from rclpy.node import Node
 from rclpy.qos import QoSProfile
 from rclpy.subscription import Subscription
-from rclpy.task import Future
+from rclpy.task import Future  # noqa: TC001 - programs import names of this module, too
 from tf2_py import ExtrapolationException, InvalidArgumentException, TransformException, _convert
 from tf2_ros._message_queue import FilterFailureReason, FilterStatistics, MessageQueue, Outcome, PendingMessage
 from tf2_ros.buffer import Buffer
@@ -283,7 +283,7 @@ class MessageFilter:
         # The buffer refers to the future, which must not keep the message or an unused filter alive.
         future.add_done_callback(partial(_forward_wait_result, weakref.ref(self), pending.number))
 
-    def _on_wait_result(self, number: int, future: Future[Any]) -> None:
+    def _on_wait_result(self, number: int, future: "Future[Any]") -> None:
         """Process a message whose transform is available or whose wait has timed out."""
         is_late = future.exception() is not None
         pending = self._queue.pending_for(number, future)
@@ -371,7 +371,7 @@ class MessageFilter:
             raise TypeError("A coroutine function requires a node whose executor runs it. Pass node=... to the filter.")
 
 
-def _forward_wait_result(reference: weakref.ref[MessageFilter], number: int, future: Future[Any]) -> None:
+def _forward_wait_result(reference: weakref.ref[MessageFilter], number: int, future: "Future[Any]") -> None:
     message_filter = reference()
     if message_filter is not None:
         message_filter._on_wait_result(number, future)  # noqa: SLF001 - A bound method would keep the filter alive.

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Broadcaster of static transforms."""
 
-# ruff: noqa: SLF001 - The broadcasters of a process share a DDS writer through private members of rclpy's nodes.
-
 from collections.abc import Iterable
 from copy import deepcopy
 from typing import List, Optional, Union  # noqa: F401, UP035 - leaked upstream
@@ -10,20 +8,23 @@ from typing import List, Optional, Union  # noqa: F401, UP035 - leaked upstream
 from coframe.frame_names import renaming
 from geometry_msgs.msg import TransformStamped
 from rclpy.node import Node
-from rclpy.publisher import Publisher
-from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, as_qos_profile
+from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile
 from tf2_msgs.msg import TFMessage
+from tf2_ros._rclpy_side import profile, static_publisher
 from tf2_ros._renaming import renamed
 from tf2_ros.transform_broadcaster import as_list
 
 DEFAULT_STATIC_TF_TOPIC = "/tf_static"
+
+_QOS = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL, history=HistoryPolicy.KEEP_LAST)
 
 
 class StaticTransformBroadcaster:
     """Broadcaster that publishes static transforms on `/tf_static`. Each message contains all transforms sent so far.
 
     A late-joining subscription receives only the last message of a DDS writer. By default, all broadcasters of the
-    process share one writer, which publishes the transforms of all broadcasters together.
+    process share one writer, which publishes the transforms of all broadcasters together; with the rclpy of a sourced
+    ROS, each has its own.
 
     Attributes:
         pub_tf: The publisher.
@@ -51,7 +52,11 @@ class StaticTransformBroadcaster:
             keep: Frames without prefix, such as `["map"]`.
         """
         self.__renaming = renaming(prefix, keep)
-        self.pub_tf = _shared_publisher(node, tf_static_topic) if qos is None else _own(node, tf_static_topic, qos)
+        self.pub_tf = (
+            static_publisher(node, tf_static_topic, _QOS)
+            if qos is None
+            else node.create_publisher(TFMessage, tf_static_topic, profile(qos))
+        )
         self.net_message = TFMessage()
         self._child_frame_ids: set[str] = set()
 
@@ -64,14 +69,3 @@ class StaticTransformBroadcaster:
         self.net_message.transforms = list(transforms.values())
         self._child_frame_ids = set(transforms)
         self.pub_tf.publish(self.net_message)
-
-
-def _shared_publisher(node: Node, topic: str) -> Publisher:
-    qos = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL, history=HistoryPolicy.KEEP_LAST)
-    name = node.resolve_topic_name(topic)
-    writer = node._Coframe__participant.static_broadcaster(node._Coframe__graph_node, name)
-    return node._Coframe__add_entity(Publisher(writer, TFMessage, topic, name, qos, node.context))
-
-
-def _own(node: Node, topic: str, qos: QoSProfile | int) -> Publisher:
-    return node.create_publisher(TFMessage, topic, as_qos_profile(qos))

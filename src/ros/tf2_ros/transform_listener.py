@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Listener that fills a buffer with received transforms."""
 
-# ruff: noqa: SLF001 - Native ingestion requires private members of rclpy's nodes and tf2's buffers.
-
 from collections.abc import Iterable
 from threading import Thread
 from typing import TYPE_CHECKING, Any, Optional, Union  # noqa: F401 - leaked upstream
@@ -11,21 +9,17 @@ import rclpy
 import tf2_py as tf2
 from coframe.frame_names import renaming
 from rclpy.callback_groups import ReentrantCallbackGroup
-from rclpy.event_handler import MismatchReporter, SubscriptionEventCallbacks
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.node import Node
-from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, as_qos_profile
-from rclpy.subscription import Subscription
+from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile
 from tf2_msgs.msg import TFMessage
+from tf2_ros._rclpy_side import open_subscriptions, profile
 from tf2_ros._renaming import renamed
+from tf2_ros._subscriptions import AUTHORITY, CallbackSubscriptions, Request, Topic
 from tf2_ros.buffer import Buffer, clear_on_time_jump
 from tf2_ros.static_transform_broadcaster import DEFAULT_STATIC_TF_TOPIC
 from tf2_ros.transform_broadcaster import DEFAULT_TF_TOPIC
 
-if TYPE_CHECKING:
-    from coframe.wire import TfReader
-
-_AUTHORITY = "default_authority"
 _STATIC_QOS = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL, history=HistoryPolicy.KEEP_LAST)
 
 
@@ -78,12 +72,12 @@ class TransformListener:
         self.node = node if node is not None else _create_internal_node(self)
         self.group = ReentrantCallbackGroup()
         self.__buffer = buffer
-        self.__topics = {True: tf_static_topic} if static_only else {False: tf_topic, True: tf_static_topic}
+        self.__dynamic_topic = None if static_only else tf_topic
+        self.__static_topic = tf_static_topic
         self.__qos = {
-            False: as_qos_profile(100 if qos is None else qos),
-            True: as_qos_profile(_STATIC_QOS if static_qos is None else static_qos),
+            False: profile(100 if qos is None else qos),
+            True: profile(_STATIC_QOS if static_qos is None else static_qos),
         }
-        self.__arrivals: _Arrivals | None = None
         self.__subscribe()
         # A buffer without a node uses the system clock. The clock of the listener's node may be simulated.
         self.__jump_handle = None
@@ -103,16 +97,15 @@ class TransformListener:
     def buffer(self, buffer: tf2.BufferCore) -> None:
         self.__buffer = buffer
         if self.__is_listening:
-            previous = (self.tf_sub, self.tf_static_sub)
+            previous = self.__subscriptions
             # The new subscriptions are created first, so that no message is lost in between.
             self.__subscribe()
-            self.__destroy(previous)
+            previous.close()
 
     def unregister(self) -> None:
         """Destroy the subscriptions. Repeated calls have no effect."""
         self.__is_listening = False
-        self.__destroy((self.tf_sub, self.tf_static_sub))
-        self.__count_arrivals(None)
+        self.__subscriptions.close()
         if self.__jump_handle is not None:
             self.__jump_handle.unregister()
             self.__jump_handle = None
@@ -122,59 +115,26 @@ class TransformListener:
     def callback(self, data: TFMessage) -> None:
         """Insert the dynamic transforms of a message."""
         for transform in renamed(data.transforms, self.__renaming):
-            self.buffer.set_transform(transform, _AUTHORITY)
+            self.buffer.set_transform(transform, AUTHORITY)
 
     def static_callback(self, data: TFMessage) -> None:
         """Insert the static transforms of a message."""
         for transform in renamed(data.transforms, self.__renaming):
-            self.buffer.set_transform_static(transform, _AUTHORITY)
+            self.buffer.set_transform_static(transform, AUTHORITY)
 
     def __subscribe(self) -> None:
         self.__is_listening = True
-        self.__readers: list[TfReader] = []
-        is_plain = self.__is_plain()
-        listen = self.__listen_natively if is_plain else self.__listen
-        self.tf_sub = listen(static=False) if False in self.__topics else None
-        self.tf_static_sub = listen(static=True)
-        self.__count_arrivals(_Arrivals(self.__readers) if is_plain else None)
-
-    def __listen(self, *, static: bool) -> Subscription:
-        callback = self.static_callback if static else self.callback
-        return self.node.create_subscription(
-            TFMessage, self.__topics[static], callback, self.__qos[static], callback_group=self.group
+        qos = self.__qos
+        request = Request(
+            self.node,
+            self.__buffer,
+            self.group,
+            self.__renaming,
+            None if self.__dynamic_topic is None else Topic(self.__dynamic_topic, qos[False], self.callback),
+            Topic(self.__static_topic, qos[True], self.static_callback),
         )
-
-    def __listen_natively(self, *, static: bool) -> Subscription:
-        """Create a subscription that inserts transforms into the buffer without Python code."""
-        topic, qos = self.node.resolve_topic_name(self.__topics[static]), self.__qos[static]
-        reader = self.node._Coframe__participant.tf_reader(
-            self.node._Coframe__graph_node,
-            topic,
-            self.__buffer._Coframe__buffer,
-            static=static,
-            qos=qos._Coframe__to_wire(),
-            authority=_AUTHORITY,
-            renaming=self.__renaming,
-            on_data=self.node.context._Coframe__wakeup.event,
-            on_mismatch=MismatchReporter(SubscriptionEventCallbacks(), self.node.get_logger(), self.__topics[static]),
-        )
-        self.__readers.append(reader)
-        callback = self.static_callback if static else self.callback
-        return self.node._Coframe__add_entity(
-            Subscription(reader, TFMessage, topic, topic, callback, self.group, qos, raw=False)
-        )
-
-    def __destroy(self, subscriptions: tuple[Subscription | None, ...]) -> None:
-        for subscription in subscriptions:
-            if subscription is not None:
-                self.node.destroy_subscription(subscription)
-
-    def __count_arrivals(self, arrivals: "_Arrivals | None") -> None:
-        if self.__arrivals is not None:
-            self.node._Coframe__polled_subscriptions.remove(self.__arrivals)
-        if arrivals is not None:
-            self.node._Coframe__polled_subscriptions.append(arrivals)
-        self.__arrivals = arrivals
+        self.__subscriptions = open_subscriptions(request) if self.__is_plain() else CallbackSubscriptions(request)
+        self.tf_sub, self.tf_static_sub = self.__subscriptions.dynamic, self.__subscriptions.static
 
     def __is_plain(self) -> bool:
         """Return whether no method on the path of the transforms into the buffer is overridden."""
@@ -197,32 +157,6 @@ class TransformListener:
             pass
         finally:
             self.executor.remove_node(self.node)
-
-
-class _Arrivals:
-    """Polled subscription that reports natively inserted messages to `spin_once`, one by one."""
-
-    # The depth of the subscription, which also limits the number of messages that an executor can take.
-    _DEPTH = 100
-
-    def __init__(self, readers: "list[TfReader]") -> None:
-        self._readers = readers
-        self._handled = 0
-
-    def arm(self) -> None:
-        for reader in self._readers:
-            reader.arm()
-
-    def take_one(self) -> bool:
-        count = self._count()
-        self._handled = max(self._handled, count - self._DEPTH)
-        if self._handled == count:
-            return False
-        self._handled += 1
-        return True
-
-    def _count(self) -> int:
-        return sum(reader.received for reader in self._readers)
 
 
 def _create_internal_node(listener: TransformListener) -> Node:

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Server for lookups of other nodes, which then need no buffer and no listener."""
 
-# ruff: noqa: SLF001 - The server uses a private future of rclpy's goal handles to react to cancel requests.
-
 from typing import Any
 
 from rclpy.action import ActionServer, CancelResponse
@@ -10,10 +8,11 @@ from rclpy.action.server import ServerGoalHandle
 from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.duration import Duration
 from rclpy.node import Node
-from rclpy.task import Future
+from rclpy.task import Future  # noqa: TC001 - a name of the module
 from tf2_msgs.action import LookupTransform
 from tf2_py import TransformException
 from tf2_ros._lookup_action import QOS, error_message
+from tf2_ros._rclpy_side import on_cancel
 from tf2_ros.buffer import Buffer
 
 __all__ = ["BufferServer"]
@@ -60,7 +59,7 @@ class BufferServer:
         goal, result = goal_handle.request, LookupTransform.Result()
         timeout = Duration.from_msg(goal.timeout)
         wait = self.__wait_for(goal, timeout)
-        goal_handle._Coframe__cancel_request.add_done_callback(lambda _: wait.cancel())
+        on_cancel(goal_handle, wait.cancel)
         try:
             found = await wait
         except TransformException as error:
@@ -72,7 +71,7 @@ class BufferServer:
         finish()
         return result
 
-    def __wait_for(self, goal: Any, timeout: Duration) -> Future[Any]:
+    def __wait_for(self, goal: Any, timeout: Duration) -> "Future[Any]":
         if not goal.advanced:
             return self.buffer.wait_for_transform_async(
                 goal.target_frame, goal.source_frame, goal.source_time, timeout=timeout

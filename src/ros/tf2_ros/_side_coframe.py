@@ -1,0 +1,112 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What tf2_ros needs from coframe's rclpy beyond the public API."""
+
+# ruff: noqa: SLF001 - Native ingestion requires private members of rclpy's nodes and tf2's buffers.
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from rclpy.event_handler import MismatchReporter, SubscriptionEventCallbacks
+from rclpy.publisher import Publisher
+from rclpy.qos import QoSProfile, as_qos_profile
+from rclpy.subscription import Subscription
+from tf2_msgs.msg import TFMessage
+from tf2_ros._subscriptions import AUTHORITY, Request, Subscriptions, Topic
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from coframe.wire import TfReader
+    from rclpy.node import Node
+    from rclpy.task import Future
+
+profile = as_qos_profile
+
+
+def open_subscriptions(request: Request) -> Subscriptions:
+    """Subscribe, and insert transforms into the buffer without Python code."""
+    return _NativeSubscriptions(request)
+
+
+def static_publisher(node: Node, topic: str, qos: QoSProfile) -> Any:
+    """Return a publisher of static transforms that all broadcasters of the process share."""
+    name = node.resolve_topic_name(topic)
+    writer = node._Coframe__participant.static_broadcaster(node._Coframe__graph_node, name)
+    return node._Coframe__add_entity(Publisher(writer, TFMessage, topic, name, qos, node.context))
+
+
+def wait_for(action_client: Any, future: Future[Any], timeout: float) -> None:
+    """Wait until an executor has completed a future of an action client, up to a timeout in seconds."""
+    action_client._Coframe__wait_for(future, timeout)
+
+
+def on_cancel(goal_handle: Any, callback: Callable[[], object]) -> None:
+    """Call a function when the client cancels a goal."""
+    goal_handle._Coframe__cancel_request.add_done_callback(lambda _: callback())
+
+
+def wake_executors() -> None:
+    """Do nothing: a future of coframe's rclpy wakes the executor of a coroutine that awaits it."""
+
+
+class _NativeSubscriptions:
+    def __init__(self, request: Request) -> None:
+        self._node = request.node
+        self._readers: list[TfReader] = []
+        self.dynamic = None if request.dynamic is None else self._open(request, request.dynamic, static=False)
+        self.static = self._open(request, request.static, static=True)
+        self._arrivals = _Arrivals(self._readers)
+        self._node._Coframe__polled_subscriptions.append(self._arrivals)
+
+    def _open(self, request: Request, topic: Topic, *, static: bool) -> Subscription:
+        node, qos = request.node, topic.qos
+        name = node.resolve_topic_name(topic.name)
+        reader = node._Coframe__participant.tf_reader(
+            node._Coframe__graph_node,
+            name,
+            request.buffer._Coframe__buffer,
+            static=static,
+            qos=qos._Coframe__to_wire(),
+            authority=AUTHORITY,
+            renaming=request.renaming,
+            on_data=node.context._Coframe__wakeup.event,
+            on_mismatch=MismatchReporter(SubscriptionEventCallbacks(), node.get_logger(), topic.name),
+        )
+        self._readers.append(reader)
+        return node._Coframe__add_entity(
+            Subscription(reader, TFMessage, name, name, topic.callback, request.group, qos, raw=False)
+        )
+
+    def close(self) -> None:
+        for subscription in (self.dynamic, self.static):
+            if subscription is not None:
+                self._node.destroy_subscription(subscription)
+        if self._arrivals in self._node._Coframe__polled_subscriptions:
+            self._node._Coframe__polled_subscriptions.remove(self._arrivals)
+
+
+class _Arrivals:
+    """Polled subscription that reports natively inserted messages to `spin_once`, one by one."""
+
+    # The depth of the subscription, which also limits the number of messages that an executor can take.
+    _DEPTH = 100
+
+    def __init__(self, readers: list[TfReader]) -> None:
+        self._readers = readers
+        self._handled = 0
+
+    def arm(self) -> None:
+        for reader in self._readers:
+            reader.arm()
+
+    def take_one(self) -> bool:
+        count = self._count()
+        self._handled = max(self._handled, count - self._DEPTH)
+        if self._handled == count:
+            return False
+        self._handled += 1
+        return True
+
+    def _count(self) -> int:
+        return sum(reader.received for reader in self._readers)

@@ -1,0 +1,165 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What tf2_ros needs from the rclpy of a sourced ROS. Only its public API is used."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import threading
+import weakref
+from typing import TYPE_CHECKING, Any
+
+from coframe.wire import Participant, QoS
+from coframe.wire.qos import INFINITE
+from rclpy.qos import QoSProfile
+from rclpy.utilities import get_rmw_implementation_identifier
+from tf2_msgs.msg import TFMessage
+from tf2_ros._subscriptions import AUTHORITY, CallbackSubscriptions, Request, Subscriptions, Topic
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from coframe.wire import GraphNode, TfReader
+    from rclpy.node import Node
+    from rclpy.task import Future
+
+_WIRES = ("native", "rclpy")
+
+# A node's guard condition wakes the executor that spins the node.
+_guard_conditions: weakref.WeakKeyDictionary[Node, Any] = weakref.WeakKeyDictionary()
+
+
+def profile(qos: QoSProfile | int) -> QoSProfile:
+    """Return the profile, or a KEEP_LAST profile with the given depth."""
+    return qos if isinstance(qos, QoSProfile) else QoSProfile(depth=qos)
+
+
+def open_subscriptions(request: Request) -> Subscriptions:
+    """Subscribe natively or with raw subscriptions of the node, depending on `COFRAME_ROS2_WIRE`.
+
+    By default, the subscriptions are native if the middleware is based on DDS.
+
+    Raises:
+        ValueError: The environment variable has another value.
+    """
+    _add_guard_condition(request.node)
+    wire = os.environ.get("COFRAME_ROS2_WIRE") or ("rclpy" if _is_zenoh() else "native")
+    if wire not in _WIRES:
+        raise ValueError(f"COFRAME_ROS2_WIRE is {wire!r}. Valid values: {', '.join(_WIRES)}.")
+    if wire == "native":
+        return _NativeSubscriptions(request)
+    # Only the native wire renames frames.
+    return _RawSubscriptions(request) if request.renaming is None else CallbackSubscriptions(request)
+
+
+def static_publisher(node: Node, topic: str, qos: QoSProfile) -> Any:
+    """Return a publisher of static transforms, of this broadcaster only, as in tf2_ros."""
+    return node.create_publisher(TFMessage, topic, qos)
+
+
+def wait_for(action_client: Any, future: Future[Any], timeout: float) -> None:
+    """Wait until an executor has completed a future of an action client, up to a timeout in seconds."""
+    del action_client
+    done = threading.Event()
+    future.add_done_callback(lambda _: done.set())
+    done.wait(timeout)
+
+
+def on_cancel(goal_handle: Any, callback: Callable[[], object]) -> None:
+    """Do nothing: rclpy has no event for this, so a cancelled goal ends at its timeout."""
+    del goal_handle, callback
+
+
+def wake_executors() -> None:
+    """Let the executors of listeners' nodes continue coroutines whose futures another thread has completed."""
+    for guard_condition in list(_guard_conditions.values()):
+        with contextlib.suppress(Exception):  # The node was destroyed; rclpy's exceptions differ by distribution.
+            guard_condition.trigger()
+
+
+def _is_zenoh() -> bool:
+    return "zenoh" in get_rmw_implementation_identifier()
+
+
+def _add_guard_condition(node: Node) -> None:
+    if node not in _guard_conditions:
+        _guard_conditions[node] = node.create_guard_condition(lambda: None)
+
+
+class _NativeSubscriptions:
+    """Subscriptions of a hidden node of coframe with the name, namespace and domain of the ROS node.
+
+    They work with every middleware that is based on DDS, and end with the node at the latest.
+    """
+
+    def __init__(self, request: Request) -> None:
+        node = request.node
+        participant = Participant.get(node.context.get_domain_id())
+        try:
+            hidden = participant.add_node(node.get_namespace(), f"_{node.get_name()}_coframe_tf")
+        except BaseException:
+            participant.close()
+            raise
+        # No reference to the node is kept, because it could never be garbage-collected.
+        self.close = weakref.finalize(node, _leave, participant, hidden)
+        self.dynamic = (
+            None if request.dynamic is None else _read(request, request.dynamic, participant, hidden, static=False)
+        )
+        self.static = _read(request, request.static, participant, hidden, static=True)
+
+
+def _leave(participant: Participant, hidden: GraphNode) -> None:
+    hidden.close()
+    participant.close()
+
+
+def _read(request: Request, topic: Topic, participant: Participant, hidden: GraphNode, *, static: bool) -> TfReader:
+    logger = request.node.get_logger()
+    return participant.tf_reader(
+        hidden,
+        request.node.resolve_topic_name(topic.name),
+        request.buffer._Coframe__buffer,  # noqa: SLF001 - tf2's buffers have no public name for coframe's
+        static=static,
+        qos=_to_wire(topic.qos),
+        authority=AUTHORITY,
+        renaming=request.renaming,
+        on_mismatch=lambda _, text: logger.warning(text),
+    )
+
+
+def _to_wire(qos: QoSProfile) -> QoS:
+    return QoS(
+        depth=max(qos.depth, 1),
+        reliable=qos.reliability.name != "BEST_EFFORT",
+        transient_local=qos.durability.name == "TRANSIENT_LOCAL",
+        keep_all=qos.history.name == "KEEP_ALL",
+        manual_liveliness=qos.liveliness.name == "MANUAL_BY_TOPIC",
+        deadline=qos.deadline.nanoseconds or INFINITE,
+        lifespan=qos.lifespan.nanoseconds or INFINITE,
+        lease=qos.liveliness_lease_duration.nanoseconds or INFINITE,
+    )
+
+
+class _RawSubscriptions:
+    """Subscriptions of the node to serialized messages, which coframe decodes: for any middleware of this ROS."""
+
+    def __init__(self, request: Request) -> None:
+        self._node = request.node
+        self.dynamic = None if request.dynamic is None else self._open(request, request.dynamic, static=False)
+        self.static = self._open(request, request.static, static=True)
+
+    def _open(self, request: Request, topic: Topic, *, static: bool) -> Any:
+        buffer = request.buffer._Coframe__buffer  # noqa: SLF001 - tf2's buffers have no public name for coframe's
+
+        def ingest(message: bytes) -> None:
+            with buffer._dispatcher.inserting():
+                buffer.ingest(message, static=static, authority=AUTHORITY)
+
+        return self._node.create_subscription(
+            TFMessage, topic.name, ingest, topic.qos, callback_group=request.group, raw=True
+        )
+
+    def close(self) -> None:
+        for subscription in (self.dynamic, self.static):
+            if subscription is not None:
+                self._node.destroy_subscription(subscription)

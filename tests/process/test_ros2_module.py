@@ -1,0 +1,81 @@
+# SPDX-License-Identifier: Apache-2.0
+"""coframe's tf2 inside a sourced ROS 2 (a stand-in): that side's nodes and messages, coframe's buffer."""
+
+import ast
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+import ros_stand_in
+from inside_ros2 import verify
+
+from coframe import ros_folders
+
+
+@pytest.fixture(scope="module")
+def sourced(tmp_path_factory):
+    """The folder of the stand-in."""
+    folder = tmp_path_factory.mktemp("sourced")
+    ros_stand_in.make(folder)
+    return folder
+
+
+def run(environment, *command):
+    command = [str(part) for part in command]
+    return subprocess.run(command, env=environment, capture_output=True, text=True, timeout=60, check=False)
+
+
+@pytest.mark.usefixtures("domain_id")
+@pytest.mark.parametrize(
+    ("wire", "as_import"),
+    [
+        ("native", True),
+        ("rclpy", False),
+        pytest.param("rclpy", True, marks=pytest.mark.slow),
+        pytest.param("native", False, marks=pytest.mark.slow),
+    ],
+)
+def test_nodes_of_that_side_get_coframes_buffer(sourced, wire, as_import):
+    pytest.importorskip("cyclonedds", reason="the stand-in speaks DDS")
+    result = verify.listen(ros_stand_in.environment(sourced), wire, as_import=as_import)
+    assert result.stdout == "passed\n", result.stderr
+
+
+def test_importing_after_tf2_is_refused(sourced):
+    code = "import tf2_ros\nimport coframe.ros2"
+    result = run(ros_stand_in.environment(sourced), sys.executable, "-c", code)
+    assert result.returncode == 1
+    assert "Import coframe.ros2 before tf2_ros" in result.stderr.splitlines()[-1]
+
+
+def test_without_a_sourced_ros_the_classes_are_coframes():
+    code = "import coframe.ros2, tf2_ros; assert coframe.ros2.Buffer is tf2_ros.Buffer; print(tf2_ros.__file__)"
+    result = run(None, sys.executable, "-c", code)
+    assert Path(result.stdout.strip()).is_relative_to(ros_folders.ros_folder())
+
+
+def test_program_that_does_not_exist(sourced):
+    result = run(ros_stand_in.environment(sourced), sys.executable, "-m", "coframe.ros2", "nowhere.py")
+    assert result.returncode == 2
+    assert result.stderr.splitlines()[-1].endswith("there is no file nowhere.py; for a module, use -m")
+
+
+def test_tf2_uses_only_names_of_humble(shared):
+    """On a sourced ROS, coframe's tf2 must not use names of rclpy and the messages that Humble does not have."""
+    names = json.loads((shared / "interop" / "api_humble.json").read_text())
+    home = ros_folders.ros_folder()
+    files = [file for package in ("tf2_ros", "tf2_py") for file in (home / package).rglob("*.py")]
+    unknown = [
+        f"{file.name}: {node.module}.{name.name}"
+        for file in files
+        if file.name != "_side_coframe.py"
+        for node in ast.walk(ast.parse(file.read_text()))
+        if isinstance(node, ast.ImportFrom)
+        and not str(node.module).startswith("tf2_")
+        and isinstance(names.get(node.module), dict)
+        for name in node.names
+        if name.name not in names[node.module] and f"{node.module}.{name.name}" not in names
+    ]
+    assert unknown == []
