@@ -19,13 +19,12 @@ import statistics
 import sys
 import tempfile
 import time
-import urllib.request
 from pathlib import Path
 from typing import NamedTuple
 
 import coframe
 from benchmarks import machine
-from benchmarks.faults.processes import Processes, Program, descriptors, free_port, processes, wait_for
+from benchmarks.faults.processes import Processes, Program, answers, descriptors, free_port, processes, wait_for
 
 NODES = 20
 RATE = 50  # messages per second and node
@@ -101,7 +100,7 @@ def start(started: Processes, folder: Path) -> list[Watched]:
     }
     watched = [Watched(name, started.start(*command, quiet=name != "listener")) for name, command in commands.items()]
     watched[0].program.line()
-    wait_for(lambda: _answers(port), "the viewer")
+    wait_for(lambda: answers(port, watched[2].program), "the viewer")
     watched.append(Watched("page", started.start("python", "-c", PAGE, f"ws://127.0.0.1:{port}/ws", quiet=True)))
     wait_for((folder / "run").exists, "the recorder")
     time.sleep(2.0)  # The commands join the graph.
@@ -111,14 +110,6 @@ def start(started: Processes, folder: Path) -> list[Watched]:
     for each in watched[-NODES:]:
         each.program.line()
     return watched
-
-
-def _answers(port: int) -> bool:
-    try:
-        with urllib.request.urlopen(f"http://127.0.0.1:{port}/", timeout=5):
-            return True
-    except OSError:
-        return False
 
 
 class Soak:

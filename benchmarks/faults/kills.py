@@ -8,14 +8,12 @@ import json
 import signal
 import tempfile
 import time
-import urllib.error
-import urllib.request
 from pathlib import Path
 
 import coframe
 from benchmarks.faults.case import Measurement, case
 from benchmarks.faults.links import NS, RATE, RECOVERY, ROBOTS, SETTLING, evaluate, first_after
-from benchmarks.faults.processes import Program, free_port, processes, wait_for
+from benchmarks.faults.processes import answers, free_port, processes, wait_for
 
 UNDISTURBED = 0.5  # seconds; the longest gap of nodes that have nothing to do with the fault
 STOPPED = 15.0  # seconds; longer than the lease of 10 s, after which DDS gives up a participant
@@ -147,32 +145,18 @@ def _kill_viewer() -> Measurement:
     with tempfile.TemporaryDirectory() as folder, processes(TMPDIR=folder) as started:
         talker = started.node("talker", ROBOTS[0], RATE)
         port = free_port()
-        viewer = _viewer(started.start(*CLI, "view", "--no-browser", "--port", str(port)), port)
+        viewer = started.start(*CLI, "view", "--no-browser", "--port", str(port))
+        wait_for(lambda: answers(port, viewer), "the page of the viewer")
         viewer.process.kill()
         viewer.process.wait()
-        begin = time.monotonic()
-        _viewer(started.start(*CLI, "view", "--no-browser", "--port", str(port)), port)
-        again = time.monotonic() - begin
+        second = started.start(*CLI, "view", "--no-browser", "--port", str(port))
+        again = wait_for(lambda: answers(port, second), "the page of the second viewer")
         left = [path.name for path in Path(folder).iterdir()]
         slowest = talker.ask()["slowest"]
     text = (
         f"served again after {again:.1f} s, longest publish() {1000 * slowest:.0f} ms, left behind: {left or 'nothing'}"
     )
     return Measurement(text, again <= 10.0 and slowest <= 0.1 and not left)
-
-
-def _viewer(program: Program, port: int) -> Program:
-    def answers() -> bool:
-        try:
-            with urllib.request.urlopen(f"http://127.0.0.1:{port}/", timeout=5) as page:
-                return bool(page.status == 200)
-        except urllib.error.URLError:
-            if program.process.poll() is not None:
-                raise RuntimeError(f"coframe view ended: {program.errors()}") from None
-            return False
-
-    wait_for(answers, "the page of the viewer")
-    return program
 
 
 @case("kill_launcher", "kill -9 of coframe launch: the next launch removes the temporary files that were left")

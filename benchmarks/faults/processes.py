@@ -7,12 +7,14 @@ import contextlib
 import itertools
 import json
 import os
+import select
 import signal
 import socket
 import subprocess
 import sys
 import tempfile
 import time
+import urllib.request
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -53,6 +55,11 @@ class Program:
         if not line:
             raise RuntimeError(f"{self.process.args!r} ended: {self.errors()[-2000:]}")
         return line.rstrip("\n")
+
+    def has_output(self) -> bool:
+        """Return whether there is output to read."""
+        assert self.process.stdout
+        return bool(select.select([self.process.stdout], [], [], 0.0)[0])
 
     def tell(self, line: str = "") -> None:
         """Write a line to its input."""
@@ -136,6 +143,17 @@ def free_port() -> int:
     with socket.socket() as probe:
         probe.bind(("127.0.0.1", 0))
         return int(probe.getsockname()[1])
+
+
+def answers(port: int, viewer: Program) -> bool:
+    """Return whether a viewer serves its page. Raise RuntimeError if the viewer has ended."""
+    try:
+        with urllib.request.urlopen(f"http://127.0.0.1:{port}/", timeout=5) as page:
+            return bool(page.status == 200)
+    except OSError:
+        if viewer.process.poll() is not None:
+            raise RuntimeError(f"coframe view ended: {viewer.errors()}") from None
+        return False
 
 
 def descriptors(process: int) -> int:

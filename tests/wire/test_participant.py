@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 import os
+import subprocess
+import sys
 import threading
 import time
 from pathlib import Path
@@ -148,6 +150,14 @@ def test_an_invalid_configuration_of_cyclone_dds(domain_id, monkeypatch):
     with pytest.raises(WireError, match=f"Joining domain {domain_id} failed") as caught:
         Participant.get(domain_id)
     assert "CYCLONEDDS_URI" in caught.value.hint
+
+
+@pytest.mark.skipif(os.name != "posix", reason="limits of file descriptors")
+def test_few_file_descriptors_are_an_error_and_not_a_crash(domain_id):
+    script = "import resource, coframe; resource.setrlimit(resource.RLIMIT_NOFILE, (10, 10)); coframe.connect()"
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=False)
+    assert done.returncode == 1
+    assert f"Joining domain {domain_id} failed: Too many open files. DDS needs 16 file descriptors" in done.stderr
 
 
 def test_the_error_for_a_full_domain(domain_id, monkeypatch, child):

@@ -39,6 +39,7 @@ _logger = logging.getLogger("coframe.viewer")
 DEFAULT_PORT = 7676
 _TOKEN = "token"  # noqa: S105 - its name in addresses
 _END_TIMEOUT = 5.0
+_REPEAT_AFTER = 60.0  # seconds between warnings about connections that cannot be accepted
 # Seconds between checks whether all clients have disconnected.
 _END_STEP = 0.01
 # The headers that the server reads; requests that repeat one of them are ambiguous.
@@ -68,6 +69,8 @@ class ViewerServer:
         self._sockets: set[WebSocket] = set()
         self.port = 0
         self._loop = asyncio.new_event_loop()
+        self._loop.set_exception_handler(self._handle_error)
+        self._warned_at = -_REPEAT_AFTER
         self._scheduler = ClientScheduler(self._loop, state)
         self._end = asyncio.Event()
         self._started = threading.Event()
@@ -140,6 +143,16 @@ class ViewerServer:
                 for connection in list(self._sockets):
                     connection.close()
                 await asyncio.sleep(_END_STEP)
+
+    def _handle_error(self, loop: asyncio.AbstractEventLoop, context: dict[str, Any]) -> None:
+        """Warn once a minute while connections cannot be accepted; asyncio would log thousands of tracebacks."""
+        error = context.get("exception")
+        if not (isinstance(error, OSError) and "accept" in context["message"]):
+            loop.default_exception_handler(context)
+        elif loop.time() - self._warned_at >= _REPEAT_AFTER:
+            self._warned_at = loop.time()
+            reason = error.strerror
+            _logger.warning("the viewer cannot accept connections: %s. Close tabs, or enter: ulimit -n 1024", reason)
 
     async def _listen(self, port: int | None) -> asyncio.Server:
         if port is not None:
