@@ -50,6 +50,17 @@ def test_importing_after_tf2_is_refused(sourced):
     assert "Import coframe.ros2 before tf2_ros" in result.stderr.splitlines()[-1]
 
 
+@pytest.mark.parametrize(("given", "used"), [(None, "SUBNET"), ("LOCALHOST", "LOCALHOST")])
+def test_native_subscriptions_reach_what_that_side_reaches(sourced, given, used):
+    environment = ros_stand_in.environment(sourced)
+    for name in ("ROS_AUTOMATIC_DISCOVERY_RANGE", "ROS_LOCALHOST_ONLY"):
+        environment.pop(name, None)
+    if given:
+        environment["ROS_AUTOMATIC_DISCOVERY_RANGE"] = given
+    code = "import coframe.ros2\nfrom coframe.wire import config\nprint(config.discovery_range())"
+    assert run(environment, sys.executable, "-c", code).stdout == f"{used}\n"
+
+
 def test_without_a_sourced_ros_the_classes_are_coframes():
     code = "import coframe.ros2, tf2_ros; assert coframe.ros2.Buffer is tf2_ros.Buffer; print(tf2_ros.__file__)"
     result = run(None, sys.executable, "-c", code)

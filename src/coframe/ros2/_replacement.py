@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 from importlib.machinery import PathFinder
 from pathlib import Path
@@ -32,6 +33,8 @@ def install() -> None:
                 "Import coframe.ros2 before tf2_ros and before packages that import it, such as tf2_geometry_msgs, "
                 "or run the program with: python -m coframe.ros2 PROGRAM.py"
             )
+    # The native subscriptions must reach the nodes that this ROS reaches. ROS_LOCALHOST_ONLY=1 has priority.
+    os.environ.setdefault("ROS_AUTOMATIC_DISCOVERY_RANGE", "SUBNET")
     ros_side.allow_tf2()
     sys.meta_path.insert(0, _Finder())
 
