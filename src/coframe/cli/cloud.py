@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal, cast
 import typer
 
 from coframe.bags import Clouds, write_clouds
+from coframe.cli.completion import complete_frames
 from coframe.cli.lifecycle import run_to_completion
 from coframe.cli.options import (
     BagArgument,
@@ -32,7 +33,12 @@ __all__ = ["cloud"]
 def cloud(
     bag: BagArgument,
     topic: Annotated[str, typer.Argument(metavar="TOPIC", help="Topic of type PointCloud2 or LaserScan.")],
-    frame: Annotated[str, typer.Option("--frame", metavar="FRAME", help="Frame in which the points are expressed.")],
+    frame: Annotated[
+        str,
+        typer.Option(
+            "--frame", metavar="FRAME", help="Frame in which the points are expressed.", autocompletion=complete_frames
+        ),
+    ],
     output: Annotated[
         Path,
         typer.Option(

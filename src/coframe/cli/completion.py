@@ -1,63 +1,113 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Completion of frame and topic names for the shell; it is installed by ``coframe --install-completion``."""
+"""Completion of recordings, frames and topics for the shell; it is installed by ``coframe --install-completion``.
+
+A completion never prints an error: the user is still typing. It returns no names instead.
+"""
 
 from __future__ import annotations
 
+import functools
+import os
 import time
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from coframe.errors import CoframeError
+if TYPE_CHECKING:
+    from collections.abc import Callable
 
-__all__ = ["complete_frames", "complete_live_topics", "complete_tf_topics"]
+__all__ = ["complete_frames", "complete_live_topics", "complete_recordings", "complete_tf_topics"]
 
 _TF_TYPE = "tf2_msgs/msg/TFMessage"
-_DISCOVERY = 0.5  # seconds
+_DISCOVERY = 0.6  # seconds: the longest discovery of topics
+_UNCHANGED = 0.2  # seconds without a new topic, after which the known topics are complete
 _LARGEST = 200 << 20  # bytes: reading more takes longer than typing the name
+_RECORDINGS = {".mcap", ".bag", ".db3"}
 
 
+def _silent(complete: Callable[..., list[str]]) -> Callable[..., list[str]]:
+    """Return a completion that fails without names, and during which nothing reaches stderr."""
+
+    @functools.wraps(complete)
+    def run(*args: Any, **kwargs: Any) -> list[str]:
+        stderr, nowhere = os.dup(2), os.open(os.devnull, os.O_WRONLY)
+        os.dup2(nowhere, 2)  # The DDS library writes there, too.
+        try:
+            return complete(*args, **kwargs)
+        except (Exception, SystemExit):  # noqa: BLE001 - whatever happens, the user is still typing
+            return []
+        finally:
+            os.dup2(stderr, 2)
+            os.close(stderr)
+            os.close(nowhere)
+
+    return run
+
+
+@_silent
+def complete_recordings(incomplete: str) -> list[str]:
+    """Return the recordings whose paths begin with a text."""
+    folder, _, start = incomplete.rpartition("/")
+    inside = Path(f"{folder}/" if "/" in incomplete else ".")
+    prefix = f"{folder}/" if "/" in incomplete else ""
+    entries = sorted(entry for entry in inside.iterdir() if entry.name.startswith(start) and _is_visible(entry, start))
+    found = [f"{prefix}{entry.name}" for entry in entries if _is_recording(entry)]
+    if found or not os.environ.get("_COFRAME_COMPLETE", "").endswith("fish"):
+        return found  # Other shells complete paths by themselves if there are no recordings.
+    return [f"{prefix}{entry.name}/" for entry in entries if entry.is_dir()]
+
+
+def _is_visible(entry: Path, start: str) -> bool:
+    return start.startswith(".") or not entry.name.startswith(".")
+
+
+def _is_recording(path: Path) -> bool:
+    return (path / "metadata.yaml").is_file() if path.is_dir() else path.suffix in _RECORDINGS
+
+
+@_silent
 def complete_frames(ctx: Any, incomplete: str) -> list[str]:
-    """Return the frames of the recording in the first argument that begin with a text."""
-    words = ctx.params.get("names") or []
-    if not words or not Path(words[0]).exists():
-        return []
-    from coframe.bags import open_bag  # noqa: PLC0415 - only if there is a recording
-
+    """Return the frames of the recording in the first argument that begin with a text, or recordings for this one."""
+    words = [ctx.params["bag"]] if ctx.params.get("bag") else ctx.params.get("names") or []
+    if not words:
+        return complete_recordings(incomplete)
     path = Path(words[0])
     files = path.iterdir() if path.is_dir() else [path]
     if sum(file.stat().st_size for file in files if file.is_file()) > _LARGEST:
         return []
-    try:
-        with open_bag(path) as recording:
-            names = {name for buffer in recording.buffers.values() for name in buffer.frame_names()}
-    except CoframeError:
-        return []
+    from coframe.bags import open_bag  # noqa: PLC0415 - only if there is a recording
+
+    with open_bag(path) as recording:
+        names = {name for buffer in recording.buffers.values() for name in buffer.frame_names()}
     return sorted(name for name in names if name.startswith(incomplete))
 
 
+@_silent
 def complete_live_topics(incomplete: str) -> list[str]:
     """Return the topics of the ROS graph that begin with a text."""
-    from coframe.cli.ros2.graph import DISCOVERY, graph_node, is_hidden  # noqa: PLC0415 - only for this completion
+    from coframe.cli.ros2.graph import is_hidden  # noqa: PLC0415 - only for this completion
 
-    try:
-        with graph_node(DISCOVERY) as node:
-            names = [name for name, _ in node.get_topic_names_and_types()]
-    except (CoframeError, ImportError, SystemExit):
-        return []
-    return sorted(name for name in names if name.startswith(incomplete) and not is_hidden(name))
+    return sorted(name for name in _live_topics(None) if name.startswith(incomplete) and not is_hidden(name))
 
 
+@_silent
 def complete_tf_topics(ctx: Any, incomplete: str) -> list[str]:
     """Return the topics of transforms on the ROS graph that begin with a text."""
+    topics = _live_topics(ctx.params.get("domain"))
+    return sorted(name for name, types in topics.items() if _TF_TYPE in types and name.startswith(incomplete))
+
+
+def _live_topics(domain: int | None) -> dict[str, list[str]]:
+    """Return the types of the topics of the ROS graph."""
     from coframe.wire import Participant  # noqa: PLC0415 - only for this completion
 
+    participant = Participant.get(domain)
     try:
-        participant = Participant.get(ctx.params.get("domain"))
-    except CoframeError:
-        return []
-    try:
-        time.sleep(_DISCOVERY)
-        topics = participant.topics()
+        begin = changed = time.monotonic()
+        topics: dict[str, list[str]] = {}
+        while (now := time.monotonic()) - begin < _DISCOVERY and not (topics and now - changed > _UNCHANGED):
+            time.sleep(0.02)
+            if (found := participant.topics()) != topics:
+                topics, changed = found, now
+        return topics
     finally:
         participant.close()
-    return sorted(name for name, types in topics.items() if _TF_TYPE in types and name.startswith(incomplete))

@@ -21,6 +21,7 @@ from coframe.cli.options import (
     DomainOption,
     KeepOption,
     NamespaceOption,
+    OptionalBagArgument,
     PositiveDuration,
     PrefixOption,
     RecordedTfStaticTopicOption,
@@ -48,10 +49,7 @@ _CPU_SHARE = 0.006
 
 
 def doctor(
-    bag: Annotated[
-        Path | None,
-        typer.Argument(metavar="[BAG]", help="Recording; without it, the live ROS graph.", show_default=False),
-    ] = None,
+    bag: OptionalBagArgument = None,
     watch: Annotated[bool, typer.Option("--watch", help="Update the findings continuously.")] = False,
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON; times are in nanoseconds.")] = False,
     sarif: Annotated[bool, typer.Option("--sarif", help="Print SARIF 2.1.0.")] = False,

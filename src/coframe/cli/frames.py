@@ -20,6 +20,7 @@ from coframe.cli.options import (
     DomainOption,
     KeepOption,
     NamespaceOption,
+    OptionalBagArgument,
     PositiveDuration,
     PrefixOption,
     RecordedTfStaticTopicOption,
@@ -74,10 +75,7 @@ _PACKAGES = {".pdf": ("pydyf", "pdf"), ".png": ("matplotlib", "plot")}
 
 
 def frames(
-    bag: Annotated[
-        Path | None,
-        typer.Argument(metavar="[BAG]", help="Recording; without it, the live ROS graph.", show_default=False),
-    ] = None,
+    bag: OptionalBagArgument = None,
     output: Annotated[
         list[Path] | None,
         typer.Option(

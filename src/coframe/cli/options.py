@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from coframe import frame_names
-from coframe.cli.completion import complete_tf_topics
+from coframe.cli.completion import complete_recordings, complete_tf_topics
 from coframe.cli.output import fail, warn
 from coframe.time import SECOND, duration_ns
 
@@ -32,6 +32,7 @@ __all__ = [
     "KeepOption",
     "NamespaceOption",
     "NonNegativeDuration",
+    "OptionalBagArgument",
     "PositiveDuration",
     "PrefixOption",
     "RecordedTfStaticTopicOption",
@@ -129,7 +130,21 @@ def checked_prefix(prefix: str) -> str:
 
 
 BagArgument = Annotated[
-    Path, typer.Argument(metavar="BAG", help="Recording: a .mcap, .db3 or .bag file, or a rosbag2 folder.")
+    Path,
+    typer.Argument(
+        metavar="BAG",
+        help="Recording: a .mcap, .db3 or .bag file, or a rosbag2 folder.",
+        autocompletion=complete_recordings,
+    ),
+]
+OptionalBagArgument = Annotated[
+    Path | None,
+    typer.Argument(
+        metavar="[BAG]",
+        help="Recording; without it, the live ROS graph.",
+        show_default=False,
+        autocompletion=complete_recordings,
+    ),
 ]
 NamespaceOption = Annotated[
     str | None,

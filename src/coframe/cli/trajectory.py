@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from coframe.bags import TrajectoryQuery
+from coframe.cli.completion import complete_frames
 from coframe.cli.lifecycle import run_to_completion
 from coframe.cli.options import (
     BagArgument,
@@ -35,8 +36,15 @@ __all__ = ["trajectory"]
 
 def trajectory(
     bag: BagArgument,
-    target: Annotated[str, typer.Argument(metavar="TARGET", help="Frame in which the poses are expressed.")],
-    source: Annotated[str, typer.Argument(metavar="SOURCE", help="Frame whose poses are written.")],
+    target: Annotated[
+        str,
+        typer.Argument(
+            metavar="TARGET", help="Frame in which the poses are expressed.", autocompletion=complete_frames
+        ),
+    ],
+    source: Annotated[
+        str, typer.Argument(metavar="SOURCE", help="Frame whose poses are written.", autocompletion=complete_frames)
+    ],
     output: Annotated[
         Path | None,
         typer.Option("--output", "-o", metavar="FILE", help="Output file. [default: standard output]"),

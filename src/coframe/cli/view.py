@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 import coframe
+from coframe.cli.completion import complete_recordings
 from coframe.cli.lifecycle import run_until_interrupted
 from coframe.cli.options import (
     TF_STATIC_TOPIC,
@@ -61,7 +62,12 @@ NoBrowserOption = Annotated[bool, typer.Option("--no-browser", help="Print the a
 
 def view(
     bag: Annotated[
-        str, typer.Argument(metavar="[BAG]", help="Recording; without it, or with 'live', the live ROS graph.")
+        str,
+        typer.Argument(
+            metavar="[BAG]",
+            help="Recording; without it, or with 'live', the live ROS graph.",
+            autocompletion=complete_recordings,
+        ),
     ] = "live",
     rviz: Annotated[
         Path | None,
