@@ -58,12 +58,6 @@ def test_every_code_has_a_test_in_which_it_is_the_only_finding():
     assert sorted(set(re.findall(r'\bonly\((?:.+, )?"(TF\d+)"\)', tests))) == list(codes())
 
 
-def test_every_code_is_in_the_table_of_the_documentation(request):
-    table = (request.config.rootpath / "docs" / "how-to" / "doctor.md").read_text("utf-8")
-    rows = re.findall(r"^\| \[(TF\d+)\]\([./]*/src/coframe/doctor/code_pages/(TF\d+)\.md\) \| \S", table, re.MULTILINE)
-    assert rows == [(code, code) for code in codes()]
-
-
 def test_run_without_transforms_is_not_healthy(examine):
     run = Run()
     run.scan(START)

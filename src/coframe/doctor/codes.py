@@ -33,6 +33,11 @@ class Page(NamedTuple):
     why: str
     text: str
 
+    @property
+    def location(self) -> str:
+        """The page and section of the documentation site that describe the code."""
+        return f"reference/doctor-codes.html#{self.code.lower()}"
+
 
 @functools.cache
 def codes() -> tuple[str, ...]:

@@ -69,6 +69,11 @@ class Finding:
         return self.harm or page(self.code).why
 
     @property
+    def page(self) -> str:
+        """The page and section of the documentation site that describe the code."""
+        return page(self.code).location
+
+    @property
     def subject(self) -> str:
         """The edge or topic that it concerns; may be empty."""
         return " -> ".join(self.edge) if self.edge else self.topic

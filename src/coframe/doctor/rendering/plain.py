@@ -51,6 +51,7 @@ def _finding(finding: Finding) -> dict[str, Any]:
         "code": finding.code,
         "severity": str(finding.severity),
         "title": page(finding.code).title,
+        "page": finding.page,
         "text": finding.text,
         "edge": list(finding.edge) if finding.edge else None,
         "topic": finding.topic or None,
