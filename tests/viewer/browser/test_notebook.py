@@ -8,6 +8,7 @@ import os
 import signal
 import subprocess
 import sys
+import threading
 import time
 import warnings
 from contextlib import contextmanager
@@ -234,3 +235,40 @@ def test_options_and_limits(view, monkeypatch):
     viewer = view(buffer, inline="replay")
     monkeypatch.setattr(notebook, "MAX_INLINE_BYTES", 1000)
     assert "a notebook's output at most" in html.unescape(viewer._repr_html_())
+
+
+@pytest.mark.slow
+@pytest.mark.usefixtures("domain_id")
+def test_a_replay_of_the_live_graph_contains_its_frames_and_messages(open_html):
+    """The replay waits for the first message of each topic that it subscribes to."""
+    pytest.importorskip("cyclonedds", reason="a live graph needs DDS")
+    from geometry_msgs.msg import PoseStamped
+
+    with coframe.connect("notebook_test") as ros:
+        ros.buffer.set("map", "base", coframe.Transform([1.0, 0.0, 0.0]), static=True)
+        message = PoseStamped()
+        message.header.frame_id = "map"
+        goal = ros.publisher("/goal", PoseStamped)
+        with ros.show(port=0, inline="replay") as viewer, publishing(goal, message):
+            page = open_html(viewer._repr_html_())
+        frame = drawn_in(page)
+        assert frame.evaluate("coframe.frames.base.position") == pytest.approx([1.0, 0.0, 0.0])
+        assert frame.evaluate("Object.keys(coframe.displays)")
+
+
+@contextmanager
+def publishing(publisher, message):
+    """Publish a message repeatedly."""
+    end = threading.Event()
+
+    def publish():
+        while not end.wait(0.05):
+            publisher.publish(message)
+
+    thread = threading.Thread(target=publish)
+    thread.start()
+    try:
+        yield
+    finally:
+        end.set()
+        thread.join()
