@@ -7,7 +7,7 @@ DEMO_STAMP := $(VENV)/.demo_ready
 NATIVE := $(shell find native -name '*.cpp' -o -name '*.hpp' -o -name '*.inc') CMakeLists.txt
 
 .DEFAULT_GOAL := help
-.PHONY: help setup build build-split demo test test-slow test-long test-ros sanitize sanitize-suite fuzz faults soak docs lint typecheck format conformance bench generate page page-check clean
+.PHONY: help setup build build-split demo test test-slow test-long test-ros test-ros-wheels sanitize sanitize-suite fuzz faults soak docs lint typecheck format conformance bench generate page page-check clean
 
 help: ## list the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  make %-12s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -47,7 +47,10 @@ test-slow: $(STAMP) $(VENV)/.oracle $(VENV)/.docs ## run the tests that take min
 	$(BIN)/python -m pytest -m "slow and not long" $(ARGS)
 
 test-ros: $(STAMP) ## run programs with the sourced ROS 2 and with coframe, and compare their outputs
-	COFRAME_TEST_ROS=1 $(BIN)/python -m pytest tests/interop -v $(ARGS)
+	COFRAME_TEST_ROS=1 $(BIN)/python -m pytest tests/interop tests/course/test_sourced_ros.py -v $(ARGS)
+
+test-ros-wheels: ## grade the lab's solution on rclpy and Fast DDS of ROS 2 Kilted, which pip installs into build/ros_wheels
+	scripts/ros_wheels.sh
 
 test-long: $(STAMP) ## compare ten million random operations with the real tf2 (a new seed each run); ten minutes with a stuck tab
 	$(BIN)/python -m pytest -m long -rP $(ARGS)

@@ -23,6 +23,7 @@ from coframe.course import formats
 from coframe.course.assignment import FILE
 from coframe.course.checking import check_class, check_folder, submissions
 from coframe.course.faults import FAULTS
+from coframe.course.first_output import FirstOutput
 from coframe.course.folders import create_folder
 from coframe.course.grading import CRITERIA
 from coframe.course.handbook import chapters, contents, terminal_text, write_pages
@@ -36,6 +37,7 @@ if TYPE_CHECKING:
 
 __all__ = ["lab"]
 
+_FIRST_OUTPUT = 8.0  # seconds after which each program should have published something
 _HANDBOOK_WIDTH = 120  # columns: longer lines are hard to read
 FolderArgument = Annotated[
     Path | None,
@@ -94,7 +96,10 @@ def run(
     simulation = SIMULATION[1:] if complete else SIMULATION
     with run_until_interrupted():
         programs = [*programs_of(_folder(folder), COMPLETE_TREE if complete else STEPS), *simulation]
-        _run(programs, seconds, browser=browser, port=port)
+        print(
+            "Your nodes run beside a simulated robot. Stop them with Ctrl-C. They are shown in the viewer:", flush=True
+        )
+        _run(programs, seconds, browser=browser, port=port, names_silent=True)
 
 
 @lab.command(cls=PlainCommand, short_help="Grade a folder, or the folders of a class.")
@@ -232,8 +237,18 @@ def _folder(given: Path | None) -> Path:
     return Path.cwd() if Path(FILE).is_file() else Path("lab")
 
 
-def _run(programs: Sequence[Program], seconds: float | None, *, browser: bool, port: int | None) -> None:
-    """Run programs and the viewer until Ctrl-C, or for some seconds; print the output of the programs."""
+def _run(
+    programs: Sequence[Program],
+    seconds: float | None,
+    *,
+    browser: bool,
+    port: int | None,
+    names_silent: bool = False,
+) -> None:
+    """Run programs and the viewer until Ctrl-C, or for some seconds; print the output of the programs.
+
+    With `names_silent`, a sentence about each program that publishes nothing is printed after some seconds.
+    """
     width = max(len(program.name) for program in programs)
     closed = threading.Event()  # The reader of a pipe, such as `head`, has closed it.
 
@@ -244,6 +259,13 @@ def _run(programs: Sequence[Program], seconds: float | None, *, browser: bool, p
             closed.set()
 
     with coframe.connect("coframe_lab") as ros, optional_viewer(ros, port, browser=browser), running(programs, write):
+        if names_silent and (seconds is None or seconds > _FIRST_OUTPUT):
+            first = FirstOutput(ros, programs)
+            closed.wait(_FIRST_OUTPUT)
+            for name, sentence in first.missing():
+                write(name, sentence)
+            first.close()
+            seconds = None if seconds is None else seconds - _FIRST_OUTPUT
         closed.wait(seconds)
     if closed.is_set():
         raise BrokenPipeError

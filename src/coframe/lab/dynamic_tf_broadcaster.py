@@ -53,12 +53,12 @@ class DynamicFramePublisher(Node):
                 "parameters 'joint_names' and 'link_lengths' must have two entries each, because the arm has two joints"
             )
 
-        self.tf_broadcaster = TransformBroadcaster(self)
         topic = self.declare_parameter("joint_states_topic", "/joint_states").value
         self.joint_pub = None
         if self.declare_parameter("publish_joint_states", False).value:
             self.joint_pub = self.create_publisher(JointState, topic, 10)
         else:
+            self.tf_broadcaster = TransformBroadcaster(self)
             self.joint_sub = self.create_subscription(JointState, topic, self.joint_callback, 10)
         self.timer = self.create_timer(self.period, self.simulate_and_broadcast)
 

@@ -113,7 +113,9 @@ class SimulatedLidar(Node):
         try:
             transform = self.tf_buffer.lookup_transform(self.fixed_frame, self.frame, Time()).transform
         except TransformException as e:
-            self.get_logger().info(f"The lidar stays at the origin: {e}", throttle_duration_sec=10.0)
+            self.get_logger().info(
+                f"The lidar stays at the origin until there is a transform to it: {e}", throttle_duration_sec=10.0
+            )
             return 0.0, 0.0, 0.0
         q = transform.rotation
         yaw = math.atan2(2.0 * (q.w * q.z + q.x * q.y), 1.0 - 2.0 * (q.y * q.y + q.z * q.z))

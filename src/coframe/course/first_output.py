@@ -1,0 +1,66 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Which of a student's programs publish nothing yet: the first thing to do."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+from coframe.messages import find
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Iterator
+    from typing import Any
+
+    import coframe
+    from coframe.course.running import Program
+
+__all__ = ["FirstOutput"]
+
+
+class _Output(NamedTuple):
+    """What a program of the lab publishes: a topic, and the chapter of the handbook about it."""
+
+    topic: str
+    chapter: int
+    type: str = ""  # transforms are counted by the buffer
+
+
+_OUTPUTS = {
+    "static_tf_broadcaster": _Output("/tf_static", 3),
+    "dynamic_tf_broadcaster": _Output("/tf", 3),
+    "complete_tf_tree": _Output("/tf", 7),
+    "tf_listener": _Output("/end_effector_pose", 4, "geometry_msgs/msg/PoseStamped"),
+    "sensor_transform": _Output("/scan_base_frame", 6, "sensor_msgs/msg/PointCloud2"),
+}
+
+
+class FirstOutput:
+    """Subscriptions to what the programs of the lab publish."""
+
+    def __init__(self, ros: coframe.Connection, programs: Iterable[Program]) -> None:
+        self._ros = ros
+        self._names = [program.name for program in programs if program.name in _OUTPUTS]
+        self._received: set[str] = set()
+        outputs = {_OUTPUTS[name] for name in self._names}
+        self._subscriptions = [
+            ros.subscribe(output.topic, find(output.type), self._note(output.topic))
+            for output in outputs
+            if output.type
+        ]
+
+    def close(self) -> None:
+        """Destroy the subscriptions."""
+        for subscription in self._subscriptions:
+            subscription.close()
+
+    def missing(self) -> Iterator[tuple[str, str]]:
+        """Yield the name of each program that has published nothing, and a sentence about it."""
+        kinds = {"/tf_static" if edge.static else "/tf" for edge in self._ros.buffer.edges()}
+        for name in self._names:
+            output = _OUTPUTS[name]
+            if output.topic not in kinds | self._received:
+                task = f"The first lines of {name}.py describe the task; more: coframe lab handbook {output.chapter}"
+                yield name, f"publishes nothing on {output.topic} yet. {task}"
+
+    def _note(self, topic: str) -> Callable[[Any], None]:
+        return lambda _message: self._received.add(topic)
