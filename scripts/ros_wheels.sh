@@ -49,7 +49,7 @@ CMAKE
 <?xml version="1.0"?>
 <package format="3">
   <name>tf2_msgs</name><version>0.0.0</version><description>Messages of tf2</description>
-  <maintainer email="nobody@example.org">nobody</maintainer><license>BSD</license>
+  <maintainer email="tf2@example.org">tf2</maintainer><license>BSD</license>
   <buildtool_depend>ament_cmake</buildtool_depend><buildtool_depend>rosidl_default_generators</buildtool_depend>
   <depend>geometry_msgs</depend><exec_depend>rosidl_default_runtime</exec_depend>
   <member_of_group>rosidl_interface_packages</member_of_group>

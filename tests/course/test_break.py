@@ -37,7 +37,7 @@ def start(domain_id):  # noqa: ARG001 - the domain is in the environment
 @pytest.mark.slow
 @pytest.mark.parametrize("number", NUMBERS.values(), ids=list(NUMBERS))
 def test_every_system_runs(number, domain_id):  # noqa: ARG001 - the domain is in the environment
-    words = [sys.executable, "-m", "coframe.cli", "lab", "break", str(number), "--duration", "4"]
+    words = [sys.executable, "-m", "coframe.cli", "lab", "break", str(number), "--duration", "8"]
     result = subprocess.run(words, capture_output=True, text=True, timeout=60, check=False)
     assert result.returncode == 0, result.stderr
     assert "dynamic_tf_broadcaster" in result.stdout

@@ -16,6 +16,8 @@ from coframe.course.checking import check_class, check_folder, submissions
 from coframe.course.folders import create_folder
 from coframe.errors import CourseError
 
+pytestmark = pytest.mark.timeout(300)  # nine programs run one after the other, on a machine that may be busy
+
 
 @pytest.mark.slow
 def test_the_solution_gets_all_points_and_bonus_points():

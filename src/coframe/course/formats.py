@@ -17,8 +17,8 @@ _WIDTH = 100
 def text(report: dict[str, Any]) -> Iterator[str]:
     """Yield the lines of a report for a terminal: each criterion with its facts; lost points with their reason."""
     for criterion in report["criteria"]:
-        if criterion["bonus"] and not criterion["earned"] and criterion["problem"].startswith("There is no file"):
-            continue  # An extension that was not attempted.
+        if _is_skipped(criterion):
+            continue
         bonus = " bonus" if criterion["bonus"] else ""
         yield f"{criterion['name']} ({criterion['file']}): {_pair(criterion)}{bonus}"
         if criterion["problem"]:
@@ -48,6 +48,11 @@ def _sum(report: dict[str, Any]) -> str:
     parts = [f"{report['earned']:g} of {points:g}"] if points else []
     parts += [f"{report['bonus']:g} of {bonus_points:g} bonus"] if bonus_points else []
     return f"Points in this part of the check: {' + '.join(parts)}. The grade is that of all parts."
+
+
+def _is_skipped(criterion: dict[str, Any]) -> bool:
+    """Return whether a criterion is an extension that the student has not attempted."""
+    return criterion["bonus"] and criterion["problem"].startswith("There is no file")
 
 
 def _pair(item: dict[str, Any]) -> str:
@@ -103,7 +108,9 @@ def csv_row(folder: str, report: dict[str, Any] | None, problem: str = "") -> di
     if report is not None:
         row |= {"grade": report["earned"], "bonus": report["bonus"]}
         row |= {criterion["name"]: criterion["earned"] for criterion in report["criteria"]}
-        problem = next((criterion["problem"] for criterion in report["criteria"] if criterion["problem"]), "")
+        problem = next(
+            (each["problem"] for each in report["criteria"] if each["problem"] and not _is_skipped(each)), ""
+        )
     return {**row, "problem": problem}
 
 

@@ -21,6 +21,9 @@ __all__ = ["check"]
 
 _TOPIC = "/tf_static"
 _NOT_UNIT = "0.707 is not the square root of one half: use math.sqrt(0.5)"
+_ON_TF = (
+    "TransformBroadcaster sends on /tf, where a listener that joins later misses it: use StaticTransformBroadcaster"
+)
 _READ = "handbook chapter 3, static and dynamic transforms"
 
 
@@ -28,7 +31,7 @@ def check(task: Task) -> Sheet:
     """Check ``static_tf_broadcaster.py``."""
     sheet = Sheet("Static transforms", "static_tf_broadcaster.py")
     world = task.world
-    with run_program(task, sheet) as program:
+    with run_program(task, sheet, wrong_topic="/tf") as program:
         static = world.watch(_TOPIC, TFMessage, latched=True)
         dynamic = world.watch("/tf", TFMessage)
         if program is not None:
@@ -37,10 +40,11 @@ def check(task: Task) -> Sheet:
         late = world.watch(_TOPIC, TFMessage, latched=True)
         if program is not None:
             world.run(0.3)
-        sent = _by_child(static)
+        sent, repeated = _by_child(static), _repeated(_by_child(dynamic))
+        missing = _ON_TF if world.publishers_of("/tf") else "a misspelt child_frame_id"
         for mount in task.assignment.mounts:
-            _check_mount(sheet, mount, sent.get(mount.frame, []), _by_child(dynamic).get(mount.frame, []))
-        _check_delivery(sheet, task, sent, _by_child(dynamic), _by_child(late))
+            _check_mount(sheet, mount, sent.get(mount.frame) or repeated.get(mount.frame, []), missing)
+        _check_delivery(sheet, task, sent, repeated, _by_child(late))
     return sheet
 
 
@@ -52,15 +56,19 @@ def _by_child(received: list[Received]) -> dict[str, list[Any]]:
     return found
 
 
-def _check_mount(sheet: Sheet, mount: Mount, static: list[Any], dynamic: list[Any]) -> None:
-    messages = static or dynamic
+def _repeated(sent: dict[str, list[Any]]) -> dict[str, list[Any]]:
+    """Return the transforms that were sent again: whether one that is sent once on /tf arrives depends on chance."""
+    return {child: messages for child, messages in sent.items() if len(messages) > 1}
+
+
+def _check_mount(sheet: Sheet, mount: Mount, messages: list[Any], missing: str) -> None:
     sheet.check(
         1,
         f"{mount.frame} has the parent {mount.parent}",
         bool(messages) and messages[-1].header.frame_id == mount.parent,
         expected=f"a transform from {mount.parent} to {mount.frame}",
         observed=f"the parent is {messages[-1].header.frame_id!r}" if messages else f"no transform to {mount.frame}",
-        cause="header.frame_id is the parent, child_frame_id the sensor" if messages else "a misspelt child_frame_id",
+        cause="header.frame_id is the parent, child_frame_id the sensor" if messages else missing,
         read=_READ,
     )
     correct = Transform(mount.translation, mount.quaternion)
@@ -73,9 +81,7 @@ def _check_mount(sheet: Sheet, mount: Mount, static: list[Any], dynamic: list[An
         1.0 if not difference and is_unit else 2 / 3 if not difference else 0.0,
         expected=f"position {list(mount.translation)} m, rotation {_rounded(mount.quaternion)} (x, y, z, w)",
         observed=difference or f"the quaternion has the length {norm:.6f} instead of 1",
-        cause=_pose_cause(messages, mount)
-        if difference
-        else "0.707 is not the square root of one half: use math.sqrt(0.5)",
+        cause=_pose_cause(messages, mount) if difference else _NOT_UNIT,
         read="handbook chapter 2, rotations and quaternions",
     )
 
@@ -118,7 +124,7 @@ def _check_delivery(
         len(on_static) / len(frames),
         expected="all three on /tf_static, none on /tf",
         observed=f"{len(on_static)} of 3 on /tf_static, {len(set(frames) & dynamic.keys())} on /tf",
-        cause="TransformBroadcaster sends on /tf: use StaticTransformBroadcaster",
+        cause=_ON_TF,
         read=_READ,
     )
     offers = [info.qos_profile for info in task.world.publishers_of(_TOPIC)]
