@@ -52,7 +52,7 @@ def _sum(report: dict[str, Any]) -> str:
 
 def _is_skipped(criterion: dict[str, Any]) -> bool:
     """Return whether a criterion is an extension that the student has not attempted."""
-    return criterion["bonus"] and criterion["problem"].startswith("There is no file")
+    return bool(criterion["bonus"]) and criterion["problem"].startswith("There is no file")
 
 
 def _pair(item: dict[str, Any]) -> str:
