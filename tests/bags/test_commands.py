@@ -267,6 +267,18 @@ def test_bag_info(bag):
     assert {topic["name"]: topic["messages"] for topic in summary["topics"]} == {"/tf": COUNT, "/tf_static": 1}
 
 
+def test_bag_info_shows_the_beginning_of_a_huge_tree(tmp_path):
+    buffer = coframe.Buffer(None)
+    for i in range(600):
+        buffer.set("root", f"frame_{i}", coframe.Transform([1, 2, 3]), START)
+    path = recordings.write_mcap(tmp_path / "huge.mcap", rows=[("/tf", START, buffer.encode(static=False))])
+    code, out, _ = run("bag", "info", path)
+    assert (code, out.count("\nroot ")) == (0, 500)
+    assert "100 more edges. All of them: coframe bag info --json" in out
+    code, out, _ = run("bag", "info", path, "--json")
+    assert len(json.loads(out)["edges"]) == 600
+
+
 def test_bag_info_shows_which_sensors_can_be_transformed(shared):
     code, out, _ = run("bag", "info", shared / "recordings" / "tilt_laser.bag", "--json")
     assert code == 0

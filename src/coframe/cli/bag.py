@@ -48,6 +48,7 @@ if TYPE_CHECKING:
 __all__ = ["bag"]
 
 _NUMBER = re.compile(r"\d+(\.\d+)?")
+_MOST_EDGES = 500  # rows of `bag info`: no user reads more, and a table of 100 000 rows takes gigabytes
 
 OutputArgument = Annotated[Path, typer.Argument(metavar="OUT", help="Folder of the copy; it must not exist yet.")]
 CompressionOption = Annotated[str, typer.Option(metavar="METHOD", help="Compression of the copy: none, zstd or lz4.")]
@@ -248,12 +249,14 @@ def _print(summary: Summary) -> None:
     for tree in summary.trees:
         console.print(_text(f"tree with root {tree.root}: {count(tree.size, 'frame')}", style="bold"))
     edges = _table("parent", "child", "samples", "Hz", "longest gap", "from", "to")
-    for edge in summary.edges:
+    for edge in summary.edges[:_MOST_EDGES]:
         moving = (f"{edge.rate:.1f}", f"{edge.longest_gap / SECOND:.3f} s", seconds(edge.oldest), seconds(edge.newest))
         cells: tuple[Any, ...] = ("static", "", "", "") if edge.static else moving
         edges.add_row(_text(edge.parent), _text(edge.child), str(edge.samples), *cells)
     if summary.edges:
         console.print(edges)
+    if (omitted := len(summary.edges) - _MOST_EDGES) > 0:
+        console.print(f"{count(omitted, 'more edge')}. All of them: coframe bag info --json")
     if summary.sensors:
         _print_sensors(summary.sensors, console)
 

@@ -42,6 +42,9 @@ def flicker(edge: Edge) -> Flicker | None:
     """Return the flicker of an edge that repeatedly jumps away and back; None if it does not."""
     if edge.count < _LEAST + 2:
         return None
+    # The usual step is computed only if there are enough steps of any importance: it takes most of the time.
+    if np.count_nonzero((edge.distances > _METRES) | (edge.turns > _RADIANS)) < _LEAST:
+        return None
     typical_distance, typical_angle = _typical(edge)
     jumps = np.flatnonzero(
         (edge.distances > _CLEARLY * typical_distance + _METRES) | (edge.turns > _CLEARLY * typical_angle + _RADIANS)
