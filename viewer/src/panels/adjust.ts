@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The part of the inspector that adjusts a static transform by hand: a mount that is calibrated by eye. */
 
-import { copyText, h, iconButton, setText } from "../util/dom";
+import { copyText, h, iconButton, setText, shorten } from "../util/dom";
 import * as format from "../util/format";
 import { distance, relative, rpyDegrees } from "../util/math";
 import type { Model } from "../model/model";
@@ -109,7 +109,7 @@ export class AdjustPanel {
     );
     staticCommands(parent, child, pose).forEach(({ name, text }, k) => {
       setText((this.commands[k] as { label: HTMLElement }).label, name);
-      setText((this.commands[k] as { text: HTMLElement }).text, text);
+      setText((this.commands[k] as { text: HTMLElement }).text, shorten(text, 1000));
     });
     const possible = this.model.hello?.can_publish ?? false;
     this.publish.disabled = !possible;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The top bar: title, Fixed Frame, connection state and menus. */
 
-import { fillSelect, h, iconButton, select, setText } from "../util/dom";
+import { fillSelect, h, iconButton, select, setText, shorten } from "../util/dom";
 import * as format from "../util/format";
 import type { Model } from "../model/model";
 import { remember, remembered } from "../util/storage";
@@ -64,8 +64,9 @@ export class Bar {
       iconButton("help", "Keyboard shortcuts (?)", actions.help, "wide-only"),
     );
     model.on("hello", (hello) => {
-      setText(this.title, hello.title);
-      document.title = hello.title ? `${hello.title} – coframe` : "coframe";
+      const title = shorten(hello.title, 200);
+      setText(this.title, title);
+      document.title = title ? `${title} – coframe` : "coframe";
       this.remembered = this.chosen || (hello.fixed_is_given ? "" : remembered("fixed", ""));
     });
     model.on("tree", () => this.refill());

@@ -125,9 +125,10 @@ export class DisplaysPanel {
       const kind = kindName(display.config.class);
       const what = display.config.topic ?? (kind === display.config.name ? "" : kind);
       const label = state === "error" ? "Status: Error" : state === "waiting" ? "Status: Warn" : "";
-      setText(detail, [label, what, display.note, display.omitted].filter(Boolean).join(" · ") || kind);
+      const facts = [label, what, display.note, display.omitted].filter(Boolean).join(" · ");
+      setText(detail, shorten(facts || kind, 300));
       status.hidden = state === "ok" || !text;
-      setText(status, text.slice(0, 1000));
+      setText(status, shorten(text, 1000));
     }
   }
 

@@ -10,6 +10,7 @@ import type { View } from "../scene/view";
 
 const REQUEST_INTERVAL_MS = 200;
 const RESPONSE_TIMEOUT_MS = 2000;
+const MAX_TEXT = 1000;
 
 export class Inspector {
   private readonly title = h("h2");
@@ -134,14 +135,14 @@ export class Inspector {
     setText(this.distance, t ? format.metres(Math.hypot(...t)) : "–");
     setText(this.age, relation.stamp === null ? "static" : format.stamp(this.model.origin, relation.stamp));
     this.problem.hidden = relation.ok;
-    setText(this.problemText, relation.ok ? "" : (relation.error ?? "No transform is available."));
-    setText(this.problemHint, relation.hint ?? "");
+    setText(this.problemText, relation.ok ? "" : shorten(relation.error ?? "No transform is available.", MAX_TEXT));
+    setText(this.problemHint, shorten(relation.hint ?? "", MAX_TEXT));
     this.results.hidden = !relation.ok;
     this.fill("xyz", t, 4);
     this.fill("quaternion", relation.quaternion, 4);
     this.fill("rpy", relation.rpy_deg, 2);
     this.fill("matrix", relation.matrix, 3);
-    setText(this.command, relation.static_command ?? "");
+    setText(this.command, shorten(relation.static_command ?? "", MAX_TEXT));
     this.showChain(relation);
   }
 

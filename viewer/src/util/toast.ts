@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 /** A notification at the edge of the page that disappears by itself. */
 
-import { byId, h, iconButton } from "./dom";
+import { byId, h, iconButton, shorten } from "./dom";
 
 const SHOWN_MS = 8000;
 const MAX_TOASTS = 4;
 
 export function toast(text: string, hint: string | null = null, kind: "problem" | "info" = "problem"): void {
   const box = byId("toasts");
-  for (const old of [...box.children]) if (old.firstElementChild?.firstChild?.textContent === text) old.remove();
+  const shown = shorten(text, 600);
+  for (const old of [...box.children]) if (old.firstElementChild?.firstChild?.textContent === shown) old.remove();
   while (box.children.length >= MAX_TOASTS) box.firstElementChild?.remove();
   const element: HTMLElement = h(
     "div",
     { class: `toast ${kind}` },
-    h("div", {}, text.slice(0, 600), hint ? h("small", {}, hint.slice(0, 600)) : null),
+    h("div", {}, shown, hint ? h("small", {}, shorten(hint, 600)) : null),
     iconButton("close", "Dismiss", () => element.remove()),
   );
   box.append(element);
