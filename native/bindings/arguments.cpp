@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bindings/arguments.hpp"
 
-#include <array>
 #include <cstdint>
-#include <utility>
 
 #include "bindings/bindings.hpp"
 
@@ -13,12 +11,8 @@ namespace {
 
 nb::handle time_module;  // coframe.time converts what is neither int nor None
 
-// Most programs use the same few literals as durations.
-struct KnownDuration {
-  PyObject* text = nullptr;
-  std::int64_t nanoseconds = 0;
-};
-std::array<KnownDuration, 64> known_durations;  // guarded by the GIL
+// Most programs use the same few literals as durations. Never destroyed: Python ends earlier.
+auto& known_durations = *new IdentityCache<std::int64_t, 64>;
 
 std::int64_t converted(const char* function, nb::handle given) {
   const CallingPython call;
@@ -27,16 +21,6 @@ std::int64_t converted(const char* function, nb::handle given) {
 
 // Whether coframe.time.duration_ns refuses the int: 2 is two nanoseconds, but its caller means two seconds.
 bool is_meant_as_seconds(std::int64_t nanoseconds) { return nanoseconds > 0 && nanoseconds < 100'000; }
-
-std::int64_t text_duration(PyObject* text) {
-  KnownDuration& known = known_durations[(reinterpret_cast<std::uintptr_t>(text) >> 4) % known_durations.size()];
-  if (known.text == text) return known.nanoseconds;
-  const std::int64_t nanoseconds = converted("duration_ns", text);
-  Py_INCREF(text);
-  Py_XDECREF(std::exchange(known.text, text));
-  known.nanoseconds = nanoseconds;
-  return nanoseconds;
-}
 
 }  // namespace
 
@@ -79,7 +63,9 @@ std::int64_t to_duration(nb::handle duration) {
   if (duration.is_none()) return 0;
   std::int64_t nanoseconds;
   if (quick_int64(duration.ptr(), nanoseconds) && !is_meant_as_seconds(nanoseconds)) return nanoseconds;
-  if (PyUnicode_CheckExact(duration.ptr())) return text_duration(duration.ptr());
+  if (PyUnicode_CheckExact(duration.ptr())) {
+    return known_durations.find(duration.ptr(), [](PyObject* text) { return converted("duration_ns", text); });
+  }
   return converted("duration_ns", duration);
 }
 
@@ -101,16 +87,6 @@ LookupQuery full_query_of(BufferObject& buffer, nb::handle target, nb::handle ta
   query.fixed = text(fixed);
   query.source_stamp = to_stamp(source_stamp);
   return query;
-}
-
-std::uint32_t IdentityCache::remember(Entry& entry, PyObject* name, std::uint32_t number) {
-  // Releasing an instance of a subclass could run any code.
-  if (number != 0 && PyUnicode_CheckExact(name)) {
-    Py_INCREF(name);
-    Py_XDECREF(std::exchange(entry.name, name));
-    entry.number = number;
-  }
-  return number;
 }
 
 void define_arguments(nb::module_& module) {

@@ -44,7 +44,9 @@ nb::tuple ingest_slices(nb::handle buffer, nb::handle data, nb::handle starts, n
   const Memory bytes(data, PyBUF_SIMPLE), first(starts, PyBUF_SIMPLE), last(ends, PyBUF_SIMPLE);
   const std::size_t count = first.size() / sizeof(std::uint64_t);
   if (first.size() != last.size()) throw nb::value_error("as many ends as starts are wanted");
-  TransformStream& stream = self.stream(is_static, self.authority(authority.ptr()), encoding_of(encoding), renaming);
+  const AuthorityId who = self.authority(authority.ptr());
+  const nb::ft_lock_guard lock(self.ingesting);
+  TransformStream& stream = self.stream(is_static, who, encoding_of(encoding), renaming);
   std::size_t damaged = 0;
   const char* reason = "";
   for (std::size_t i = 0; i < count; ++i) {

@@ -81,7 +81,7 @@ struct PlainQuery {
 
 PyObject* lookup_cached_path(BufferObject& self, PlainQuery& query, PyObject* target, PyObject* source) {
   Pose pose;
-  if (!self.core->lookup_cached_path(self.paths, query.target, query.source, query.stamp, pose)) return nullptr;
+  if (!self.lookup_cached_path(query.target, query.source, query.stamp, pose)) return nullptr;
   return make_transform(pose, query.stamp, target, source).release().ptr();
 }
 
@@ -98,7 +98,7 @@ PyObject* lookup_by_walking(BufferObject& self, PlainQuery& query, PyObject* tar
 }
 
 bool check_cached_path(BufferObject& self, const PlainQuery& query) {
-  return self.core->check_cached_path(self.paths, query.target, query.source, query.stamp);
+  return self.check_cached_path(query.target, query.source, query.stamp);
 }
 
 // The fastest path: the arguments are (target, source[, stamp]) and the ids of the names are cached. Returns nullptr
@@ -413,10 +413,16 @@ PyObject* py_ingest(PyObject* object, PyObject* const* arguments, Py_ssize_t cou
   if (!signature.parse(arguments, count, keywords, values)) return nullptr;
   return guarded([&] {
     BufferObject& self = buffer_of(object);
-    TransformStream& stream = self.stream(is_true(values[1]), values[2] ? self.authority(values[2]) : 0);
+    const bool is_static = is_true(values[1]);
+    const AuthorityId authority = values[2] ? self.authority(values[2]) : 0;
     const Memory bytes(values[0], PyBUF_SIMPLE);
     std::size_t stored;
-    const DecodeFailure failure = self.core->ingest(stream, bytes.data<const std::uint8_t>(), bytes.size(), stored);
+    DecodeFailure failure;
+    {
+      const nb::ft_lock_guard lock(self.ingesting);
+      failure =
+          self.core->ingest(self.stream(is_static, authority), bytes.data<const std::uint8_t>(), bytes.size(), stored);
+    }
     if (failure.reason) raise_decode_error(failure);
     return PyLong_FromSize_t(stored);
   });

@@ -16,6 +16,15 @@ namespace {
 
 constexpr std::int64_t kNanosecondsPerSecond = 1'000'000'000;
 
+#ifdef Py_GIL_DISABLED
+// Another thread may replace the value of a slot at any time.
+using SlotValue = nb::object;
+SlotValue hold(PyObject* value) { return nb::borrow(value); }
+#else
+using SlotValue = nb::handle;
+SlotValue hold(PyObject* value) { return value; }
+#endif
+
 // A class and the offsets of its slots in an instance, in the order of `names`.
 template <std::size_t N>
 class SlottedClass {
@@ -28,9 +37,12 @@ class SlottedClass {
       offsets_[i] = reinterpret_cast<PyMemberDescrObject*>(descriptor.ptr())->d_member->offset;
     }
   }
-  bool is(PyObject* object) const { return object && Py_TYPE(object) == type_; }
-  // Returns a borrowed reference; nullptr if the attribute was deleted.
-  PyObject* get(PyObject* object, std::size_t i) const { return slot(object, i); }
+  bool is(nb::handle object) const { return object.is_valid() && Py_TYPE(object.ptr()) == type_; }
+  // Returns an invalid handle if the attribute was deleted.
+  SlotValue get(nb::handle object, std::size_t i) const {
+    const nb::ft_object_guard lock(object);
+    return hold(slot(object.ptr(), i));
+  }
   // Steals `value`.
   void put(PyObject* object, std::size_t i, PyObject* value) const { slot(object, i) = value; }
   // Creates an instance without __init__: the caller must set every slot.
@@ -57,11 +69,11 @@ SlottedClass<2> transform;          // translation, rotation
 SlottedClass<3> vector3;
 SlottedClass<4> quaternion;
 
-bool is_text(PyObject* object) { return object && PyUnicode_CheckExact(object); }
+bool is_text(nb::handle object) { return object.is_valid() && PyUnicode_CheckExact(object.ptr()); }
 
-bool read_int(PyObject* object, std::int64_t& value) { return object && quick_int64(object, value); }
+bool read_int(nb::handle object, std::int64_t& value) { return object.is_valid() && quick_int64(object.ptr(), value); }
 
-bool read_time(PyObject* object, Stamp& stamp) {
+bool read_time(nb::handle object, Stamp& stamp) {
   if (rclpy_time.is(object)) return read_int(rclpy_time.get(object, 0), stamp);
   if (!time_message.is(object)) return false;
   std::int64_t seconds, nanoseconds;
@@ -74,26 +86,25 @@ bool read_time(PyObject* object, Stamp& stamp) {
 }
 
 template <std::size_t N>
-bool read_numbers(const SlottedClass<N>& cls, PyObject* object, double* out) {
+bool read_numbers(const SlottedClass<N>& cls, nb::handle object, double* out) {
   if (!cls.is(object)) return false;
   for (std::size_t i = 0; i < N; ++i) {
-    PyObject* number = cls.get(object, i);
-    if (!number || !PyFloat_CheckExact(number)) return false;
-    out[i] = PyFloat_AS_DOUBLE(number);
+    const SlotValue number = cls.get(object, i);
+    if (!number.is_valid() || !PyFloat_CheckExact(number.ptr())) return false;
+    out[i] = PyFloat_AS_DOUBLE(number.ptr());
   }
   return true;
 }
 
 struct MessageValues {
-  PyObject *parent, *child;
+  SlotValue parent, child;
   Stamp stamp;
   TransformValues values;
 };
 
-bool read_message(PyObject* message, MessageValues& content) {
+bool read_message(nb::handle message, MessageValues& content) {
   if (!transform_stamped.is(message)) return false;
-  PyObject* head = transform_stamped.get(message, 0);
-  PyObject* pose = transform_stamped.get(message, 2);
+  const SlotValue head = transform_stamped.get(message, 0), pose = transform_stamped.get(message, 2);
   if (!header.is(head) || !transform.is(pose)) return false;
   content.parent = header.get(head, 1);
   content.child = transform_stamped.get(message, 1);
@@ -140,7 +151,7 @@ PyObject* set_message(PyObject* object, PyObject* const* arguments, Py_ssize_t c
     BufferObject& self = buffer_of(object);
     MessageValues content;
     if (!PyUnicode_CheckExact(values[2]) || !read_message(values[0], content)) return Py_NewRef(Py_None);
-    const FrameId parent = self.frame(content.parent), child = self.frame(content.child);
+    const FrameId parent = self.frame(content.parent.ptr()), child = self.frame(content.child.ptr());
     if (parent == 0 || child == 0 || parent == child) return Py_NewRef(Py_None);
     return PyLong_FromUnsignedLong(self.core->insert(parent, child, content.stamp, content.values,
                                                      PyObject_IsTrue(values[1]) == 1, self.authority(values[2])));
@@ -157,8 +168,8 @@ PyObject* lookup_message(PyObject* object, PyObject* const* arguments, Py_ssize_
     Pose pose;
     if (!is_text(values[0]) || !is_text(values[1]) || !read_time(values[2], stamp)) return Py_NewRef(Py_None);
     const FrameId target = self.frame(values[0]), source = self.frame(values[1]);
-    const bool found = target != 0 && source != 0 && target != source &&
-                       self.core->lookup_cached_path(self.paths, target, source, stamp, pose);
+    const bool found =
+        target != 0 && source != 0 && target != source && self.lookup_cached_path(target, source, stamp, pose);
     return found ? make_message(values[0], values[1], stamp, pose).release().ptr() : Py_NewRef(Py_None);
   });
 }

@@ -75,8 +75,7 @@ class PoseTable {
   State look_up(Row& row, Stamp stamp, Stamp hold, Pose& pose) {
     const FrameId target = number_of(row.target), source = number_of(row.source);
     Stamp when = stamp, beyond = 0;
-    if (target == 0 || source == 0 || target == source ||
-        !self_.core->lookup_cached_path(self_.paths, target, source, when, pose)) {
+    if (target == 0 || source == 0 || target == source || !self_.lookup_cached_path(target, source, when, pose)) {
       LookupQuery query = query_of(self_, row.target.name, row.source.name, nb::none());
       query.stamp = stamp;
       Extrapolation extrapolation{Extrapolation::Method::hold, hold, 0};
@@ -128,7 +127,7 @@ void define_poses(nb::module_& module) {
       .def(nb::init<nb::handle_t<BufferObject>, nb::str, nb::list, nb::list>(), arg("buffer"), arg("fixed"),
            arg("frames"), arg("roots"))
       .def("look_up", nb::overload_cast<Stamp, Stamp, nb::handle, nb::handle>(&PoseTable::look_up), arg("stamp"),
-           arg("hold"), arg("poses"), arg("states"), "Compute the poses of all frames at one time.");
+           arg("hold"), arg("poses"), arg("states"), nb::lock_self(), "Compute the poses of all frames at one time.");
   module.def("poses_near", &poses_near, arg("poses"), arg("states"), arg("origin"), arg("fixed"), arg("limit"),
              arg("near"), "Write poses as float32 relative to an origin; return how many are far from it.");
 }

@@ -76,7 +76,7 @@ void define_relay(nb::module_& module) {
       .def(nb::init<std::string, std::vector<std::string>>(), nb::arg("prefix"), nb::arg("keep"))
       .def("__call__", [](const Renaming& self, const std::string& name) { return self(name); }, nb::arg("name"));
 
-  nb::class_<Relay>(module, "Relay", "Merge the TFMessages of several sources into one tree. Not thread-safe.")
+  nb::class_<Relay>(module, "Relay", "Merge the TFMessages of several sources into one tree.")
       .def(
           "__init__", [](Relay* self, bool is_static, std::int64_t period) { new (self) Relay(is_static, period); },
           nb::arg("static"), nb::arg("period"))
@@ -85,14 +85,16 @@ void define_relay(nb::module_& module) {
           [](Relay& self, const Renaming& renaming, bool split) {
             return self.add_source(renaming, split ? Relay::Direction::split : Relay::Direction::merge);
           },
-          nb::arg("renaming"), nb::arg("split"), "Add a source; return its number.")
-      .def("add", &add, nb::arg("source"), nb::arg("writer"), nb::arg("message"), nb::arg("at") = -1,
+          nb::arg("renaming"), nb::arg("split"), nb::lock_self(), "Add a source; return its number.")
+      .def("add", &add, nb::arg("source"), nb::arg("writer"), nb::arg("message"), nb::arg("at") = -1, nb::lock_self(),
            "Add a message from a writer of a source.")
-      .def("take", &take_relayed, "Return one message with everything added since the last call, or None.")
-      .def("forget_writer", &Relay::forget_writer, nb::arg("source"), nb::arg("writer"),
+      .def("take", &take_relayed, nb::lock_self(),
+           "Return one message with everything added since the last call, or None.")
+      .def("forget_writer", &Relay::forget_writer, nb::arg("source"), nb::arg("writer"), nb::lock_self(),
            "Forget a writer that has disappeared.")
-      .def("edges", &edges, "Return the statistics of each edge.")
-      .def("writers", &relay_writers, nb::arg("source"), "Return the statistics of each writer of a source.");
+      .def("edges", &edges, nb::lock_self(), "Return the statistics of each edge.")
+      .def("writers", &relay_writers, nb::arg("source"), nb::lock_self(),
+           "Return the statistics of each writer of a source.");
 }
 
 }  // namespace coframe::bindings

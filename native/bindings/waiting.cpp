@@ -65,7 +65,7 @@ class WatchObject {
  private:
   std::shared_ptr<Buffer> buffer_;
   std::shared_ptr<Watch> watch_;
-  bool active_ = true;  // guarded by the GIL
+  bool active_ = true;  // guarded by the GIL, or by the lock of the Python object
 };
 
 }  // namespace
@@ -90,7 +90,7 @@ void define_waiting(nb::module_& module) {
       .def("cancel", &WaitObject::cancel, "Stop waiting.");
   nb::class_<WatchObject>(module, "Watch", "Records which edges change.")
       .def("take", &WatchObject::take, "Return the child frames of the edges that have changed since the last call.")
-      .def("cancel", &WatchObject::cancel, "Stop watching.");
+      .def("cancel", &WatchObject::cancel, nb::lock_self(), "Stop watching.");
   module.def(
       "wait",
       [](BufferObject& buffer, std::shared_ptr<Mailbox> mailbox, Token token, nb::handle target, nb::handle source,
