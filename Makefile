@@ -5,6 +5,8 @@ BIN := $(VENV)/bin
 STAMP := $(VENV)/.ready
 DEMO_STAMP := $(VENV)/.demo_ready
 NATIVE := $(shell find native -name '*.cpp' -o -name '*.hpp' -o -name '*.inc') CMakeLists.txt
+# For scripts that need the standard library only.
+ANY_PYTHON = $(if $(wildcard $(BIN)/python),$(BIN)/python,python3)
 
 .DEFAULT_GOAL := help
 .PHONY: help setup build build-split demo test test-slow test-long test-ros test-ros-wheels sanitize sanitize-suite fuzz faults soak docs lint typecheck format conformance bench generate page page-check clean
@@ -116,6 +118,16 @@ $(VENV)/.bench: pyproject.toml | $(STAMP)
 
 bench: $(VENV)/.bench ## compare coframe with its peers in one table; fail when a target is missed
 	@$(BIN)/python -E -m benchmarks $(ARGS)
+
+.PHONY: wheels test-root release-check
+wheels: ## build, repair and test wheels into dist/: PYTHONS="python3.12 /path/to/python"; default: all found
+	$(ANY_PYTHON) scripts/wheels.py $(PYTHONS)
+
+test-root: ## install dist/'s wheels in an empty Debian root and run the installed-package tests there (needs root)
+	sh scripts/test_in_root.sh $(PYTHONS)
+
+release-check: ## check what is in dist/: metadata, sizes, licences of bundled parts, links, changelog
+	$(ANY_PYTHON) scripts/release_check.py
 
 generate: $(STAMP) ## generate the message classes from interfaces/, and the page's side of the viewer's protocol
 	$(BIN)/python scripts/generate_messages.py
