@@ -119,9 +119,12 @@ $(VENV)/.bench: pyproject.toml | $(STAMP)
 bench: $(VENV)/.bench ## compare coframe with its peers in one table; fail when a target is missed
 	@$(BIN)/python -E -m benchmarks $(ARGS)
 
-.PHONY: wheels test-root release-check
+.PHONY: wheels sdist test-root release-check
 wheels: ## build, repair and test wheels into dist/: PYTHONS="python3.12 /path/to/python"; default: all found
 	$(ANY_PYTHON) scripts/wheels.py $(PYTHONS)
+
+sdist: ## build the source distribution into dist/
+	$(ANY_PYTHON) scripts/wheels.py --sdist
 
 test-root: ## install dist/'s wheels in an empty Debian root and run the installed-package tests there (needs root)
 	sh scripts/test_in_root.sh $(PYTHONS)

@@ -2,6 +2,7 @@
 """Build, repair and test a wheel for each Python, each step in an environment of its own.
 
     python scripts/wheels.py [--out dist] [--no-tests] [PYTHON ...]
+    python scripts/wheels.py --sdist
 
 Each PYTHON is a name or path of an interpreter. Without any, all CPythons from 3.10 to 3.14 are taken, also those
 without the GIL, that are on the PATH or managed by pyenv. On Linux, auditwheel names the wheel after the oldest glibc
@@ -134,9 +135,14 @@ def main() -> None:
     parser.add_argument("pythons", nargs="*", metavar="PYTHON")
     parser.add_argument("--out", type=Path, default=ROOT / "dist")
     parser.add_argument("--no-tests", action="store_true")
+    parser.add_argument("--sdist", action="store_true", help="build the source distribution instead of wheels")
     arguments = parser.parse_args()
     out = arguments.out.resolve()
     out.mkdir(parents=True, exist_ok=True)
+    if arguments.sdist:
+        builder = environment(sys.executable, ROOT / "build/wheels/sdist-env", "build>=1.2,<2")
+        print(run(builder, "-m", "build", "--sdist", "--outdir", out, ROOT).strip().splitlines()[-1])
+        return
     for interpreter in interpreters(arguments.pythons):
         start = time.monotonic()
         work = ROOT / "build/wheels" / interpreter.tag

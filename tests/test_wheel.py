@@ -1,50 +1,171 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The wheel in an environment of its own, as `pip install` would have it."""
+"""The wheel in environments of its own, in each layout in which people install it.
+
+Set COFRAME_TEST_WHEEL to test a wheel that exists already; otherwise one is built.
+"""
 
 import os
-import re
+import shutil
 import subprocess
 import sys
-import venv
+import sysconfig
+import zipfile
 from pathlib import Path
 
 import pytest
 
 ROOT = Path(__file__).parents[1]
+pytestmark = [pytest.mark.slow, pytest.mark.timeout(900)]
+WHERE = "import importlib.util; print(importlib.util.find_spec('rclpy').origin)"
 
 
 def run(*command, **environment):
     command = [str(part) for part in command]
-    result = subprocess.run(
-        command, capture_output=True, text=True, cwd="/", env={**os.environ, **environment}, check=False
-    )
-    assert result.returncode == 0, result.stderr
+    given = {name: value for name, value in os.environ.items() if not name.startswith(("PYTHON", "PIPX", "UV"))}
+    result = subprocess.run(command, capture_output=True, text=True, cwd="/", env={**given, **environment}, check=False)
+    assert result.returncode == 0, result.stdout + result.stderr
     return result.stdout
 
 
-@pytest.mark.slow
-@pytest.mark.timeout(600)
-def test_the_wheel_has_everything(tmp_path):
-    run(sys.executable, "-m", "pip", "wheel", "--quiet", "--no-deps", "--wheel-dir", tmp_path, ROOT)
-    (wheel,) = tmp_path.glob("coframe-*.whl")
-    venv.create(tmp_path / "env", with_pip=True)
-    python = tmp_path / "env" / "bin" / "python"
-    run(python, "-m", "pip", "install", "--quiet", f"{wheel}[dds,cli,viewer]")
+def pip(python, *words, **environment):
+    return run(sys.executable, "-m", "pip", "--python", python, "--quiet", *words, **environment)
 
-    path, rclpy = run(python, "-c", "import sys, rclpy; print(sys.path[-1]); print(rclpy.__file__)").splitlines()
-    assert path.endswith("coframe/ros"), "the ROS packages come last on the path"
-    assert rclpy.startswith(path)
-    packages = "tf2_ros, tf2_geometry_msgs, tf2_sensor_msgs, tf2_nav_msgs, tf2_visualization_msgs, tf_transformations"
-    run(python, "-c", f"import {packages}, sensor_msgs_py")
-    converters = "cv_bridge, image_geometry, laser_geometry, ros2_numpy, rosidl_runtime_py"
-    run(python, "-c", f"import {converters}, angles, diagnostic_updater, message_filters")
-    run(python, "-c", "import rosbag2_py, turtlesim.turtlesim_node; from nav2_msgs.action import NavigateToPose")
-    (tmp_path / "own_msgs/msg").mkdir(parents=True)
-    (tmp_path / "own_msgs/msg/Num.msg").write_text("int64 num 3\n")
-    first = "from own_msgs.msg import Num; print(Num())"
-    assert run(python, "-c", first, COFRAME_INTERFACES=str(tmp_path)) == "own_msgs.msg.Num(num=3)\n"
-    shown = run(tmp_path / "env" / "bin" / "coframe", "demo", "--duration", "5", "--no-browser", ROS_DOMAIN_ID="201")
-    assert re.search(r"^http://127\.0\.0\.1:\d+/$", shown, re.MULTILINE)
-    page = "import coframe, urllib.request as u; print(u.urlopen(coframe.show(coframe.Buffer(), port=0).url).read())"
-    assert "viewer.js" in run(python, "-c", page), "the page is in the wheel"
-    assert re.search(r"^ *camera_link +end_effector +static", shown, re.MULTILINE)
+
+@pytest.fixture(scope="session")
+def wheel(tmp_path_factory):
+    given = os.environ.get("COFRAME_TEST_WHEEL")
+    if given:
+        return Path(given).resolve()
+    folder = tmp_path_factory.mktemp("wheel")
+    run(sys.executable, "-m", "pip", "wheel", "--quiet", "--no-deps", "--wheel-dir", folder, ROOT)
+    (built,) = folder.glob("coframe-*.whl")
+    return built
+
+
+def virtual(folder, *options):
+    """A virtual environment without pip: its interpreter and the folder of its packages."""
+    run(sys.executable, "-m", "venv", "--without-pip", *options, folder)
+    python = folder / "bin/python"
+    return python, Path(run(python, "-c", "import sysconfig; print(sysconfig.get_path('purelib'))").strip())
+
+
+def files_below(folder):
+    return {str(path.relative_to(folder)) for path in folder.rglob("*") if "__pycache__" not in path.parts}
+
+
+def add_foreign(packages, *names):
+    """A ROS installation of another origin, as RoboStack puts it into site-packages."""
+    for name in names:
+        (packages / name).mkdir(parents=True)
+        (packages / name / "__init__.py").write_text("FOREIGN = True\n")
+
+
+def check_sides(python, packages, **environment):
+    """coframe's rclpy is found alone; a foreign one takes precedence, and the two are never mixed."""
+    assert run(python, "-c", WHERE, **environment).strip().endswith("coframe/ros/rclpy/__init__.py")
+    add_foreign(packages, "rclpy")
+    assert run(python, "-c", "import rclpy; print(rclpy.FOREIGN)", **environment) == "True\n"
+    program = "import rclpy\ntry: import tf2_ros\nexcept ImportError as error: print(error)"
+    assert "cannot be mixed" in run(python, "-c", program, **environment)
+    add_foreign(packages, "tf2_ros", "tf2_py", "geometry_msgs")
+    program = "import rclpy, tf2_ros, tf2_py, geometry_msgs as g; print(tf2_ros.FOREIGN, tf2_py.FOREIGN, g.FOREIGN)"
+    assert run(python, "-c", program, **environment) == "True True True\n"
+
+
+def test_the_installed_package_tests_pass_and_all_extras_are_small(wheel, tmp_path):
+    python, packages = virtual(tmp_path / "env")
+    pip(python, "install", "numpy")
+    numpy = sum(path.stat().st_size for path in packages.rglob("*") if path.is_file())
+    pip(python, "install", f"{wheel}[all]")
+    everything = sum(path.stat().st_size for path in packages.rglob("*") if path.is_file())
+    print(f"coframe[all]: {everything / 1e6:.0f} MB, of which NumPy {numpy / 1e6:.0f} MB")
+    assert everything - numpy < 200e6
+    pip(python, "install", "pytest>=8,<10", "pytest-timeout>=2.3,<3")
+    print(
+        run(
+            python,
+            "-m",
+            "pytest",
+            "-q",
+            "-p",
+            "no:cacheprovider",
+            "-c",
+            ROOT / "pyproject.toml",
+            ROOT / "tests/installed",
+        )
+    )
+
+
+def test_the_core_is_a_small_download(wheel):
+    assert wheel.stat().st_size < 5e6
+    with zipfile.ZipFile(wheel) as archive:
+        assert sum(info.file_size for info in archive.infolist()) < 10e6
+
+
+def test_uninstalling_leaves_nothing(wheel, tmp_path):
+    python, packages = virtual(tmp_path / "env")
+    scripts = python.parent
+    before = files_below(packages), files_below(scripts)
+    pip(python, "install", "--no-deps", wheel)
+    assert (packages / "coframe_ros.pth").is_file()
+    run(python, "-c", "import coframe, ament_index_python")  # leaves compiled modules behind
+    pip(python, "uninstall", "--yes", "coframe")
+    assert (files_below(packages), files_below(scripts)) == before
+    assert run(python, "-c", "import sys; print([f for f in sys.meta_path if 'Coframe' in repr(f)])") == "[]\n"
+
+
+def test_an_environment(wheel, tmp_path):
+    python, packages = virtual(tmp_path / "env")
+    pip(python, "install", "--no-deps", wheel)
+    check_sides(python, packages)
+
+
+def test_an_environment_made_by_uv(wheel, tmp_path):
+    uv = pytest.importorskip("uv", reason="needs uv from the package index").find_uv_bin()
+    run(uv, "venv", "--quiet", "--offline", "--python", sys.executable, tmp_path / "env")
+    python = tmp_path / "env/bin/python"
+    run(uv, "pip", "install", "--quiet", "--offline", "--no-deps", "--python", python, wheel)
+    packages = Path(run(python, "-c", "import sysconfig; print(sysconfig.get_path('purelib'))").strip())
+    check_sides(python, packages)
+
+
+def test_an_application_of_pipx(wheel, tmp_path):
+    pytest.importorskip("pipx", reason="needs pipx from the package index")
+    folders = {"PIPX_HOME": str(tmp_path / "home"), "PIPX_BIN_DIR": str(tmp_path / "bin")}
+    run(sys.executable, "-m", "pipx", "install", "--pip-args=--no-deps", wheel, **folders)
+    assert (tmp_path / "bin/coframe").exists()
+    python = tmp_path / "home/venvs/coframe/bin/python"
+    packages = Path(run(python, "-c", "import sysconfig; print(sysconfig.get_path('purelib'))").strip())
+    check_sides(python, packages)
+    run(sys.executable, "-m", "pipx", "uninstall", "coframe", **folders)
+    assert not (tmp_path / "bin/coframe").exists()
+
+
+def test_the_packages_of_a_user(wheel, tmp_path):
+    """`pip install --user` for an interpreter outside of environments, with ROS in the interpreter's site-packages."""
+    base = Path(sysconfig.get_config_var("BINDIR")) / f"python3.{sys.version_info[1]}"
+    home = {"PYTHONUSERBASE": str(tmp_path / "user"), "PIP_BREAK_SYSTEM_PACKAGES": "1"}
+    pip(base, "install", "--user", "--no-deps", "--ignore-installed", wheel, **home)
+    where = run(base, "-c", WHERE, **home).strip()
+    assert where.startswith(str(tmp_path))
+    packages = Path(where).parents[3]
+    check_sides(base, packages, **home)
+
+
+def test_a_prefix_as_conda_makes_it(wheel, tmp_path):
+    """A prefix with an interpreter and site-packages of its own, into which RoboStack installs."""
+    if sys.base_prefix == "/usr":
+        pytest.skip("the system's Python cannot be copied into a prefix")
+    version = f"python3.{sys.version_info[1]}"
+    prefix = tmp_path / "prefix"
+    (prefix / "bin").mkdir(parents=True)
+    shutil.copy(Path(sys.base_prefix) / "bin" / version, prefix / "bin" / version)
+    leave_out = shutil.ignore_patterns("site-packages", "test", "__pycache__", "config-*", "idlelib")
+    shutil.copytree(Path(sys.base_prefix) / "lib" / version, prefix / "lib" / version, ignore=leave_out)
+    for library in (Path(sys.base_prefix) / "lib").glob("libpython*.so*"):
+        shutil.copy(library, prefix / "lib")
+    packages = prefix / "lib" / version / "site-packages"
+    packages.mkdir()
+    python = prefix / "bin" / version
+    pip(python, "install", "--no-deps", wheel)
+    check_sides(python, packages)
