@@ -181,12 +181,15 @@ def _no_multicast() -> Measurement:
     return Measurement(str(result), result.missing == 0 and (result.statics or float("inf")) <= RECOVERY)
 
 
-@case("no_multicast_lan", "no multicast between machines, ROS_STATIC_PEERS: statics within 3 s, nothing missing")
+@case(
+    "no_multicast_lan", "no multicast between machines, ROS_STATIC_PEERS on both: statics within 3 s, nothing missing"
+)
 def _no_multicast_lan() -> Measurement:
     with lan() as network, processes(ROS_AUTOMATIC_DISCOVERY_RANGE="SUBNET") as started:
         first, second = network.hosts
         network.impairment = Impairment(multicast=False)
-        talkers = {robot: started.node("talker", robot, RATE, host=first) for robot in ROBOTS}
+        peer = {"ROS_STATIC_PEERS": second.address}
+        talkers = {robot: started.node("talker", robot, RATE, host=first, **peer) for robot in ROBOTS}
         listener = started.node("listener", *ROBOTS, host=second, ROS_STATIC_PEERS=first.address)
         listener.started = time.monotonic()
         time.sleep(SETTLING)

@@ -35,6 +35,7 @@ from coframe.doctor import codes, diagnose, observe_recording, page
 from coframe.doctor.rendering.plain import as_data
 from coframe.doctor.rendering.sarif import as_sarif
 from coframe.doctor.rendering.text import lines
+from coframe.freed_memory import return_freed_arrays
 
 if TYPE_CHECKING:
     from coframe.doctor import Report
@@ -193,6 +194,7 @@ def _texts(report: Report) -> list[Text]:
 
 def _watch(observer: LiveObserver, ignore: list[str], as_json: bool) -> None:
     """Update the report every second, or less often if the diagnosis takes long, until Ctrl-C."""
+    return_freed_arrays()
     console = Console(highlight=False)
     with Live(console=console, auto_refresh=False, screen=False, transient=False) as live:
         while True:

@@ -30,6 +30,7 @@ from coframe.cli.options import (
 )
 from coframe.cli.output import fail, printable, warn
 from coframe.formatting import count
+from coframe.freed_memory import return_freed_arrays
 from coframe.recorder import record as start_recording
 
 if TYPE_CHECKING:
@@ -105,6 +106,7 @@ def record(
         )
     if everything and (topics or regex):
         fail("--all cannot be combined with TOPIC or --regex", code=2)
+    return_freed_arrays()
     with run_until_interrupted():
         try:
             recorder = start_recording(

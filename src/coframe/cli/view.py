@@ -27,6 +27,7 @@ from coframe.cli.options import (
     recorded_tf_topics,
 )
 from coframe.cli.output import fail, warn
+from coframe.freed_memory import return_freed_arrays
 from coframe.viewer import start_viewer
 from coframe.viewer.replay.page import MAX_RATE
 from coframe.wire import library
@@ -145,6 +146,7 @@ def view(
         return
     if unused := [f"--{name}" for name, value in replay.items() if value is not None]:
         fail(f"{unused[0]} can only be used with --output", code=2)
+    return_freed_arrays()
     with run_until_interrupted():
         if live:
             library.check()
