@@ -7,6 +7,7 @@
 #
 # Requires Python 3.10 or newer with its headers, a C++ compiler and a package index. Debian's separate packages
 # (python3-venv, python3-dev, g++) are installed when the script runs as root; otherwise it prints the command to run.
+# So is the DDS library where the cyclonedds package has no wheels: on Python 3.14 and on Linux on ARM.
 set -eu
 purpose=${1:-dev}
 venv=${VENV:-.venv}
@@ -19,7 +20,7 @@ sys.exit(not ok)
 PYTHON
 }
 
-find_python() { # 3.14 comes last because cyclonedds has no wheels for it yet
+find_python() { # 3.14 comes last because it needs the DDS library of the system: cyclonedds has no wheels for it yet
     for name in ${PYTHON:-python3 python3.13 python3.12 python3.11 python3.10 /usr/bin/python3 python3.14}; do
         if command -v "$name" >/dev/null 2>&1 && usable "$name"; then
             command -v "$name"  # an absolute path, because PATH changes below
@@ -89,3 +90,14 @@ echo "setup: installing packages for $purpose, then compiling coframe" >&2
 # shellcheck disable=SC2086  # the list of tools is meant to be split
 pip install --no-compile $tools
 PATH="$(cd "$venv/bin" && pwd):$PATH" pip install --no-compile --no-build-isolation --editable ".[$extras]"
+
+has_dds() { "$venv/bin/python" -c "from coframe.wire import library; library.check()" >/dev/null 2>&1; }
+
+if ! has_dds; then
+    install_with_apt libddsc0t64  # the name since Debian 13 and Ubuntu 24.04
+    has_dds || install_with_apt libddsc0debian
+fi
+if ! has_dds; then
+    echo "setup: found no DDS library (libddsc), which the ROS graph requires. All other features work without it." >&2
+    "$venv/bin/python" -c "from coframe.wire import library; print('       ' + library.how_to_get_one())" >&2
+fi
