@@ -54,6 +54,12 @@ def doctor(
     watch: Annotated[bool, typer.Option("--watch", help="Update the findings continuously.")] = False,
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON; times are in nanoseconds.")] = False,
     sarif: Annotated[bool, typer.Option("--sarif", help="Print SARIF 2.1.0.")] = False,
+    system: Annotated[
+        bool,
+        typer.Option(
+            "--system", help="Check this machine instead: DDS library, network, environment variables, nodes."
+        ),
+    ] = False,
     ignore: Annotated[
         list[str] | None, typer.Option(metavar="CODE", help="Skip the check with this code; repeatable.")
     ] = None,
@@ -68,7 +74,8 @@ def doctor(
         typer.Option(
             metavar="DURATION",
             parser=PositiveDuration,
-            help="Observation time; with --watch, the time window of the findings.",
+            help="Observation time; with --watch, the time window of the findings; with --system, the longest search "
+            "for nodes.",
         ),
     ] = _TEN_SECONDS,
     cache: Annotated[
@@ -86,6 +93,8 @@ def doctor(
 ) -> None:
     """Find problems with the transforms, live or in the recording BAG: what is wrong, why, and what to do.
 
+    If nodes do not find each other, begin with `coframe doctor --system`.
+
     The exit code is 0 if there are no errors or warnings, and 1 otherwise. Notes do not count.
 
     Example: coframe doctor run.mcap --ignore TF018
@@ -95,6 +104,9 @@ def doctor(
         return
     if explain is not None:
         _explain(explain)
+        return
+    if system:
+        _check_system(bag, domain, duration, as_json=as_json, watch=watch, sarif=sarif)
         return
     ignored = _known_codes(ignore or [])
     if as_json and sarif:
@@ -126,6 +138,20 @@ def doctor(
             observer.listen_for_statics()
             report = diagnose(observer.observe(), ignore=ignored)
         _print_and_exit({"": report}, as_json, sarif, None)
+
+
+def _check_system(
+    bag: Path | None, domain: int | None, duration: PositiveDuration, *, as_json: bool, watch: bool, sarif: bool
+) -> None:
+    for given, name in ((bag is not None, "a recording"), (watch, "--watch"), (sarif, "--sarif")):
+        if given:
+            fail(f"--system cannot be combined with {name}", code=2)
+    from coframe.cli.doctor_system import examine_system  # noqa: PLC0415 - checks of transforms need none of it
+
+    with run_to_completion():
+        if Console(stderr=True).is_terminal:
+            typer.echo(f"searching for nodes for up to {duration} ...", err=True)
+        examine_system(domain, duration.seconds, as_json=as_json)
 
 
 def _list_codes(as_json: bool) -> None:

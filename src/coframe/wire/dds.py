@@ -28,10 +28,10 @@ def join(domain: int, xml: str, user_data: str) -> _core.DomainParticipant:
     try:
         return _core.DomainParticipant(domain, xml, user_data)
     except _core.DdsError as error:
-        if not _free_participant_index(domain):
+        used, every = participant_indexes(domain)
+        if used == every:
             raise WireError(
-                f"Domain {domain} is full on this machine: all {config.MAX_PARTICIPANT_INDEX + 1} participant indexes "
-                "are in use.",
+                f"Domain {domain} is full on this machine: all {every} participant indexes are in use.",
                 hint="Stop some ROS processes, or use another domain: ROS_DOMAIN_ID=1.",
             ) from error
         raise WireError(
@@ -57,14 +57,18 @@ def _check_descriptors(domain: int) -> None:
             os.close(descriptor)
 
 
-def _free_participant_index(domain: int) -> bool:
-    """Return whether one of the UDP ports that RTPS assigns to participants of `domain` is free."""
+def participant_indexes(domain: int) -> tuple[int, int]:
+    """Return how many participant indexes of `domain` are in use on this machine, and how many there are.
+
+    RTPS assigns UDP ports to each index; those of high domains end at the last port.
+    """
     first = 7400 + 250 * domain + 10
-    for port in range(first, min(first + 2 * config.MAX_PARTICIPANT_INDEX, 65535) + 1, 2):
+    ports = range(first, min(first + 2 * config.MAX_PARTICIPANT_INDEX, 65535) + 1, 2)
+    used = 0
+    for port in ports:
         with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
             try:
                 probe.bind(("127.0.0.1", port))
             except OSError:
-                continue
-            return True
-    return False
+                used += 1
+    return used, len(ports)

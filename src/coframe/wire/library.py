@@ -127,7 +127,7 @@ def how_to_get_one() -> str:
     if _package_has_wheels():
         ways.append("pip install 'coframe[dds]'")
     if sys.platform == "linux":
-        ways.append("sudo apt-get install libddsc0debian (Debian 12, Ubuntu 22.04) or libddsc0t64 (newer releases)")
+        ways.append("sudo apt-get install libddsc0t64 (on Debian 12: libddsc0debian)")
     ways += ["source a ROS 2 that has rmw_cyclonedds_cpp", f"set {VARIABLE} to the file of a libddsc"]
     return "Use one of these ways: " + "; ".join(ways) + "."
 

@@ -1,0 +1,130 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The output of ``coframe doctor --system``."""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+from typing import TYPE_CHECKING, Any
+
+import typer
+
+from coframe.cli.output import printable, report_console
+from coframe.system import advise, collect
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from coframe.system import Advice, SystemReport
+    from coframe.system.network import Interface
+
+__all__ = ["examine_system"]
+
+_STYLES = {"error": "bold red", "warning": "yellow", "note": "cyan"}
+_MEBIBYTE = 1 << 20
+
+
+def examine_system(domain: int | None, listen: float, *, as_json: bool) -> None:
+    """Print what this machine offers a process that joins the ROS graph; end the command with exit code 0 or 1."""
+    report = collect(domain, listen=listen)
+    advice = advise(report)
+    if as_json:
+        print(json.dumps({**_as_data(report), "findings": [dataclasses.asdict(one) for one in advice]}, indent=2))
+    else:
+        console = report_console()
+        for title, lines in _sections(report):
+            console.print(title, style="bold", markup=False)
+            for line in lines:
+                console.print(f"  {printable(line)}", markup=False, highlight=False)
+        _print_advice(advice)
+    raise typer.Exit(1 if any(one.severity != "note" for one in advice) else 0)
+
+
+def _as_data(report: SystemReport) -> dict[str, Any]:
+    data: dict[str, Any] = json.loads(json.dumps(dataclasses.asdict(report), default=str))
+    return data
+
+
+def _sections(report: SystemReport) -> Iterator[tuple[str, list[str]]]:
+    yield "Software", list(_software(report))
+    yield "DDS library", list(_library(report))
+    set_variables = [f"{each.name}={each.value}: {each.effect}" for each in report.variables]
+    yield "Environment variables", set_variables or ["none of ROS 2, its middlewares and coframe is set"]
+    yield "Network", list(_network(report))
+    if report.nodes is not None:
+        found = ", ".join(report.nodes) or "none"
+        yield f"Nodes in domain {report.domain}", [found]
+
+
+def _software(report: SystemReport) -> Iterator[str]:
+    installed = report.installation
+    yield f"Python {installed.python} on {installed.platform}{', in a container' if installed.container else ''}"
+    yield ", ".join(f"{name} {version or 'not installed'}" for name, version in installed.packages.items())
+    for extra, packages in installed.extras.items():
+        versions = (f"{name} {version or 'not installed'}" for name, version in packages.items())
+        yield f"extra {extra}: {', '.join(versions)}"
+    if installed.ros is None:
+        yield "no ROS 2 is sourced"
+    else:
+        yield f"ROS 2 {installed.ros} is sourced".replace("  ", " ")
+
+
+def _library(report: SystemReport) -> Iterator[str]:
+    used = report.library
+    if used.path:
+        version = report.probe.version if report.probe and report.probe.version else used.version
+        yield f"{used.path}: Cyclone DDS {version}, from {used.source}"
+    yield "searched in this order:"
+    for place in used.searched:
+        yield f"  {place.source}: {place.path or f'not found ({place.searched})'}"
+
+
+def _network(report: SystemReport) -> Iterator[str]:
+    yield f"domain {_or_unknown(report.domain)}, discovery range {_or_unknown(report.discovery)}"
+    if report.participants:
+        used, every = report.participants
+        yield f"participants on this machine: {used} of at most {every} indexes in use, {every - used} free"
+    if report.probe:
+        for interface in report.probe.interfaces:
+            yield f"interface {interface.name}, {interface.address}: {_state(interface)}"
+        discovery, data = report.probe.unicast_ports or ("unknown", "unknown")
+        yield f"UDP ports of a participant: {discovery} for discovery, {data} for data"
+        discovery, data = report.probe.multicast_ports or ("none", "none")
+        yield f"UDP ports of the domain for multicast: {discovery} for discovery, {data} for data"
+        if report.probe.receive_buffer:
+            yield f"receive buffer of a participant: {_mebibytes(report.probe.receive_buffer)}"
+        received = "received" if report.probe.exchanged else "not received"
+        yield f"a message through the library in this process: {received}"
+    default, largest = _mebibytes(report.limits.default_buffer), _mebibytes(report.limits.largest_buffer)
+    yield f"receive buffer of a UDP socket: {default} by default, at most {largest}"
+    if report.limits.shared_memory is not None:
+        yield f"shared memory (/dev/shm): {_mebibytes(report.limits.shared_memory)} free; coframe does not use it"
+
+
+def _state(interface: Interface) -> str:
+    if not interface.used:
+        return "not used"
+    if interface.multicast:
+        return "used, multicast works"
+    return f"used, multicast does not work ({interface.problem})"
+
+
+def _or_unknown(value: object) -> str:
+    return "unknown" if value is None else str(value)
+
+
+def _mebibytes(size: int) -> str:
+    return f"{size / _MEBIBYTE:.1f} MiB"
+
+
+def _print_advice(advice: list[Advice]) -> None:
+    console = report_console()
+    console.print("Findings", style="bold")
+    if not advice:
+        console.print("  none")
+    for one in advice:
+        console.print(
+            f"  {one.severity}: {printable(one.text)}", style=_STYLES[one.severity], markup=False, highlight=False
+        )
+        if one.action:
+            console.print(f"    {printable(one.action)}", markup=False, highlight=False)

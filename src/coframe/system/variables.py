@@ -1,0 +1,64 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The environment variables of ROS 2 and its middlewares, and what each does in coframe."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Final
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+_EFFECTS: Final = {
+    "AMENT_PREFIX_PATH": "folders of a sourced ROS 2: its packages, interfaces and DDS library are found there",
+    "COFRAME_DDS_LIBRARY": "the file of the DDS library; no other place is searched",
+    "COFRAME_PACKAGE_PATH": "folders with the sources of ROS packages",
+    "CYCLONEDDS_HOME": "an installation of Cyclone DDS, where the DDS library is searched with those of the system",
+    "CYCLONEDDS_URI": "configuration of Cyclone DDS; it overrides what coframe derives from the other variables",
+    "RMW_IMPLEMENTATION": "no effect on coframe, which uses Cyclone DDS; selects the middleware of ROS 2's own nodes",
+    "ROS_AUTOMATIC_DISCOVERY_RANGE": "how far nodes are searched: OFF, LOCALHOST, SUBNET or SYSTEM_DEFAULT",
+    "ROS_DISCOVERY_SERVER": "no effect on coframe; nodes on Fast DDS announce themselves only at this server, so that "
+    "coframe does not find them",
+    "ROS_DISTRO": "the release whose form of the graph messages is published first",
+    "ROS_DOMAIN_ID": "the domain; only processes in the same domain find each other",
+    "ROS_HOME": "the folder of ROS's files, such as log files",
+    "ROS_LOCALHOST_ONLY": "1: communicate on this machine only, with priority over ROS_AUTOMATIC_DISCOVERY_RANGE; 0: "
+    "on the local network",
+    "ROS_LOG_DIR": "the folder of log files",
+    "ROS_PYTHON_CHECK_FIELDS": "whether the types of message fields are checked when they are set",
+    "ROS_STATIC_PEERS": "hosts that are contacted without multicast",
+}
+_PREFIXES: Final = {
+    "FASTRTPS_": "no effect on coframe; configures nodes on Fast DDS",
+    "FASTDDS_": "no effect on coframe; configures nodes on Fast DDS",
+    "ZENOH_": "no effect on coframe; configures nodes on Zenoh, which coframe does not find",
+    "COFRAME_": "unknown to coframe",
+    "CYCLONEDDS_": "no effect on coframe",
+    "RMW_": "no effect on coframe",
+    "ROS_": "no effect on coframe",
+}
+
+
+@dataclass(frozen=True)
+class Variable:
+    """An environment variable that is set.
+
+    Attributes:
+        name: Its name.
+        value: Its value.
+        effect: What it does in coframe.
+    """
+
+    name: str
+    value: str
+    effect: str
+
+
+def variables(environment: Mapping[str, str]) -> list[Variable]:
+    """Return the variables of ROS 2, its middlewares and coframe that are set, sorted by name."""
+    found = []
+    for name in sorted(environment):
+        effect = _EFFECTS.get(name) or next((text for start, text in _PREFIXES.items() if name.startswith(start)), None)
+        if effect and environment[name]:
+            found.append(Variable(name, environment[name], effect))
+    return found
