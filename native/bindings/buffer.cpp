@@ -479,6 +479,7 @@ nb::dict statistics(const BufferObject& self) {
   named["stored"] = counts.stored;
   named["refused"] = counts.refused;
   named["old"] = counts.old;
+  named["over_limit"] = counts.over_limit;
   return named;
 }
 

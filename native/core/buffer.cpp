@@ -252,7 +252,14 @@ Inserted Buffer::store_unexpected(TransformStream& stream, std::size_t index, co
 
 Inserted Buffer::store_named(TransformStream& stream, std::size_t index, const TransformView& view,
                              std::string_view parent, std::string_view child) {
+  const std::size_t frames = tree_.frame_count();
+  const bool is_full = frames >= kMaxFrames || received_name_bytes_ + parent.size() + child.size() > kMaxNameBytes;
+  if (is_full && (tree_.find(without_slash(parent)) == 0 || tree_.find(without_slash(child)) == 0)) {
+    ++counts_.over_limit;
+    return {.refusals = kTooManyFrames};
+  }
   const Inserted inserted = tree_.insert(parent, child, view.stamp, view.values, stream.is_static, stream.authority);
+  if (tree_.frame_count() > frames) received_name_bytes_ += parent.size() + child.size();
   if (inserted.refusals == 0 && index < TransformStream::kMaxRemembered) {
     if (stream.expected.size() <= index) stream.expected.resize(index + 1);
     stream.expected[index] = {std::string(view.name_bytes), tree_.find(without_slash(parent)),

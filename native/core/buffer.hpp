@@ -43,11 +43,12 @@
 namespace coframe {
 
 struct Counts {
-  std::uint64_t messages = 0;   // TFMessages received as bytes
-  std::uint64_t malformed = 0;  // of those, not decodable
-  std::uint64_t stored = 0;     // transforms
-  std::uint64_t refused = 0;    // transforms with invalid names or values, or for a frozen buffer
-  std::uint64_t old = 0;        // transforms older than the cache
+  std::uint64_t messages = 0;    // TFMessages received as bytes
+  std::uint64_t malformed = 0;   // of those, not decodable
+  std::uint64_t stored = 0;      // transforms
+  std::uint64_t refused = 0;     // transforms with invalid names or values, or for a frozen buffer
+  std::uint64_t old = 0;         // transforms older than the cache
+  std::uint64_t over_limit = 0;  // of the refused transforms, those with a new name beyond kMaxFrames or kMaxNameBytes
 };
 
 // The messages of one publisher. A publisher sends the same names in the same order, so the previous names are compared
@@ -85,6 +86,10 @@ struct EdgeSummary {
 
 class Buffer {
  public:
+  // What other nodes and recordings can add; the program itself may insert more. The largest known trees have thousands
+  // of frames.
+  static constexpr std::size_t kMaxFrames = 250'000, kMaxNameBytes = 64 << 20;
+
   explicit Buffer(Stamp cache_length) : tree_(cache_length) {}
   Buffer(const Buffer&) = delete;
   Buffer& operator=(const Buffer&) = delete;
@@ -221,7 +226,8 @@ class Buffer {
   mutable LightMutex writing_;
   Tree tree_;
   mutable PathCache paths_;
-  Counts counts_;  // guarded by writing_
+  Counts counts_;                        // guarded by writing_
+  std::size_t received_name_bytes_ = 0;  // guarded by writing_
   std::atomic<bool> frozen_{false};
   WaitQueue wait_queue_{tree_, [this](LookupQuery& query, LookupResult& result, Failure& failure) {
                           return this->lookup_by_name(query, result, failure);

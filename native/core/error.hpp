@@ -70,7 +70,8 @@ enum Refusal : unsigned {
   kNan = 1u << 3,
   kDenormalisedQuaternion = 1u << 4,
   kOldData = 1u << 5,
-  kFrozen = 1u << 6,  // not a check of tf2: the buffer is frozen
+  kFrozen = 1u << 6,         // not a check of tf2: the buffer is frozen
+  kTooManyFrames = 1u << 7,  // not a check of tf2: other nodes have published more names than the buffer stores
 };
 
 }  // namespace coframe

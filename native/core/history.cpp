@@ -316,7 +316,11 @@ void History::drop_older_than(ChunkPool& pool, Stamp stamp) {
   const std::uint64_t first = begin_.load(std::memory_order_relaxed), end = end_.load(std::memory_order_relaxed);
   std::uint64_t begin = first;
   while (begin + 1 < end && chunk_at(begin)->stamps[begin % Chunk::kSize] < stamp) ++begin;
-  if (begin == first) return;
+  if (begin != first) drop_before(pool, begin);
+}
+
+void History::drop_before(ChunkPool& pool, std::uint64_t begin) {
+  const std::uint64_t first = begin_.load(std::memory_order_relaxed);
   first_.store(chunk_at(begin)->stamps[begin % Chunk::kSize], std::memory_order_release);
   begin_.store(begin, std::memory_order_release);
   for (std::uint64_t n = first / Chunk::kSize; n < begin / Chunk::kSize; ++n) {

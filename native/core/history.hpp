@@ -21,6 +21,9 @@
 namespace coframe {
 
 inline constexpr Stamp kKeepAll = -1;  // an unlimited cache length
+// Of a history with a limited cache length, because a publisher may send any number of stamps within that length; the
+// oldest samples are dropped. 10 s at 100 kHz.
+inline constexpr std::uint64_t kMaxSamples = 1 << 20;
 inline constexpr Stamp kFirstStamp = std::numeric_limits<Stamp>::min(), kLastStamp = std::numeric_limits<Stamp>::max();
 
 // The result of the search for a sample.
@@ -292,11 +295,14 @@ class History {
     if (context.cache_length == kKeepAll) return kFirstStamp;
     const Stamp start = minus(newest, context.cache_length);
     if (first_.load(std::memory_order_relaxed) < start) drop_older_than(context.pool, start);
+    const std::uint64_t begin = begin_.load(std::memory_order_relaxed);
+    if (end_.load(std::memory_order_relaxed) - begin >= kMaxSamples) drop_before(context.pool, begin + Chunk::kSize);
     return start;
   }
   // Saturates: stamps may have any value.
   static Stamp minus(Stamp stamp, Stamp length) { return stamp < kFirstStamp + length ? kFirstStamp : stamp - length; }
   void drop_older_than(ChunkPool& pool, Stamp stamp);
+  void drop_before(ChunkPool& pool, std::uint64_t begin);
   void drop_all(ChunkPool& pool);
   PooledChunk* pooled_chunk_at(std::uint64_t index) const { return static_cast<PooledChunk*>(chunk_at(index)); }
   Chunk* chunk_at(std::uint64_t index) const {

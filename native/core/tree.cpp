@@ -284,6 +284,12 @@ std::vector<LogLine> refusal_texts(unsigned refusals, std::string_view parent, s
                                   "authority \"%s\" because of an invalid quaternion in the transform (%f %f %f %f)",
                                   child_name.c_str(), who.c_str(), pose.q[0], pose.q[1], pose.q[2], pose.q[3])});
   }
+  if (refusals & kTooManyFrames) {
+    lines.push_back(
+        {true, format("Ignoring transform for child_frame_id \"%s\" from authority \"%s\" because its frames "
+                      "are new and the buffer has as many names as it stores from other nodes",
+                      child_name.c_str(), who.c_str())});
+  }
   if (refusals & kOldData) {
     lines.push_back({false, format("TF_OLD_DATA ignoring data from the past for frame %s at time %.6f according to "
                                    "authority %s\nPossible reasons are listed at "

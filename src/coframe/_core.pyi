@@ -334,7 +334,11 @@ class Buffer:
 
     @property
     def statistics(self) -> dict[str, int]:
-        """Counters: ``messages``, ``malformed`` (ingested as bytes); ``stored``, ``refused``, ``old`` (transforms)."""
+        """Counters: ``messages``, ``malformed`` (ingested as bytes); ``stored``, ``refused``, ``old`` (transforms).
+
+        ``over_limit`` counts the refused transforms of other nodes with a new frame beyond 250 000 frames or 64 MiB of
+        names.
+        """
 
     @property
     def _changes(self) -> int:

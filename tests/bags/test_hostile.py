@@ -14,6 +14,7 @@ from mcap.writer import CompressionType
 from recordings import START, TF, messages
 
 import coframe
+from coframe.bags import storage
 
 _LIMIT = 10  # seconds; each takes less than one on an idle machine
 
@@ -61,9 +62,8 @@ def zeros(size):
     return b"\x28\xb5\x2f\xfd\0\x38" + b"".join(head + b"\0" for head in heads)
 
 
-def chunks(path):
+def chunks(path, size=512 << 20):
     """Write 200 chunks that unpack to 512 MB each."""
-    size = 512 << 20
     bomb = zeros(size)
     head = struct.pack("<QQQI", 0, 0, size, 0) + b"\4\0\0\0zstd" + struct.pack("<Q", len(bomb))
     record = b"\6" + struct.pack("<Q", len(head) + len(bomb)) + head + bomb
@@ -187,6 +187,16 @@ def test_a_hostile_recording_takes_little_memory_and_time(examined, name):
     assert seconds < _LIMIT
     assert MADE[name][1] in " ".join(problems), problems
     assert all("MemoryError" not in problem for problem in problems)
+
+
+def test_chunks_of_a_plausible_size_have_a_budget_together(tmp_path, monkeypatch):
+    monkeypatch.setattr(storage, "MIN_BUDGET", 64 << 20)
+    chunks(tmp_path / "run.mcap", 16 << 20)
+    recording = coframe.open_bag(tmp_path / "run.mcap")
+    refused = [each for each in recording.problems if "the chunks before it have 67108864 unpacked bytes" in each]
+    assert len(refused) > 190, recording.problems
+    assert "cannot be unpacked" in refused[0]
+    assert "the limit is 67108864" in refused[0]
 
 
 def test_messages_that_unpack_to_512_megabytes_are_refused(tmp_path):

@@ -630,7 +630,7 @@ def test_missing_edge_is_searched_only_where_the_root_can_be_its_child():
 
 
 def test_messages_beyond_the_limit_of_frame_names_are_counted(examine, monkeypatch):
-    monkeypatch.setattr("coframe.doctor.collector._MOST_NAMES", 100)
+    monkeypatch.setattr("coframe.doctor.collector.MAX_NAMES", 100)
     run = Run()
     for i in range(300):
         run.tf("map", f"track_{i}", later(i / 50))

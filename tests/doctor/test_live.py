@@ -126,6 +126,25 @@ def test_what_is_older_than_the_window_is_removed(domain_id, eventually):
         eventually(lambda: listening.poll() or counts() == (0, 0))
 
 
+def test_topics_have_a_limit_and_departed_ones_are_forgotten(domain_id, eventually, monkeypatch):
+    pytest.importorskip("dds_library", reason="transforms are received over DDS")
+    monkeypatch.setattr("coframe.doctor.live.MAX_TOPICS", 3)
+    with LiveObserver(domain_id, window=200_000_000) as listening:
+
+        def topics():
+            listening.poll()
+            return sorted(set(listening.observe().topics) - {"/tf", "/tf_static"})
+
+        for letter in "ab":
+            with coframe.connect(f"node_{letter}", domain=domain_id) as ros:
+                for number in range(5):
+                    ros.publisher(f"/{letter}{number}", find("sensor_msgs/msg/Imu"))
+                eventually(lambda: len(topics()) == 3 and listening.observe().topics_ignored >= 2)
+                assert {name[1] for name in topics()} == {letter}
+            eventually(lambda: not topics())
+        assert listening.observe().topics_ignored == 0
+
+
 @pytest.mark.slow
 def test_misspelt_frame_gives_the_line_to_change(start, only):
     start("robot", ROBOT)

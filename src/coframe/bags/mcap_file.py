@@ -146,6 +146,7 @@ class McapStorage(ChunkedStorage):
             raise DamagedError("its header is damaged or truncated") from None
         self.compressions.add(compression or "none")
         packed = chunk[start + 8 :]
+        self.check_budget(offset, len(packed), size)
         data = unpack(compression, packed, size)
         if crc and zlib.crc32(data) != crc:
             self.add_problem(f"the chunk at byte {offset} is damaged: its checksum does not match")

@@ -129,7 +129,9 @@ class Ros1Storage(ChunkedStorage):
         compression = header.get(b"compression", b"none").decode("ascii", "replace")
         self.compressions.add(compression)
         size = int.from_bytes(header.get(b"size", b"")[:4], "little")
-        data = unpack(compression, self.bytes_at(start, min(end, self.size) - start), size)
+        packed = self.bytes_at(start, min(end, self.size) - start)
+        self.check_budget(offset, len(packed), size)
+        data = unpack(compression, packed, size)
         if end > self.size:
             self.add_problem(f"truncated inside the chunk at byte {offset}")
         elif len(data) < size:

@@ -24,6 +24,10 @@ if TYPE_CHECKING:
 
 __all__ = ["MOST_DAMAGED", "Batch", "Channel", "ChunkedStorage", "Storage", "next_chunk"]
 
+# A chunk whose size is plausible for its packed bytes is read in full. All chunks together have a limit as well, or a
+# small file could take hours.
+MAX_RATIO = 200  # of the unpacked chunks to the size of the file
+MIN_BUDGET = 4 << 30  # bytes of unpacked chunks that any file may have
 MOST_DAMAGED = 1000  # places in a file after which a reader continues; an index can name any number of them
 
 
@@ -139,6 +143,8 @@ class ChunkedStorage(Storage):
         self._file: BinaryIO = path.open("rb")
         self._lock = threading.Lock()
         self._chunks: list[int] = []  # offsets in the file
+        self._unpacked_end = 0  # offset of the last chunk that was counted
+        self._unpacked_bytes = 0
         self._unpacked: OrderedDict[int, bytes] = OrderedDict()
 
     @abstractmethod
@@ -166,6 +172,27 @@ class ChunkedStorage(Storage):
         with self._lock:
             self._file.seek(offset)
             return self._file.read(size)
+
+    def check_budget(self, offset: int, packed: int, size: int) -> None:
+        """Count the unpacked size of a chunk when it is read for the first time.
+
+        Args:
+            offset: The offset of the chunk; chunks are read for the first time in their order.
+            packed: The size of the packed bytes.
+            size: The unpacked size.
+
+        Raises:
+            DamagedError: The chunks up to this one are larger than a plausible recording of this size.
+        """
+        if offset <= self._unpacked_end or size <= packed:
+            return
+        budget = max(MIN_BUDGET, MAX_RATIO * self.size)
+        if self._unpacked_bytes + size > budget:
+            raise DamagedError(
+                f"the chunks before it have {self._unpacked_bytes} unpacked bytes; the limit is {budget}"
+            )
+        self._unpacked_end = offset
+        self._unpacked_bytes += size
 
     def add_chunk(self, offset: int) -> int:
         """Register a chunk; return the number to add to an offset inside it to get a position."""

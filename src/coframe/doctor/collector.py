@@ -21,7 +21,8 @@ if TYPE_CHECKING:
 __all__ = ["Collector"]
 
 # A publisher may send any number of names by mistake; the limit bounds the memory that they use.
-_MOST_NAMES = 100_000
+MAX_NAMES = 100_000
+MAX_NAME_BYTES = 64 << 20
 
 
 class Collector:
@@ -44,6 +45,7 @@ class Collector:
         self.ignored = 0
         self.messages: dict[str, int] = {}
         self._names: dict[str, int] = {}
+        self._name_bytes = 0
         self._static: deque[Transforms] = deque()
         self._moving: deque[Transforms] = deque()
 
@@ -69,7 +71,8 @@ class Collector:
         self.messages[topic] = self.messages.get(topic, 0) + len(arrived)
         self.damaged += columns.damaged
         self.empty += len(arrived) - columns.damaged - len(np.unique(columns.message))
-        if len(self._names) > _MOST_NAMES:
+        self._name_bytes += sum(len(name) for name in columns.names if name not in self._names)
+        if len(self._names) > MAX_NAMES or self._name_bytes > MAX_NAME_BYTES:
             self.ignored += len(arrived)
             return
         if not len(columns.stamp):

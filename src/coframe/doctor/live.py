@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import time
 from collections import deque
 from dataclasses import replace
@@ -35,7 +36,7 @@ from coframe.wire.qos import TF, TF_STATIC_READER, QoS
 from coframe.wire.tf_reader import STATICS_TIMEOUT
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
+    from collections.abc import Callable, Iterable, Iterator
 
     from numpy.typing import NDArray
     from typing_extensions import Self
@@ -54,8 +55,10 @@ _WHOLE_MESSAGE = 16 << 20  # bytes; enough for a description, a joint state or a
 _TOO_LARGE = {"sensor_msgs/msg/Image", "sensor_msgs/msg/CompressedImage"}
 _DECODED = {"sensor_msgs/msg/JointState", "rcl_interfaces/msg/Log", "rosgraph_msgs/msg/Clock"}
 _DESCRIPTION = "robot_description"
-_MAX_TRANSFORMS = 1_000_000
-_MAX_MESSAGES = 20_000  # for each topic
+MAX_TRANSFORMS = 1_000_000
+MAX_MESSAGES = 20_000  # for each topic
+MAX_DECODED_BYTES = 64 << 20  # of the messages of one topic that are decoded: descriptions, joint states, log messages
+MAX_TOPICS = 4000  # subscriptions; a typical graph has hundreds of topics
 
 
 class _ReceivedHeader(NamedTuple):
@@ -90,8 +93,33 @@ class _Topic:
         self.subscription = subscription
         self.since = time.monotonic_ns()
         self.messages = 0
-        self.headers: deque[_ReceivedHeader] = deque(maxlen=_MAX_MESSAGES)
-        self.decoded: deque[tuple[int, Any]] = deque(maxlen=_MAX_MESSAGES)
+        self.headers: deque[_ReceivedHeader] = deque(maxlen=MAX_MESSAGES)
+        self.decoded: deque[tuple[int, Any]] = deque()
+        self._sizes: deque[int] = deque()  # bytes of the decoded messages
+        self._bytes = 0
+
+    def add_decoded(self, size: int, arrived: int, message: Any) -> None:
+        """Store a message, and forget the oldest ones beyond the limits on their number and their bytes."""
+        self.decoded.append((arrived, message))
+        self._sizes.append(size)
+        self._bytes += size
+        while len(self.decoded) > MAX_MESSAGES or (self._bytes > MAX_DECODED_BYTES and len(self.decoded) > 1):
+            self._drop_oldest()
+
+    def forget(self, before: int) -> None:
+        """Remove headers and decoded messages that arrived before a time; latched descriptions stay."""
+        while self.headers and self.headers[0].arrived < before:
+            self.headers.popleft()
+        while self.type in _DECODED and self.decoded and self.decoded[0][0] < before:
+            self._drop_oldest()
+
+    def _drop_oldest(self) -> None:
+        self.decoded.popleft()
+        self._bytes -= self._sizes.popleft()
+
+    def is_over(self, before: int) -> bool:
+        """Return whether nothing has arrived since a time."""
+        return not self.headers and not (self.decoded and self.decoded[-1][0] >= before)
 
 
 class LiveObserver:
@@ -138,6 +166,7 @@ class LiveObserver:
         self._delays: dict[int, deque[_Delays]] = {}
         self._static_writers: set[int] = set()  # those that have delivered
         self._topics: dict[str, _Topic] = {}
+        self._topics_ignored = 0
         try:
             self._node = self._participant.add_node(namespace, node_name)
             self._transforms = {
@@ -167,13 +196,22 @@ class LiveObserver:
                 self._add_writer(handle, endpoint)
         for topic, (subscription, static) in self._transforms.items():
             self._take_transforms(topic, subscription.take(), static)
+        self._topics_ignored = 0
         for name, handles in published.items():
-            if name not in self._topics and name not in self._transforms:
+            if name in self._topics or name in self._transforms:
+                continue
+            if len(self._topics) >= MAX_TOPICS:
+                self._topics_ignored += 1
+            else:
                 self._subscribe_if_relevant(name, sorted({endpoint.ros_type for endpoint in handles.values()}))
         for other in self._topics.values():
             self._take(other)
         if self.window is not None:
-            self._forget(time.time_ns() - self.window, {handle for handles in published.values() for handle in handles})
+            before = time.time_ns() - self.window
+            self._forget(before, {handle for handles in published.values() for handle in handles})
+            self._leave(
+                [name for name, topic in self._topics.items() if name not in published and topic.is_over(before)]
+            )
 
     def listen(self, seconds: float) -> None:
         """Poll for a duration in seconds."""
@@ -200,6 +238,7 @@ class LiveObserver:
             empty_messages=self._collector.empty,
             damaged_messages=self._collector.damaged,
             messages_ignored=self._collector.ignored,
+            topics_ignored=self._topics_ignored,
             topics=self._facts(),
             sensors=tuple(
                 s for topic in self._topics.values() for s in _sensors(topic, start, self._rename, self._node_of)
@@ -240,12 +279,9 @@ class LiveObserver:
 
     def _forget(self, before: int, present: set[int]) -> None:
         """Discard messages that arrived before a time, and the departed writers of only such messages."""
-        self._collector.forget(before, _MAX_TRANSFORMS)
+        self._collector.forget(before, MAX_TRANSFORMS)
         for topic in self._topics.values():
-            while topic.headers and topic.headers[0].arrived < before:
-                topic.headers.popleft()
-            while topic.type in _DECODED and topic.decoded and topic.decoded[0][0] < before:
-                topic.decoded.popleft()
+            topic.forget(before)
         for delays in self._delays.values():
             while delays and delays[0].arrived < before:
                 delays.popleft()
@@ -294,8 +330,13 @@ class LiveObserver:
             for number, handle in enumerate(handles.tolist()):
                 delays = self._delays.setdefault(handle, deque())
                 delays.append(_Delays(int(messages.arrived[-1]), delay[publisher == number]))
-                while sum(len(batch.values) for batch in delays) > _MAX_MESSAGES and len(delays) > 1:
+                while sum(len(batch.values) for batch in delays) > MAX_MESSAGES and len(delays) > 1:
                     delays.popleft()
+
+    def _leave(self, topics: Iterable[str]) -> None:
+        """Close the subscriptions to topics that are not published any more."""
+        for name in topics:
+            self._topics.pop(name).subscription.close()
 
     def _subscribe_if_relevant(self, name: str, types: list[str]) -> None:
         ros_type = types[0]
@@ -315,7 +356,8 @@ class LiveObserver:
         whole = Slices.contiguous(messages.data, messages.ends).each()
         rows = zip(map(bytes, whole), messages.arrived.tolist(), messages.writers.tolist(), strict=True)
         if topic.type in _DECODED or topic.name.endswith(_DESCRIPTION):
-            topic.decoded += _decode(topic.type, rows)
+            for size, arrived, message in _decode(topic.type, rows):
+                topic.add_decoded(size, arrived, message)
             return
         for data, arrived, writer in rows:
             header = peek_header(data)
@@ -368,15 +410,12 @@ class LiveObserver:
         )
 
 
-def _decode(ros_type: str, messages: Iterable[tuple[bytes, int, int]]) -> list[tuple[int, Any]]:
+def _decode(ros_type: str, messages: Iterable[tuple[bytes, int, int]]) -> Iterator[tuple[int, int, Any]]:
+    """Yield the size, the time of arrival and the content of each valid message."""
     message_type = find(ros_type)
-    found = []
     for data, arrived, _ in messages:
-        try:
-            found.append((arrived, deserialize(data, message_type)))
-        except DecodeError:
-            continue
-    return found
+        with contextlib.suppress(DecodeError):
+            yield len(data), arrived, deserialize(data, message_type)
 
 
 def _node_of_logger(logger: str) -> str:

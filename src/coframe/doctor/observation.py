@@ -129,6 +129,7 @@ class Observation:
         empty_messages: The number of messages without any transform.
         damaged_messages: The number of messages that are not valid TFMessages.
         messages_ignored: The number of messages that were ignored because of too many frame names before them.
+        topics_ignored: The number of topics that were not examined because there are too many.
         topics: The topics by name.
         sensors: Messages with a header that names a frame.
         descriptions: The robot descriptions, in the order of arrival.
@@ -148,6 +149,7 @@ class Observation:
     empty_messages: int = 0
     damaged_messages: int = 0
     messages_ignored: int = 0
+    topics_ignored: int = 0
     topics: dict[str, TopicFacts] = field(default_factory=dict)
     sensors: tuple[Sensor, ...] = ()
     descriptions: tuple[str, ...] = ()

@@ -43,6 +43,14 @@ def find(observation: Observation) -> Iterator[Finding]:
             "them.",
             harm="Every buffer grows with each new frame name, for as long as its process runs.",
         )
+    if observation.topics_ignored:
+        yield Finding(
+            code=CODE,
+            severity=Severity.WARNING,
+            text=f"{observation.topics_ignored} topics were not examined: there are too many",
+            fix="Find the node that creates new topics all the time. This report covers the topics before them.",
+            harm="Every participant stores each announced topic, for as long as it is published.",
+        )
     if observation.empty_messages:
         yield Finding(
             code=CODE,

@@ -1,0 +1,48 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What other nodes can make a buffer store has limits, with counters; the program itself has none."""
+
+import numpy as np
+import pytest
+
+import coframe
+
+FRAMES, NAME_BYTES, SAMPLES = 250_000, 64 << 20, 1 << 20
+
+
+def static(*edges):
+    source = coframe.Buffer()
+    for parent, child in edges:
+        source.set(parent, child, coframe.Transform(), static=True)
+    return source.encode(static=True)
+
+
+@pytest.mark.slow
+def test_frames_that_other_nodes_publish():
+    buffer = coframe.Buffer()
+    buffer.ingest(static(*(("map", f"f{n}") for n in range(FRAMES + 1000))), static=True)
+    assert len(buffer.frames()) == pytest.approx(FRAMES, abs=2)
+    counters = buffer.statistics
+    assert counters["over_limit"] == counters["refused"] == FRAMES + 1000 - counters["stored"] > 0
+    assert buffer.ingest(static(("map", "f7")), static=True) == 1, "known frames are still updated"
+    buffer.set("map", "own", coframe.Transform(), static=True)
+    assert buffer.can_transform("f7", "own")
+
+
+def test_bytes_of_names_that_other_nodes_publish():
+    buffer = coframe.Buffer()
+    for n in range(70):
+        buffer.ingest(static(("map", f"{n}" + "x" * (1 << 20))), static=True)
+    assert len(buffer.frames()) == NAME_BYTES >> 20
+    assert buffer.statistics["over_limit"] == 70 - 63
+
+
+def test_samples_of_a_frame_within_the_cache_length():
+    stamps = np.arange(1, SAMPLES + 100_001, dtype=np.int64)
+    rows = np.zeros((len(stamps), 7))
+    rows[:, 0], rows[:, 6] = stamps, 1.0
+    for cache, kept in (("10s", SAMPLES), (None, len(stamps))):
+        buffer = coframe.Buffer(cache)
+        buffer.set_many("odom", "base", stamps, rows)
+        (edge,) = buffer.edges()
+        assert edge.samples == pytest.approx(kept, abs=256)
+        assert buffer.lookup("odom", "base", int(stamps[-10])).x == stamps[-10]
