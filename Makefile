@@ -9,7 +9,7 @@ NATIVE := $(shell find native -name '*.cpp' -o -name '*.hpp' -o -name '*.inc') C
 ANY_PYTHON = $(if $(wildcard $(BIN)/python),$(BIN)/python,python3)
 
 .DEFAULT_GOAL := help
-.PHONY: help setup build build-split demo test test-slow test-long test-ros test-ros-wheels sanitize sanitize-suite fuzz faults soak docs lint typecheck format conformance bench generate page page-check clean
+.PHONY: help setup build build-split demo test test-slow test-long test-ros test-ros-wheels sanitize sanitize-suite fuzz faults soak docs lint licences typecheck format conformance bench generate page page-check clean
 
 help: ## list the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  make %-12s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -100,6 +100,9 @@ lint: $(STAMP) ## check style, words, import directions and generated files
 	$(BIN)/lint-imports --no-cache
 	$(BIN)/python scripts/generate_messages.py --check
 	$(BIN)/python scripts/generate_protocol.py --check
+
+licences: $(STAMP) ## check the licences of all packages that coframe[all] installs
+	$(BIN)/python scripts/check_licences.py
 
 typecheck: $(STAMP) ## run mypy --strict, and compare the stub with the native module
 	$(BIN)/mypy

@@ -29,6 +29,7 @@ from coframe.course.grading import CRITERIA
 from coframe.course.handbook import chapters, contents, terminal_text, write_pages
 from coframe.course.isolation import isolation_problem
 from coframe.course.running import COMPLETE_TREE, SIMULATION, STEPS, programs_of, running
+from coframe.escaping import csv_cell
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -301,15 +302,10 @@ def _check_class(folder: Path, output: Path | None, jobs: int, variant: int | No
         with output.open("w", encoding="utf-8", newline="") as file:
             writer = csv.DictWriter(file, [*columns, "problem"], restval=0.0)
             writer.writeheader()
-            writer.writerows({key: _safe(value) for key, value in row.items()} for row in rows)
+            writer.writerows({key: csv_cell(value) for key, value in row.items()} for row in rows)
     table = Table(box=None, pad_edge=False, header_style="dim")
     for column in columns:
         table.add_column(column, justify="left" if column == "submission" else "right")
     for row in rows:
         table.add_row(*(printable(str(row.get(column, 0.0))) for column in columns))
     report_console().print(table)
-
-
-def _safe(value: Any) -> Any:
-    """Return a cell that a spreadsheet does not take for a formula."""
-    return f"'{value}" if isinstance(value, str) and value[:1] in {"=", "+", "-", "@", "\t"} else value

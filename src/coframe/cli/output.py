@@ -10,6 +10,7 @@ from typing import IO, TYPE_CHECKING, Any, NoReturn, cast
 
 import typer
 
+from coframe.escaping import printable
 from coframe.time import SECOND
 
 if TYPE_CHECKING:
@@ -48,11 +49,6 @@ def log(level: str, node: str, text: str) -> None:
     """Print a line on stderr in the format of ROS's console logger, without control characters."""
     seconds, nanoseconds = divmod(time.time_ns(), SECOND)
     print(f"[{level}] [{seconds}.{nanoseconds:09d}] [{node}]: {printable(text)}", file=sys.stderr, flush=True)
-
-
-def printable(text: str) -> str:
-    """Replace control characters: names from recordings and from the network may contain escape sequences."""
-    return "".join(c if c.isprintable() or c in "\n\t" else "\N{REPLACEMENT CHARACTER}" for c in text)
 
 
 def report_console() -> Console:

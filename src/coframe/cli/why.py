@@ -7,6 +7,7 @@ The arguments are those of ``coframe lookup``, so that a user who gets an error 
 from __future__ import annotations
 
 import json
+import shlex
 import time
 from collections import deque
 from pathlib import Path
@@ -258,7 +259,8 @@ def _other_namespaces(found: Explanation, recording: Recording) -> Iterator[str]
     for frame in found.unknown:
         for name, buffer in recording.buffers.items():
             if frame in buffer:
-                yield f"frame {frame!r} is published on {name}/tf: coframe why ... --namespace {name or '/'}"
+                option = f"--namespace {shlex.quote(name or '/')}"
+                yield f"frame {frame!r} is published on {name}/tf: coframe why ... {option}"
 
 
 def _awaited(found: Explanation, ros: Connection) -> Iterator[str]:
@@ -273,7 +275,7 @@ def _other_topics(found: Explanation, ros: Connection, graph: _LiveSource) -> It
         types = {endpoint.ros_type for endpoint in publishers.values()}
         if _TF_TYPE in types and topic not in {graph.tf_topic, graph.tf_static_topic}:
             option = "--tf-static-topic" if topic.endswith("static") else "--tf-topic"
-            yield f"transforms are also published on {topic}: coframe why ... {option} {topic}"
+            yield f"transforms are also published on {topic}: coframe why ... {option} {shlex.quote(topic)}"
 
 
 def _print(answer: _Answer, *, as_json: bool) -> None:

@@ -20,6 +20,7 @@ __all__ = ["MarkerSet"]
 _ADD, _DELETE, _DELETE_ALL = 0, 2, 3
 MAX_MARKERS = 20_000
 MAX_NUMBERS = 10_000_000
+_LARGE = MAX_NUMBERS // MAX_MARKERS  # Markers that are not larger cannot exceed the limit together.
 
 
 class _Group(NamedTuple):
@@ -63,6 +64,11 @@ class MarkerSet:
             elif marker.action == _ADD:
                 if key not in self._shown and len(self._shown) >= MAX_MARKERS:
                     raise CannotDrawError(f"too many markers: the viewer draws at most {MAX_MARKERS}")
+                size = sum(_size(each.marker) for each in self._shown.values()) if _size(marker) > _LARGE else 0
+                if size + _size(marker) > MAX_NUMBERS:
+                    raise CannotDrawError(
+                        f"the markers have more than {MAX_NUMBERS} numbers and characters, which is the viewer's limit"
+                    )
                 self._shown[key] = _shown(marker, time)
 
     def has_expired(self, time: int) -> bool:
@@ -142,3 +148,8 @@ def _item(marker: Any, points: Sequence[Any], colors: Sequence[Any], offset: int
         colors=(colors_offset, len(colors)) if colors else None,
     )
     return item, colors_offset + 4 * len(colors)
+
+
+def _size(marker: Any) -> int:
+    """Return how many numbers and characters of a marker are stored."""
+    return 3 * len(marker.points) + 4 * len(marker.colors) + len(marker.text) + len(marker.ns)

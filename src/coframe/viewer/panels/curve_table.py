@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from coframe.escaping import csv_cell
+
 if TYPE_CHECKING:
     from coframe.viewer.panels.ring import Points
 
@@ -33,7 +35,7 @@ class CurveTable:
             values[np.searchsorted(stamps, each.times), column] = each.values
         output = io.StringIO()
         writer = csv.writer(output, lineterminator="\n")
-        writer.writerow(["stamp_ns", *self._curves])
+        writer.writerow(["stamp_ns", *map(csv_cell, self._curves)])
         is_gap = np.isnan(values)
         for stamp, row, gaps in zip(stamps.tolist(), values.tolist(), is_gap.tolist(), strict=True):
             writer.writerow([stamp, *("" if gap else repr(value) for value, gap in zip(row, gaps, strict=True))])
