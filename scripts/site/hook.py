@@ -36,7 +36,7 @@ PAGES_OF_FILES = {
 # Files whose contents are on a generated page.
 SECTIONS_OF_FILES = {
     "README.md": "index.md",
-    "SECURITY.md": "security.md",
+    "SECURITY.md": "reference/security.md",
     "benchmarks/RESULTS.md": "performance.md",
     "examples/README.md": "examples.md",
     "src/coframe/cli/commands.py": "reference/commands/index.md",
