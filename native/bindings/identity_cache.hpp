@@ -58,7 +58,9 @@ class IdentityCache {
 
   static std::size_t place(PyObject* name) { return (reinterpret_cast<std::uintptr_t>(name) >> 4) % kEntries; }
 
-  static Number read_unguarded(const Entry& entry, PyObject* name) { return entry.name == name ? entry.number : 0; }
+  static Number read_unguarded(const Entry& entry, PyObject* name) {
+    return entry.name.get() == name ? entry.number.get() : Number{0};
+  }
 
   static Number read(const Entry& entry, PyObject* name) {
     if constexpr (kFreeThreaded) {

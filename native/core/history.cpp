@@ -23,9 +23,14 @@ Chunk* no_chunk() {
   return &chunk;
 }
 
-// Returns whether one of the samples at `stamp`, which end before index `end`, equals `sample`.
+// A publisher may send any number of different transforms with one stamp; comparing each with all others would take
+// quadratic time.
+constexpr std::size_t kMostCompared = 64;
+
+// Returns whether one of the last samples at `stamp`, which end before index `end`, equals `sample`.
 bool repeats(const History::View& samples, std::size_t end, Stamp stamp, const Sample& sample) {
-  for (std::size_t i = end; i > 0 && samples.time(i - 1) == stamp; --i) {
+  const std::size_t begin = end < kMostCompared ? 0 : end - kMostCompared;
+  for (std::size_t i = end; i > begin && samples.time(i - 1) == stamp; --i) {
     if (same(samples.sample(i - 1), sample)) return true;
   }
   return false;

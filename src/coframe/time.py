@@ -20,6 +20,7 @@ __all__ = [
     "MILLISECOND",
     "MINUTE",
     "SECOND",
+    "SHORTEST_INT",
     "DurationLike",
     "StampLike",
     "duration_ns",
@@ -36,7 +37,7 @@ DAY = 86_400 * SECOND
 
 # Smaller ints are refused as durations: a day has 86 400 seconds, and nothing here waits or stores for under 100 us.
 # The native core has the same limit (is_meant_as_seconds).
-_SHORTEST_INT = 100 * MICROSECOND
+SHORTEST_INT = 100 * MICROSECOND
 
 _UNITS = {"ns": 1, "us": MICROSECOND, "ms": MILLISECOND, "s": SECOND, "min": MINUTE, "h": HOUR}
 _DURATION = re.compile(r"\s*(\d+)(?:\.(\d+))?\s*([a-z]+)\s*", re.ASCII)
@@ -115,7 +116,7 @@ def duration_ns(duration: DurationLike) -> int:
         return int(duration.astype("timedelta64[ns]").astype(np.int64))
     accepted = 'text such as "100ms", int nanoseconds, timedelta or a Duration'
     nanoseconds = _in_range(_number_ns(duration, "a duration", accepted))
-    if 0 < nanoseconds < _SHORTEST_INT and isinstance(duration, SupportsIndex) and not hasattr(duration, "nanoseconds"):
+    if 0 < nanoseconds < SHORTEST_INT and isinstance(duration, SupportsIndex) and not hasattr(duration, "nanoseconds"):
         raise ValueError(
             f"the duration {nanoseconds} has no unit: an int is in nanoseconds. For seconds, write "
             f'"{nanoseconds}s" or {nanoseconds * SECOND:_}; for nanoseconds, write "{nanoseconds}ns".'

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """What other nodes can make a buffer store has limits, with counters; the program itself has none."""
 
+import time
+
 import numpy as np
 import pytest
 
@@ -46,3 +48,15 @@ def test_samples_of_a_frame_within_the_cache_length():
         (edge,) = buffer.edges()
         assert edge.samples == pytest.approx(kept, abs=256)
         assert buffer.lookup("odom", "base", int(stamps[-10])).x == stamps[-10]
+
+
+def test_many_transforms_with_one_stamp_take_linear_time():
+    def seconds(count):
+        buffer = coframe.Buffer()
+        transforms = [coframe.Transform([float(n), 0.0, 0.0]) for n in range(count)]
+        start = time.process_time()
+        for transform in transforms:
+            buffer.set("odom", "base", transform, stamp=5)
+        return time.process_time() - start
+
+    assert seconds(40_000) < 8 * seconds(10_000)

@@ -184,8 +184,8 @@ class ChunkedStorage(Storage):
         Raises:
             DamagedError: The chunks up to this one are larger than a plausible recording of this size.
         """
-        if offset <= self._unpacked_end or size <= packed:
-            return
+        if offset <= self._unpacked_end or size <= packed or size > LARGEST:
+            return  # `unpack` refuses a chunk that is too large.
         budget = max(MIN_BUDGET, MAX_RATIO * self.size)
         if self._unpacked_bytes + size > budget:
             raise DamagedError(

@@ -27,7 +27,7 @@ from coframe.cli.options import (
 from coframe.cli.output import awaited_statics_text, fail, log, printable, with_doctor_command
 from coframe.cli.ros_arguments import node_identity
 from coframe.errors import TransformException
-from coframe.time import MICROSECOND, SECOND
+from coframe.time import SECOND, SHORTEST_INT
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -167,7 +167,7 @@ def _wait_until_possible(ros: Connection, source: str, target: str, period: int)
     logged_at = logged_hint = None
     while True:
         try:
-            buffer.lookup(source, target, timeout=min(max(period, MICROSECOND), SECOND))
+            buffer.lookup(source, target, timeout=min(max(period, SHORTEST_INT), SECOND))
         except TransformException as error:
             if logged_at is None or time.monotonic() - logged_at >= 1.0:
                 logged_at = time.monotonic()

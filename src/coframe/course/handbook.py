@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Chapter", "chapters", "contents", "terminal_text", "write_pages"]
 
+_NOTEBOOKS = "notebooks"
 _CONTENTS = "README.md"
 _LINK = re.compile(r"\[([^\]]*)\]\([^)]*\)")
 _OUTSIDE = re.compile(r"\[([^\]]*)\]\(\.\./[^)]*\)")  # links to documents that are not installed
@@ -79,7 +80,7 @@ def terminal_text(file: Path) -> str:
 
 
 def write_pages(folder: Path) -> Path:
-    """Write the handbook as web pages with its pictures, and return the page with the contents.
+    """Write the handbook as web pages with its pictures and notebooks, and return the page with the contents.
 
     Args:
         folder: The folder; files of the same names are replaced.
@@ -93,6 +94,8 @@ def write_pages(folder: Path) -> Path:
         for file in source.glob("*.md"):
             _target(folder, file).write_text(_page(file.read_text(encoding="utf-8")), encoding="utf-8")
         _copy(_pictures(source), folder)
+        (folder / _NOTEBOOKS).mkdir(exist_ok=True)
+        _copy((source / _NOTEBOOKS).glob("*.ipynb"), folder / _NOTEBOOKS)
     except OSError as error:
         raise CourseError(f"Cannot write {error.filename}: {error.strerror}.", hint="Choose another folder.") from None
     return _target(folder, source / _CONTENTS)
@@ -103,7 +106,7 @@ def _target(folder: Path, file: Path) -> Path:
 
 
 def _pictures(folder: Path) -> list[Path]:
-    return [file for file in folder.iterdir() if file.suffix in {".svg", ".png", ".jpg", ".gif"}]
+    return [file for file in folder.iterdir() if file.suffix in {".svg", ".png", ".jpg", ".gif", ".webp"}]
 
 
 def _copy(files: Iterable[Path], folder: Path) -> None:

@@ -69,7 +69,8 @@ def _umeyama(
     centred = points - mean
     covariance = (targets - target_mean).T @ centred / len(points)
     u, singular, vt = np.linalg.svd(covariance)
-    if np.count_nonzero(singular > np.finfo(np.float64).eps) < 2:
+    # The rounding error of the sums; of positions on one line, the second value is only that.
+    if singular[1] <= len(points) * np.finfo(np.float64).eps * singular[0]:
         raise TrajectoryError(
             f"The alignment is not determined: the {len(points)} paired positions are on one line or at one point",
             hint="Compare without alignment, or use a trajectory with a turn.",
