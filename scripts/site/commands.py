@@ -24,6 +24,8 @@ GROUPS = {
     "Programs and packages": ("launch", "run", "interfaces", "lab"),
     "Commands of ros2": ("topic", "node", "service", "action", "param", "lifecycle", "interface", "pkg", "ros2"),
 }
+# The names of the pages in the navigation: their headings also say what the command does.
+NAMES = {f"{_FOLDER}/{name}.md": f"coframe {name}" for name in _GROUP.commands}
 _INDEX = """# Commands
 
 Every command prints this description with `--help`. Install them with `pip install 'coframe[all]'`. Ctrl-C stops a
@@ -56,8 +58,14 @@ def _summary(name: str) -> str:
     return _escape(COMMANDS[name][0]) if name in COMMANDS else ""
 
 
+def _title(name: str) -> str:
+    """Return the heading of a command, which is what a result of the search shows."""
+    summary = _summary(name).partition(", like ")[0].rstrip(".")
+    return f"coframe {name}: {summary[0].lower()}{summary[1:]}" if summary else f"coframe {name}"
+
+
 def _page(name: str, command: Any) -> str:
-    parts = [f"# coframe {name}", *_body(f"coframe {name}")]
+    parts = [f"# {_title(name)}", *_body(f"coframe {name}")]
     for word in getattr(command, "commands", {}):
         parts += [f"## coframe {name} {word}", *_body(f"coframe {name} {word}")]
     return "\n\n".join(parts) + "\n"

@@ -47,6 +47,17 @@ SECTIONS_OF_FILES = {
     },
     **{f"examples/{name}": f"examples.md#{anchor}" for name, anchor in examples.ANCHORS.items()},
 }
+# Weights of pages in the search, by the start of their paths: answers to questions come before lists of names.
+BOOSTS = {
+    "quickstart.md": 2.0,
+    "how-to/": 2.0,
+    "concepts/": 2.0,
+    "reference/commands/": 0.7,
+    "reference/api/": 0.3,
+    "reference/ros-packages/": 0.3,
+    "decisions/": 0.3,
+    "changelog.md": 0.3,
+}
 _LINK = re.compile(r"(?P<open>!?\[(?P<text>(?:[^\[\]]|\[[^\]]*\])*)\])\((?P<url>[^)\s]+)\)")
 _CODE = re.compile(r"^(?P<fence>```+|~~~+).*?^(?P=fence)|`[^`\n]+`(?!\])", re.MULTILINE | re.DOTALL)
 
@@ -85,7 +96,8 @@ def _expand(entry: Any, paths: list[str]) -> Any:
     if not entry.endswith("/"):
         return entry
     pages = [path for path in paths if posixpath.dirname(path) + "/" == entry]
-    return sorted(pages, key=lambda path: (posixpath.basename(path) not in {"index.md", "README.md"}, path))
+    pages = sorted(pages, key=lambda path: (posixpath.basename(path) not in {"index.md", "README.md"}, path))
+    return [{commands.NAMES[path]: path} if path in commands.NAMES else path for path in pages]
 
 
 def on_files(files: Files, config: MkDocsConfig) -> Files:
@@ -96,10 +108,25 @@ def on_files(files: Files, config: MkDocsConfig) -> Files:
 
 
 def on_page_markdown(markdown: str, *, page: Page, config: MkDocsConfig, files: Files) -> str:
-    """Adapt the links that leave the folder docs."""
+    """Adapt the links that leave the folder docs, and set the weight of the page in the search."""
+    page.meta.setdefault("search", {"boost": _boost(page.file.src_uri)})
     sources = {path: file for file, path in PAGES_OF_FILES.items()}
     source = sources.get(page.file.src_uri, f"docs/{page.file.src_uri}")
     return adapt_links(markdown, source, page.file.src_uri, (config.repo_url or "").rstrip("/"), set(files.src_uris))
+
+
+def _boost(path: str) -> float:
+    """Return the weight of a page in the search."""
+    return next((boost for start, boost in BOOSTS.items() if path.startswith(start)), 1.0)
+
+
+def on_page_content(html: str, *, page: Page, **_: Any) -> str:
+    """List only the codes in the table of contents of their page, not the headings that all of them have."""
+    if page.file.src_uri == doctor_codes.PAGE:
+        for title in page.toc:
+            for code in title.children:
+                code.children.clear()
+    return html
 
 
 def adapt_links(markdown: str, source: str, page: str, repository: str, pages: set[str]) -> str:

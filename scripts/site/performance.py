@@ -26,7 +26,11 @@ _TITLES = {
     "idle": "Processor time and memory of idle programs",
     "viewer": "The viewer",
 }
-_HEAD = """# Performance
+_HEAD = """---
+hide: [toc]
+---
+
+# Performance
 
 How fast are lookups, insertions, recordings and the viewer, compared with tf2, tf_tree, SciPy, pytransform3d and
 others? All tables are from one run of `make bench`; the command above a table measures its rows alone. The [measurement

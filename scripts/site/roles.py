@@ -9,6 +9,7 @@ from typing import Any
 import griffe
 
 _ROLE = re.compile(r":(?:meth|class|func|mod|attr|data|exc|obj):`(~?)([^`]+)`")
+_EXAMPLE = re.compile(r"^Example:$", re.MULTILINE)
 _DOUBLE = re.compile(r"``([^`]+)``")
 
 
@@ -18,7 +19,8 @@ class Roles(griffe.Extension):
     def on_object(self, *, obj: griffe.Object, **_: Any) -> None:
         """Convert the docstring of one object."""
         if obj.docstring:
-            obj.docstring.value = _DOUBLE.sub(r"`\1`", _ROLE.sub(_as_code, obj.docstring.value))
+            text = _EXAMPLE.sub("Examples:", obj.docstring.value)  # Griffe formats only this heading as code
+            obj.docstring.value = _DOUBLE.sub(r"`\1`", _ROLE.sub(_as_code, text))
 
 
 def _as_code(match: re.Match[str]) -> str:
