@@ -54,7 +54,7 @@ test-ros: $(STAMP) ## run programs with the sourced ROS 2 and with coframe, and 
 test-ros-wheels: ## grade the lab's solution on rclpy and Fast DDS of ROS 2 Kilted, which pip installs into build/ros_wheels
 	scripts/ros_wheels.sh
 
-test-long: $(STAMP) ## compare ten million random operations with the real tf2 (a new seed each run); ten minutes with a stuck tab
+test-long: $(STAMP) ## compare ten million random operations with the real tf2 (a new seed each run); ten minutes with a stuck tab; a class of 36
 	$(BIN)/python -m pytest -m long -rP $(ARGS)
 
 sanitize: ## run the native core under ThreadSanitizer and AddressSanitizer, also with damaged messages

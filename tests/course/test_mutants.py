@@ -1,8 +1,16 @@
 # SPDX-License-Identifier: Apache-2.0
 """Solutions with one fault each lose points for the right facts, and the report names the fault."""
 
+import csv
+import re
+import shutil
+from pathlib import Path
+
 import pytest
 from grades import lost  # of this folder
+from typer.testing import CliRunner
+
+from coframe.cli.commands import build_app
 
 pytestmark = pytest.mark.timeout(300)  # nine programs run one after the other, on a machine that may be busy
 
@@ -130,3 +138,26 @@ def test_a_fault_loses_points_in_its_own_criterion_only(folder, grade):
     path.write_text(path.read_text().replace("(0.5, 0.4)", "(0.4, 0.5)"))
     found = grade("static", "dynamic", "listener", "sensor", "visualization")
     assert {file for file, criterion in found.items() if lost(criterion)} == {DYNAMIC}
+
+
+@pytest.mark.slow
+@pytest.mark.long
+@pytest.mark.timeout(3600)
+def test_every_fault_loses_points_in_its_own_criterion_only(tmp_path):
+    """A class of 36: each whole submission is checked, two at a time; seven minutes on two cores."""
+    full = {"Static": 20, "Dynamic": 25, "Transform listener": 20, "Sensor": 20, "Visualization": 15}
+    files = dict(zip(CRITERIA, full, strict=True))
+    for name, (file, text, replacement, _) in MUTANTS.items():
+        folder = tmp_path / "submissions" / re.sub(r"\W", "_", name)
+        shutil.copytree(Path(__file__).parent / "solution", folder)
+        (folder / file).write_text((folder / file).read_text().replace(text, replacement))
+    table = tmp_path / "grades.csv"
+    arguments = ["lab", "check", "--all", str(tmp_path / "submissions"), "-o", str(table)]
+    result = CliRunner().invoke(build_app(["lab"]), arguments)
+    with table.open(encoding="utf-8", newline="") as lines:
+        rows = {row["submission"]: row for row in csv.DictReader(lines)}
+    assert len(rows) == len(MUTANTS), result.output
+    for name, (file, *_) in MUTANTS.items():
+        row = rows[re.sub(r"\W", "_", name)]
+        points = {each: float(row[column]) for each in full for column in row if column.startswith(each)}
+        assert [each for each in full if points[each] < full[each]] == [files.get(file, "Visualization")], name
