@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Communication with the ROS 2 graph over Zenoh, in the conventions of rmw_zenoh_cpp."""

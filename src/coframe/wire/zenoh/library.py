@@ -1,0 +1,37 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The package `eclipse-zenoh`, which is the module `zenoh`."""
+
+from __future__ import annotations
+
+import importlib.util
+from typing import TYPE_CHECKING, Final
+
+from coframe.errors import WireError
+from coframe.optional_imports import import_optional
+
+if TYPE_CHECKING:
+    from types import ModuleType
+
+INSTALL: Final = "coframe[zenoh]"
+_MODULES: Final = ("zenoh", "xxhash")
+
+
+def is_installed() -> bool:
+    """Return whether the packages that Zenoh needs are installed. Nothing is imported."""
+    try:
+        return all(importlib.util.find_spec(name) is not None for name in _MODULES)
+    except (ImportError, ValueError):  # blocked, as in tests of a program
+        return False
+
+
+def load() -> ModuleType:
+    """Return the module `zenoh`.
+
+    Raises:
+        WireError: A package that Zenoh needs is not installed.
+    """
+    try:
+        loaded = [import_optional(name, "Communication over Zenoh", INSTALL) for name in _MODULES]
+    except ModuleNotFoundError as error:
+        raise WireError(str(error), hint="COFRAME_WIRE=dds selects DDS instead.") from error
+    return loaded[0]  # type: ignore[no-any-return]
