@@ -138,9 +138,7 @@ def override_pairs(text: str) -> list[tuple[str, str]]:
         if equals and path.strip() and value.strip():
             pairs.append((path.strip(), value.strip()))
         elif part.strip():
-            _logger.warning(
-                "%s contains %r, which is not of the form path/to/key=value. It is skipped.", OVERRIDE, part
-            )
+            _logger.warning("%s: %r is skipped, which is not of the form path/to/key=value.", OVERRIDE, part)
     return pairs
 
 
