@@ -5,38 +5,65 @@ from __future__ import annotations
 
 import os
 import shutil
+import sys
 import tempfile
+from contextlib import ExitStack, suppress
 from pathlib import Path
 
+if sys.platform != "win32":
+    import fcntl
+
 __all__ = ["temporary_folder"]
+
+_LOCK = ".lock"
+_NEW_LOCK = ".lock-new"  # its name until it is locked
 
 
 def temporary_folder(prefix: str) -> tempfile.TemporaryDirectory[str]:
     """Create a temporary folder, and remove those with the same prefix whose processes have ended.
 
-    The name contains the ID of this process. The caller removes the folder with `cleanup` or a `with` block.
+    The folder contains a file ``.lock``. The caller removes the folder with `cleanup` or a `with` block.
 
     Args:
         prefix: The begin of the name, for one purpose only: "coframe-lab-".
     """
     _remove_stale_folders(prefix)
-    return tempfile.TemporaryDirectory(prefix=f"{prefix}{os.getpid()}-", ignore_cleanup_errors=True)
+    return _LockedFolder(prefix)
+
+
+class _LockedFolder(tempfile.TemporaryDirectory[str]):
+    """A temporary folder with a locked file, which the system unlocks when the process ends in any way.
+
+    The ID of the process does not suffice: containers can share a folder for temporary files, but number their
+    processes independently.
+    """
+
+    def __init__(self, prefix: str) -> None:
+        super().__init__(prefix=prefix, ignore_cleanup_errors=True)
+        self._unlocking = ExitStack()
+        if sys.platform == "win32":  # A killed process leaves its folder behind.
+            return
+        new = Path(self.name, _NEW_LOCK)
+        with suppress(OSError):  # The file system has no locks: the folder is left behind as well.
+            descriptor = os.open(new, os.O_RDWR | os.O_CREAT, 0o600)
+            self._unlocking.callback(os.close, descriptor)
+            fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            new.rename(new.with_name(_LOCK))
+
+    def cleanup(self) -> None:
+        """Remove the folder."""
+        self._unlocking.close()
+        super().cleanup()
 
 
 def _remove_stale_folders(prefix: str) -> None:
-    for folder in Path(tempfile.gettempdir()).glob(f"{prefix}*-*"):
-        number = folder.name.removeprefix(prefix).partition("-")[0]
-        if number.isdecimal() and not _is_running(int(number)):
+    if sys.platform == "win32":
+        return
+    for folder in Path(tempfile.gettempdir()).glob(f"{prefix}*"):
+        # The lock of a running process cannot be acquired. Other users can create such names, too: a link is not
+        # followed, and a pipe does not block.
+        with suppress(OSError), ExitStack() as closing:
+            descriptor = os.open(folder / _LOCK, os.O_RDWR | os.O_NOFOLLOW | os.O_NONBLOCK)
+            closing.callback(os.close, descriptor)
+            fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
             shutil.rmtree(folder, ignore_errors=True)
-
-
-def _is_running(process: int) -> bool:
-    if os.name != "posix":  # On Windows, os.kill() with the signal 0 ends the process.
-        return True
-    try:
-        os.kill(process, 0)
-    except ProcessLookupError:
-        return False
-    except (PermissionError, OverflowError):
-        return True
-    return True

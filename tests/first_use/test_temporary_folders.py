@@ -12,7 +12,7 @@ import pytest
 from coframe.lab.launcher import Launcher
 
 
-@pytest.mark.skipif(os.name != "posix", reason="the ids of ended processes are not known")
+@pytest.mark.skipif(os.name != "posix", reason="folders of killed processes stay behind")
 def test_folders_of_killed_launchers_are_removed(tmp_path, monkeypatch):
     monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
     script = "import os, signal; from coframe.lab.launcher import Launcher\n"
@@ -24,3 +24,18 @@ def test_folders_of_killed_launchers_are_removed(tmp_path, monkeypatch):
         with Launcher(()):
             assert Path(running._folder.name).exists()
     assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.skipif(os.name != "posix", reason="folders of killed processes stay behind")
+def test_folders_of_processes_with_ids_of_another_container_are_kept(tmp_path, monkeypatch):
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
+    unlocked = tmp_path / "coframe-lab-99999999-x"  # no process has this number
+    unlocked.mkdir()
+    (unlocked / ".lock").touch()
+    with Launcher(()) as running:
+        assert not unlocked.exists()
+        folder = Path(running._folder.name)
+        renamed = folder.rename(tmp_path / "coframe-lab-99999999-y")
+        with Launcher(()):
+            assert renamed.exists()
+        renamed.rename(folder)
