@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """A viewer that other machines can reach answers only requests with the token in its address."""
 
+import contextlib
 import http.client
 import socket
 from urllib.parse import urlsplit
@@ -10,7 +11,7 @@ from websockets.exceptions import InvalidStatus
 from websockets.sync.client import connect
 
 import coframe
-from coframe.viewer.server import websocket
+from coframe.viewer.server import connections
 from coframe.viewer.server.http import AccessPolicy
 
 
@@ -121,7 +122,7 @@ def test_the_address_for_other_machines(viewer):
 
 
 def test_connections_have_a_limit(monkeypatch, caplog):
-    monkeypatch.setattr(websocket, "MAX_CONNECTIONS", 3)
+    monkeypatch.setattr(connections, "MAX_CONNECTIONS", 3)
     with coframe.show(coframe.Buffer(), port=0) as viewer:
         address = (urlsplit(viewer.url).hostname, urlsplit(viewer.url).port)
         held = [socket.create_connection(address, timeout=20) for _ in range(3)]
@@ -132,3 +133,17 @@ def test_connections_have_a_limit(monkeypatch, caplog):
         assert get(viewer, "/")[0] == 200
         for one in held:
             one.close()
+
+
+def test_few_descriptors_leave_some_for_the_viewer_itself(monkeypatch, caplog):
+    resource = pytest.importorskip("resource")
+    monkeypatch.setattr(resource, "getrlimit", lambda _: (48, 48))
+    with coframe.show(coframe.Buffer(), port=0) as viewer, contextlib.ExitStack() as held:
+        address = (urlsplit(viewer.url).hostname, urlsplit(viewer.url).port)
+        for _ in range(8):
+            held.enter_context(socket.create_connection(address, timeout=20))
+        with socket.create_connection(address, timeout=20) as another:
+            assert ended(another)
+        assert caplog.text.count("8 connections, the limit") == 1
+        held.close()
+        assert get(viewer, "/")[0] == 200

@@ -17,6 +17,7 @@ from urllib.parse import parse_qsl, unquote, urlencode, urlsplit
 from coframe.errors import PlotError, ViewerError
 from coframe.viewer.replay.page import ReplayContent, replay_page
 from coframe.viewer.robots.meshes import MESH_TYPES, MeshError
+from coframe.viewer.server.connections import Connections
 from coframe.viewer.server.http import STATIC, AccessPolicy, file_response, page_file, response, text_response
 from coframe.viewer.server.scheduler import ClientScheduler
 from coframe.viewer.server.websocket import WebSocket
@@ -66,7 +67,7 @@ class ViewerServer:
         self._host = host
         self._static = static
         self._access = AccessPolicy(host, 0)
-        self._sockets: set[WebSocket] = set()
+        self._connections = Connections()
         self.port = 0
         self._loop = asyncio.new_event_loop()
         self._loop.set_exception_handler(self._handle_error)
@@ -139,9 +140,8 @@ class ViewerServer:
             await self._end.wait()
         finally:
             server.close()
-            while self._sockets:
-                for connection in list(self._sockets):
-                    connection.close()
+            while self._connections:
+                self._connections.close()
                 await asyncio.sleep(_END_STEP)
 
     def _handle_error(self, loop: asyncio.AbstractEventLoop, context: dict[str, Any]) -> None:
@@ -163,10 +163,10 @@ class ViewerServer:
             return await self._listen_on(0)
 
     async def _listen_on(self, port: int) -> asyncio.Server:
-        return await self._loop.create_server(self._connect, self._host, port)
+        return await self._loop.create_server(self._connect, self._host, port, backlog=self._connections.backlog)
 
     def _connect(self) -> WebSocket:
-        return WebSocket(self._answer, self._scheduler.add_client, self._sockets)
+        return WebSocket(self._answer, self._scheduler.add_client, self._connections)
 
     async def _answer(self, request: Request) -> Response | None:
         """Return the response to a request; None opens a WebSocket."""

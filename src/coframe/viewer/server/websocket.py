@@ -24,16 +24,17 @@ if TYPE_CHECKING:
 
     from websockets.http11 import Response
 
+    from coframe.viewer.server.connections import Connections
+
     Answer: TypeAlias = Callable[[Request], Awaitable[Response | None]]
     MakeListener: TypeAlias = "Callable[[WebSocket], Listener]"
     _Part: TypeAlias = tuple[int, bytes | bytearray | memoryview, bool]
 
-__all__ = ["LARGEST_REQUEST", "MAX_CONNECTIONS", "Listener", "WebSocket"]
+__all__ = ["LARGEST_REQUEST", "Listener", "WebSocket"]
 
 _logger = logging.getLogger("coframe.viewer")
 
 LARGEST_REQUEST = 1 << 20
-MAX_CONNECTIONS = 512  # a tab has one for its data and, for a moment, some for its files
 # Long messages are sent in parts, so that they neither block other connections nor are copied as a whole.
 _PART = 1 << 18
 # A connection is closed if nothing is sent or received for this many seconds; a WebSocket is pinged once before.
@@ -57,10 +58,10 @@ class WebSocket(asyncio.Protocol):
     Args:
         answer: Return the response to an HTTP request; None opens the WebSocket.
         make_listener: Return the listener of an opened WebSocket.
-        connections: A set that contains the connection as long as it exists.
+        connections: Contains the connection as long as it exists.
     """
 
-    def __init__(self, answer: Answer, make_listener: MakeListener, connections: set[WebSocket]) -> None:
+    def __init__(self, answer: Answer, make_listener: MakeListener, connections: Connections) -> None:
         self._answer = answer
         self._connections = connections
         self._make_listener = make_listener
@@ -131,12 +132,10 @@ class WebSocket(asyncio.Protocol):
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
         """Start to receive; see asyncio.Protocol."""
         self._transport = cast("asyncio.Transport", transport)
-        if len(self._connections) >= MAX_CONNECTIONS:
-            _logger.warning("the viewer has %d connections, the limit, and refused another one", MAX_CONNECTIONS)
+        if self._connections.add(self):
+            self._start_idle_timer()
+        else:
             self._transport.abort()
-            return
-        self._connections.add(self)
-        self._start_idle_timer()
 
     def connection_lost(self, exc: Exception | None) -> None:
         """Release everything; see asyncio.Protocol."""
