@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """Each check finds its fault and nothing else."""
 
+import gc
 import json
 import re
+import weakref
 from pathlib import Path
 
 import numpy as np
@@ -46,6 +48,23 @@ def test_healthy_run_has_no_findings(examine):
     assert report.healthy
     (scan,) = report.sensors
     assert (scan.topic, scan.frame, scan.root) == ("/scan", "lidar", "odom")
+
+
+@pytest.mark.parametrize("latest", [0, 3], ids=["on time", "late"])
+def test_an_observation_is_freed_without_the_garbage_collector(tmp_path, latest):
+    """The collector does not know how large arrays are, so a watching doctor would grow until it runs by chance."""
+    run = Run.healthy()
+    run.drive(later(5), arrived=later(5 + latest))
+    (observation,) = observe_recording(run.write(tmp_path)).values()
+    gc.disable()
+    try:
+        report = diagnose(observation)
+        freed = [weakref.ref(each) for each in (observation, observation.transforms, *observation.edges)]
+        assert len(freed) == 4
+        del report, observation
+        assert [each() for each in freed] == [None] * 4
+    finally:
+        gc.enable()
 
 
 def test_every_check_has_a_page_and_every_page_a_check():

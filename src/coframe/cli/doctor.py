@@ -230,4 +230,5 @@ def _watch(observer: LiveObserver, ignore: list[str], as_json: bool) -> None:
                 print(json.dumps(as_data(report)), flush=True)
             else:
                 live.update(Group(*_texts(report)), refresh=True)
+            del report  # with all transforms of the window
             observer.listen(max(1.0, (time.process_time() - begun) / _CPU_SHARE))

@@ -72,12 +72,18 @@ class Edge:
         """(N - 1,) difference of consecutive stamps in the order of arrival; negative where time went back."""
         return np.asarray(self.stamp[1:] - self.stamp[:-1])
 
-    @cached_property
+    @property
     def current(self) -> Edge:
         """The edge without the rows that were more than a second late, such as those repeated after time went back."""
+        # An edge that referred to itself would be freed by the cyclic garbage collector only, which does not know how
+        # large arrays are: the memory of `doctor --watch` would grow from report to report.
+        return self if self._without_late is None else self._without_late
+
+    @cached_property
+    def _without_late(self) -> Edge | None:
         kept = self.stamp >= np.maximum.accumulate(self.stamp) - _LATE
         if kept.all():
-            return self
+            return None
         columns = (self.arrived[kept], self.stamp[kept], self.publisher[kept], self.values[kept])
         return Edge(self.parent, self.child, self.static, *columns, self.publishers)
 

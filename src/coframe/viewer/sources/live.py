@@ -116,9 +116,10 @@ class LiveSource:
                     yield None
                     continue
                 begin = time.thread_time()
-                report = diagnose(observer.observe())
+                reports = {"": diagnose(observer.observe())}
                 due = time.monotonic() + max(_REPORT_PERIOD, (time.thread_time() - begin) / _SHARE)
-                yield {"": report}
+                yield reports
+                del reports  # with all transforms of the window
 
     def close(self) -> None:
         """Close the connection if the source owns it."""
