@@ -39,7 +39,7 @@ demo: $(DEMO_STAMP) ## show the lab's moving transform tree, live in the browser
 	@$(BIN)/coframe demo $(ARGS)
 
 test: $(STAMP) ## run the test suite (under 6 minutes)
-	$(BIN)/python -m pytest --numprocesses 2 --dist loadfile --no-loadscope-reorder $(ARGS)
+	$(BIN)/python -m pytest --numprocesses 4 --dist loadfile --no-loadscope-reorder $(ARGS)
 
 $(VENV)/.oracle: pyproject.toml | $(STAMP)
 	@$(BIN)/python -m pip install --quiet "pip>=25.1" && $(BIN)/python -m pip install --quiet --group oracle && touch $@ || \

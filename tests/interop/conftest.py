@@ -17,7 +17,7 @@ RUNNER = Path(__file__).with_name("run_program.py")
 ARGUMENTS = Path(__file__).with_name("arguments.py")
 # What a sourced ROS 2 sets, so that its packages are imported instead of those of coframe.
 ROS_VARIABLES = ("PYTHONPATH", "AMENT_PREFIX_PATH", "COLCON_PREFIX_PATH", "CMAKE_PREFIX_PATH", "ROS_DISTRO")
-PARALLEL = 2
+PARALLEL = 4  # they mostly wait
 # The recorded programs ran in this domain, which one of them prints.
 FIRST_DOMAIN = 11
 

@@ -86,8 +86,9 @@ def test_live_curves_are_shared_and_closed_with_the_last_page(ros, view, open_ta
     assert (np.diff(times) > 1e6).all()
     ticks = tab.until_curve(1, many)[1]
     assert (np.diff(ticks) == 2.0).all(), "no message is missing"
-    assert np.median(tab.until_curve(2, many)[1][-20:]) == pytest.approx(25.0, abs=8.0)
-    assert np.median(tab.until_curve(5, many)[1][-20:]) == pytest.approx(50.0, abs=15.0)
+    for values, rates in ((1, 2), (0, 5)):  # the robot publishes at 25 and 50 Hz, more slowly on a busy machine
+        published = SECOND / np.diff(tab.until_curve(values, many)[0]).mean()
+        assert np.nanmean(tab.until_curve(rates, many)[1]) == pytest.approx(published, rel=0.4)
     for number in (3, 4):
         assert 0.0 < np.median(tab.until_curve(number, many)[1]) < 0.2
     assert tab.until_status(6, "have no stamp and therefore no delay") == "error"
