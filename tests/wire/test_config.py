@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 import os
+import sys
 
 import pytest
 
@@ -30,6 +31,17 @@ def test_the_default_range_is_this_machine():
 )
 def test_the_discovery_ranges_of_ros(environment, reach):
     assert config.discovery_range(environment) == reach
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="other systems keep the settings of the network")
+def test_the_loopback_interface_has_large_packets_and_a_thread_for_data():
+    xml = config.cyclone_config({})
+    assert "<FragmentSize>64000B<" in xml
+    assert "<MultipleReceiveThreads>true<" in xml
+    for environment in ({"ROS_AUTOMATIC_DISCOVERY_RANGE": "SUBNET"}, {"ROS_STATIC_PEERS": "10.0.0.1"}):
+        xml = config.cyclone_config(environment)
+        assert "<FragmentSize>14000B<" in xml
+        assert "MultipleReceiveThreads" not in xml
 
 
 def test_subnet_does_not_configure_interfaces():

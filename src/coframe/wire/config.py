@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import os
 import re
+import sys
 from html import escape
 from typing import TYPE_CHECKING
 
@@ -18,19 +19,33 @@ MAX_PARTICIPANT_INDEX = 99
 
 # Large messages are sent in fragments, and a reader requests up to 256 lost ones at a time. Fragments about as large as
 # the datagrams of Cyclone DDS (14720 bytes) need a tenth of the requests: Fast DDS receives 40 MB in 1 s, not in 12 s.
-_FRAGMENT_SIZE = "<FragmentSize>14000B</FragmentSize>"
+_SIZES = "<FragmentSize>14000B</FragmentSize>"
+
+# A packet of the loopback interface has up to 64 kB, so that 1 MB needs 16 system calls instead of 72.
+_LOOPBACK_SIZES = "<MaxMessageSize>65000B</MaxMessageSize><FragmentSize>64000B</FragmentSize>"
+
+# A thread of its own for data waits in recvmsg. Without it, one thread waits for all sockets in epoll_wait first, which
+# is a second system call for each message. Cyclone DDS ends such a thread by a packet to its own address, which only
+# the loopback interface delivers for certain: another interface can disappear.
+_LOOPBACK_THREADS = "<MultipleReceiveThreads>true</MultipleReceiveThreads>"
 
 # A lost message is sent again after a heartbeat of its writer and the answer of its reader, any of which may be lost
 # too. With Cyclone DDS's own intervals of 100 ms, messages are given up at 30 % loss, because a writer of transforms
 # keeps only the last 100 messages. The writer sends heartbeats only while answers are outstanding.
 _RETRANSMISSION = (
-    "<Internal><NackDelay>10ms</NackDelay>"
-    '<HeartbeatInterval min="5ms" minsched="10ms" max="500ms">20ms</HeartbeatInterval></Internal>'
+    "<NackDelay>10ms</NackDelay>"
+    '<HeartbeatInterval min="5ms" minsched="10ms" max="500ms">20ms</HeartbeatInterval>'
 )
 
 # Hosts that could not reach each other for longer than the lease of 10 s find each other again by these announcements.
 # One multicast datagram is sent per interval; with static peers it would be one for each possible port of each peer.
 _ANNOUNCEMENTS = "<SPDPInterval>2s</SPDPInterval>"
+
+# Humble with ROS_LOCALHOST_ONLY announces participants by multicast on the loopback interface.
+_LOOPBACK_INTERFACE = (
+    '<Interfaces><NetworkInterface address="127.0.0.1" multicast="true"/></Interfaces>'
+    "<AllowMulticast>true</AllowMulticast>"
+)
 
 _RANGES = ("OFF", "LOCALHOST", "SUBNET", "SYSTEM_DEFAULT")
 _PEER = re.compile(r"[A-Za-z0-9_.:%\-]+")
@@ -115,35 +130,30 @@ def cyclone_config(environment: Mapping[str, str] = os.environ) -> str:
         WireError: An environment variable has an invalid value.
     """
     allowed = discovery_range(environment)
-    general = discovery = ""
+    general, internal = _SIZES, _RETRANSMISSION
     if allowed == "OFF":
-        general = "<AllowMulticast>false</AllowMulticast>"
+        general += "<AllowMulticast>false</AllowMulticast>"
         # The tag excludes participants of other processes, even if they know the port.
         discovery = f"<ParticipantIndex>none</ParticipantIndex><Tag>coframe_{os.getpid()}</Tag>"
     elif allowed == "LOCALHOST":
         peers = static_peers(environment)
-        general = _localhost(peers)
         discovery = _peers(["127.0.0.1", *peers])
+        if not all(_LOOPBACK.fullmatch(peer) for peer in peers):
+            # A peer on another machine cannot be reached from the loopback interface.
+            general += "<AllowMulticast>false</AllowMulticast>"
+        else:
+            if sys.platform == "linux":
+                general, internal = _LOOPBACK_SIZES, internal + _LOOPBACK_THREADS
+            general += _LOOPBACK_INTERFACE
     else:
         peers = static_peers(environment) if allowed == "SUBNET" else []
         discovery = _peers(peers) if peers else _ANNOUNCEMENTS
     xml = (
-        f'<CycloneDDS><Domain id="any"><General>{_FRAGMENT_SIZE}{general}</General>'
-        f"<Discovery>{discovery}</Discovery>{_RETRANSMISSION}</Domain></CycloneDDS>"
+        f'<CycloneDDS><Domain id="any"><General>{general}</General>'
+        f"<Discovery>{discovery}</Discovery><Internal>{internal}</Internal></Domain></CycloneDDS>"
     )
     user = environment.get("CYCLONEDDS_URI", "").strip()
     return f"{xml},{user}" if user else xml
-
-
-def _localhost(peers: list[str]) -> str:
-    if all(_LOOPBACK.fullmatch(peer) for peer in peers):
-        # Humble with ROS_LOCALHOST_ONLY announces participants by multicast on the loopback interface.
-        return (
-            '<Interfaces><NetworkInterface address="127.0.0.1" multicast="true"/></Interfaces>'
-            "<AllowMulticast>true</AllowMulticast>"
-        )
-    # A peer on another machine cannot be reached from the loopback interface.
-    return "<AllowMulticast>false</AllowMulticast>"
 
 
 def _peers(peers: list[str]) -> str:
