@@ -33,8 +33,7 @@ _LOOPBACK_THREADS = "<MultipleReceiveThreads>true</MultipleReceiveThreads>"
 # too. With Cyclone DDS's own intervals of 100 ms, messages are given up at 30 % loss, because a writer of transforms
 # keeps only the last 100 messages. The writer sends heartbeats only while answers are outstanding.
 _RETRANSMISSION = (
-    "<NackDelay>10ms</NackDelay>"
-    '<HeartbeatInterval min="5ms" minsched="10ms" max="500ms">20ms</HeartbeatInterval>'
+    '<NackDelay>10ms</NackDelay><HeartbeatInterval min="5ms" minsched="10ms" max="500ms">20ms</HeartbeatInterval>'
 )
 
 # Hosts that could not reach each other for longer than the lease of 10 s find each other again by these announcements.
