@@ -2,13 +2,13 @@
 // Reads and creates the messages of the drop-in packages slot by slot: the classes of geometry_msgs are Python classes
 // with __slots__, and access by attribute costs more than the lookup. Other classes are left to Python code.
 #include <nanobind/nanobind.h>
-#include <structmember.h>  // PyMemberDef, before Python 3.12
 
 #include <array>
 
 #include "bindings/arguments.hpp"
 #include "bindings/bindings.hpp"
 #include "bindings/fast_call.hpp"
+#include "bindings/slots.hpp"
 
 namespace coframe::bindings {
 
@@ -31,11 +31,7 @@ class SlottedClass {
  public:
   void set(nb::handle cls, const std::array<const char*, N>& names) {
     type_ = reinterpret_cast<PyTypeObject*>(cls.inc_ref().ptr());  // as long as the process lives
-    for (std::size_t i = 0; i < N; ++i) {
-      const nb::object descriptor = cls.attr(names[i]);
-      if (Py_TYPE(descriptor.ptr()) != &PyMemberDescr_Type) throw nb::type_error("a class with slots is wanted");
-      offsets_[i] = reinterpret_cast<PyMemberDescrObject*>(descriptor.ptr())->d_member->offset;
-    }
+    for (std::size_t i = 0; i < N; ++i) offsets_[i] = slot_offset(cls, names[i]);
   }
   bool is(nb::handle object) const { return object.is_valid() && Py_TYPE(object.ptr()) == type_; }
   // Returns an invalid handle if the attribute was deleted.
@@ -53,9 +49,7 @@ class SlottedClass {
   }
 
  private:
-  PyObject*& slot(PyObject* object, std::size_t i) const {
-    return *reinterpret_cast<PyObject**>(reinterpret_cast<char*>(object) + offsets_[i]);
-  }
+  PyObject*& slot(PyObject* object, std::size_t i) const { return slot_at(object, offsets_[i]); }
 
   PyTypeObject* type_ = nullptr;
   std::array<Py_ssize_t, N> offsets_{};

@@ -395,6 +395,19 @@ def wait_full(
 def watch(buffer: Buffer, mailbox: Mailbox, token: int, child: str) -> Watch:
     """Put the token into the mailbox when the edge from `child` to its parent changes; "": any edge."""
 
+class Encoder:
+    """Serializes the messages of a class to CDR."""
+
+    def __init__(self, cls: type, fields: list[tuple[str, str | Encoder, int, int, int]]) -> None:
+        """Each field is a tuple (slot, item, container, size, text_bound).
+
+        The item is the struct code of a number, an empty text for texts, or the Encoder of a message. The container is
+        0 for a single item, 1 for an array of `size` items, 2 for a sequence of at most `size`. 0 is no limit.
+        """
+
+    def encode(self, message: Any) -> bytes | None:
+        """Return the CDR of a message, or None if Python code has to serialize it."""
+
 class Event:
     """A flag that DDS threads and Python set, and for which one thread waits without the GIL."""
 

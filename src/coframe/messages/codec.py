@@ -4,19 +4,23 @@
 from __future__ import annotations
 
 import struct
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from coframe.errors import DecodeError
 from coframe.messages.decoding import decoding
 from coframe.messages.encapsulation import BYTE_ORDERS, HEADER_SIZE, LITTLE_ENDIAN_HEADER
 from coframe.messages.encoding import encoding
 from coframe.messages.message import Message
+from coframe.messages.native_encoding import native_encoder
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from coframe.messages.compiler import Plan
 
 M = TypeVar("M", bound=Message)
 
+_native_encodings: dict[type, Callable[[Any], bytes | None]] = {}
 _encodings: dict[type, Plan] = {}
 _decodings: dict[tuple[type, bytes], Plan] = {}
 
@@ -30,6 +34,13 @@ def serialize(message: Message) -> bytes:
             too long or contains a NUL character.
     """
     cls = type(message)
+    encode = _native_encodings.get(cls) or _new_native_encoding(cls)
+    data = encode(message)
+    return _serialize_in_python(message, cls) if data is None else data
+
+
+def _serialize_in_python(message: Message, cls: type[Message]) -> bytes:
+    """Serialize what the native encoder leaves, and report the errors of a message."""
     plan = _encodings.get(cls) or _new_encoding(cls)
     out = bytearray(LITTLE_ENDIAN_HEADER)
     try:
@@ -60,6 +71,12 @@ def deserialize(data: bytes, cls: type[M]) -> M:
     except (struct.error, ValueError) as error:
         raise _decode_error(error, plan, data, cls) from None
     return message
+
+
+def _new_native_encoding(cls: type) -> Callable[[Any], bytes | None]:
+    encoder = native_encoder(_message_class(cls))
+    _native_encodings[cls] = encoder.encode if encoder else lambda _: None
+    return _native_encodings[cls]
 
 
 def _new_encoding(cls: type) -> Plan:
