@@ -254,8 +254,7 @@ def _values_check(name: str, type_: AbstractNestedType) -> Check:
 
     def check(value: Any) -> Any:
         fits = (
-            isinstance(value, (Sequence, AbstractSet, UserList))
-            and not isinstance(value, (str, UserString))
+            _is_collection(value)
             and _size_fits(value, type_)
             and ({*map(type, value)} <= {python_type} or all(isinstance(item, python_type) for item in value))
             and value_fits(value)
@@ -264,6 +263,12 @@ def _values_check(name: str, type_: AbstractNestedType) -> Check:
         return value
 
     return check
+
+
+def _is_collection(value: Any) -> bool:
+    if type(value) is list:  # Faster than the checks below.
+        return True
+    return isinstance(value, (Sequence, AbstractSet, UserList)) and not isinstance(value, (str, UserString))
 
 
 def _size_fits(value: Collection[Any], type_: AbstractNestedType) -> bool:

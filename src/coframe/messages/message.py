@@ -48,9 +48,11 @@ class Message(metaclass=MessageType):
 
     def __init__(self, **fields: Any) -> None:
         """Set the fields that are passed to the constructor; generated constructors have set the defaults before."""
-        unknown = fields.keys() - self._fields_and_field_types.keys() if CHECKED else ()
-        assert not unknown, f"Invalid arguments passed to constructor: {', '.join(sorted(unknown))}"
-        for name in self._fields_and_field_types:
+        known = self._fields_and_field_types
+        assert not CHECKED or fields.keys() <= known.keys(), (
+            f"Invalid arguments passed to constructor: {', '.join(sorted(fields.keys() - known.keys()))}"
+        )
+        for name in known:
             if name in fields:
                 convert = self.__conversions.get(name)
                 setattr(self, name, convert(fields[name]) if convert else fields[name])

@@ -46,9 +46,13 @@ class TransformBroadcaster:
 
     def sendTransform(self, transform: TransformStamped | Iterable[TransformStamped]) -> None:
         """Publish one or several transforms in one message."""
-        self.pub_tf.publish(TFMessage(transforms=renamed(as_list(transform), self.__renaming)))
+        message = TFMessage()
+        message.transforms = renamed(as_list(transform), self.__renaming)
+        self.pub_tf.publish(message)
 
 
 def as_list(transform: TransformStamped | Iterable[TransformStamped]) -> list[TransformStamped]:
     """Return one or several transforms as a list."""
+    if type(transform) is TransformStamped:  # Faster than the check for an iterable.
+        return [transform]
     return list(transform) if isinstance(transform, Iterable) else [transform]
