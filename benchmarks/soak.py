@@ -3,6 +3,7 @@
 
 make soak                         30 minutes: 20 nodes that publish 20 000 transforms per second in total
 make soak ARGS="--minutes 3"      a short one
+make soak ARGS="--rate 20"        for a busy machine: each node sends 20 messages per second instead of 50
 
 A listener, `coframe record`, `coframe view` with a connected page and `coframe doctor --watch` receive all transforms.
 Every 20 s, another node joins and leaves. Each process is measured every second. After a warm-up of a sixth of the time
@@ -27,7 +28,6 @@ from benchmarks import machine
 from benchmarks.faults.processes import Processes, Program, answers, descriptors, free_port, processes, wait_for
 
 NODES = 20
-RATE = 50  # messages per second and node
 TRANSFORMS = 20  # per message
 GROWTH = 0.01
 PASSING = 20.0  # seconds between two nodes that join and leave
@@ -89,7 +89,7 @@ class Watched:
         return after[:length], after[-length:]
 
 
-def start(started: Processes, folder: Path) -> list[Watched]:
+def start(started: Processes, folder: Path, rate: float) -> list[Watched]:
     """Start all processes; the listeners first, so that they receive every message."""
     port = free_port()
     commands = {
@@ -105,7 +105,7 @@ def start(started: Processes, folder: Path) -> list[Watched]:
     wait_for((folder / "run").exists, "the recorder")
     time.sleep(2.0)  # The commands join the graph.
     for number in range(NODES):
-        arguments = ("talker", str(number), str(RATE), str(TRANSFORMS))
+        arguments = ("talker", str(number), str(rate), str(TRANSFORMS))
         watched.append(Watched(f"node {number}", started.start("python", "-m", "benchmarks.soak_programs", *arguments)))
     for each in watched[-NODES:]:
         each.program.line()
@@ -180,7 +180,9 @@ def finish(watched: list[Watched], folder: Path) -> tuple[int, int, list[str]]:
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--minutes", type=float, default=30.0, help="how long to measure (default: 30)")
-    seconds = 60 * parser.parse_args().minutes
+    parser.add_argument("--rate", type=float, default=50.0, help="messages per second of each node (default: 50)")
+    options = parser.parse_args()
+    seconds = 60 * options.minutes
     warm_up = int(max(60.0, seconds / 6))
     if seconds < warm_up + 60:
         parser.error("--minutes must be at least 2")
@@ -188,7 +190,7 @@ def main() -> int:
         folder = Path(name)
         (folder / "temporary").mkdir()
         with processes(TMPDIR=str(folder / "temporary"), ROS_DOMAIN_ID=DOMAIN) as started:
-            watched = start(started, folder)
+            watched = start(started, folder, options.rate)
             soak = Soak(started, watched)
             soak.run(seconds)
             sent, recorded, problems = finish(watched, folder)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Long-running commands return the memory of freed arrays."""
+"""Long-running commands return freed memory."""
 
 import platform
 import subprocess
@@ -7,15 +7,16 @@ import sys
 
 import pytest
 
-ARRAYS = """
+MEMORY = """
 import os, sys
 from pathlib import Path
 import numpy as np
-from coframe.freed_memory import return_freed_arrays
+from coframe.freed_memory import return_freed_arrays, return_freed_blocks
 
 def memory():
     return int(Path("/proc/self/statm").read_text().split()[1]) * os.sysconf("SC_PAGE_SIZE")
-
+"""
+ARRAYS = """
 if sys.argv[1] == "returned":
     return_freed_arrays()
 np.ones(1_000_000)  # From now on, glibc keeps blocks of up to 8 MB.
@@ -27,13 +28,31 @@ for _ in range(50):
 arrays.clear()
 print(memory() - before)
 """
+BLOCKS = """
+before = memory()
+arrays, small = [], []
+for _ in range(1000):
+    arrays.append(np.ones(6000))
+    small.append(bytes(1000))
+arrays.clear()
+if sys.argv[1] == "returned":
+    return_freed_blocks()
+print(memory() - before)
+"""
+
+
+def kept(script, how):
+    done = subprocess.run([sys.executable, "-c", MEMORY + script, how], capture_output=True, text=True, check=True)
+    return int(done.stdout)
 
 
 @pytest.mark.skipif(platform.libc_ver()[0] != "glibc", reason="about the allocator of glibc")
 def test_freed_arrays_are_returned_to_the_system():
-    def kept(how):
-        done = subprocess.run([sys.executable, "-c", ARRAYS, how], capture_output=True, text=True, check=True)
-        return int(done.stdout)
+    assert kept(ARRAYS, "kept") > 50e6
+    assert kept(ARRAYS, "returned") < 10e6
 
-    assert kept("kept") > 50e6
-    assert kept("returned") < 10e6
+
+@pytest.mark.skipif(platform.libc_ver()[0] != "glibc", reason="about the allocator of glibc")
+def test_freed_blocks_between_others_are_returned_to_the_system():
+    assert kept(BLOCKS, "kept") > 30e6
+    assert kept(BLOCKS, "returned") < 15e6

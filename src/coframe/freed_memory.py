@@ -5,8 +5,9 @@ from __future__ import annotations
 
 import ctypes
 import sys
+from typing import Any
 
-__all__ = ["return_freed_arrays"]
+__all__ = ["return_freed_arrays", "return_freed_blocks"]
 
 _M_MMAP_THRESHOLD = -3
 _SMALLEST = 1 << 20  # bytes
@@ -18,8 +19,19 @@ def return_freed_arrays() -> None:
     By default, glibc keeps blocks of up to 32 MB once one of that size was freed. Between them are small blocks in use,
     so a process that computes with arrays of varying sizes grows for hours. Without glibc, nothing is changed.
     """
-    if sys.platform != "linux":
-        return
-    mallopt = getattr(ctypes.CDLL(None), "mallopt", None)
-    if mallopt is not None:
+    if (mallopt := _function("mallopt")) is not None:
         mallopt(_M_MMAP_THRESHOLD, _SMALLEST)
+
+
+def return_freed_blocks() -> None:
+    """Return all other freed memory to the system now, which takes some milliseconds. Call it after a large task.
+
+    By default, glibc returns only what is freed at the end of a heap. Without glibc, nothing is changed.
+    """
+    if (malloc_trim := _function("malloc_trim")) is not None:
+        malloc_trim(0)
+
+
+def _function(name: str) -> Any:
+    """Return a function of glibc; None without glibc."""
+    return getattr(ctypes.CDLL(None), name, None) if sys.platform == "linux" else None

@@ -109,9 +109,7 @@ class _Examination:
                     if time.monotonic() > self.last_request + _IDLE_TIMEOUT:
                         self.has_timed_out = True
                         return
-                    reports = next(examination)
-                    if reports is not None:
-                        self.report = FindingsReport("ready", findings=_findings(reports))
+                    self._update(next(examination))
                     pause = _STEP
         except StopIteration:
             return
@@ -120,6 +118,11 @@ class _Examination:
         except Exception:
             _logger.exception("the doctor failed; the viewer continues without findings")
             self.report = FindingsReport("failed", "The doctor failed. The server's log contains the error.")
+
+    def _update(self, reports: dict[str, Report] | None) -> None:
+        # A method of its own, because a variable of the loop would keep the last report until the next one is complete.
+        if reports is not None:
+            self.report = FindingsReport("ready", findings=_findings(reports))
 
 
 def finding_rows(report: FindingsReport, origin: int) -> list[Finding]:

@@ -7,6 +7,7 @@ import time
 import weakref
 from typing import TYPE_CHECKING, Any
 
+from coframe.freed_memory import return_freed_blocks
 from coframe.time import MINUTE, SECOND
 from coframe.viewer.sources.adaptive_subscription import AdaptiveSubscription
 from coframe.viewer.sources.display_types import DISPLAY_OF_TYPE
@@ -116,10 +117,9 @@ class LiveSource:
                     yield None
                     continue
                 begin = time.thread_time()
-                reports = {"": diagnose(observer.observe())}
+                yield {"": diagnose(observer.observe())}
                 due = time.monotonic() + max(_REPORT_PERIOD, (time.thread_time() - begin) / _SHARE)
-                yield reports
-                del reports  # with all transforms of the window
+                return_freed_blocks()  # of the report, which contains all transforms of the window
 
     def close(self) -> None:
         """Close the connection if the source owns it."""
