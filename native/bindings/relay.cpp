@@ -2,6 +2,8 @@
 // Renaming of frames, and relays of their messages.
 #include "core/relay.hpp"
 
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
@@ -33,8 +35,20 @@ void add(Relay& self, Relay::SourceId source, Relay::WriterId writer, nb::bytes 
            now<std::chrono::system_clock>());
 }
 
-nb::object take_relayed(Relay& self) {
-  const std::string message = self.take();
+void create(Relay* self, bool is_static, std::int64_t period, std::optional<std::pair<double, double>> most) {
+  if (!most) {
+    new (self) Relay(is_static, period);
+    return;
+  }
+  const MaxError error{most->first, most->second};
+  if (!(error.distance >= 0.0) || !(error.angle >= 0.0 && error.angle <= MaxError::kMaxAngle)) {
+    throw nb::value_error("the maximum error must not be negative, and its angle at most 45 degrees");
+  }
+  new (self) Relay(is_static, period, error);
+}
+
+nb::object take_relayed(Relay& self, std::int64_t at) {
+  const std::string message = self.take(at < 0 ? now<std::chrono::steady_clock>() : at);
   return message.empty() ? nb::object(nb::none()) : nb::object(nb::bytes(message.data(), message.size()));
 }
 
@@ -77,9 +91,7 @@ void define_relay(nb::module_& module) {
       .def("__call__", [](const Renaming& self, const std::string& name) { return self(name); }, nb::arg("name"));
 
   nb::class_<Relay>(module, "Relay", "Merge the TFMessages of several sources into one tree.")
-      .def(
-          "__init__", [](Relay* self, bool is_static, std::int64_t period) { new (self) Relay(is_static, period); },
-          nb::arg("static"), nb::arg("period"))
+      .def("__init__", &create, nb::arg("static"), nb::arg("period"), nb::arg("max_error") = nb::none())
       .def(
           "add_source",
           [](Relay& self, const Renaming& renaming, bool split) {
@@ -88,8 +100,14 @@ void define_relay(nb::module_& module) {
           nb::arg("renaming"), nb::arg("split"), nb::lock_self(), "Add a source; return its number.")
       .def("add", &add, nb::arg("source"), nb::arg("writer"), nb::arg("message"), nb::arg("at") = -1, nb::lock_self(),
            "Add a message from a writer of a source.")
-      .def("take", &take_relayed, nb::lock_self(),
-           "Return one message with everything added since the last call, or None.")
+      .def("take", &take_relayed, nb::arg("at") = -1, nb::lock_self(),
+           "Return one message with everything to send since the last call, or None.")
+      .def(
+          "next_due",
+          [](const Relay& self) {
+            return self.next_due() == Relay::kNever ? nb::object(nb::none()) : nb::object(nb::int_(self.next_due()));
+          },
+          nb::lock_self(), "Return when take() has something to send although nothing is added, or None.")
       .def("forget_writer", &Relay::forget_writer, nb::arg("source"), nb::arg("writer"), nb::lock_self(),
            "Forget a writer that has disappeared.")
       .def("edges", &edges, nb::lock_self(), "Return the statistics of each edge.")

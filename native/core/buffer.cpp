@@ -224,8 +224,8 @@ DecodeFailure Buffer::ingest_without_notify(TransformStream& stream, const std::
 void Buffer::notify_ingested(TransformStream& stream) {
   notify(stream.inserted.data(), stream.inserted.size());
   if (stream.decoded.capacity() > TransformStream::kMaxRemembered) {
-    stream.decoded = {};
-    stream.inserted = {};
+    stream.decoded = std::vector<TransformView>();  // unlike `= {}`, frees the memory
+    stream.inserted = std::vector<Inserted>();
   }
 }
 

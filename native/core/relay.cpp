@@ -58,27 +58,33 @@ void Relay::add(SourceId source, WriterId writer, const std::uint8_t* data, std:
     edge.newest = view.stamp;
     edge.received_at = now;
     edge.values = view.values;
-    if (is_static_ || is_due(edge, now)) {
+    if (is_static_) {
       ++edge.passed;
-      if (!is_static_) write(edge);
+    } else if (most_) {
+      thin(place - 1, sources_[source], now);
+    } else if (is_due(edge, now)) {
+      ++edge.passed;
+      write(edge, view.stamp, view.values);
     } else {
       ++edge.thinned;
     }
   }
   if (!is_static_ && newest != 0) from.delay.add(wall - newest);
-  if (decoded_.capacity() > kMaxRemembered) decoded_ = {};
+  if (decoded_.capacity() > kMaxRemembered) decoded_ = std::vector<TransformView>();
 }
 
-std::string Relay::take() {
+std::string Relay::take(std::int64_t now) {
   if (is_static_ && std::exchange(is_news_, false)) {
     for (const Claim& claim : claims_) {
-      if (edges_[claim.edge].passed > 0) write(edges_[claim.edge]);
+      const Edge& edge = edges_[claim.edge];
+      if (edge.passed > 0) write(edge, edge.newest, edge.values);
     }
   }
+  if (most_) flush_due(now);
   if (written_.empty()) return {};
   std::string message = encode_tf_message(written_);
   written_.clear();
-  if (written_.capacity() > kMaxRemembered) written_ = {};
+  if (written_.capacity() > kMaxRemembered) written_ = std::vector<TransformView>();
   return message;
 }
 
@@ -118,7 +124,9 @@ std::uint32_t Relay::find_or_add(const std::string& parent, const std::string& c
   const auto [claim, is_new] = claim_of_.try_emplace(child, static_cast<std::uint32_t>(claims_.size()));
   if (is_new) claims_.push_back({.child = child, .source = kNoSource});
   const auto place = static_cast<std::uint32_t>(edges_.size());
-  edges_.push_back({.claim = claim->second, .parent = parent});
+  Edge& edge = edges_.emplace_back();
+  edge.claim = claim->second;
+  edge.parent = parent;
   edge_of_.emplace(key, place);
   return place + 1;
 }
@@ -136,6 +144,10 @@ bool Relay::claim_edge(std::uint32_t place, SourceId source, const TransformView
     }
     return false;
   }
+  if (most_ && claim.source != kNoSource && claim.edge != place) {  // another parent: there is no interpolation
+    flush(edges_[claim.edge]);
+    edges_[claim.edge].thinning.restart();
+  }
   claim.source = source;
   claim.received_at = now;
   claim.edge = place;
@@ -151,9 +163,57 @@ bool Relay::is_due(Edge& edge, std::int64_t now) const {
   return true;
 }
 
-void Relay::write(const Edge& edge) {
-  written_.push_back(
-      {.parent = edge.parent, .child = claims_[edge.claim].child, .stamp = edge.newest, .values = edge.values});
+void Relay::thin(std::uint32_t place, Source& source, std::int64_t now) {
+  Edge& edge = edges_[place];
+  const std::size_t before = edge.thinning.pending();
+  if (edge.thinning.add(*most_, {edge.newest, now, edge.values}, due_)) {
+    source.moved_at = now;
+    next_due_ = now;  // the other edges of the robot may be due
+  }
+  write_due(edge, before, 1);
+  if (edge.thinning.pending() == 0) return;
+  if (pending_ > kMaxPending) {
+    flush(edge);
+  } else if (!std::exchange(edge.is_waiting, true)) {
+    waiting_.push_back(place);
+    next_due_ = std::min(next_due_, edge.thinning.sent_at() + period_);
+  }
+}
+
+void Relay::flush(Edge& edge) {
+  const std::size_t before = edge.thinning.pending();
+  edge.thinning.flush(due_);
+  write_due(edge, before, 0);
+}
+
+// All edges of a robot that moves are sent with the same period, because a lookup needs the newest transforms of all
+// edges of a chain at a common time.
+void Relay::flush_due(std::int64_t now) {
+  if (now < next_due_) return;
+  next_due_ = kNever;
+  std::erase_if(waiting_, [&](std::uint32_t place) {
+    Edge& edge = edges_[place];
+    const bool is_moving = now - sources_[claim(edge).source].moved_at <= period_;
+    const std::int64_t due = edge.thinning.sent_at() + (is_moving ? period_ : std::max(period_, kHeartbeat));
+    if (due <= now) flush(edge);
+    edge.is_waiting = edge.thinning.pending() > 0;
+    if (edge.is_waiting) next_due_ = std::min(next_due_, due);
+    return !edge.is_waiting;
+  });
+}
+
+// Writes what Thinning found to be due, after `added` transforms were added to those that were pending before.
+void Relay::write_due(Edge& edge, std::size_t before, std::size_t added) {
+  for (const TimedTransform& transform : due_) write(edge, transform.stamp, transform.values);
+  const std::size_t pending = edge.thinning.pending();
+  edge.passed += due_.size();
+  edge.thinned += before + added - due_.size() - pending;
+  pending_ = pending_ - before + pending;
+  due_.clear();
+}
+
+void Relay::write(const Edge& edge, Stamp stamp, const TransformValues& values) {
+  written_.push_back({.parent = edge.parent, .child = claims_[edge.claim].child, .stamp = stamp, .values = values});
 }
 
 }  // namespace coframe

@@ -4,6 +4,8 @@
 
 #include <cstdint>
 #include <deque>
+#include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -13,6 +15,7 @@
 #include "core/cdr.hpp"
 #include "core/renaming.hpp"
 #include "core/stamp_delay.hpp"
+#include "core/thinning.hpp"
 
 namespace coframe {
 
@@ -25,6 +28,11 @@ class Relay {
   // Limits, because publishers may use any number of names.
   static constexpr std::size_t kMaxEdges = 65536;
   static constexpr std::size_t kMaxWriters = 1024;
+  static constexpr std::size_t kMaxPending = 1 << 18;  // transforms that may be sent later, of all edges
+  // With a maximum error, the maximum time between two transforms of a robot that does not move. Subscribers take an
+  // edge for stale after a second.
+  static constexpr std::int64_t kHeartbeat = 500'000'000;
+  static constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
 
   enum class Direction : std::uint8_t {
     merge,  // add the prefix
@@ -42,14 +50,16 @@ class Relay {
   };
 
   struct Edge {
-    std::uint32_t claim;  // index of the child's claim
-    std::string parent;   // as it is written
-    WriterId writer = 0;  // the last publisher
-    std::uint64_t passed = 0, thinned = 0;
+    std::uint32_t claim;                    // index of the child's claim
+    std::string parent;                     // as it is written
+    WriterId writer = 0;                    // the last publisher
+    std::uint64_t passed = 0, thinned = 0;  // of thinned edges, the pending ones are not counted
     Stamp newest = 0;
     std::int64_t received_at = 0;
     std::int64_t due = 0;      // when the next transform may pass at the given rate
     TransformValues values{};  // the last ones
+    Thinning thinning;
+    bool is_waiting = false;  // listed in waiting_
   };
 
   struct Writer {
@@ -62,16 +72,21 @@ class Relay {
     std::vector<ExpectedNames> expected;  // `child` is 1 + the index of the edge; 0: not relayed
   };
 
-  // `period` is the minimum time between two transforms of an edge; 0: relay all. For static edges the last transforms
-  // are kept, and all of them are written as soon as one changes.
-  Relay(bool is_static, std::int64_t period) : is_static_(is_static), period_(period) {}
+  // `period` is the minimum time between two transforms of an edge; 0: relay all. With `most`, a transform is sent only
+  // if interpolation would otherwise be wrong by more than that, and `period` is the maximum time between two
+  // transforms of a robot that moves. For static edges the last transforms are kept, and all of them are written as
+  // soon as one changes.
+  Relay(bool is_static, std::int64_t period, std::optional<MaxError> most = {})
+      : is_static_(is_static), period_(period), most_(most) {}
 
   SourceId add_source(Renaming renaming, Direction direction);
   // Adds a message. Malformed messages are counted. `wall` is the time of the system clock.
   void add(SourceId source, WriterId writer, const std::uint8_t* data, std::size_t size, std::int64_t now,
            std::int64_t wall);
-  // Returns one message with everything added since the last call; empty if there is nothing to write.
-  std::string take();
+  // Returns one message with everything to send since the last call; empty if there is nothing to write.
+  std::string take(std::int64_t now);
+  // When take() has something to write although nothing is added; kNever if it has not.
+  std::int64_t next_due() const { return next_due_; }
   void forget_writer(SourceId source, WriterId writer) { sources_[source].writers.erase(writer); }
 
   std::size_t sources() const { return sources_.size(); }
@@ -88,6 +103,7 @@ class Relay {
     Renaming renaming;
     Direction direction;
     std::unordered_map<WriterId, Writer> writers;
+    std::int64_t moved_at = std::numeric_limits<std::int64_t>::min() / 2;  // when an edge was last found to move
   };
 
   Writer& writer_of(Source& source, WriterId writer);
@@ -95,17 +111,26 @@ class Relay {
   std::uint32_t find_or_add(const std::string& parent, const std::string& child);
   bool claim_edge(std::uint32_t place, SourceId source, const TransformView& view, std::int64_t now);
   bool is_due(Edge& edge, std::int64_t now) const;
-  void write(const Edge& edge);
+  void thin(std::uint32_t place, Source& source, std::int64_t now);
+  void flush(Edge& edge);
+  void flush_due(std::int64_t now);
+  void write_due(Edge& edge, std::size_t before, std::size_t added);
+  void write(const Edge& edge, Stamp stamp, const TransformValues& values);
 
   bool is_static_;
   std::int64_t period_;
+  std::optional<MaxError> most_;
   std::vector<Source> sources_;
   std::deque<Claim> claims_;  // a deque, because messages are written from views of the names
   std::deque<Edge> edges_;
   std::unordered_map<std::string, std::uint32_t> claim_of_;  // by child
   std::unordered_map<std::string, std::uint32_t> edge_of_;   // by parent, NUL, child
   std::vector<TransformView> decoded_, written_;
-  bool is_news_ = false;  // true: a static edge has changed
+  bool is_news_ = false;                // true: a static edge has changed
+  std::vector<std::uint32_t> waiting_;  // edges with pending transforms
+  std::vector<TimedTransform> due_;     // empty between calls
+  std::size_t pending_ = 0;             // transforms of all edges
+  std::int64_t next_due_ = kNever;
 };
 
 }  // namespace coframe

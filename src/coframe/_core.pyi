@@ -620,8 +620,15 @@ class Renaming:
 class Relay:
     """Merge the TFMessages of several sources into one tree. Not thread-safe."""
 
-    def __init__(self, static: bool, period: int) -> None:
-        """Write all edges at once if `static`, else at most one transform of each edge per `period` nanoseconds."""
+    def __init__(self, static: bool, period: int, max_error: tuple[float, float] | None = None) -> None:
+        """Write all edges at once if `static`, else at most one transform of each edge per `period` nanoseconds.
+
+        With `max_error`, in metres and radians, transforms are sent only if interpolation would otherwise be wrong by
+        more than that; a robot that moves is sent at least once per `period`.
+
+        Raises:
+            ValueError: The maximum error is negative, or its angle above 45 degrees.
+        """
 
     def add_source(self, renaming: Renaming, split: bool) -> int:
         """Add a source; return its number. With `split`, only kept or prefixed frames pass; the prefix goes."""
@@ -636,8 +643,15 @@ class Relay:
             at: The arrival time in nanoseconds of a monotonic clock; negative: now, by the steady clock.
         """
 
-    def take(self) -> bytes | None:
-        """Return one message with everything added since the last call, or None."""
+    def take(self, at: int = -1) -> bytes | None:
+        """Return one message with everything to send since the last call, or None.
+
+        Args:
+            at: The current time, as for `add`.
+        """
+
+    def next_due(self) -> int | None:
+        """Return when `take` has something to send although nothing is added, or None."""
 
     def forget_writer(self, source: int, writer: int) -> None:
         """Forget a writer that has disappeared."""
@@ -648,7 +662,7 @@ class Relay:
         Returns:
             Parent and child as they are written; the relayed source and the writer of its last message; a source that
             publishes something different, or None, and how often; how many transforms were passed on and how many were
-            dropped for the rate; the newest stamp; the arrival time of the last transform.
+            dropped for the rate or the maximum error; the newest stamp; the arrival time of the last transform.
         """
 
     def writers(self, source: int) -> list[tuple[tuple[int, int, int, int, int | None, str, str, str], int, int]]:

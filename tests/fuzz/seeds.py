@@ -65,7 +65,7 @@ def ingest() -> Iterable[bytes]:
 
 
 def relay() -> Iterable[bytes]:
-    for options in range(4):
+    for options in range(8):
         yield bytes([options]) + b"".join(
             bytes([i % 5, 30]) + part(data)
             for i, data in enumerate([*transforms(recordings.cdr, 8), many(["frame1/a", "frame2", "b"])])

@@ -188,7 +188,7 @@ class Fuzzer {
     now_ += static_cast<std::int64_t>(rng_() % 10'000'000);
     relay.add(rng_() % 2, rng_() % 1500, exact.get(), bytes.size(), now_, now_);
     if (rng_() % 2 == 0) return;
-    const std::string relayed = relay.take();
+    const std::string relayed = relay.take(now_);
     if (relayed.empty()) return;
     std::vector<TransformView> views;
     const auto* data = reinterpret_cast<const std::uint8_t*>(relayed.data());
@@ -221,7 +221,8 @@ class Fuzzer {
   std::mt19937 rng_;
   Buffer buffer_{10'000'000'000};
   std::vector<TransformStream> streams_;
-  std::array<Relay, 3> relays_{Relay(false, 0), Relay(false, 50'000'000), Relay(true, 0)};
+  std::array<Relay, 4> relays_{Relay(false, 0), Relay(false, 50'000'000), Relay(true, 0),
+                               Relay(false, 100'000'000, MaxError{0.01, 0.01})};
   std::int64_t now_ = 0;
 };
 

@@ -111,6 +111,7 @@ def test_prefixes_and_a_relay_on_the_command_line(command, ros, eventually):
     [
         (["relay"], "a relay needs robots"),
         (["relay", "--robots", "a", "--to", "/a/tf"], "/a/tf would be read and written"),
+        (["relay", "--robots", "a", "--max-error", "1mm"], "has no angle: give both, such as 1mm,0.1deg"),
         (["demo", "--robots", "2", "--own-topics", "--tf-topic", "/robot1/tf"], "/robot1/tf would be read and written"),
         (["relay", "--robots", "a", "--split", "--from", "/tf=a/"], "--split reads a single --from topic"),
         (["relay", "--from", "/a/tf=/a/"], "the prefix '/a/' begins with a slash"),

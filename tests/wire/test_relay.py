@@ -237,3 +237,18 @@ def test_a_relay_of_ten_robots_loses_no_transforms():
     outcomes = [measure(10, 20, 50.0, 10.0) for _ in range(2)]  # the machine may be busy in one of the runs
     assert [(outcome.sent, outcome.lost) for outcome in outcomes] == [(100_000, 0)] * 2
     assert min(outcome.cpu for outcome in outcomes) < 10.0, outcomes
+
+
+def test_a_relay_with_a_maximum_error_omits_what_can_be_interpolated(robot, fleet, eventually):
+    """The robot stands still: it is sent every half second, and subscribers do not take it for stale."""
+    relay = fleet(coframe.relay, "robot1", max_error="1mm,0.1deg")
+    robot("robot1")
+    ros = fleet(coframe.connect, "listener")
+    eventually(lambda: ros.buffer.can_transform("map", "lidar"))
+    moving = {edge.child: edge for edge in relay.edges() if not edge.static}
+    eventually(lambda: min(edge.forwarded for edge in relay.edges() if not edge.static) >= moving["odom"].forwarded + 3)
+    for edge in relay.edges():
+        if not edge.static:
+            assert edge.skipped > edge.forwarded
+            stamps = edge.newest - ros.buffer.lookup("map", "base").stamp
+            assert stamps < 2 * 10**9

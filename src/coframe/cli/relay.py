@@ -67,7 +67,18 @@ def relay(
     keep: KeepOption = "",
     rate: Annotated[
         float | None,
-        typer.Option(metavar="HZ", help="Maximum rate of each edge, in Hz. [default: all transforms]"),
+        typer.Option(
+            metavar="HZ",
+            help="Maximum rate of each edge, in Hz; with --max-error, the least rate while a robot moves. "
+            "[default: all transforms; with --max-error: 10]",
+        ),
+    ] = None,
+    max_error: Annotated[
+        str | None,
+        typer.Option(
+            metavar="DISTANCE,ANGLE",
+            help="Skip transforms that subscribers can interpolate with at most this error, e.g. 1mm,0.1deg.",
+        ),
     ] = None,
     split: Annotated[
         bool,
@@ -103,6 +114,7 @@ def relay(
                 prefix_each=prefix_each,
                 keep=keep,
                 rate=rate,
+                max_error=max_error,
                 split=split,
                 domain=domain,
                 node_name=NODE,

@@ -2,11 +2,15 @@
 """Relay of transforms: merge the trees of several robots into one topic, or split one topic by robot.
 
 - `status`: the state of the edges and robots of a relay.
+- `max_error`: the maximum error of thinned transforms.
 - `robots`: the robots of a relay, their topics and prefixes.
-- `forwarding`: the thread that reads and writes transforms, and the function `relay`.
+- `forwarding`: the thread that reads and writes transforms.
+- `starting`: the function `relay`.
 """
 
-from coframe.tf_relay.forwarding import Relay, relay
+from coframe.tf_relay.forwarding import Relay
+from coframe.tf_relay.max_error import MaxError
+from coframe.tf_relay.starting import relay
 from coframe.tf_relay.status import RelayedEdge, RelayedRobot
 
-__all__ = ["Relay", "RelayedEdge", "RelayedRobot", "relay"]
+__all__ = ["MaxError", "Relay", "RelayedEdge", "RelayedRobot", "relay"]

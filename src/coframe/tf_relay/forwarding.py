@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The thread of a relay, which reads transforms and writes them to other topics, and the function `relay`."""
+"""The thread of a relay, which reads transforms and writes them to other topics."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from coframe import _core
 from coframe.errors import WireError
 from coframe.frame_names import kept, renaming
 from coframe.tf_publishers import TfPublisher, publisher_state, tf_publisher
-from coframe.tf_relay.robots import Robot, choose_robots, qualified, topic_of_kind
+from coframe.tf_relay.robots import Robot, topic_of_kind
 from coframe.tf_relay.status import RelayedEdge, RelayedRobot
 from coframe.time import MILLISECOND, SECOND
 from coframe.wire.participant import Participant
@@ -21,14 +21,15 @@ from coframe.wire.tf_reader import WriterStatistics
 from coframe.wire.warn_once import WarnOnce
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Mapping
+    from collections.abc import Callable, Iterable
     from types import TracebackType
 
     from typing_extensions import Self
 
+    from coframe.tf_relay.max_error import MaxError
     from coframe.wire.endpoints import Publisher, Subscription
 
-__all__ = ["Relay", "relay"]
+__all__ = ["Relay"]
 
 _logger = logging.getLogger("coframe.wire")
 
@@ -72,7 +73,7 @@ class _Input(NamedTuple):
 
 
 class Relay:
-    """A running relay, which forwards the transforms of robots until it is closed. Created by :func:`relay`."""
+    """A running relay, which forwards the transforms of robots until it is closed. Created by :func:`coframe.relay`."""
 
     def __init__(
         self,
@@ -81,6 +82,7 @@ class Relay:
         common: tuple[str, str],
         keep: Iterable[str],
         rate: float | None,
+        max_error: MaxError | None,
         split: bool,
         domain: int | None,
         node_name: str,
@@ -90,6 +92,7 @@ class Relay:
         self._keep = kept(keep)
         self._split = split
         self._period = 0 if rate is None else round(SECOND / rate)
+        self._max_error = max_error
         self._warn = warn or _logger.warning
         self._warn_once = WarnOnce(self._warn)
         self._event = _core.Event()
@@ -209,7 +212,8 @@ class Relay:
         qos = TF_STATIC_WRITER if static else _WRITER_QOS
         message_type = find(_TF_TYPE)
         publisher = self.participant.publisher(self.node, topic, message_type, qos, user_data=_USER_DATA)
-        return _Output(topic, _core.Relay(static, 0 if static else self._period), publisher, [])
+        native = _core.Relay(True, 0) if static else _core.Relay(False, self._period, self._max_error)
+        return _Output(topic, native, publisher, [])
 
     def _route(self, output: _Output, robot: Robot) -> _Route:
         names = renaming(robot.prefix, self._keep) or _core.Renaming("", self._keep)
@@ -220,7 +224,7 @@ class Relay:
         checked = 0
         pause = threading.Event()
         while not self._closed:
-            self._event.wait(_CHECK_PERIOD)
+            self._event.wait(self._idle_time())
             try:
                 for input_ in self._inputs:
                     self._read(input_)
@@ -234,6 +238,13 @@ class Relay:
                 if not self._closed:
                     _logger.exception("Relaying transforms failed. The relay continues.")
             pause.wait(_COLLECTION_TIME)
+
+    def _idle_time(self) -> int:
+        """Return how long there is nothing to do if no message arrives, in nanoseconds."""
+        with self._lock:
+            due = [output.native.next_due() for _, output in self._outputs]
+        now = time.monotonic_ns()
+        return max(0, min([_CHECK_PERIOD, *(at - now for at in due if at is not None)]))
 
     def _read(self, input_: _Input) -> None:
         while input_.subscription.pending():
@@ -328,72 +339,3 @@ class Relay:
                         if writer not in present and time.monotonic_ns() - received_at > _FORGET_AFTER:
                             output.native.forget_writer(source, writer)
                             self._relay_writers.pop(writer, None)
-
-
-def relay(
-    robots: Iterable[str] | str = (),
-    *,
-    sources: Iterable[str] | Mapping[str, str] = (),
-    common: str = "/tf",
-    common_static: str | None = None,
-    prefix: str = "",
-    prefix_each: bool = False,
-    keep: Iterable[str] = (),
-    rate: float | None = None,
-    split: bool = False,
-    domain: int | None = None,
-    node_name: str = "coframe_relay",
-    warn: Callable[[str], None] | None = None,
-) -> Relay:
-    """Merge the transforms of several robots, each on its own topics, into one topic, or split one topic by robot.
-
-    The static transforms of a topic are read from and written to the topic with the suffix ``_static``. Every static
-    message contains all static transforms received so far, so that late-joining subscribers receive all of them.
-    Transforms that were published by a relay are never relayed again. If several robots publish the same child frame,
-    the first one is used until it becomes stale.
-
-    Args:
-        robots: The names of the robots: ``robot1`` stands for the topic ``/robot1/tf``. A text can contain several
-            names, separated by commas.
-        sources: The topics of further robots, such as ``/robot1/tf``, or a mapping from topics to the prefixes of
-            their frames. A prefix is used as given, including its slash.
-        common: The topic of all robots. It is written, or read if `split` is set.
-        common_static: The topic of the static transforms of all robots. If None, it is `common` with the suffix
-            ``_static``.
-        prefix: A prefix for all frames on the common topic, in front of each robot's own prefix.
-        prefix_each: Whether to add each robot's name and a slash to its frames: ``robot1/``.
-        keep: The frames that are shared by the robots and get no prefix, such as ``["map", "world"]``.
-        rate: The maximum rate of each edge in Hz. If None, every transform is forwarded. Static transforms are always
-            forwarded.
-        split: Whether to read the common topic and write to the robots' topics. Each robot receives the frames that
-            begin with its prefix, without the prefix, and the shared frames.
-        domain: The ROS domain, 0 to 232. If None, it is ROS_DOMAIN_ID, or 0 if that is not set.
-        node_name: The name of the relay's node.
-        warn: Called with the text of each warning, on the thread of the relay: clocks that differ, robots that are
-            gone, frames that two robots publish, invalid frame names. If None, warnings go to the logger
-            "coframe.wire".
-
-    Raises:
-        ValueError: There is no robot, a prefix is invalid, a topic would be read and written, or the rate is not
-            positive.
-        WireError: The graph cannot be joined, see :func:`coframe.connect`.
-
-    Example:
-        >>> with relay("robot1,robot2", prefix_each=True, keep=["map"]) as running:    # doctest: +SKIP
-        ...     [(edge.child, edge.robot, edge.node) for edge in running.edges()]
-    """
-    if rate is not None and not 0 < rate < SECOND:
-        raise ValueError(f"the rate must be above 0 Hz, not {rate!r}")
-    common = qualified(common)
-    topics = common, qualified(common_static or f"{common}_static")
-    members = choose_robots(robots, sources, common=topics, prefix=prefix, prefix_each=prefix_each or split, keep=keep)
-    return Relay(
-        members,
-        common=topics,
-        keep=keep,
-        rate=rate,
-        split=split,
-        domain=domain,
-        node_name=node_name,
-        warn=warn,
-    )
