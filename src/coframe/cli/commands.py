@@ -47,6 +47,7 @@ COMMANDS: dict[str, tuple[str, dict[str, Any]]] = {
     ),
     "interfaces": ("Find, check and add your own .msg, .srv and .action files.", {}),
     "relay": ("Merge the transforms of several robots, or split them.", {}),
+    "router": ("Run a Zenoh router, which connects nodes across networks.", {}),
     "record": ("Record topics as MCAP files in rosbag2's layout.", {}),
     "play": ("Replay a recording.", {"cls": "PlayCommand"}),
     "bag": ("Record, play, inspect, repair, convert and cut recordings.", {}),

@@ -74,7 +74,11 @@ def session_config(environment: Mapping[str, str] = os.environ) -> zenoh.Config:
 
 
 def router_config(
-    environment: Mapping[str, str] = os.environ, *, file: str = "", listen: list[str] | None = None
+    environment: Mapping[str, str] = os.environ,
+    *,
+    file: str = "",
+    listen: list[str] | None = None,
+    connect: list[str] | None = None,
 ) -> zenoh.Config:
     """Return the configuration of a router, as rmw_zenoh_cpp's router reads it.
 
@@ -83,18 +87,21 @@ def router_config(
             ZENOH_CONFIG_OVERRIDE changes single values.
         file: The path of the file that replaces the defaults, with priority over the variable.
         listen: The endpoints to listen on, with priority over the file and the variables.
+        connect: The endpoints of other routers to connect to, with the same priority.
 
     Raises:
         WireError: Zenoh is not installed, the file cannot be read, or an endpoint is not valid.
     """
     named = file or environment.get(ROUTER_FILE, "").strip()
     config = _config(named, "--config" if file else ROUTER_FILE, ROUTER_DEFAULTS, environment)
-    if listen is not None:
+    for direction, chosen in (("listen", listen), ("connect", connect)):
+        if chosen is None:
+            continue
         try:
-            config.insert_json5("listen/endpoints", json.dumps(listen))
+            config.insert_json5(f"{direction}/endpoints", json.dumps(chosen))
         except library.load().ZError as error:
             raise WireError(
-                f"The endpoints {', '.join(listen)} are not valid: {reason_of(error)}.",
+                f"The endpoints {', '.join(chosen)} are not valid: {reason_of(error)}.",
                 hint="An endpoint is, for example, tcp/127.0.0.1:7447 or tls/0.0.0.0:7447.",
             ) from error
     return config
@@ -107,7 +114,12 @@ def is_configured(environment: Mapping[str, str] = os.environ) -> bool:
 
 def connect_endpoints(config: zenoh.Config) -> list[str]:
     """Return the endpoints that a configuration connects to, such as ["tcp/localhost:7447"]."""
-    value = json.loads(config.get_json("connect/endpoints"))
+    return endpoints(config, "connect")
+
+
+def endpoints(config: zenoh.Config, direction: str) -> list[str]:
+    """Return the endpoints that a configuration listens on ("listen") or connects to ("connect")."""
+    value = json.loads(config.get_json(f"{direction}/endpoints"))
     if isinstance(value, dict):  # different endpoints for each mode
         value = value.get(json.loads(config.get_json("mode")) or "peer", [])
     return [str(endpoint) for endpoint in value or []]
@@ -144,7 +156,7 @@ def override_pairs(text: str) -> list[tuple[str, str]]:
 
 def reason_of(error: Exception) -> str:
     """Return Zenoh's reason for an error without the places in Zenoh's source code."""
-    text = re.sub(r" at /\S+", "", str(error))
+    text = re.sub(r" at /\S+| location: .*", "", str(error), flags=re.DOTALL)
     quoted = re.search(r'"(.*?)(?:"|\Z)', text) if text.startswith(("Json5Err", "Str(")) else None
     *_, last = (quoted[1] if quoted else text).replace("\\n", "\n").splitlines() or [text]
     return last.strip(" =.")

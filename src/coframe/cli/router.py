@@ -1,0 +1,62 @@
+# SPDX-License-Identifier: Apache-2.0
+"""``coframe router``: a Zenoh router with the defaults of ROS 2."""
+
+from __future__ import annotations
+
+import time
+from typing import Annotated
+
+import typer
+
+from coframe.cli.lifecycle import run_until_interrupted
+from coframe.cli.output import log
+
+__all__ = ["router"]
+
+NODE = "coframe_router"
+_UPDATE_PERIOD = 1.0  # seconds
+
+
+def router(
+    config: Annotated[
+        str,
+        typer.Option(
+            metavar="FILE",
+            help="Configuration of Zenoh (JSON5), which replaces the defaults. [default: $ZENOH_ROUTER_CONFIG_URI]",
+        ),
+    ] = "",
+    listen: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="ENDPOINT",
+            help="Endpoint to listen on, e.g. tcp/0.0.0.0:7447 for all interfaces; repeatable. "
+            "[default: tcp/127.0.0.1:7447, this machine only]",
+        ),
+    ] = None,
+    connect: Annotated[
+        list[str] | None,
+        typer.Option(metavar="ENDPOINT", help="Endpoint of another router, e.g. tcp/10.0.0.5:7447; repeatable."),
+    ] = None,
+) -> None:
+    """Run a Zenoh router, which connects nodes on Zenoh with each other and with other networks.
+
+    The defaults are those of ROS 2's rmw_zenohd, except that the router listens on this machine only. It prints a line
+    for each process that connects or disconnects. Anyone who can reach an endpoint without certificates can read and
+    publish everything.
+
+    Example: coframe router --listen tcp/0.0.0.0:7447
+    """
+    from coframe.wire.zenoh.router import Router, how_to_reach  # noqa: PLC0415 - `coframe --help` must be fast
+
+    def report(text: str) -> None:
+        log("INFO", NODE, text)
+
+    with run_until_interrupted(), Router(file=config, listen=listen or [], connect=connect or []) as running:
+        for endpoint in running.endpoints:
+            report(f"Listening on {endpoint}. {how_to_reach(endpoint)}")
+        for endpoint in connect or []:
+            report(f"Connecting to {endpoint}")
+        running.report_connections(report)
+        while True:
+            time.sleep(_UPDATE_PERIOD)
+            running.report_omitted()
