@@ -91,7 +91,7 @@ echo "setup: installing packages for $purpose, then compiling coframe" >&2
 pip install --no-compile $tools
 PATH="$(cd "$venv/bin" && pwd):$PATH" pip install --no-compile --no-build-isolation --editable ".[$extras]"
 
-has_dds() { "$venv/bin/python" -c "from coframe.wire import library; library.check()" >/dev/null 2>&1; }
+has_dds() { "$venv/bin/python" -c "from coframe.wire.dds import library; library.check()" >/dev/null 2>&1; }
 
 if ! has_dds; then
     install_with_apt libddsc0t64  # the name since Debian 13 and Ubuntu 24.04
@@ -99,5 +99,5 @@ if ! has_dds; then
 fi
 if ! has_dds; then
     echo "setup: found no DDS library (libddsc), which the ROS graph requires. All other features work without it." >&2
-    "$venv/bin/python" -c "from coframe.wire import library; print('       ' + library.how_to_get_one())" >&2
+    "$venv/bin/python" -c "from coframe.wire.dds import library; print('       ' + library.how_to_get_one())" >&2
 fi

@@ -13,11 +13,13 @@
 #include "bindings/bindings.hpp"
 #include "bindings/buffer.hpp"
 #include "bindings/relay.hpp"
+#include "core/cdr.hpp"
 #include "wire/endpoint_reader.hpp"
 #include "wire/participant.hpp"
 #include "wire/reader.hpp"
 #include "wire/tap.hpp"
 #include "wire/tf_reader.hpp"
+#include "wire/transform_store.hpp"
 #include "wire/writer.hpp"
 
 namespace coframe::bindings {
@@ -144,11 +146,11 @@ nb::list take_endpoints(PyEndpointReader& reader) {
   return list;
 }
 
-nb::list writers_of(const PyTfReader& reader) {
-  std::vector<TfReader::WriterStatistics> all;
+nb::list writers_of(const TransformStore& store) {
+  std::vector<TransformStore::WriterStatistics> all;
   {
     WithoutGil release;
-    all = reader.writers();
+    all = store.writers();
   }
   nb::list list;
   for (const auto& [writer, messages, received_at, period, delay, name_problems] : all) {
@@ -209,6 +211,37 @@ void define_reader_properties(Class& cls) {
       .def("close", &Reader::close, ReleaseGil(), "End the reader; no callback runs afterwards.");
 }
 
+void add_message(TransformStore& store, TransformStore::Writer writer, nb::bytes message) {
+  const auto* data = reinterpret_cast<const std::uint8_t*>(message.c_str());
+  const std::size_t size = message.size();
+  WithoutGil release;
+  TransformStore::Ingest(store).add(writer, {data, size});
+}
+
+// What a reader of transforms and a store of transforms have in common. `of` returns the store.
+template <class Reader, class Class, class Of>
+void define_store_properties(Class& cls, Of of) {
+  cls.def(
+         "arm", [of](Reader& self) { of(self).arm(); }, "Let the next message set the event.")
+      .def_prop_ro(
+          "received", [of](const Reader& self) { return of(self).received(); }, "The number of received messages.")
+      .def(
+          "name_writer",
+          [of](Reader& self, TransformStore::Writer writer, const std::string& authority) {
+            of(self).name_writer(writer, authority);
+          },
+          nb::arg("writer"), nb::arg("authority"), ReleaseGil(),
+          "Store `authority` as the source of this writer's past and future transforms.")
+      .def(
+          "forget_writer", [of](Reader& self, TransformStore::Writer writer) { of(self).forget_writer(writer); },
+          nb::arg("writer"), ReleaseGil(), "Forget the writer with this handle.")
+      .def(
+          "writers", [of](const Reader& self) { return writers_of(of(self)); }, "Return the statistics of each writer.")
+      .def_prop_ro(
+          "stored_at", [of](const Reader& self) { return of(self).stored_at(); },
+          "When the newest message's transforms were stored, in nanoseconds of the steady clock; 0: never.");
+}
+
 void define_readers(nb::module_& wire) {
   auto reader = nb::class_<PyReader>(wire, "Reader", "A DDS reader of serialised messages.");
   reader
@@ -232,28 +265,35 @@ void define_readers(nb::module_& wire) {
   define_reader_properties<PyTap>(tap);
 
   auto tf_reader = nb::class_<PyTfReader>(wire, "TfReader", "Stores the transforms of a topic in a buffer.");
-  tf_reader
+  tf_reader.def(
+      "__init__",
+      [](PyTfReader* self, dds::Entity participant, dds::Entity topic, const QosProfile& qos,
+         const std::string& user_data, const BufferObject& buffer, bool is_static, const std::string& authority,
+         const std::optional<Renaming>& renaming, std::shared_ptr<Event> on_data) {
+        new (self) PyTfReader(participant, topic, qos, user_data, buffer.core, is_static, authority,
+                              renaming ? std::make_shared<const Renaming>(*renaming) : nullptr, std::move(on_data));
+      },
+      nb::arg("participant"), nb::arg("topic"), nb::arg("qos"), nb::arg("user_data"), nb::arg("buffer"),
+      nb::arg("is_static"), nb::arg("authority"), nb::arg("renaming") = nb::none(), nb::arg("on_data") = nb::none(),
+      ReleaseGil());
+  define_store_properties<PyTfReader>(tf_reader, [](auto& reader) -> auto& { return reader.store(); });
+  define_reader_properties<PyTfReader>(tf_reader);
+
+  auto store = nb::class_<TransformStore>(wire, "TransformStore", "Stores the transforms of messages in a buffer.");
+  store
       .def(
           "__init__",
-          [](PyTfReader* self, dds::Entity participant, dds::Entity topic, const QosProfile& qos,
-             const std::string& user_data, const BufferObject& buffer, bool is_static, const std::string& authority,
+          [](TransformStore* self, const BufferObject& buffer, bool is_static, const std::string& authority,
              const std::optional<Renaming>& renaming, std::shared_ptr<Event> on_data) {
-            new (self) PyTfReader(participant, topic, qos, user_data, buffer.core, is_static, authority,
-                                  renaming ? std::make_shared<const Renaming>(*renaming) : nullptr, std::move(on_data));
+            new (self)
+                TransformStore(buffer.core, is_static, authority,
+                               renaming ? std::make_shared<const Renaming>(*renaming) : nullptr, std::move(on_data));
           },
-          nb::arg("participant"), nb::arg("topic"), nb::arg("qos"), nb::arg("user_data"), nb::arg("buffer"),
-          nb::arg("is_static"), nb::arg("authority"), nb::arg("renaming") = nb::none(), nb::arg("on_data") = nb::none(),
-          ReleaseGil())
-      .def("arm", &PyTfReader::arm, "Let the next message set the event.")
-      .def_prop_ro("received", &PyTfReader::received, "The number of received messages.")
-      .def("name_writer", &PyTfReader::name_writer, nb::arg("writer"), nb::arg("authority"), ReleaseGil(),
-           "Store `authority` as the source of this writer's past and future transforms.")
-      .def("forget_writer", &PyTfReader::forget_writer, nb::arg("writer"), ReleaseGil(),
-           "Forget the writer with this handle.")
-      .def("writers", &writers_of, "Return the statistics of each writer.")
-      .def_prop_ro("stored_at", &PyTfReader::stored_at,
-                   "When the newest message's transforms were stored, in nanoseconds of the steady clock; 0: never.");
-  define_reader_properties<PyTfReader>(tf_reader);
+          nb::arg("buffer"), nb::arg("is_static"), nb::arg("authority"), nb::arg("renaming") = nb::none(),
+          nb::arg("on_data") = nb::none())
+      .def("add", &add_message, nb::arg("writer"), nb::arg("message"),
+           "Store the transforms of one serialised message without the GIL.");
+  define_store_properties<TransformStore>(store, [](auto& self) -> auto& { return self; });
 
   nb::class_<PyEndpointReader>(wire, "EndpointReader", "The writers or readers found by DDS discovery.")
       .def(nb::init<dds::Entity, dds::Entity, std::shared_ptr<Event>>(), nb::arg("participant"), nb::arg("topic"),
@@ -274,12 +314,19 @@ void define_readers(nb::module_& wire) {
 }  // namespace
 
 void define_wire(nb::module_& wire) {
-  nb::exception<dds::Error>(wire, "DdsError", PyExc_RuntimeError);
+  nb::exception<dds::Error>(wire, "EndpointError", PyExc_RuntimeError);
   wire.def("load_dds", &dds::load, nb::arg("path"),
            "Load the DDS library and return its release, \"0.10\" or \"11\"; raise RuntimeError if it is not usable.");
   wire.def("create_unchecked_topic", &dds::create_unchecked_topic, nb::arg("participant"), nb::arg("name"),
            nb::arg("type_name"), ReleaseGil(),
            "Create a topic whose readers check the bytes themselves; return its handle.");
+  wire.def(
+      "is_tf_message",
+      [](nb::bytes message) {
+        const auto* data = reinterpret_cast<const std::uint8_t*>(message.c_str());
+        return check_tf_message(data, message.size()).reason == nullptr;
+      },
+      nb::arg("message"), "Whether the bytes are a serialised TFMessage.");
   nb::class_<QosProfile>(wire, "QosProfile", "The policies that ROS programs set. Durations are in nanoseconds.")
       .def(
           "__init__",

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The functions of Cyclone DDS that the wire uses, loaded at run time from the library that coframe.wire.library finds.
-// There need not be headers, so the few structures that are passed to it are declared here. They are the same in
+// The functions of Cyclone DDS that the wire uses, loaded at run time from the library that coframe.wire.dds.library
+// finds. There need not be headers, so the few structures that are passed to it are declared here. They are the same in
 // Cyclone DDS 0.10 and 11; `load` checks what can be checked.
 #pragma once
 

@@ -700,14 +700,17 @@ def samples_of(buffer: Buffer, child: str) -> tuple[bytes, bytes, bytes, list[st
 PUBLICATIONS: int
 SUBSCRIPTIONS: int
 
-class DdsError(RuntimeError):
-    """A DDS call failed."""
+class EndpointError(RuntimeError):
+    """An operation on an endpoint failed."""
 
 def load_dds(path: str) -> str:
     """Load the DDS library and return its release, "0.10" or "11"; raise RuntimeError if it is not usable."""
 
 def create_unchecked_topic(participant: int, name: str, type_name: str) -> int:
     """Create a topic whose readers check the bytes themselves; return its handle."""
+
+def is_tf_message(message: bytes) -> bool:
+    """Return whether the bytes are a serialized TFMessage."""
 
 class QosProfile:
     """The QoS policies that ROS programs set. Durations are in nanoseconds."""
@@ -914,6 +917,46 @@ class TfReader:
 
     def close(self) -> None:
         """End the reader; no callback runs afterwards."""
+
+class TransformStore:
+    """Stores the transforms of messages in a buffer, whatever received them."""
+
+    def __init__(
+        self,
+        buffer: Buffer,
+        is_static: bool,
+        authority: str,
+        renaming: Renaming | None = None,
+        on_data: Event | None = None,
+    ) -> None: ...
+    def add(self, writer: int, message: bytes) -> None:
+        """Store the transforms of one serialized message without the GIL."""
+
+    def arm(self) -> None:
+        """Let the next message set the event."""
+
+    @property
+    def received(self) -> int:
+        """The number of received messages."""
+
+    def writers(self) -> list[tuple[int, int, int, int, int | None, str, str, str]]:
+        """Return the statistics of each writer.
+
+        Returns:
+            The writer's handle; the number of messages; the arrival time of the last one, in nanoseconds of the steady
+            clock; the lower quartile of the delays of its last messages relative to the system clock, or None; examples
+            of names that begin with a slash, that already have the prefix, and that do not.
+        """
+
+    def forget_writer(self, writer: int) -> None:
+        """Forget the writer with this handle."""
+
+    def name_writer(self, writer: int, authority: str) -> None:
+        """Store `authority` as the source of this writer's past and future transforms."""
+
+    @property
+    def stored_at(self) -> int:
+        """When the newest message's transforms were stored, in nanoseconds of the steady clock; 0: never."""
 
 class EndpointReader:
     """The writers (PUBLICATIONS) or readers (SUBSCRIPTIONS) found by DDS discovery."""

@@ -2,7 +2,7 @@
 """Importable only where there is a DDS library: `pytest.importorskip("dds_library", reason=...)` skips elsewhere."""
 
 from coframe.errors import WireError
-from coframe.wire import library
+from coframe.wire.dds import library
 
 try:
     library.check()

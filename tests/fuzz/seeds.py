@@ -24,7 +24,7 @@ import coframe
 from coframe import _core
 from coframe.bags.offered_qos import OfferedQos, to_yaml
 from coframe.messages import find, serialize
-from coframe.wire.discovery_info import NodeInfo, encode_info
+from coframe.wire.dds.discovery_info import NodeInfo, encode_info
 
 
 def part(data: bytes) -> bytes:

@@ -57,7 +57,7 @@ def test_native_subscriptions_reach_what_that_side_reaches(sourced, given, used)
         environment.pop(name, None)
     if given:
         environment["ROS_AUTOMATIC_DISCOVERY_RANGE"] = given
-    code = "import coframe.ros2\nfrom coframe.wire import config\nprint(config.discovery_range())"
+    code = "import coframe.ros2\nfrom coframe.wire.dds import config\nprint(config.discovery_range())"
     assert run(environment, sys.executable, "-c", code).stdout == f"{used}\n"
 
 

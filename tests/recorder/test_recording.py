@@ -89,7 +89,7 @@ def test_topics_without_a_ros_type_are_refused(participant, node, eventually, tm
     from coframe import _core
     from coframe.wire import types
 
-    entity = participant._native.entity
+    entity = participant._session.native.entity
     topic = types.create_topic(entity, "rt/raw", "NotOfRos")
     foreign = _core.Writer(entity, topic, _core.QosProfile(1, True, True, False), "")
     publisher = participant.publisher(node, "/words", STRING, QoS())

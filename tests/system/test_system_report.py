@@ -16,7 +16,7 @@ pytest.importorskip("dds_library", reason="the command joins the graph")
 from coframe.system import advise, collect
 from coframe.system.network import Interface
 from coframe.system.variables import variables
-from coframe.wire import dds, library
+from coframe.wire.dds import library, participants
 
 COMMAND = [sys.executable, "-c", "from coframe.cli import main; main()", "doctor", "--system"]
 NODE = """
@@ -124,11 +124,11 @@ def test_variables_have_an_effect_or_none():
 
 
 def test_participant_indexes_in_use(domain_id):
-    used, every = dds.participant_indexes(domain_id)
+    used, every = participants.participant_indexes(domain_id)
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as taken:
         taken.bind(("127.0.0.1", 7400 + 250 * domain_id + 10 + 2 * 42))
-        assert dds.participant_indexes(domain_id) == (used + 1, every)
-    assert dds.participant_indexes(232)[1] == 63  # the others would be beyond the last port
+        assert participants.participant_indexes(domain_id) == (used + 1, every)
+    assert participants.participant_indexes(232)[1] == 63  # the others would be beyond the last port
 
 
 def test_advice_about_networks_and_ros(domain_id):

@@ -5,11 +5,12 @@ import sys
 import pytest
 
 from coframe.errors import WireError
-from coframe.wire import config
+from coframe.wire import domains
+from coframe.wire.dds import config
 
 
 def test_the_default_range_is_this_machine():
-    assert config.domain_id({}) == 0
+    assert domains.domain_id({}) == 0
     assert config.discovery_range({}) == "LOCALHOST"
     xml = config.cyclone_config({})
     assert '<NetworkInterface address="127.0.0.1" multicast="true"/>' in xml
@@ -76,7 +77,7 @@ def test_the_configuration_of_the_user_comes_last():
 @pytest.mark.parametrize("text", ["233", "-1", "abc", "1.5", "1000", "²"])
 def test_an_invalid_domain_id(text):
     with pytest.raises(WireError, match=r"ROS_DOMAIN_ID is '.*': a domain ID is an integer from 0 to 232\.") as caught:
-        config.domain_id({"ROS_DOMAIN_ID": text})
+        domains.domain_id({"ROS_DOMAIN_ID": text})
     assert caught.value.hint
 
 

@@ -19,7 +19,7 @@ import array, subprocess, sys, time
 import coframe
 from coframe.messages import find, serialize
 from coframe.wire import Participant, QoS
-from coframe.wire.discovery_info import NodeInfo, encode_info
+from coframe.wire.dds.discovery_info import NodeInfo, encode_info
 
 def eventually(condition):
     deadline = time.monotonic() + 20
@@ -106,7 +106,7 @@ def test_late_static_transforms_arrive_before_why_answers(run):
         stamped = find("geometry_msgs/msg/TransformStamped")(child_frame_id="camera_link")
         stamped.header.frame_id = "base_link"
         message = find("tf2_msgs/msg/TFMessage")(transforms=[stamped])
-        fast = FastDds(coframe.wire.config.domain_id())
+        fast = FastDds(coframe.wire.dds.config.domain_id())
         guid = fast.ask("guid", "writer", "rt/tf_static", "tf2_msgs::msg::dds_::TFMessage_", "transient")
         fast.announce("calibration", writers=[guid])
         fast.ask("written", "write", "rt/tf_static", serialize(message).hex())
@@ -126,7 +126,7 @@ def test_services_are_reported_and_never_ready(run):
         from std_srvs.srv import SetBool
         rclpy.init()
         node = rclpy.create_node("robot")
-        fast = FastDds(coframe.wire.config.domain_id())
+        fast = FastDds(coframe.wire.dds.config.domain_id())
         endpoints = [
             fast.ask("guid", kind, topic, f"std_srvs::srv::dds_::SetBool_{part}_", "volatile")
             for kind, topic, part in (

@@ -10,11 +10,11 @@ from pathlib import Path
 import pytest
 
 import coframe._core
-from coframe.wire import library
+from coframe.wire.dds import library
 
 LOAD = """
 from coframe.errors import WireError
-from coframe.wire import library
+from coframe.wire.dds import library
 try:
     found = library.load()
     print(found.place.source, "|", found.place.path, "|", *found.refused)
@@ -113,7 +113,7 @@ def test_a_file_that_is_not_a_library_is_passed_over(tmp_path, usable):
     (tmp_path / "ddsc.dll").write_text("not a library")
     (tmp_path / "libddsc.dylib").write_text("not a library")
     code = (
-        "from pathlib import Path; from coframe.wire import library\n"
+        "from pathlib import Path; from coframe.wire.dds import library\n"
         "library._of_package = lambda: library.Place('the cyclonedds package', 'not installed', None)\n"
         f"library.BUNDLED = Path({str(tmp_path)!r})\n"
         f"library._system_folders = lambda environment: [Path({str(usable.parent)!r})]\n"
@@ -126,7 +126,7 @@ def test_a_file_that_is_not_a_library_is_passed_over(tmp_path, usable):
 def test_without_any_library():
     """Everything that needs no network still works."""
     code = (
-        "import coframe; from coframe.wire import library\n"
+        "import coframe; from coframe.wire.dds import library\n"
         "library._of_package = lambda: library.Place('the cyclonedds package', 'not installed', None)\n"
         "library._system_folders = lambda environment: []\n"
         "tree = coframe.Buffer(); tree.set('a', 'b', coframe.Transform(), static=True); tree.lookup('a', 'b')\n"

@@ -3,14 +3,14 @@
 
 import pytest
 
-from coframe.wire import library
+from coframe.wire.dds import library
 
 # A robot: transforms, a static transform that is published before the other side starts, and a service.
 ROBOT = """
 import threading, rclpy, tf2_ros
 from geometry_msgs.msg import TransformStamped
 from std_srvs.srv import SetBool
-from coframe.wire import library
+from coframe.wire.dds import library
 
 def transform(parent, child, x):
     stamped = TransformStamped(child_frame_id=child)
@@ -39,7 +39,7 @@ STATION = """
 import rclpy, tf2_ros
 from rclpy.time import Time
 from std_srvs.srv import SetBool
-from coframe.wire import library
+from coframe.wire.dds import library
 
 rclpy.init()
 node = rclpy.create_node("station")
@@ -97,7 +97,8 @@ def test_the_lab_nodes(libraries, child, nodes, observer):
 
 OBSERVER = """
 import time, coframe
-from coframe.wire import Participant, library
+from coframe.wire import Participant
+from coframe.wire.dds import library
 participant = Participant.get()
 print(library.load().release, flush=True)
 expected = {"static_tf_broadcaster", "dynamic_tf_broadcaster", "tf_listener", "sensor_transform", "complete_tf_tree"}

@@ -9,9 +9,11 @@ import pytest
 from coframe import _core
 from coframe.messages import find
 from coframe.messages.type_hash import type_hash
-from coframe.wire import QoS, request_header, types
-from coframe.wire.discovery_info import TOPIC, NodeInfo, decode_info, encode_info
-from coframe.wire.user_data import TF_MESSAGE, TF_MESSAGE_HASH, endpoint_user_data, type_hash_of
+from coframe.wire import QoS, request_header
+from coframe.wire.dds.discovery_info import TOPIC, NodeInfo, decode_info, encode_info
+from coframe.wire.dds.topics import create_topic
+from coframe.wire.dds.user_data import endpoint_user_data, type_hash_of
+from coframe.wire.type_hashes import TF_MESSAGE, TF_MESSAGE_HASH
 
 PARTICIPANT = "01103a4b5c6d7e8f90a1b2c3000001c1"
 READER, WRITER = "01103a4b5c6d7e8f90a1b2c300000504", "01103a4b5c6d7e8f90a1b2c300000403"
@@ -35,7 +37,7 @@ class Foreign:
 
     def __init__(self, domain_id, size):
         self.native = _core.DomainParticipant(domain_id, "", "enclave=/;")
-        topic = types.create_topic(self.native.entity, TOPIC, "rmw_dds_common::msg::dds_::ParticipantEntitiesInfo_")
+        topic = create_topic(self.native.entity, TOPIC, "rmw_dds_common::msg::dds_::ParticipantEntitiesInfo_")
         qos = _core.QosProfile(depth=1, reliable=True, transient_local=True, keep_all=True)
         self.reader = _core.Reader(self.native.entity, topic, qos, "", None)
         self.endpoints = _core.EndpointReader(self.native.entity, _core.PUBLICATIONS, _core.Event())
@@ -79,7 +81,7 @@ def test_the_form_is_that_of_the_other_participants(participant, foreign, eventu
     warnings = []
     participant.on_warning(warnings.append)
     participant.add_node("/", "ours")
-    own = participant._native.guid
+    own = participant._session.native.guid
     jazzy = foreign(16)
     eventually(lambda: jazzy.size_of(own) == 16)
     assert warnings == []
@@ -97,9 +99,9 @@ def test_the_form_is_that_of_the_other_participants(participant, foreign, eventu
 def test_other_processes_of_coframe_are_not_followed(participant, child, foreign, eventually):
     other = child("import coframe\nwith coframe.connect('other'): input()", ROS_DISTRO="jazzy")
     eventually(lambda: ("/", "other") in participant.nodes())
-    assert participant._gid_size == 24
+    assert participant._session.gid_size == 24
     jazzy = foreign(16)
-    eventually(lambda: jazzy.size_of(participant._native.guid) == 16)
+    eventually(lambda: jazzy.size_of(participant._session.native.guid) == 16)
     assert other.finish() == (0, "")
 
 

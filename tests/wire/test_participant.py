@@ -161,7 +161,7 @@ def test_few_file_descriptors_are_an_error_and_not_a_crash(domain_id):
 
 
 def test_the_error_for_a_full_domain(domain_id, monkeypatch, child):
-    monkeypatch.setattr("coframe.wire.config.MAX_PARTICIPANT_INDEX", 0)
+    monkeypatch.setattr("coframe.wire.dds.config.MAX_PARTICIPANT_INDEX", 0)
     other = child(NODE_IN_A_CHILD.format(name="first"))
     assert other.read() == "ready"
     with pytest.raises(

@@ -30,7 +30,7 @@ from coframe.cli.output import fail, warn
 from coframe.freed_memory import return_freed_arrays
 from coframe.viewer import start_viewer
 from coframe.viewer.replay.page import MAX_RATE
-from coframe.wire import library
+from coframe.wire import selection
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -149,7 +149,7 @@ def view(
     return_freed_arrays()
     with run_until_interrupted():
         if live:
-            library.check()
+            selection.check()
         viewer = start_viewer(
             "coframe: joining the ROS graph" if live else Path(bag).name,
             "live" if live else "buffer",

@@ -19,10 +19,10 @@ from typing import TYPE_CHECKING, Final
 
 from coframe import _core
 from coframe.errors import WireError
-from coframe.wire import config, dds
-from coframe.wire.endpoint_factory import native_qos
+from coframe.wire.dds import config, participants
+from coframe.wire.dds.session import native_qos
+from coframe.wire.dds.topics import create_topic
 from coframe.wire.qos import QoS
-from coframe.wire.types import create_topic
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -82,7 +82,7 @@ def probe_participant(domain: int, environment: Mapping[str, str]) -> Probe:
         trace = Path(folder) / "trace.log"
         tracing = f"<Tracing><Verbosity>config</Verbosity><OutputFile>{trace}</OutputFile></Tracing>"
         xml = f'{config.cyclone_config(environment)},<CycloneDDS><Domain id="any">{tracing}</Domain></CycloneDDS>'
-        participant = dds.join(domain, xml, "")
+        participant = participants.join(domain, xml, "")
         try:
             exchanged = _exchange(participant.entity)
         finally:
@@ -110,7 +110,7 @@ def _exchange(participant: int) -> bool:
             received = reader.take(1)
         writer.close()
         reader.close()
-    except (_core.DdsError, WireError):
+    except (_core.EndpointError, WireError):
         return False
     return [data for data, _, _ in received] == [message]
 

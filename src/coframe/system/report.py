@@ -13,12 +13,13 @@ from coframe.errors import WireError
 from coframe.system.installation import Installation, installation
 from coframe.system.network import Limits, Probe, limits, probe_participant
 from coframe.system.variables import Variable, variables
-from coframe.wire import Participant, config, dds, library
+from coframe.wire import Participant, domains
+from coframe.wire.dds import config, library, participants
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
-    from coframe.wire.library import Place
+    from coframe.wire.dds.library import Place
 
 ValueT = TypeVar("ValueT")
 
@@ -94,13 +95,13 @@ def collect(
             problems.append(Problem(str(error), error.hint))
             return None
 
-    number = attempt(lambda: config.domain_id(environment) if domain is None else config.check_domain_id(domain))
+    number = attempt(lambda: domains.domain_id(environment) if domain is None else domains.check_domain_id(domain))
     discovery = attempt(lambda: config.discovery_range(environment))
     peers = attempt(lambda: config.static_peers(environment))
     found = attempt(library.load)
     used = probe = nodes = None
     if number is not None:
-        used = dds.participant_indexes(number)
+        used = participants.participant_indexes(number)
         if found is not None and discovery is not None and peers is not None:
             probe = attempt(functools.partial(probe_participant, number, environment))
             nodes = attempt(functools.partial(_other_nodes, number, listen)) if probe is not None else None

@@ -12,8 +12,9 @@ from coframe.wire.endpoints import LocalEndpoint
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from coframe import _core
+    from coframe.wire.backend import BackendTap
     from coframe.wire.endpoints import GraphNode
+    from coframe.wire.names import Endpoint
     from coframe.wire.qos import QoS
 
 
@@ -25,7 +26,7 @@ class MessageBatch(NamedTuple):
         ends: The end of each message in `data`, (N,) uint64.
         arrived: The arrival times on the clock of this machine, (N,) int64.
         sent: The publication times on the clock of the publisher's machine, (N,) int64.
-        writers: The handles of the DDS writers, (N,) uint64, for `Participant.writer_node`.
+        writers: The handles of the writers, (N,) uint64, for `Participant.writer_node`.
     """
 
     data: bytes
@@ -36,11 +37,11 @@ class MessageBatch(NamedTuple):
 
 
 class BatchSubscription(LocalEndpoint):
-    """A subscription that records messages and their arrival times on the DDS thread, for callers that poll."""
+    """A subscription that records messages and their arrival times on a thread of the wire, for callers that poll."""
 
-    def __init__(self, native: _core.Tap, node: GraphNode, topic: str, dds_type: str, qos: QoS) -> None:
+    def __init__(self, native: BackendTap, node: GraphNode, endpoint: Endpoint, qos: QoS) -> None:
         self._reader = native
-        super().__init__(native, node, topic, dds_type, qos)
+        super().__init__(native, node, endpoint, qos)
 
     def take(self) -> MessageBatch:
         """Return the messages that arrived since the last call."""

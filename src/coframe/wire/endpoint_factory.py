@@ -1,35 +1,35 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Creation of publishers and subscriptions in DDS."""
+"""Creation of publishers and subscriptions."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-from coframe import _core
-from coframe.errors import WireError
-from coframe.wire import names, types
+from coframe.wire import names
 from coframe.wire.batch_subscription import BatchSubscription
 from coframe.wire.endpoints import GraphNode, Publisher, RawPublisher, Subscription
+from coframe.wire.names import Endpoint
 from coframe.wire.qos import TF, TF_STATIC_READER, QoS
 from coframe.wire.service_endpoints import ServicePublisher, ServiceSubscription
 from coframe.wire.tf_reader import NO_AUTHORITY, TfReader
-from coframe.wire.user_data import TF_MESSAGE, endpoint_user_data
+from coframe.wire.type_hashes import TF_MESSAGE
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from coframe import Buffer
+    from coframe import Buffer, _core
+    from coframe.wire.backend import Session
     from coframe.wire.graph import Graph
     from coframe.wire.names import Kind
     from coframe.wire.rejected_transforms import RejectedTransformMonitor
 
-__all__ = ["EndpointFactory", "native_qos"]
+__all__ = ["EndpointFactory"]
 
 
 class EndpointFactory:
     """The methods of a participant that create publishers and subscriptions."""
 
-    _native: _core.DomainParticipant
+    _session: Session
     _graph: Graph
     _rejections: RejectedTransformMonitor
 
@@ -55,23 +55,19 @@ class EndpointFactory:
                 (client identifier, sequence number) between the encapsulation and the message.
             qos: The offered quality of service.
             kind: "topic", "request" or "reply". The type and the bytes of requests and replies are not checked.
-            user_data: The DDS user data, which subscribers can read before the first message.
+            user_data: Pairs `key=value;`, which subscribers can read before the first message.
             on_change: An event that is set whenever a status changes (see `LocalEndpoint.take_status`).
             on_mismatch: The attribute of the publisher; see `LocalEndpoint`.
 
         Raises:
-            WireError: DDS cannot create the publisher.
+            WireError: The middleware cannot create the publisher.
         """
-        ros_type = types.ros_type(message_type)
-        data = endpoint_user_data(ros_type, user_data)
-        name, type_name, entity = self._topic_of(topic, ros_type, kind)
-        checked = kind == "topic" and ros_type == TF_MESSAGE
-        native = _create(
-            lambda: _core.Writer(self._native.entity, entity, native_qos(qos), data, checked, on_change), topic
-        )
+        endpoint = Endpoint(topic, names.ros_type_of(message_type), kind)
+        checked = kind == "topic" and endpoint.ros_type == TF_MESSAGE
+        native = self._session.writer(node, endpoint, qos, user_data=user_data, checked=checked, on_change=on_change)
         if kind != "topic":
-            return ServicePublisher(native, node, name, type_name, qos, self._graph)
-        return Publisher(native, node, name, type_name, qos, on_mismatch=on_mismatch)
+            return ServicePublisher(native, node, endpoint, qos, self._graph)
+        return Publisher(native, node, endpoint, qos, on_mismatch=on_mismatch)
 
     def subscription(
         self,
@@ -100,15 +96,13 @@ class EndpointFactory:
             on_mismatch: The attribute of the subscription; see `LocalEndpoint`.
 
         Raises:
-            WireError: DDS cannot create the subscription.
+            WireError: The middleware cannot create the subscription.
         """
-        ros_type = types.ros_type(message_type)
-        data = endpoint_user_data(ros_type)
-        name, type_name, entity = self._topic_of(topic, ros_type, kind)
-        native = _create(lambda: _core.Reader(self._native.entity, entity, native_qos(qos), data, on_data), topic)
+        endpoint = Endpoint(topic, names.ros_type_of(message_type), kind)
+        native = self._session.reader(node, endpoint, qos, on_data)
         if kind != "topic":
-            return ServiceSubscription(native, node, name, type_name, qos, self._graph)
-        return Subscription(native, node, name, type_name, qos, adapts=adapts, on_mismatch=on_mismatch)
+            return ServiceSubscription(native, node, endpoint, qos, self._graph)
+        return Subscription(native, node, endpoint, qos, adapts=adapts, on_mismatch=on_mismatch)
 
     def raw_publisher(self, node: GraphNode, topic: str, ros_type: str, qos: QoS) -> RawPublisher:
         """Create a publisher of `node` for serialized messages of any type.
@@ -120,12 +114,10 @@ class EndpointFactory:
             qos: The offered quality of service.
 
         Raises:
-            WireError: DDS cannot create the publisher.
+            WireError: The middleware cannot create the publisher.
         """
-        name, type_name, entity = self._topic_of(topic, ros_type)
-        data = endpoint_user_data(ros_type)
-        native = _create(lambda: _core.Writer(self._native.entity, entity, native_qos(qos), data), topic)
-        return RawPublisher(native, node, name, type_name, qos)
+        endpoint = Endpoint(topic, ros_type)
+        return RawPublisher(self._session.writer(node, endpoint, qos), node, endpoint, qos)
 
     def raw_subscription(
         self,
@@ -149,17 +141,15 @@ class EndpointFactory:
                 warning about incompatible QoS is logged.
 
         Raises:
-            WireError: DDS cannot create the subscription.
+            WireError: The middleware cannot create the subscription.
         """
-        name, type_name, entity = self._topic_of(topic, ros_type)
-        data = endpoint_user_data(ros_type)
-        native = _create(lambda: _core.Reader(self._native.entity, entity, native_qos(qos), data, on_data), topic)
-        return Subscription(native, node, name, type_name, qos, adapts=adapts)
+        endpoint = Endpoint(topic, ros_type)
+        return Subscription(self._session.reader(node, endpoint, qos, on_data), node, endpoint, qos, adapts=adapts)
 
     def batch_subscription(
         self, node: GraphNode, topic: str, ros_type: str, qos: QoS, *, max_bytes: int, capacity: int = 100_000
     ) -> BatchSubscription:
-        """Create a subscription of `node` that records messages and their arrival times on the DDS thread.
+        """Create a subscription of `node` that records messages and their arrival times on a thread of the wire.
 
         Args:
             node: The node that owns the subscription.
@@ -170,14 +160,11 @@ class EndpointFactory:
             capacity: The number of messages that can be queued; further messages are dropped and counted.
 
         Raises:
-            WireError: DDS cannot create the subscription.
+            WireError: The middleware cannot create the subscription.
         """
-        name, type_name, entity = self._topic_of(topic, ros_type)
-        data = endpoint_user_data(ros_type)
-        native = _create(
-            lambda: _core.Tap(self._native.entity, entity, native_qos(qos), data, max_bytes, capacity), topic
-        )
-        return BatchSubscription(native, node, name, type_name, qos)
+        endpoint = Endpoint(topic, ros_type)
+        native = self._session.tap(node, endpoint, qos, max_bytes=max_bytes, capacity=capacity)
+        return BatchSubscription(native, node, endpoint, qos)
 
     def tf_reader(
         self,
@@ -192,7 +179,7 @@ class EndpointFactory:
         on_data: _core.Event | None = None,
         on_mismatch: Callable[[str, str], object] | None = None,
     ) -> TfReader:
-        """Create a subscription of `node` that stores transforms in `buffer` on the DDS thread, without the GIL.
+        """Create a subscription of `node` that stores transforms in `buffer` as they arrive, without the GIL.
 
         Args:
             node: The node that owns the subscription.
@@ -206,23 +193,24 @@ class EndpointFactory:
             on_mismatch: The attribute of the reader; see `LocalEndpoint`.
 
         Raises:
-            WireError: DDS cannot create the subscription.
+            WireError: The middleware cannot create the subscription.
         """
         chosen = qos or (TF_STATIC_READER if static else TF)
-        name, type_name, entity = self._topic_of(topic, TF_MESSAGE)
-        source = NO_AUTHORITY if authority is None else authority
-        data = endpoint_user_data(TF_MESSAGE)
-        native = _create(
-            lambda: _core.TfReader(
-                self._native.entity, entity, native_qos(chosen), data, buffer, static, source, renaming, on_data
-            ),
-            topic,
+        endpoint = Endpoint(topic, TF_MESSAGE)
+        native = self._session.tf_reader(
+            node,
+            endpoint,
+            chosen,
+            buffer,
+            static=static,
+            authority=NO_AUTHORITY if authority is None else authority,
+            renaming=renaming,
+            on_data=on_data,
         )
         reader = TfReader(
             native,
             node,
-            name,
-            type_name,
+            endpoint,
             chosen,
             static=static,
             name_writers=authority is None,
@@ -231,35 +219,3 @@ class EndpointFactory:
         reader.name_writers(self._graph)
         self._rejections.add(reader, buffer)
         return reader
-
-    def _topic_of(self, topic: str, ros_type: str, kind: Kind = "topic") -> tuple[str, str, int]:
-        """Return the name of the DDS topic, the name of its type, and its handle."""
-        name, type_name = names.dds_topic(topic, kind), names.dds_type(ros_type)
-        return name, type_name, self._topic(name, type_name)
-
-    def _topic(self, name: str, type_name: str) -> int:
-        """Create a topic for one endpoint, which releases it."""
-        return types.create_topic(self._native.entity, name, type_name)
-
-
-def native_qos(qos: QoS) -> _core.QosProfile:
-    """Return the quality of service as the native code takes it."""
-    return _core.QosProfile(
-        qos.depth,
-        qos.reliable,
-        qos.transient_local,
-        qos.keep_all,
-        qos.manual_liveliness,
-        qos.deadline,
-        qos.lifespan,
-        qos.lease,
-    )
-
-
-def _create(make: Callable[[], Any], topic: str) -> Any:
-    try:
-        return make()
-    except _core.DdsError as error:
-        raise WireError(
-            f"DDS cannot create an endpoint on {topic}: {error}.", hint="Check that the participant is not closed."
-        ) from error

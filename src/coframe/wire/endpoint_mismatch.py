@@ -6,7 +6,7 @@ from __future__ import annotations
 import time
 from typing import TYPE_CHECKING
 
-from coframe.wire import names, vendors
+from coframe.wire import names
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -57,8 +57,18 @@ def mismatch_reasons(writer: DiscoveredEndpoint, reader: DiscoveredEndpoint) -> 
     return found
 
 
-def mismatch_text(own: LocalEndpoint, peer: DiscoveredEndpoint, node: str | None, reason: str) -> str:
-    """Return the warning for an endpoint of this process and one of `node` that do not match."""
+def mismatch_text(
+    own: LocalEndpoint, peer: DiscoveredEndpoint, node: str | None, reason: str, middleware: str = ""
+) -> str:
+    """Return the warning for an endpoint of this process and one of `node` that do not match.
+
+    Args:
+        own: The endpoint of this process.
+        peer: The endpoint of the other node.
+        node: The name of the other node; None if it is not known.
+        reason: "type", "services", "other" or a QoS policy.
+        middleware: The middleware of the other node, for the reason "services".
+    """
     who = f"Node {node}" if node else "An unnamed node"
     role = "publisher" if own.is_writer else "subscription"
     topic = names.any_ros_name(own.topic)
@@ -70,7 +80,7 @@ def mismatch_text(own: LocalEndpoint, peer: DiscoveredEndpoint, node: str | None
             "no messages will arrive. Use the same message type, or another topic name."
         )
     if reason == "services":
-        return _services_text(own, peer, who)
+        return _services_text(own, middleware, who)
     if reason == "other":
         what = _OTHER_POLICIES.get(own.refused_policy, f"definition of {own_type}")
         return (
@@ -85,14 +95,14 @@ def mismatch_text(own: LocalEndpoint, peer: DiscoveredEndpoint, node: str | None
     return f"{who} {problem}: no messages will arrive. {advice}"
 
 
-def _services_text(own: LocalEndpoint, peer: DiscoveredEndpoint, who: str) -> str:
-    """Return the warning for a node whose DDS implementation sends requests and replies in another way."""
-    service, used = names.any_ros_name(own.topic), vendors.vendor(peer.guid)
+def _services_text(own: LocalEndpoint, used: str, who: str) -> str:
+    """Return the warning for a node whose middleware sends requests and replies in another way."""
+    service = names.any_ros_name(own.topic)
     serves = names.ros_topic(own.topic, "reply" if own.is_writer else "request") is not None
     effect = "its calls of {} do not arrive" if serves else "its service {} cannot be called"
     return (
         f"{who} uses {used}, so {effect.format(service)}: services, actions and parameters need the same middleware on "
-        f"both sides, and coframe uses {vendors.CYCLONE}. Start that node with RMW_IMPLEMENTATION=rmw_cyclonedds_cpp. "
+        f"both sides, and coframe uses Cyclone DDS. Start that node with RMW_IMPLEMENTATION=rmw_cyclonedds_cpp. "
         "Topics and transforms work."
     )
 
@@ -105,7 +115,7 @@ class MismatchMonitor:
         warn: Called with the text of each warning.
     """
 
-    # DDS discovers an endpoint before the name of its node is known and before the match is decided.
+    # An endpoint may be discovered before the name of its node is known and before the match is decided.
     _GRACE_PERIOD = 2.0  # seconds
 
     def __init__(self, graph: Graph, warn: Callable[[str], None]) -> None:
@@ -138,7 +148,7 @@ class MismatchMonitor:
                 self._suspects[suspect] = since
                 continue
             self._warned.add(key)
-            text = mismatch_text(own, peer, node, reason)
+            text = mismatch_text(own, peer, node, reason, self._graph.foreign_services(peer.guid))
             if own.on_mismatch is None or reason == "services":
                 self._warn(text)
             else:
@@ -152,7 +162,7 @@ class MismatchMonitor:
             matched = own.matched_handles()
             for handle, peer in peers.items():
                 if handle in matched:
-                    if not names.is_topic(own.topic) and not vendors.shares_services(peer.guid):
+                    if not names.is_topic(own.topic) and self._graph.foreign_services(peer.guid):
                         yield own, peer, "services"
                     continue
                 # A pair within this process is reported once, from the side of the subscription.

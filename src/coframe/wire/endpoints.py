@@ -4,22 +4,22 @@
 from __future__ import annotations
 
 import threading
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias, TypeVar
+from typing import TYPE_CHECKING, ClassVar, NamedTuple, TypeVar
 
 from coframe import _core
 from coframe.errors import WireError
 from coframe.wire import names
-from coframe.wire.discovery_info import NodeInfo
-from coframe.wire.graph import DiscoveredEndpoint
+from coframe.wire.graph import DiscoveredEndpoint, NodeInfo
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from coframe.wire.backend import BackendEndpoint, BackendReader, BackendWriter
+    from coframe.wire.names import Endpoint
     from coframe.wire.participant import Participant
     from coframe.wire.qos import QoS
 
 ValueT = TypeVar("ValueT")
-NativeEndpoint: TypeAlias = "_core.Writer | _core.Reader | _core.Tap | _core.TfReader"
 
 
 class Sample(NamedTuple):
@@ -28,7 +28,7 @@ class Sample(NamedTuple):
     Attributes:
         data: The message: 4 bytes of encapsulation, then CDR.
         source_timestamp: The time at which it was published, in nanoseconds since 1970 on the publisher's clock.
-        writer: The handle of the DDS writer that sent it, for `Participant.writer_node`.
+        writer: The handle of the writer that sent it, for `Participant.writer_node`.
     """
 
     data: bytes
@@ -84,7 +84,7 @@ class GraphNode:
 
 
 class LocalEndpoint:
-    """A DDS reader or writer of this process, announced as an endpoint of one or more of its nodes.
+    """A reader or writer of this process, announced as an endpoint of one or more of its nodes.
 
     The constructor announces the endpoint, after which the maintenance thread uses it. A subclass must therefore
     call this constructor last.
@@ -96,15 +96,15 @@ class LocalEndpoint:
             cannot communicate with this one. If None, the participant warns.
     """
 
+    is_writer: ClassVar[bool] = False
     adapts = False
     on_mismatch: Callable[[str, str], object] | None = None
 
-    def __init__(self, native: NativeEndpoint, node: GraphNode, topic: str, dds_type: str, qos: QoS) -> None:
+    def __init__(self, native: BackendEndpoint, node: GraphNode, endpoint: Endpoint, qos: QoS) -> None:
         self.guid = native.guid
-        self.topic = topic
+        self.topic = endpoint.dds_topic
         self.qos = qos
-        self.is_writer = isinstance(native, _core.Writer)
-        self.description = DiscoveredEndpoint(self.guid, b"", topic, dds_type, qos)
+        self.description = DiscoveredEndpoint(self.guid, b"", self.topic, endpoint.dds_type, qos)
         self._endpoint = native
         self._nodes: list[GraphNode] = []
         self._lock = threading.Lock()
@@ -162,7 +162,7 @@ class LocalEndpoint:
     def _unless_closed(self, read: Callable[[], ValueT], closed: ValueT) -> ValueT:
         try:
             return closed if self._closed else read()
-        except _core.DdsError:
+        except _core.EndpointError:
             if self._closed:  # by another thread meanwhile
                 return closed
             raise
@@ -176,19 +176,20 @@ class LocalEndpoint:
 class Publisher(LocalEndpoint):
     """A publisher of serialized messages."""
 
+    is_writer = True
+
     def __init__(
         self,
-        native: _core.Writer,
+        native: BackendWriter,
         node: GraphNode,
-        topic: str,
-        dds_type: str,
+        endpoint: Endpoint,
         qos: QoS,
         *,
         on_mismatch: Callable[[str, str], object] | None = None,
     ) -> None:
         self._writer = native
         self.on_mismatch = on_mismatch
-        super().__init__(native, node, topic, dds_type, qos)
+        super().__init__(native, node, endpoint, qos)
 
     def write(self, cdr: bytes) -> None:
         """Publish a message: 4 bytes of encapsulation, then CDR. The GIL is released while it is sent.
@@ -199,7 +200,7 @@ class Publisher(LocalEndpoint):
         """
         try:
             self._send(cdr)
-        except _core.DdsError as error:
+        except _core.EndpointError as error:
             raise self._write_error(error) from error
 
     def assert_liveliness(self) -> None:
@@ -214,7 +215,7 @@ class Publisher(LocalEndpoint):
     def _send(self, cdr: bytes) -> None:
         self._writer.write(cdr)
 
-    def _write_error(self, error: _core.DdsError) -> WireError:
+    def _write_error(self, error: _core.EndpointError) -> WireError:
         topic = names.any_ros_name(self.topic)
         if self._closed:
             return WireError(f"The publisher on {topic} is closed.", hint="Publish before you close the node.")
@@ -242,10 +243,9 @@ class Subscription(LocalEndpoint):
 
     def __init__(
         self,
-        native: _core.Reader,
+        native: BackendReader,
         node: GraphNode,
-        topic: str,
-        dds_type: str,
+        endpoint: Endpoint,
         qos: QoS,
         *,
         adapts: bool = False,
@@ -254,7 +254,7 @@ class Subscription(LocalEndpoint):
         self._reader = native
         self.adapts = adapts
         self.on_mismatch = on_mismatch
-        super().__init__(native, node, topic, dds_type, qos)
+        super().__init__(native, node, endpoint, qos)
 
     def take(self, limit: int = 100) -> list[Sample]:
         """Return up to `limit` queued messages, oldest first, without waiting."""

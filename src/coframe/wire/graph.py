@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The ROS graph: its nodes, publishers and subscriptions, from ros_discovery_info and DDS discovery."""
+"""The ROS graph: its nodes, publishers and subscriptions."""
 
 from __future__ import annotations
 
@@ -8,20 +8,16 @@ from collections import OrderedDict
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
-from coframe import _core
 from coframe.wire import names
-from coframe.wire.discovery_info import ADAPTS, TOPIC, NodeInfo, decode_info
-from coframe.wire.qos import QoS
-from coframe.wire.user_data import type_hash_of
 
 if TYPE_CHECKING:
     from coframe.wire.names import Kind
+    from coframe.wire.qos import QoS
 
 UNKNOWN_NODE = "_NODE_NAME_UNKNOWN_"
 UNKNOWN_NAMESPACE = "_NODE_NAMESPACE_UNKNOWN_"
 
 _DEPARTED_WRITERS = 1000  # writers whose node names are kept after they have left
-_BATCH = 256  # messages
 
 
 @dataclass(frozen=True)
@@ -32,8 +28,8 @@ class EndpointInfo:
         node: The name of its node; "_NODE_NAME_UNKNOWN_" if no node has announced the endpoint.
         namespace: The namespace of its node; "_NODE_NAMESPACE_UNKNOWN_" if no node has announced the endpoint.
         ros_type: The ROS type, such as "tf2_msgs/msg/TFMessage".
-        qos: The offered or requested quality of service. DDS discovery does not always contain the depth.
-        guid: The DDS GUID, 16 bytes.
+        qos: The offered or requested quality of service. DDS does not always publish the depth.
+        guid: The identifier of the endpoint, 16 bytes; in DDS, its GUID.
         type_hash: The hash of the message definition, "RIHS01_..."; "" if it is not announced, as in Humble.
     """
 
@@ -45,8 +41,17 @@ class EndpointInfo:
     type_hash: str = ""
 
 
+class NodeInfo(NamedTuple):
+    """A node and the 16-byte GUIDs of its endpoints."""
+
+    namespace: str
+    name: str
+    readers: tuple[bytes, ...] = ()
+    writers: tuple[bytes, ...] = ()
+
+
 class DiscoveredEndpoint(NamedTuple):
-    """A DDS reader or writer, as described by DDS discovery."""
+    """A reader or writer on the graph, with the names of its topic and type in DDS."""
 
     guid: bytes
     participant: bytes
@@ -54,19 +59,21 @@ class DiscoveredEndpoint(NamedTuple):
     type: str
     qos: QoS
     user_data: bytes = b""
+    type_hash: str = ""
 
 
 class Graph:
-    """The current state of the graph. Most queries first process pending discovery messages."""
+    """The current state of the graph. Most queries first process pending discovery messages.
 
-    def __init__(self, participant: int, topic: int, changed: _core.Event) -> None:
-        qos = _core.QosProfile(depth=1, reliable=True, transient_local=True, keep_all=True)
+    Attributes:
+        qos_must_match: Whether endpoints with incompatible quality of service do not communicate.
+    """
+
+    qos_must_match = True
+
+    def __init__(self) -> None:
         self._lock = threading.Lock()
-        self._info_reader = _core.Reader(participant, topic, qos, "", changed)
-        self._writer_reader = _core.EndpointReader(participant, _core.PUBLICATIONS, changed)
-        self._reader_reader = _core.EndpointReader(participant, _core.SUBSCRIPTIONS, changed)
-        self._nodes: dict[bytes, list[NodeInfo]] = {}
-        self._gid_sizes: dict[bytes, int] = {}
+        self._nodes: dict[bytes, list[NodeInfo]] = {}  # by participant
         self._owners: dict[bytes, NodeInfo] = {}
         self._writers: dict[int, DiscoveredEndpoint] = {}
         self._readers: dict[int, DiscoveredEndpoint] = {}
@@ -74,19 +81,18 @@ class Graph:
         self._version = 0
 
     def close(self) -> None:
-        """Close the discovery readers. The state stays available."""
-        for reader in (self._info_reader, self._writer_reader, self._reader_reader):
-            reader.close()
+        """Stop discovery. The state stays available."""
+        raise NotImplementedError
+
+    def foreign_services(self, guid: bytes) -> str:
+        """Return the middleware of an endpoint if it sends requests in another form than this process; "" if not."""
+        del guid
+        return ""
 
     def refresh(self) -> int:
         """Process pending discovery messages and return a version number that increases with every change."""
         with self._lock:
-            # Nodes are read before endpoints: if a participant leaves in between, its endpoints remove the nodes.
-            changed = self._take_info()
-            changed |= self._take_endpoints(self._writer_reader, self._writers)
-            changed |= self._take_endpoints(self._reader_reader, self._readers)
-            if changed:
-                self._remove_departed()
+            if self._take_changes():
                 self._owners = {
                     guid: node
                     for nodes in self._nodes.values()
@@ -102,21 +108,6 @@ class Graph:
         self.refresh()
         with self._lock:
             return [(node.namespace, node.name) for nodes in self._nodes.values() for node in nodes]
-
-    def gid_sizes(self) -> dict[int, list[str]]:
-        """Return the sizes of identifiers that participants of other implementations publish, with their nodes."""
-        with self._lock:
-            adapting = {
-                writer.participant
-                for writer in self._writers.values()
-                if writer.topic == TOPIC and ADAPTS.encode() in writer.user_data
-            }
-            found: dict[int, list[str]] = {}
-            for participant, size in self._gid_sizes.items():
-                if participant not in adapting:
-                    nodes = self._nodes[participant]
-                    found.setdefault(size, []).extend(names.full_name(node.namespace, node.name) for node in nodes)
-        return found
 
     def types(self, kinds: tuple[Kind, ...]) -> dict[str, list[str]]:
         """Return the topics or services of these kinds with their ROS types."""
@@ -164,7 +155,7 @@ class Graph:
             ros_type=names.ros_type(endpoint.type),
             qos=endpoint.qos,
             guid=endpoint.guid,
-            type_hash=type_hash_of(endpoint.user_data),
+            type_hash=endpoint.type_hash,
         )
 
     def owner(self, guid: bytes) -> str | None:
@@ -178,25 +169,9 @@ class Graph:
         with self._lock:
             return self._writer_nodes.get(handle)
 
-    def _take_info(self) -> bool:
-        changed = False
-        while messages := self._info_reader.take(_BATCH):
-            for message, _, _ in messages:
-                if (info := decode_info(message)) is not None:
-                    self._nodes[info.participant] = info.nodes
-                    self._gid_sizes[info.participant] = info.gid_size
-                    changed = True
-        return changed
-
-    def _take_endpoints(self, reader: _core.EndpointReader, known: dict[int, DiscoveredEndpoint]) -> bool:
-        changes = reader.take()
-        for handle, alive, guid, participant, topic, type_name, (depth, *policies), user_data in changes:
-            if alive:
-                qos = QoS(max(depth, 1), *policies)
-                known[handle] = DiscoveredEndpoint(guid, participant, topic, type_name, qos, user_data)
-            else:
-                known.pop(handle, None)
-        return bool(changes)
+    def _take_changes(self) -> bool:
+        """Process pending discovery messages and return whether the nodes or the endpoints have changed."""
+        raise NotImplementedError
 
     def _store_writer_nodes(self) -> None:
         """Store the node names of writers, which are needed for samples whose writer has already left."""
@@ -206,8 +181,3 @@ class Graph:
                 self._writer_nodes.move_to_end(handle)
         while len(self._writer_nodes) > len(self._writers) + _DEPARTED_WRITERS:
             self._writer_nodes.popitem(last=False)
-
-    def _remove_departed(self) -> None:
-        participants = {writer.participant for writer in self._writers.values() if writer.topic == TOPIC}
-        self._nodes = {guid: nodes for guid, nodes in self._nodes.items() if guid in participants}
-        self._gid_sizes = {guid: size for guid, size in self._gid_sizes.items() if guid in participants}

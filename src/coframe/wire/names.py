@@ -3,9 +3,11 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import Literal, NamedTuple
 
 Kind = Literal["topic", "request", "reply"]
+
+MAX_NAME = 256  # bytes of the namespace or the name of a node
 
 _AFFIXES: dict[Kind, tuple[str, str]] = {
     "topic": ("rt", ""),
@@ -49,9 +51,38 @@ def ros_type(name: str) -> str:
     return "/".join([*parts[:-2], parts[-1][:-1]])
 
 
+class Endpoint(NamedTuple):
+    """What a publisher or subscription sends: its topic or service, the part of the service, and the ROS type.
+
+    Attributes:
+        name: The fully qualified ROS name of the topic or service.
+        ros_type: The ROS type of the messages, such as "std_srvs/srv/Empty_Request".
+        kind: "topic", "request" or "reply".
+    """
+
+    name: str
+    ros_type: str
+    kind: Kind = "topic"
+
+    @property
+    def dds_topic(self) -> str:
+        """The name of the DDS topic."""
+        return dds_topic(self.name, self.kind)
+
+    @property
+    def dds_type(self) -> str:
+        """The name of the DDS type."""
+        return dds_type(self.ros_type)
+
+
 def full_name(namespace: str, name: str) -> str:
     """Return the full name of a node: "/talker" for ("/", "talker")."""
     return f"{namespace.rstrip('/')}/{name}"
+
+
+def ros_type_of(message_type: type) -> str:
+    """Return the ROS type of a message class, such as "tf2_msgs/msg/TFMessage"."""
+    return str(message_type.ROS_TYPE)  # type: ignore[attr-defined]
 
 
 def any_ros_name(topic: str) -> str:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The DDS participant of this process in a ROS domain, shared by all its nodes."""
+"""The participant of this process in a ROS domain, shared by all its nodes."""
 
 from __future__ import annotations
 
@@ -13,23 +13,12 @@ from coframe import _core
 from coframe.errors import WireError
 from coframe.frame_names import naming_problems
 from coframe.time import SECOND
-from coframe.wire import config, dds, library, names
-from coframe.wire.discovery_info import (
-    ADAPTS,
-    MAX_NAME,
-    TOPIC,
-    choose_gid_size,
-    encode_info,
-    gid_size,
-    unseen_text,
-)
-from coframe.wire.endpoint_factory import EndpointFactory, native_qos
+from coframe.wire import domains, names, selection
+from coframe.wire.endpoint_factory import EndpointFactory
 from coframe.wire.endpoint_mismatch import MismatchMonitor
 from coframe.wire.endpoints import GraphNode, LocalEndpoint
-from coframe.wire.graph import Graph
 from coframe.wire.graph_queries import GraphQueries
 from coframe.wire.parameter_services import ParameterServices
-from coframe.wire.qos import GRAPH_WRITER
 from coframe.wire.rejected_transforms import RejectedTransformMonitor
 from coframe.wire.static_broadcaster import SharedStaticPublisher, StaticBroadcaster
 from coframe.wire.tf_reader import TfReader
@@ -41,12 +30,9 @@ if TYPE_CHECKING:
 
 _logger = logging.getLogger("coframe.wire")
 
-_GRAPH_TYPE = "rmw_dds_common::msg::dds_::ParticipantEntitiesInfo_"
-_ENCLAVE = "enclave=/;"  # the user data that every ROS participant has
-
 
 class Participant(EndpointFactory, GraphQueries):
-    """The participant of this process in a DDS domain. All methods are thread-safe.
+    """The participant of this process in a ROS domain. All methods are thread-safe.
 
     The participant is shared by reference counting: each call of `get` needs one call of `close`.
     """
@@ -55,21 +41,15 @@ class Participant(EndpointFactory, GraphQueries):
     _instances_lock: ClassVar[threading.RLock] = threading.RLock()
 
     def __init__(self, domain_id: int) -> None:
-        library.load()
         self.domain_id = domain_id
         self._process = os.getpid()
         self._references = 0
-        self._native = dds.join(domain_id, config.cyclone_config(), _ENCLAVE)
         self._lock = threading.RLock()
         self._nodes: list[GraphNode] = []
         self._statics: dict[str, SharedStaticPublisher] = {}
-        self._gid_size = self._preferred_gid_size = gid_size(os.environ)
-
-        self._info_writer = _core.Writer(
-            self._native.entity, self._topic(TOPIC, _GRAPH_TYPE), native_qos(GRAPH_WRITER), ADAPTS
-        )
         self._wake = _core.Event()
-        self._graph = Graph(self._native.entity, self._topic(TOPIC, _GRAPH_TYPE), self._wake)
+        self._session = selection.join(domain_id, self._wake)
+        self._graph = self._session.graph
         self._mismatches = MismatchMonitor(self._graph, self._warn)
         self._rejections = RejectedTransformMonitor(self._graph, self._warn)
         self._warn_once = WarnOnce(self._warn)
@@ -88,14 +68,14 @@ class Participant(EndpointFactory, GraphQueries):
             domain_id: The domain, 0 to 232. If None, it is ROS_DOMAIN_ID, or 0 if that is not set.
 
         Raises:
-            WireError: There is no usable DDS library, an environment variable has an invalid value, the domain has no
+            WireError: There is no usable middleware, an environment variable has an invalid value, the domain has no
                 free participant index, or this process was forked from a process that had joined a domain.
         """
-        domain = config.domain_id() if domain_id is None else config.check_domain_id(domain_id)
+        domain = domains.domain_id() if domain_id is None else domains.check_domain_id(domain_id)
         with cls._instances_lock:
             if any(joined.is_inherited() for joined in cls._instances.values()):
                 raise WireError(
-                    "This process was forked from one that had joined the ROS graph. DDS does not work after a fork.",
+                    "This process was forked from one that had joined the ROS graph, which does not work after a fork.",
                     hint="Start processes with 'spawn': multiprocessing.set_start_method('spawn').",
                 )
             participant = cls._instances.get(domain)
@@ -105,7 +85,7 @@ class Participant(EndpointFactory, GraphQueries):
             return participant
 
     def close(self) -> None:
-        """Release one reference. The last one closes all endpoints and stops the maintenance and DDS threads."""
+        """Release one reference. The last one closes all endpoints and stops the threads of the wire."""
         with self._instances_lock:
             self._references -= 1
             if self._references == 0 and self._process == os.getpid():
@@ -126,9 +106,9 @@ class Participant(EndpointFactory, GraphQueries):
         if not namespace.startswith("/"):
             raise WireError(f"Namespace {namespace!r} is not absolute.", hint=f"Use '/{namespace}'.")
         for text in (namespace, name):
-            if len(text.encode()) > MAX_NAME:
+            if len(text.encode()) > names.MAX_NAME:
                 raise WireError(
-                    f"The name {text[:20]!r}... has {len(text.encode())} bytes. The limit is {MAX_NAME} bytes.",
+                    f"The name {text[:20]!r}... has {len(text.encode())} bytes. The limit is {names.MAX_NAME} bytes.",
                     hint="Choose a shorter name.",
                 )
         node = GraphNode(self, namespace, name, has_parameters=has_parameters)
@@ -147,11 +127,11 @@ class Participant(EndpointFactory, GraphQueries):
     def static_broadcaster(self, node: GraphNode, topic: str = "/tf_static") -> StaticBroadcaster:
         """Create a broadcaster of static transforms for `node`.
 
-        All broadcasters of this process on one topic share one DDS writer: a late-joining subscriber receives only the
+        All broadcasters of this process on one topic share one writer: a late-joining subscriber receives only the
         last message of a writer, so that message must contain all static transforms of the process.
 
         Raises:
-            WireError: DDS cannot create the publisher.
+            WireError: The middleware cannot create the publisher.
         """
         with self._lock:
             shared = self._statics.get(topic)
@@ -182,8 +162,7 @@ class Participant(EndpointFactory, GraphQueries):
         with self._lock:
             if self._closing or self.is_inherited():
                 return
-            infos = [node.info() for node in self._nodes]
-            self._info_writer.write(encode_info(self._native.guid, infos, self._gid_size))
+            self._session.announce(self._nodes)
 
     def is_inherited(self) -> bool:
         """Return whether this process was forked from the one that created the participant."""
@@ -232,22 +211,15 @@ class Participant(EndpointFactory, GraphQueries):
             watchers = list(self._watchers)
         for event in watchers:
             event.set()
-        self._adapt_announcement()
+        with self._lock:
+            warning = self._session.adapt()
+        self._warn_once("middleware", warning)
         with self._lock:
             without_parameters = [node for node in self._nodes if not node.has_parameters]
         self._parameter_services.serve(without_parameters, self._graph.by_topic(writers=True))
         for endpoint in self._endpoints():
             if isinstance(endpoint, TfReader):
                 endpoint.name_writers(self._graph)
-
-    def _adapt_announcement(self) -> None:
-        """Publish the nodes of this process in the form that the other participants can read."""
-        others = self._graph.gid_sizes()
-        size = choose_gid_size(self._preferred_gid_size, others)
-        if size != self._gid_size:
-            self._gid_size = size
-            self.announce()
-        self._warn_once("identifiers", unseen_text(size, others))
 
     def _end(self) -> None:
         del self._instances[self.domain_id]
@@ -258,9 +230,7 @@ class Participant(EndpointFactory, GraphQueries):
         self._parameter_services.close()
         for node in list(self._nodes):
             node.close()
-        self._info_writer.close()
-        self._graph.close()
-        self._native.close()
+        self._session.close()
 
 
 def _renew_locks() -> None:
@@ -276,7 +246,7 @@ if hasattr(os, "register_at_fork"):
 
 @atexit.register
 def _end_all() -> None:
-    """Close all participants, because the DDS threads must stop before the interpreter exits."""
+    """Close all participants, because the threads of the wire must stop before the interpreter exits."""
     with Participant._instances_lock:  # noqa: SLF001 - this module's class
         for participant in list(Participant._instances.values()):  # noqa: SLF001 - this module's class
             if participant._process == os.getpid():  # noqa: SLF001 - this module's class

@@ -6,23 +6,21 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from coframe.wire.endpoints import RawPublisher, Sample, Subscription
-from coframe.wire.vendors import shares_services
 
 if TYPE_CHECKING:
-    from coframe import _core
+    from coframe.wire.backend import BackendReader, BackendWriter
     from coframe.wire.endpoints import GraphNode
-    from coframe.wire.graph import Graph
+    from coframe.wire.graph import DiscoveredEndpoint, Graph
+    from coframe.wire.names import Endpoint
     from coframe.wire.qos import QoS
 
 
 class ServicePublisher(RawPublisher):
     """A publisher of requests or replies."""
 
-    def __init__(
-        self, native: _core.Writer, node: GraphNode, topic: str, dds_type: str, qos: QoS, graph: Graph
-    ) -> None:
+    def __init__(self, native: BackendWriter, node: GraphNode, endpoint: Endpoint, qos: QoS, graph: Graph) -> None:
         self._graph = graph
-        super().__init__(native, node, topic, dds_type, qos)
+        super().__init__(native, node, endpoint, qos)
 
     @property
     def matched(self) -> int:
@@ -31,17 +29,17 @@ class ServicePublisher(RawPublisher):
         if not handles:
             return 0
         readers = self._graph.readers(self.topic)
-        return sum(shares_services(reader.guid) for handle, reader in readers.items() if handle in handles)
+        return sum(
+            handle in handles and not self._graph.foreign_services(reader.guid) for handle, reader in readers.items()
+        )
 
 
 class ServiceSubscription(Subscription):
     """A subscription to requests or replies."""
 
-    def __init__(
-        self, native: _core.Reader, node: GraphNode, topic: str, dds_type: str, qos: QoS, graph: Graph
-    ) -> None:
+    def __init__(self, native: BackendReader, node: GraphNode, endpoint: Endpoint, qos: QoS, graph: Graph) -> None:
         self._graph = graph
-        super().__init__(native, node, topic, dds_type, qos)
+        super().__init__(native, node, endpoint, qos)
 
     @property
     def matched(self) -> int:
@@ -50,7 +48,9 @@ class ServiceSubscription(Subscription):
         if not handles:
             return 0
         writers = self._graph.writers(self.topic)
-        return sum(shares_services(writer.guid) for handle, writer in writers.items() if handle in handles)
+        return sum(
+            handle in handles and not self._graph.foreign_services(writer.guid) for handle, writer in writers.items()
+        )
 
     def take(self, limit: int = 100) -> list[Sample]:
         """Return up to `limit` queued messages that can be understood, oldest first, without waiting."""
@@ -58,4 +58,9 @@ class ServiceSubscription(Subscription):
 
     def _is_understood(self, sample: Sample) -> bool:
         writer = self._graph.writer(sample.writer)
-        return writer is None or shares_services(writer.guid)
+        return writer is None or not self._graph.foreign_services(writer.guid)
+
+
+def _understanding(graph: Graph, handles: set[int], endpoints: dict[int, DiscoveredEndpoint]) -> int:
+    """Return how many of the matched endpoints send requests and replies in the same form as this process."""
+    return sum(handle in handles and not graph.foreign_services(end.guid) for handle, end in endpoints.items())

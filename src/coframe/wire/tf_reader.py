@@ -12,9 +12,10 @@ from coframe.wire.endpoints import LocalEndpoint
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from coframe import _core
+    from coframe.wire.backend import BackendTfReader
     from coframe.wire.endpoints import GraphNode, Sample
     from coframe.wire.graph import Graph
+    from coframe.wire.names import Endpoint
     from coframe.wire.qos import QoS
 
 # tf2's text for a transform without a publisher.
@@ -27,7 +28,7 @@ _DEPARTED_WRITERS = 100  # writers whose node names are kept after they have lef
 
 
 class WriterStatistics(NamedTuple):
-    """The messages that were received from one DDS writer of transforms.
+    """The messages that were received from one writer of transforms.
 
     Attributes:
         writer: The writer's handle.
@@ -52,14 +53,13 @@ class WriterStatistics(NamedTuple):
 
 
 class TfReader(LocalEndpoint):
-    """A subscription that stores the transforms of a topic in a buffer as they arrive, on the DDS thread."""
+    """A subscription that stores the transforms of a topic in a buffer as they arrive, without the GIL."""
 
     def __init__(
         self,
-        native: _core.TfReader,
+        native: BackendTfReader,
         node: GraphNode,
-        topic: str,
-        dds_type: str,
+        endpoint: Endpoint,
         qos: QoS,
         *,
         static: bool,
@@ -72,7 +72,7 @@ class TfReader(LocalEndpoint):
         self._node_names: dict[int, str] | None = {} if name_writers else None
         self._departed: deque[int] = deque()
         self._naming = threading.Lock()
-        super().__init__(native, node, topic, dds_type, qos)
+        super().__init__(native, node, endpoint, qos)
 
     @property
     def stored_at(self) -> int:

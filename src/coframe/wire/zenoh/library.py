@@ -24,6 +24,16 @@ def is_installed() -> bool:
         return False
 
 
+def check() -> None:
+    """Check that the packages that Zenoh needs are installed, without importing them.
+
+    Raises:
+        WireError: One of them is not installed.
+    """
+    if not is_installed():
+        load()
+
+
 def load() -> ModuleType:
     """Return the module `zenoh`.
 
@@ -34,4 +44,5 @@ def load() -> ModuleType:
         loaded = [import_optional(name, "Communication over Zenoh", INSTALL) for name in _MODULES]
     except ModuleNotFoundError as error:
         raise WireError(str(error), hint="COFRAME_WIRE=dds selects DDS instead.") from error
+    import_optional("zenoh.ext", "Communication over Zenoh", INSTALL)
     return loaded[0]  # type: ignore[no-any-return]

@@ -3,13 +3,11 @@
 
 from __future__ import annotations
 
-CYCLONE = "Cyclone DDS"
-
 _NAMES = {
     b"\x01\x01": "RTI Connext",
     b"\x01\x03": "OpenDDS",
     b"\x01\x0f": "Fast DDS",
-    b"\x01\x10": CYCLONE,
+    b"\x01\x10": "Cyclone DDS",
     b"\x01\x11": "GurumDDS",
     b"\x01\x12": "RustDDS",
 }

@@ -8,7 +8,7 @@ import socket
 
 from coframe import _core
 from coframe.errors import WireError
-from coframe.wire import config
+from coframe.wire.dds import config
 
 _DESCRIPTORS = 16  # Cyclone DDS opens about 8, and more for each network interface.
 
@@ -27,7 +27,7 @@ def join(domain: int, xml: str, user_data: str) -> _core.DomainParticipant:
     _check_descriptors(domain)
     try:
         return _core.DomainParticipant(domain, xml, user_data)
-    except _core.DdsError as error:
+    except _core.EndpointError as error:
         used, every = participant_indexes(domain)
         if used == every:
             raise WireError(

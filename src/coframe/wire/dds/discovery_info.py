@@ -10,11 +10,13 @@ from __future__ import annotations
 import struct
 from typing import TYPE_CHECKING, NamedTuple
 
+from coframe.wire.graph import NodeInfo
+from coframe.wire.names import MAX_NAME
+
 if TYPE_CHECKING:
     from collections.abc import Collection, Mapping
 
 TOPIC = "ros_discovery_info"
-MAX_NAME = 256  # bytes of a namespace or a name
 
 # In the user data of a writer on this topic: its form depends on the readers, so no other process should adapt to it.
 ADAPTS = "coframe=adapts;"
@@ -24,15 +26,6 @@ _GUID_SIZE = 16
 _MOST_NAMES = 10  # in a warning
 _GID_SIZES = (24, 16)  # the longer form is the GUID, padded with zeros
 _USED_BY = {24: "ROS 2 Humble or earlier", 16: "ROS 2 Iron or later"}
-
-
-class NodeInfo(NamedTuple):
-    """A node and the 16-byte GUIDs of its endpoints."""
-
-    namespace: str
-    name: str
-    readers: tuple[bytes, ...] = ()
-    writers: tuple[bytes, ...] = ()
 
 
 class ParticipantInfo(NamedTuple):

@@ -1,15 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The DDS types and topics of ROS messages. `coframe.messages.codec` encodes and decodes the messages."""
+"""DDS topics."""
 
 from __future__ import annotations
 
 from coframe import _core
 from coframe.errors import WireError
-
-
-def ros_type(message_type: type) -> str:
-    """Return the ROS type of a message class, such as "tf2_msgs/msg/TFMessage"."""
-    return str(message_type.ROS_TYPE)  # type: ignore[attr-defined]
 
 
 def create_topic(participant: int, name: str, type_name: str) -> int:
@@ -28,7 +23,7 @@ def create_topic(participant: int, name: str, type_name: str) -> int:
     """
     try:
         return _core.create_unchecked_topic(participant, name, type_name)
-    except _core.DdsError as error:
+    except _core.EndpointError as error:
         raise WireError(
             f"DDS cannot create the topic {name} ({error}).", hint="Check the name of the topic."
         ) from error

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+// Stores the transforms of received messages in a buffer, without the GIL, with statistics of each writer. The wire
+// that receives the messages does not matter.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <span>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "core/arrival_period.hpp"
+#include "core/buffer.hpp"
+#include "core/stamp_delay.hpp"
+#include "wire/event.hpp"
+
+namespace coframe {
+
+class TransformStore {
+ public:
+  using Writer = std::uint64_t;  // a number that the wire gives each writer
+
+  // Statistics of one writer.
+  struct WriterStatistics {
+    Writer writer;
+    std::uint64_t messages;
+    std::int64_t received_at;  // nanoseconds of the steady clock
+    ArrivalPeriod period;
+    StampDelay delay;  // from its stamps to their arrival by the system clock; dynamic transforms only
+    NameProblems name_problems;
+  };
+
+  // Stores messages as long as it exists; one at a time.
+  class Ingest {
+   public:
+    explicit Ingest(TransformStore& store) : store_(store), lock_(store.mutex_) {}
+    ~Ingest();
+    Ingest(const Ingest&) = delete;
+    Ingest& operator=(const Ingest&) = delete;
+
+    // Stores the transforms of one message: 4 bytes of encapsulation, then CDR. The buffer counts malformed messages.
+    void add(Writer writer, std::span<const std::uint8_t> message);
+
+   private:
+    TransformStore& store_;
+    const std::lock_guard<std::mutex> lock_;
+  };
+
+  // `authority` is stored as the source of every transform until `name_writer` is called. With a `renaming` (may be
+  // null), frames are renamed. `event` (may be null) is set by the next message after `arm`.
+  TransformStore(std::shared_ptr<Buffer> buffer, bool is_static, const std::string& authority,
+                 std::shared_ptr<const Renaming> renaming, std::shared_ptr<Event> event);
+
+  // Stores `authority` as the source of this writer's past and future transforms.
+  void name_writer(Writer writer, const std::string& authority);
+  // Forgets a writer that has disappeared.
+  void forget_writer(Writer writer);
+
+  // Returns the statistics of all writers.
+  std::vector<WriterStatistics> writers() const;
+
+  // Returns when transforms were last stored, in nanoseconds of the steady clock; 0: never.
+  std::int64_t stored_at() const { return stored_at_; }
+
+  // Lets the next message set the event. Without this, messages wake no thread.
+  void arm() { armed_ = true; }
+  // Returns the number of received messages.
+  std::uint64_t received() const { return received_; }
+
+ private:
+  struct Source {
+    TransformStream stream;
+    bool named = false;
+    std::uint64_t messages = 0;
+    std::int64_t received_at = 0;
+    ArrivalPeriod period;
+    StampDelay delay;
+  };
+
+  Source& source_of(Writer writer);
+
+  std::shared_ptr<Buffer> buffer_;
+  const bool is_static_;
+  const std::string authority_;
+  const std::shared_ptr<const Renaming> renaming_;
+  mutable std::mutex mutex_;                    // protects the sources
+  std::unordered_map<Writer, Source> sources_;  // by writer
+  std::atomic<std::int64_t> stored_at_ = 0;
+  std::atomic<std::uint64_t> received_ = 0;
+  std::atomic<bool> armed_ = false;
+  const std::shared_ptr<Event> event_;
+};
+
+}  // namespace coframe

@@ -1,0 +1,147 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What a middleware provides: a session in a ROS domain, its endpoints, and the graph.
+
+`coframe.wire.dds` and `coframe.wire.zenoh` implement these protocols. Everything above them is the same for both. The
+endpoints of DDS are the native classes themselves, so that no message passes through a further layer.
+
+Two facts hold in both: topics and types are named as in DDS (`coframe.wire.names`), and a writer is identified by a
+handle, a 64-bit number that messages carry and the graph knows.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Protocol
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from coframe import Buffer, _core
+    from coframe.wire.endpoints import GraphNode
+    from coframe.wire.graph import Graph
+    from coframe.wire.names import Endpoint
+    from coframe.wire.qos import QoS
+
+
+class BackendEndpoint(Protocol):
+    """A publisher or subscription of the middleware. Operations raise `_core.EndpointError` if they fail."""
+
+    @property
+    def guid(self) -> bytes:
+        """The identifier of the endpoint on the graph, 16 bytes."""
+
+    @property
+    def matched(self) -> int:
+        """The number of endpoints on the other side."""
+
+    def matched_handles(self) -> list[int]:
+        """Return the handles of the endpoints on the other side."""
+
+    @property
+    def refused_policy(self) -> int:
+        """The DDS number of the QoS policy that made the last match fail; 0 if no match failed."""
+
+    def take_status(self, kind: int) -> tuple[int, int, int, int] | None:
+        """Return the counts of a status if it has changed since the last call; see `LocalEndpoint.take_status`."""
+
+    def close(self) -> None:
+        """Close the endpoint; no callback runs afterwards. A second call has no effect."""
+
+
+class BackendWriter(BackendEndpoint, Protocol):
+    """A publisher of serialized messages: 4 bytes of encapsulation, then CDR."""
+
+    def write(self, message: bytes) -> None:
+        """Send a message. Transforms are checked if the writer was created so."""
+
+    def forward(self, message: bytes) -> None:
+        """Send a message without a check of its bytes."""
+
+    def assert_liveliness(self) -> None:
+        """Show the subscriptions that this publisher is alive."""
+
+    def wait_for_acks(self, timeout_ns: int) -> bool:
+        """Wait until all reliable subscriptions have received all messages. Return False after the timeout."""
+
+
+class BackendReader(BackendEndpoint, Protocol):
+    """A subscription that queues messages."""
+
+    def take(self, limit: int) -> list[tuple[bytes, int, int]]:
+        """Return up to `limit` messages: bytes, time of publication in ns since 1970, the writer's handle."""
+
+    @property
+    def pending(self) -> bool:
+        """Whether messages may be queued."""
+
+
+class BackendTap(BackendEndpoint, Protocol):
+    """A subscription that records messages with their arrival times."""
+
+    def take(self) -> tuple[bytes, bytes, bytes, bytes, bytes]:
+        """Return the messages since the last call; see `_core.Tap.take`."""
+
+    @property
+    def missed(self) -> int:
+        """The number of messages that arrived while the queue was full."""
+
+
+class BackendTfReader(BackendEndpoint, Protocol):
+    """A subscription that stores transforms in a buffer without the GIL; the methods are those of `_core.TfReader`."""
+
+    @property
+    def stored_at(self) -> int: ...  # noqa: D102 - as in _core.TfReader
+    @property
+    def received(self) -> int: ...  # noqa: D102
+    def arm(self) -> None: ...  # noqa: D102
+    def writers(self) -> list[tuple[int, int, int, int, int | None, str, str, str]]: ...  # noqa: D102
+    def name_writer(self, writer: int, authority: str) -> None: ...  # noqa: D102
+    def forget_writer(self, writer: int) -> None: ...  # noqa: D102
+
+
+class Session(Protocol):
+    """The membership of this process in a ROS domain. Methods that create endpoints raise `WireError`."""
+
+    @property
+    def graph(self) -> Graph:
+        """The nodes and endpoints of the domain."""
+
+    def writer(
+        self,
+        node: GraphNode,
+        endpoint: Endpoint,
+        qos: QoS,
+        *,
+        user_data: str = "",
+        checked: bool = False,
+        on_change: _core.Event | None = None,
+    ) -> BackendWriter:
+        """Create a publisher; with `checked`, `write` raises `EndpointError` for damaged transforms."""
+
+    def reader(self, node: GraphNode, endpoint: Endpoint, qos: QoS, on_data: _core.Event | None) -> BackendReader:
+        """Create a subscription that queues messages."""
+
+    def tap(self, node: GraphNode, endpoint: Endpoint, qos: QoS, *, max_bytes: int, capacity: int) -> BackendTap:
+        """Create a subscription that records messages."""
+
+    def tf_reader(
+        self,
+        node: GraphNode,
+        endpoint: Endpoint,
+        qos: QoS,
+        buffer: Buffer,
+        *,
+        static: bool,
+        authority: str,
+        renaming: _core.Renaming | None,
+        on_data: _core.Event | None,
+    ) -> BackendTfReader:
+        """Create a subscription that stores transforms."""
+
+    def announce(self, nodes: Sequence[GraphNode]) -> None:
+        """Publish the nodes of this process with their endpoints."""
+
+    def adapt(self) -> str:
+        """Adapt to a change of the graph. Return a warning, or "" if there is none."""
+
+    def close(self) -> None:
+        """Leave the domain. All endpoints are closed before."""

@@ -1,0 +1,262 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Services over Zenoh: requests are queries, and replies are their answers.
+
+`coframe.wire` knows a client as a publisher of requests and a subscription to replies, and a service as a subscription
+to requests and a publisher of replies. Requests and replies carry a header with a client and a number, as in
+rmw_cyclonedds (`coframe.wire.request_header`). The classes here convert it to the attachments of rmw_zenoh_cpp.
+"""
+
+from __future__ import annotations
+
+import logging
+import threading
+from collections import deque
+from typing import TYPE_CHECKING, Any, Final, NamedTuple
+
+from coframe import _core
+from coframe.wire import request_header
+from coframe.wire.request_header import RequestHeader
+from coframe.wire.zenoh import config, keys, library
+from coframe.wire.zenoh.endpoint import ZenohEndpoint
+from coframe.wire.zenoh.receiver import KEEP_ALL, queue_length
+from coframe.wire.zenoh.writer import ENCAPSULATION_SIZE, TOO_SHORT
+
+if TYPE_CHECKING:
+    from coframe.wire.qos import QoS
+    from coframe.wire.zenoh.endpoint import Place
+
+# The result of an action is requested when the action starts, and may take any time.
+_UNLIMITED: Final = "/_action/get_result"
+_FOREVER: Final = 10 * 365 * 86_400.0  # seconds; Zenoh has no value for "no limit"
+
+_logger = logging.getLogger("coframe.wire")
+
+
+class _Request(NamedTuple):
+    """A request that was received and not answered yet."""
+
+    query: Any
+    sequence: int
+    gid: bytes
+
+
+class ServiceTable:
+    """What connects the two halves of the services and clients of a session. All methods are thread-safe."""
+
+    def __init__(self) -> None:
+        self._lock = threading.Lock()
+        self._replies: dict[str, list[ReplyReader]] = {}  # by the key of the service
+        self._requests: dict[tuple[str, RequestHeader], _Request] = {}
+
+    def add_reader(self, reader: ReplyReader) -> None:
+        """Pass the replies of a service to a reader as well."""
+        with self._lock:
+            self._replies.setdefault(reader.key, []).append(reader)
+
+    def remove_reader(self, reader: ReplyReader) -> None:
+        """Pass no further replies to a reader."""
+        with self._lock:
+            readers = self._replies.get(reader.key, [])
+            if reader in readers:
+                readers.remove(reader)
+            if not readers:
+                self._replies.pop(reader.key, None)
+
+    def deliver(self, key: str, message: bytes, sent: int, writer: int) -> None:
+        """Pass a reply with its header to the readers of a service; each client recognizes its own."""
+        with self._lock:
+            readers = list(self._replies.get(key, ()))
+        for reader in readers:
+            reader.push(message, sent, writer)
+
+    def store_request(self, key: str, header: RequestHeader, request: _Request) -> bool:
+        """Store a request until it is answered. Return False if it is pending already, or too many are."""
+        with self._lock:
+            if (key, header) in self._requests or len(self._requests) >= KEEP_ALL:
+                return False
+            self._requests[key, header] = request
+            return True
+
+    def take_request(self, key: str, header: RequestHeader) -> _Request | None:
+        """Return a request and forget it; None if it is not pending."""
+        with self._lock:
+            return self._requests.pop((key, header), None)
+
+    def forget_service(self, key: str) -> None:
+        """End the requests of a service that is closed."""
+        with self._lock:
+            left = [self._requests.pop(known) for known in list(self._requests) if known[0] == key]
+        for request in left:
+            request.query.drop()
+
+
+class _Queue(ZenohEndpoint):
+    """A queue of requests or replies with their headers. Implements `coframe.wire.backend.BackendReader`."""
+
+    def __init__(self, place: Place, qos: QoS, on_data: _core.Event | None) -> None:
+        super().__init__(place.graph, place.endpoint, place.type_hash, place.guid, on_data)
+        self.key = place.key_list[0]
+        self._queue: deque[tuple[bytes, int, int]] = deque(maxlen=queue_length(qos))
+        self._on_data = on_data
+
+    def push(self, message: bytes, sent: int, writer: int) -> None:
+        """Queue a message; drop the oldest one if the queue is full."""
+        self._queue.append((message, sent, writer))
+        if self._on_data is not None:
+            self._on_data.set()
+
+    def take(self, limit: int) -> list[tuple[bytes, int, int]]:
+        """Return up to `limit` messages, oldest first."""
+        return [self._queue.popleft() for _ in range(min(limit, len(self._queue)))]
+
+    @property
+    def pending(self) -> bool:
+        """Whether messages are queued."""
+        return bool(self._queue)
+
+
+class ReplyReader(_Queue):
+    """The subscription to replies of a client."""
+
+    def __init__(self, place: Place, qos: QoS, on_data: _core.Event | None, table: ServiceTable) -> None:
+        super().__init__(place, qos, on_data)
+        self._table = table
+        table.add_reader(self)
+
+    def close(self) -> None:
+        """Close the subscription. A second call has no effect."""
+        super().close()
+        self._table.remove_reader(self)
+
+
+class RequestReader(_Queue):
+    """The subscription to requests of a service: a queryable."""
+
+    def __init__(self, place: Place, qos: QoS, on_data: _core.Event | None, table: ServiceTable) -> None:
+        super().__init__(place, qos, on_data)
+        module = library.load()
+        self._closed_error = module.ZError
+        self._table = table
+        ring = module.handlers.RingChannel(queue_length(qos))
+        self._queryable: Any = place.session.declare_queryable(self.key, ring, complete=True)
+        self._thread = threading.Thread(target=self._run, name=f"coframe{place.endpoint.name}", daemon=True)
+        self._thread.start()
+
+    def close(self) -> None:
+        """Close the subscription. A second call has no effect."""
+        if self._closed:
+            return
+        super().close()
+        self._queryable.undeclare()
+        if self._thread is not threading.current_thread():
+            self._thread.join()
+        self._table.forget_service(self.key)
+
+    def _run(self) -> None:
+        handler: Any = self._queryable.handler
+        try:
+            while True:
+                self._receive(handler.recv())
+        except self._closed_error:
+            pass
+
+    def _receive(self, query: Any) -> None:
+        header = None if query.attachment is None else keys.decode_attachment(query.attachment.to_bytes())
+        data = b"" if query.payload is None else query.payload.to_bytes()
+        if header is None or len(data) < ENCAPSULATION_SIZE:
+            _logger.warning("A request of %s is ignored: it is not a request of rmw_zenoh_cpp.", self.endpoint.name)
+            query.drop()
+            return
+        writer = keys.handle_of(header.gid)
+        identity = RequestHeader(writer, header.sequence)
+        if self._table.store_request(self.key, identity, _Request(query, header.sequence, header.gid)):
+            self.push(request_header.join(identity, data), header.sent, writer)
+        else:
+            query.drop()
+
+
+class _Sender(ZenohEndpoint):
+    """A publisher of requests or replies. Implements `coframe.wire.backend.BackendWriter`."""
+
+    is_writer = True
+
+    def __init__(self, place: Place, table: ServiceTable, on_change: _core.Event | None) -> None:
+        super().__init__(place.graph, place.endpoint, place.type_hash, place.guid, on_change)
+        self.key = place.key_list[0]
+        self._table = table
+        self._error = library.load().ZError
+
+    def write(self, message: bytes) -> None:
+        """Send a message with its header."""
+        self.forward(message)
+
+    def forward(self, message: bytes) -> None:
+        """Send a message with its header."""
+        parts = request_header.split(message)
+        if parts is None:
+            raise ValueError(TOO_SHORT)
+        self._check_open()
+        try:
+            self._send(*parts)
+        except self._error as error:
+            raise _core.EndpointError(f"could not write: {config.reason_of(error)}") from error
+
+    def assert_liveliness(self) -> None:
+        """Do nothing: an endpoint is alive as long as its session."""
+
+    def wait_for_acks(self, timeout_ns: int) -> bool:
+        """Return True: Zenoh has no acknowledgements of messages, so that there is nothing to wait for."""
+        del timeout_ns
+        return True
+
+    def _send(self, header: RequestHeader, cdr: bytes) -> None:
+        raise NotImplementedError
+
+
+class RequestWriter(_Sender):
+    """The publisher of requests of a client."""
+
+    def __init__(self, place: Place, table: ServiceTable, on_change: _core.Event | None) -> None:
+        super().__init__(place, table, on_change)
+        module = library.load()
+        self._callback = module.handlers.Callback
+        options: dict[str, Any] = {"timeout": _FOREVER} if _UNLIMITED in f"/{self.key}/" else {}
+        self._querier: Any = place.session.declare_querier(
+            self.key,
+            target=module.QueryTarget.ALL_COMPLETE,
+            consolidation=module.ConsolidationMode.NONE,
+            **options,
+        )
+
+    def close(self) -> None:
+        """Close the publisher. A second call has no effect."""
+        if not self._closed:
+            super().close()
+            self._querier.undeclare()
+
+    def _send(self, header: RequestHeader, cdr: bytes) -> None:
+        def receive(reply: Any) -> None:
+            # This runs on Zenoh's network thread and only queues the reply, so that no thread per request is needed.
+            if reply.ok is not None and (data := reply.ok.payload.to_bytes())[ENCAPSULATION_SIZE - 1 :]:
+                attached = (
+                    None if reply.ok.attachment is None else keys.decode_attachment(reply.ok.attachment.to_bytes())
+                )
+                if attached is not None and attached.sequence == header.sequence:
+                    handle = keys.handle_of(attached.gid)
+                    self._table.deliver(self.key, request_header.join(header, data), attached.sent, handle)
+
+        self._querier.get(
+            handler=self._callback(receive, indirect=False),
+            payload=cdr,
+            attachment=keys.attachment(header.sequence, self.guid),
+        )
+
+
+class ReplyWriter(_Sender):
+    """The publisher of replies of a service."""
+
+    def _send(self, header: RequestHeader, cdr: bytes) -> None:
+        request = self._table.take_request(self.key, header)
+        if request is not None:
+            request.query.reply(self.key, cdr, attachment=keys.attachment(request.sequence, request.gid))
+            request.query.drop()

@@ -1,0 +1,87 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Publishers of messages over Zenoh."""
+
+from __future__ import annotations
+
+import threading
+from typing import TYPE_CHECKING, Any
+
+from coframe import _core
+from coframe.wire.zenoh import config, library
+from coframe.wire.zenoh.endpoint import Sequence, ZenohEndpoint
+
+if TYPE_CHECKING:
+    import zenoh
+    from coframe.wire.qos import QoS
+    from coframe.wire.zenoh.endpoint import Place
+
+ENCAPSULATION_SIZE = 4
+TOO_SHORT = "The message is too short: a serialized message begins with 4 bytes of encapsulation."
+
+
+class ZenohWriter(ZenohEndpoint):
+    """A publisher on a topic. Implements `coframe.wire.backend.BackendWriter`."""
+
+    is_writer = True
+
+    def __init__(self, place: Place, qos: QoS, *, checked: bool, on_change: _core.Event | None) -> None:
+        super().__init__(place.graph, place.endpoint, place.type_hash, place.guid, on_change)
+        self._error = library.load().ZError
+        self._checked = checked
+        self._sequence = Sequence(place.guid)
+        self._lock = threading.Lock()  # numbers are sent in their order
+        self._publisher = _declare(place.session, place.key_list[0], qos)
+
+    def write(self, message: bytes) -> None:
+        """Send a message."""
+        if self._checked and not _core.is_tf_message(message):
+            raise _core.EndpointError("could not write: the message is not valid")
+        self.forward(message)
+
+    def forward(self, message: bytes) -> None:
+        """Send a message without a check of its bytes."""
+        if len(message) < ENCAPSULATION_SIZE:
+            raise ValueError(TOO_SHORT)
+        with self._lock:
+            self._check_open()
+            try:
+                self._publisher.put(message, attachment=self._sequence.next())
+            except self._error as error:
+                raise _core.EndpointError(f"could not write: {config.reason_of(error)}") from error
+
+    def assert_liveliness(self) -> None:
+        """Do nothing: a publisher is alive as long as its session."""
+
+    def wait_for_acks(self, timeout_ns: int) -> bool:
+        """Return True: Zenoh has no acknowledgements of messages, so that there is nothing to wait for."""
+        del timeout_ns
+        return True
+
+    def close(self) -> None:
+        """Close the publisher. A second call has no effect."""
+        with self._lock:
+            if self._closed:
+                return
+            super().close()
+            self._publisher.undeclare()
+
+
+def _declare(session: zenoh.Session, key: str, qos: QoS) -> Any:
+    module = library.load()
+    blocks = qos.reliable and qos.keep_all
+    options: dict[str, Any] = {
+        "congestion_control": module.CongestionControl.BLOCK if blocks else module.CongestionControl.DROP,
+        "reliability": module.Reliability.RELIABLE if qos.reliable else module.Reliability.BEST_EFFORT,
+    }
+    if not qos.transient_local:
+        return session.declare_publisher(key, **options)
+    ext = module.ext
+    detection = ext.MissDetectionConfig(heartbeat=None, sporadic_heartbeat=0.5) if qos.reliable else None
+    return ext.declare_advanced_publisher(
+        session,
+        key,
+        cache=ext.CacheConfig(max_samples=qos.depth),
+        publisher_detection=True,
+        sample_miss_detection=detection,
+        **options,
+    )
