@@ -87,10 +87,10 @@ def test_messages_of_publishers_with_different_qos_are_recorded_once(participant
 
 def test_topics_without_a_ros_type_are_refused(participant, node, eventually, tmp_path):
     from coframe import _core
-    from coframe.wire import types
+    from coframe.wire.dds.topics import create_topic
 
     entity = participant._session.native.entity
-    topic = types.create_topic(entity, "rt/raw", "NotOfRos")
+    topic = create_topic(entity, "rt/raw", "NotOfRos")
     foreign = _core.Writer(entity, topic, _core.QosProfile(1, True, True, False), "")
     publisher = participant.publisher(node, "/words", STRING, QoS())
     with coframe.record(tmp_path / "run") as recorder:

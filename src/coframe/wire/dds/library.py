@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 VARIABLE: Final = "COFRAME_DDS_LIBRARY"
 SUPPORTED: Final = "Cyclone DDS 0.10 and 11"
-BUNDLED: Final = Path(__file__).parents[1] / "_bundled"
+BUNDLED: Final = Path(__file__).parents[2] / "_bundled"
 
 _NAMES: Final = {"win32": ["ddsc*.dll", "cycloneddsc*.dll"], "darwin": ["libddsc*.dylib"]}
 _VERSION: Final = re.compile(r"\.so\.(\d[\d.]*)$|\.(\d[\d.]*)\.dylib$")
