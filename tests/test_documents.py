@@ -45,6 +45,7 @@ OTHER_PROGRAMS = {
     "docker",
     "export",
     "git",
+    "openssl",
     "pip",
     "ros2",
     "rviz2",

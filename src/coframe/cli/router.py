@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+import os
+import sys
 import time
 from typing import Annotated
 
@@ -51,6 +53,8 @@ def router(
     def report(text: str) -> None:
         log("INFO", NODE, text)
 
+    if not sys.stderr.isatty():
+        os.environ.setdefault("NO_COLOR", "1")  # for the log of Zenoh
     with run_until_interrupted(), Router(file=config, listen=listen or [], connect=connect or []) as running:
         for endpoint in running.endpoints:
             report(f"Listening on {endpoint}. {how_to_reach(endpoint)}")

@@ -165,6 +165,7 @@ def _open(config: zenoh.Config, endpoints: Sequence[str]) -> zenoh.Session:
         if "in use" in reason:
             hint = "Another router is probably running. Choose another port, for example --listen tcp/127.0.0.1:7448."
         raise WireError(f"The router cannot listen on {', '.join(endpoints)}: {reason}.", hint=hint) from error
-    # Refused connections are reported by Zenoh's own log. Earlier, it would report the error above a second time.
-    module.init_log_from_env_or("warn")
+    # Zenoh's own log, which RUST_LOG configures, reports refused connections. Before opening, it would report the error
+    # above a second time. A participant that leaves withdraws what access control had refused, which is not an error.
+    module.init_log_from_env_or("warn,zenoh::net::routing::hat=off")
     return session  # type: ignore[no-any-return]
