@@ -34,10 +34,10 @@ class Outcome(NamedTuple):
 
 
 class Child:
-    """A process of this module that performs one step for each line of input, and answers with a line."""
+    """A process of this module, or another one, that performs one step for each line of input, and answers it."""
 
-    def __init__(self, *arguments: object) -> None:
-        command = [sys.executable, "-m", "benchmarks.fleet", *map(str, arguments)]
+    def __init__(self, *arguments: object, module: str = "benchmarks.fleet") -> None:
+        command = [sys.executable, "-m", module, *map(str, arguments)]
         self._process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
 
     def go_on(self) -> None:

@@ -211,6 +211,11 @@ TARGETS = [
         "floor: no relay, the listener renames the frames",
         AtMost(10.0),
     ),
+    (
+        "Zenoh router, 100 robots x 20 x 50 Hz, nothing lost: CPU of router and listener",
+        "10 times that of 10 robots",
+        GrowsAtMost(1.2),
+    ),
     ("coframe doctor, MCAP of 1e6 transforms, wall clock", "floor: open_bag only", AtMost(3e9)),
     ("coframe doctor, MCAP of 1e6 transforms, processor", "floor: open_bag only", AtMost(3e9)),
     ("coframe doctor --watch, 1 kHz x 10, CPU of one core", "floor: a listening buffer", AtMost(5)),

@@ -22,7 +22,7 @@ from collections import Counter
 from typing import NamedTuple
 
 from benchmarks import machine
-from benchmarks.faults import clocks, disks, kills, limits, links  # noqa: F401 - they add their cases
+from benchmarks.faults import clocks, disks, kills, limits, links, routers  # noqa: F401 - they add their cases
 from benchmarks.faults.case import CASES, Case, SkippedError
 
 _INSIDE = "COFRAME_FAULTS_NETWORK"
