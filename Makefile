@@ -9,7 +9,7 @@ NATIVE := $(shell find native -name '*.cpp' -o -name '*.hpp' -o -name '*.inc') C
 ANY_PYTHON = $(if $(wildcard $(BIN)/python),$(BIN)/python,python3)
 
 .DEFAULT_GOAL := help
-.PHONY: help setup build build-split demo test test-slow test-long test-ros test-ros-wheels sanitize sanitize-suite fuzz faults soak docs lint licences typecheck format conformance bench generate page page-check clean
+.PHONY: help setup build build-split demo test test-zenoh test-slow test-long test-ros test-ros-wheels sanitize sanitize-suite fuzz faults soak docs lint licences typecheck format conformance bench generate page page-check clean
 
 help: ## list the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  make %-12s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -40,6 +40,10 @@ demo: $(DEMO_STAMP) ## show the lab's moving transform tree, live in the browser
 
 test: $(STAMP) ## run the test suite (under 6 minutes)
 	$(BIN)/python -m pytest --numprocesses 4 --dist loadfile --no-loadscope-reorder $(ARGS)
+
+test-zenoh: $(STAMP) ## run the tests of the running graph over Zenoh instead of DDS
+	COFRAME_WIRE=zenoh $(BIN)/python -m pytest --numprocesses 2 --dist loadfile --no-loadscope-reorder \
+		tests/wire tests/rclpy tests/tf2 tests/recorder tests/lab tests/viewer $(ARGS)
 
 $(VENV)/.oracle: pyproject.toml | $(STAMP)
 	@$(BIN)/python -m pip install --quiet "pip>=25.1" && $(BIN)/python -m pip install --quiet --group oracle && touch $@ || \

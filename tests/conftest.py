@@ -9,6 +9,7 @@ import subprocess
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -22,6 +23,27 @@ _worker = int(os.environ.get("PYTEST_XDIST_WORKER", "gw0").removeprefix("gw"))
 _DOMAINS = 96
 _PATIENCE = 20.0  # seconds; two cores that others use too
 _domain_ids = itertools.count(os.getpid() % 97)
+
+
+_ZENOH = os.environ.get("COFRAME_WIRE") == "zenoh"
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Skip the tests of DDS itself if the suite runs over Zenoh (`make test-zenoh`)."""
+    for item in items if _ZENOH else ():
+        if (mark := item.get_closest_marker("dds_only")) is not None:
+            item.add_marker(pytest.mark.skip(reason=f"DDS only: {mark.args[0]}"))
+
+
+@pytest.fixture(scope="session", autouse=_ZENOH)
+def zenoh_router() -> Iterator[Any]:
+    """The router of this test process, if the suite runs over Zenoh."""
+    from zenoh_router import Router
+
+    router = Router()
+    os.environ.update(router.environment())
+    yield router
+    router.close()
 
 
 @pytest.fixture

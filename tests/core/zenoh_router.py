@@ -36,7 +36,7 @@ class Router:
     def environment(self) -> dict[str, str]:
         """Return the environment variables of processes that connect to it."""
         override = f'connect/endpoints=["{self.endpoint}"];listen/endpoints=["tcp/127.0.0.1:0"]'
-        return {"COFRAME_WIRE": "zenoh", "ZENOH_CONFIG_OVERRIDE": override}
+        return {"COFRAME_WIRE": "zenoh", "ZENOH_CONFIG_OVERRIDE": override, "ZENOH_ROUTER_CHECK_ATTEMPTS": "5"}
 
     def close(self) -> None:
         """Stop it."""

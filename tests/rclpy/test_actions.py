@@ -659,6 +659,7 @@ thread.join()
 """
 
 
+@pytest.mark.dds_only("the other program is an RTPS program")
 @pytest.mark.usefixtures("domain_id")
 def test_interoperation_with_an_independent_library(network, tmp_path):
     pytest.importorskip("rosless", reason="an independent RTPS program")

@@ -29,6 +29,7 @@ def spin(context, node, wait_until):
     )
 
 
+@pytest.mark.dds_only("Zenoh has no deadlines")
 def test_missed_deadlines_are_reported_on_both_sides(node, spin):
     offered, requested, received = [], [], []
     publisher = node.create_publisher(
@@ -48,6 +49,7 @@ def test_missed_deadlines_are_reported_on_both_sides(node, spin):
     assert isinstance(requested[0], qos_event.QoSRequestedDeadlineMissedInfo)
 
 
+@pytest.mark.dds_only("over Zenoh, a publisher is alive as long as its session")
 def test_a_publisher_that_does_not_assert_its_liveliness_is_lost(node, spin):
     lost, changed = [], []
     qos = QoSProfile(
@@ -83,6 +85,7 @@ def test_matches_are_reported(node, spin):
     assert len(list(node.waitables)) == 1
 
 
+@pytest.mark.dds_only("over Zenoh, quality of service does not prevent communication")
 def test_incompatible_qos_is_reported_to_callbacks(node, spin, capfd):
     offered, requested = [], []
     node.create_subscription(
@@ -97,6 +100,7 @@ def test_incompatible_qos_is_reported_to_callbacks(node, spin, capfd):
     assert "incompatible" not in capfd.readouterr().err
 
 
+@pytest.mark.dds_only("over Zenoh, quality of service does not prevent communication")
 @pytest.mark.parametrize(
     ("offered", "requested", "policy"),
     [
@@ -141,6 +145,7 @@ def test_another_type_is_reported(node, spin):
     assert found == [event_handler.IncompatibleTypeInfo(1, 1)]
 
 
+@pytest.mark.dds_only("Zenoh has no lifespan of messages")
 def test_expired_messages_are_not_delivered_to_late_subscriptions(node, spin):
     """As on /rosout, whose messages live for 10 s."""
     short = QoSProfile(depth=10, durability=DurabilityPolicy.TRANSIENT_LOCAL, lifespan=Duration(nanoseconds=50_000_000))
@@ -171,6 +176,7 @@ def test_a_handler_is_a_waitable(node):
     assert not handler.is_ready(None)
 
 
+@pytest.mark.dds_only("over Zenoh, quality of service does not prevent communication")
 def test_a_listener_with_another_qos_is_logged_by_its_node(make_node, wait_until, capfd):
     node = make_node("looker")
     broadcaster = node.create_publisher(TFMessage, "/tf", BEST_EFFORT)

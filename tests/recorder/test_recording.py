@@ -37,6 +37,7 @@ def data_by_topic(path):
         return {name: [message.data for message in bag.messages(name)] for name in bag.topics}
 
 
+@pytest.mark.dds_only("over Zenoh, a publisher needs the definition of its type")
 def test_messages_of_any_type_are_recorded_unchanged(participant, node, eventually, tmp_path):
     early = participant.publisher(node, "/words", STRING, QoS(depth=50))
     raw = participant.raw_publisher(node, "/raw", "my_pkg/msg/Unknown", QoS(depth=3, reliable=False))
@@ -71,6 +72,7 @@ def test_messages_of_any_type_are_recorded_unchanged(participant, node, eventual
     assert not offered["/raw"].reliable
 
 
+@pytest.mark.dds_only("over Zenoh, quality of service does not prevent communication")
 def test_messages_of_publishers_with_different_qos_are_recorded_once(participant, node, eventually, tmp_path):
     qualities = [QoS(1, transient_local=True), QoS(10), QoS(10, reliable=False)]
     publishers = [participant.raw_publisher(node, "/tf_static", TF_MESSAGE.ROS_TYPE, qos) for qos in qualities]
@@ -85,6 +87,7 @@ def test_messages_of_publishers_with_different_qos_are_recorded_once(participant
     assert sorted(data_by_topic(tmp_path / "run")["/tf_static"]) == sorted(expected)
 
 
+@pytest.mark.dds_only("the publisher is a native writer of DDS")
 def test_topics_without_a_ros_type_are_refused(participant, node, eventually, tmp_path):
     from coframe import _core
     from coframe.wire.dds.topics import create_topic
@@ -172,6 +175,7 @@ def test_a_failed_start_leaves_no_files_and_no_node(participant, tmp_path):
     assert [name for _, name in participant.nodes()] == []
 
 
+@pytest.mark.dds_only("over Zenoh, a publisher needs the definition of its type")
 def test_one_robot_is_recorded_under_a_prefix(participant, node, eventually, tmp_path):
     scan = find("sensor_msgs/msg/LaserScan")()
     scan.header.frame_id = "lidar"

@@ -139,6 +139,7 @@ def test_log_messages_from_before_and_after_are_received(domain_id, ros, view, o
         eventually(lambda: "/rosout" not in topics(ros.node))
 
 
+@pytest.mark.dds_only("over Zenoh, quality of service does not prevent communication")
 @pytest.mark.usefixtures("robot")
 def test_the_graph_marks_endpoints_that_do_not_match(domain_id, ros, view, open_tab):
     laser = find("sensor_msgs/msg/LaserScan")

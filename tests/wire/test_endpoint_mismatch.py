@@ -32,6 +32,7 @@ def other(child, node="talker", what="publisher", ros_type="std_msgs/msg/String"
     return child(CHILD.format(node=node, what=what, type=ros_type, qos=qos))
 
 
+@pytest.mark.dds_only("over Zenoh, quality of service does not prevent communication")
 def test_a_best_effort_publisher_for_a_reliable_subscription(participant, node, child, warnings, eventually):
     participant.subscription(node, "/scan", STRING, QoS(), on_data=None)
     other(child, qos="QoS(reliable=False)")
@@ -44,6 +45,7 @@ def test_a_best_effort_publisher_for_a_reliable_subscription(participant, node, 
     ]
 
 
+@pytest.mark.dds_only("over Zenoh, quality of service does not prevent communication")
 def test_a_reliable_subscriber_for_a_best_effort_publisher(participant, node, child, warnings, eventually):
     participant.publisher(node, "/scan", STRING, SENSOR)
     other(child, node="listener", what="subscribe")
@@ -56,6 +58,7 @@ def test_a_reliable_subscriber_for_a_best_effort_publisher(participant, node, ch
     ]
 
 
+@pytest.mark.dds_only("over Zenoh, quality of service does not prevent communication")
 def test_a_volatile_publisher_for_a_transient_local_subscription(participant, node, child, warnings, eventually):
     participant.subscription(node, "/scan", STRING, QoS(transient_local=True), on_data=None)
     other(child)
@@ -75,6 +78,7 @@ def test_a_different_type_on_the_topic(participant, node, child, warnings, event
     ]
 
 
+@pytest.mark.dds_only("over Zenoh, quality of service does not prevent communication")
 def test_a_mismatch_within_this_process_is_reported_once(participant, node, warnings, eventually):
     participant.publisher(node, "/scan", STRING, SENSOR)
     participant.subscription(node, "/scan", STRING, QoS(), on_data=None)
@@ -85,6 +89,7 @@ def test_a_mismatch_within_this_process_is_reported_once(participant, node, warn
     assert warnings[1].startswith("Node /tester publishes std_msgs/msg/Int32 on /done")
 
 
+@pytest.mark.dds_only("the other program is an RTPS program")
 def test_a_mismatch_with_an_endpoint_that_has_no_node(beside_rosless):
     beside_rosless("""
         warnings = []
@@ -96,6 +101,7 @@ def test_a_mismatch_with_an_endpoint_that_has_no_node(beside_rosless):
     """)
 
 
+@pytest.mark.dds_only("over Zenoh, quality of service does not prevent communication")
 def test_warnings_are_logged_if_there_is_no_callback(participant, node, caplog, eventually):
     with caplog.at_level(logging.WARNING, logger="coframe.wire"):
         participant.publisher(node, "/scan", STRING, SENSOR)

@@ -145,6 +145,7 @@ def test_an_invalid_domain_id():
         Participant.get(233)
 
 
+@pytest.mark.dds_only("the configuration of Cyclone DDS")
 def test_an_invalid_configuration_of_cyclone_dds(domain_id, monkeypatch):
     monkeypatch.setenv("CYCLONEDDS_URI", "<CycloneDDS><Nonsense/></CycloneDDS>")
     with pytest.raises(WireError, match=f"Joining domain {domain_id} failed") as caught:
@@ -157,9 +158,10 @@ def test_few_file_descriptors_are_an_error_and_not_a_crash(domain_id):
     script = "import resource, coframe; resource.setrlimit(resource.RLIMIT_NOFILE, (10, 10)); coframe.connect()"
     done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=False)
     assert done.returncode == 1
-    assert f"Joining domain {domain_id} failed: Too many open files. DDS needs 16 file descriptors" in done.stderr
+    assert f"Joining domain {domain_id} failed: Too many open files. " in done.stderr
 
 
+@pytest.mark.dds_only("only DDS has participant indexes")
 def test_the_error_for_a_full_domain(domain_id, monkeypatch, child):
     monkeypatch.setattr("coframe.wire.dds.config.MAX_PARTICIPANT_INDEX", 0)
     other = child(NODE_IN_A_CHILD.format(name="first"))

@@ -47,6 +47,7 @@ def _as_data(report: SystemReport) -> dict[str, Any]:
 
 def _sections(report: SystemReport) -> Iterator[tuple[str, list[str]]]:
     yield "Software", list(_software(report))
+    yield "Middleware", list(_middleware(report))
     yield "DDS library", list(_library(report))
     set_variables = [f"{each.name}={each.value}: {each.effect}" for each in report.variables]
     yield "Environment variables", set_variables or ["none of ROS 2, its middlewares and coframe is set"]
@@ -67,6 +68,18 @@ def _software(report: SystemReport) -> Iterator[str]:
         yield "no ROS 2 is sourced"
     else:
         yield f"ROS 2 {installed.ros} is sourced".replace("  ", " ")
+
+
+def _middleware(report: SystemReport) -> Iterator[str]:
+    if report.wire is not None:
+        yield f"{report.wire.wire}, because {report.wire.reason}"
+    if report.zenoh is None:
+        return
+    session = report.zenoh
+    configured_by = ", ".join(session.configured_by) or "the defaults of ROS 2"
+    yield f"eclipse-zenoh {session.version}, configured by {configured_by}"
+    yield f"connects to {', '.join(session.connect) or 'no endpoint'}"
+    yield f"routers found: {', '.join(session.routers) or 'none'}; peers found: {session.peers}"
 
 
 def _library(report: SystemReport) -> Iterator[str]:

@@ -10,6 +10,8 @@ from typing import Any
 
 from typer.core import TyperCommand, TyperGroup
 
+from coframe.cli import wire_option
+
 __all__ = ["PlainCommand", "PlainGroup"]
 
 _INDENT = "  "
@@ -23,6 +25,11 @@ class PlainCommand(TyperCommand):
 
     def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
         """Parse the arguments; suggest the correct name of a misspelled option as of a misspelled command."""
+        if wire_option.joins_graph(ctx):
+            try:
+                args = wire_option.take_wire(args, leading_only=ctx.info_name == "run")
+            except ValueError as error:
+                ctx.fail(str(error))
         try:
             words: list[str] = super().parse_args(ctx, args)
         except Exception as error:
@@ -48,7 +55,10 @@ class PlainCommand(TyperCommand):
         """Write the arguments and the options."""
         arguments = [(_whole_name(argument), argument.help or "") for argument in _parameters(self, ctx, "argument")]
         _write_section(formatter, "Arguments", arguments)
-        _write_section(formatter, "Options", _option_records(self, ctx))
+        options = _option_records(self, ctx)
+        if wire_option.joins_graph(ctx):
+            options.insert(-1, wire_option.HELP)  # before --help
+        _write_section(formatter, "Options", options)
 
 
 class PlainGroup(TyperGroup):

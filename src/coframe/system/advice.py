@@ -38,7 +38,7 @@ class Advice:
 def advise(report: SystemReport) -> list[Advice]:
     """Return the findings, the most severe first."""
     found = [Advice("error", problem.text, problem.hint) for problem in report.problems]
-    for check in (_library, _ros, _middleware, _network, _multicast, _room, _buffers, _range, _nodes):
+    for check in (_library, _ros, _middleware, _zenoh, _network, _multicast, _room, _buffers, _range, _nodes):
         found += check(report)
     order = {"error": 0, "warning": 1, "note": 2}
     return sorted(found, key=lambda advice: order[advice.severity])
@@ -79,14 +79,14 @@ def _ros(report: SystemReport) -> Iterator[Advice]:
 def _middleware(report: SystemReport) -> Iterator[Advice]:
     values = {variable.name: variable.value for variable in report.variables}
     selected = values.get("RMW_IMPLEMENTATION", _CYCLONE)
-    if "zenoh" in selected:
+    if _on_zenoh(report) != ("zenoh" in selected) and (_on_zenoh(report) or "zenoh" in selected):
         yield Advice(
-            "warning",
-            f"RMW_IMPLEMENTATION is {selected}: ROS 2 nodes that are started in this shell use Zenoh, and coframe "
-            "uses DDS.",
-            f"Start them with RMW_IMPLEMENTATION={_CYCLONE}.",
+            "warning" if "RMW_IMPLEMENTATION" in values else "note",
+            f"coframe uses {'Zenoh' if _on_zenoh(report) else 'DDS'}, but ROS 2 nodes that are started in this shell "
+            f"use {selected}: they do not find each other.",
+            "Set RMW_IMPLEMENTATION=rmw_zenoh_cpp and COFRAME_WIRE=zenoh, or unset both.",
         )
-    elif selected != _CYCLONE:
+    elif not _on_zenoh(report) and selected != _CYCLONE:
         yield Advice(
             "warning",
             f"RMW_IMPLEMENTATION is {selected}: ROS 2 nodes that are started in this shell exchange topics with "
@@ -99,6 +99,21 @@ def _middleware(report: SystemReport) -> Iterator[Advice]:
             "ROS_DISCOVERY_SERVER is set: nodes on Fast DDS that are started in this shell announce themselves only "
             "there, and coframe does not find them.",
             "Unset ROS_DISCOVERY_SERVER before you start them.",
+        )
+
+
+def _on_zenoh(report: SystemReport) -> bool:
+    return report.wire is not None and report.wire.wire == "zenoh"
+
+
+def _zenoh(report: SystemReport) -> Iterator[Advice]:
+    if report.zenoh is not None and not report.zenoh.routers:
+        yield Advice(
+            "warning",
+            f"No Zenoh router was found at {' or '.join(report.zenoh.connect) or 'any endpoint'}. Nodes of ROS 2 and "
+            "processes on other machines are found only with one.",
+            "Start one: coframe router, or ros2 run rmw_zenoh_cpp rmw_zenohd. It is searched at another place with "
+            "ZENOH_CONFIG_OVERRIDE='connect/endpoints=[\"tcp/HOST:7447\"]'.",
         )
 
 
@@ -168,6 +183,8 @@ def _buffers(report: SystemReport) -> Iterator[Advice]:
 
 
 def _range(report: SystemReport) -> Iterator[Advice]:
+    if _on_zenoh(report):  # the range is that of DDS
+        return
     set_by = {variable.name for variable in report.variables}
     if report.discovery == "OFF":
         yield Advice(
@@ -192,7 +209,7 @@ def _range(report: SystemReport) -> Iterator[Advice]:
 
 
 def _nodes(report: SystemReport) -> Iterator[Advice]:
-    if report.nodes == []:
+    if report.nodes == [] and not _on_zenoh(report):
         yield Advice(
             "note",
             f"No other node was found in domain {report.domain} within {report.listened:g} s.",

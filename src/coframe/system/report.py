@@ -13,7 +13,8 @@ from coframe.errors import WireError
 from coframe.system.installation import Installation, installation
 from coframe.system.network import Limits, Probe, limits, probe_participant
 from coframe.system.variables import Variable, variables
-from coframe.wire import Participant, domains
+from coframe.system.zenoh_session import ZenohProbe, probe_session
+from coframe.wire import Participant, domains, selection
 from coframe.wire.dds import config, library, participants
 
 if TYPE_CHECKING:
@@ -56,10 +57,12 @@ class SystemReport:
         domain: The domain ID; None if ROS_DOMAIN_ID is invalid.
         discovery: The discovery range; None if a variable is invalid.
         participants: How many participant indexes of the domain are in use on this machine, and how many there are.
-        probe: What a participant does on the network; None if it could not be created.
+        probe: What a DDS participant does on the network; None if it could not be created or Zenoh is selected.
         limits: What the system grants.
         nodes: The names of the other nodes that were found; None if the graph could not be joined.
         listened: For how long nodes were searched, in seconds.
+        wire: The selected middleware and why it was selected; None if COFRAME_WIRE is invalid.
+        zenoh: What a Zenoh session connects to; None if it could not be opened or DDS is selected.
         problems: What failed.
     """
 
@@ -73,6 +76,8 @@ class SystemReport:
     limits: Limits
     nodes: list[str] | None
     listened: float
+    wire: selection.Selection | None
+    zenoh: ZenohProbe | None
     problems: list[Problem] = field(default_factory=list)
 
 
@@ -98,9 +103,14 @@ def collect(
     number = attempt(lambda: domains.domain_id(environment) if domain is None else domains.check_domain_id(domain))
     discovery = attempt(lambda: config.discovery_range(environment))
     peers = attempt(lambda: config.static_peers(environment))
-    found = attempt(library.load)
-    used = probe = nodes = None
-    if number is not None:
+    wire = attempt(lambda: selection.select(environment))
+    on_zenoh = wire is not None and wire.wire == "zenoh"
+    found = None if on_zenoh else attempt(library.load)
+    used = probe = nodes = zenoh = None
+    if number is not None and on_zenoh:
+        zenoh = attempt(lambda: probe_session(environment))
+        nodes = attempt(functools.partial(_other_nodes, number, listen)) if zenoh is not None else None
+    elif number is not None:
         used = participants.participant_indexes(number)
         if found is not None and discovery is not None and peers is not None:
             probe = attempt(functools.partial(probe_participant, number, environment))
@@ -116,6 +126,8 @@ def collect(
         limits(),
         nodes,
         listen,
+        wire,
+        zenoh,
         problems,
     )
 

@@ -12,10 +12,11 @@ if TYPE_CHECKING:
 _EFFECTS: Final = {
     "AMENT_PREFIX_PATH": "folders of a sourced ROS 2: its packages, interfaces and DDS library are found there",
     "COFRAME_DDS_LIBRARY": "the file of the DDS library; no other place is searched",
+    "COFRAME_WIRE": "the middleware: dds or zenoh",
     "COFRAME_PACKAGE_PATH": "folders with the sources of ROS packages",
     "CYCLONEDDS_HOME": "an installation of Cyclone DDS, where the DDS library is searched with those of the system",
     "CYCLONEDDS_URI": "configuration of Cyclone DDS; it overrides what coframe derives from the other variables",
-    "RMW_IMPLEMENTATION": "no effect on coframe, which uses Cyclone DDS; selects the middleware of ROS 2's own nodes",
+    "RMW_IMPLEMENTATION": "selects the middleware of ROS 2's own nodes; rmw_zenoh_cpp selects Zenoh for coframe, too",
     "ROS_AUTOMATIC_DISCOVERY_RANGE": "how far nodes are searched: OFF, LOCALHOST, SUBNET or SYSTEM_DEFAULT",
     "ROS_DISCOVERY_SERVER": "no effect on coframe; nodes on Fast DDS announce themselves only at this server, so that "
     "coframe does not find them",
@@ -27,11 +28,15 @@ _EFFECTS: Final = {
     "ROS_LOG_DIR": "the folder of log files",
     "ROS_PYTHON_CHECK_FIELDS": "whether the types of message fields are checked when they are set",
     "ROS_STATIC_PEERS": "hosts that are contacted without multicast",
+    "ZENOH_CONFIG_OVERRIDE": "single values of the configuration of Zenoh sessions and routers",
+    "ZENOH_ROUTER_CHECK_ATTEMPTS": "how often a starting process checks whether there is a Zenoh router",
+    "ZENOH_ROUTER_CONFIG_URI": "the configuration file of coframe router",
+    "ZENOH_SESSION_CONFIG_URI": "the configuration file of Zenoh sessions",
 }
 _PREFIXES: Final = {
     "FASTRTPS_": "no effect on coframe; configures nodes on Fast DDS",
     "FASTDDS_": "no effect on coframe; configures nodes on Fast DDS",
-    "ZENOH_": "no effect on coframe; configures nodes on Zenoh, which coframe does not find",
+    "ZENOH_": "no effect on coframe",
     "COFRAME_": "unknown to coframe",
     "CYCLONEDDS_": "no effect on coframe",
     "RMW_": "no effect on coframe",

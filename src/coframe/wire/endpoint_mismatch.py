@@ -41,10 +41,20 @@ _OTHER_POLICIES = {
 }
 
 
-def mismatch_reasons(writer: DiscoveredEndpoint, reader: DiscoveredEndpoint) -> list[str]:
-    """Return why the two do not match: "type", or "reliability" and "durability"; empty if it is not known."""
+def mismatch_reasons(
+    writer: DiscoveredEndpoint, reader: DiscoveredEndpoint, *, qos_must_match: bool = True
+) -> list[str]:
+    """Return why the two do not match: "type", or "reliability" and "durability"; empty if it is not known.
+
+    Args:
+        writer: A writer on the topic.
+        reader: A reader on the topic.
+        qos_must_match: Whether quality of service can prevent a match (`GraphQueries.qos_must_match`).
+    """
     if writer.type != reader.type:
         return ["type"]
+    if not qos_must_match:
+        return []
     found = []
     if reader.qos.reliable and not writer.qos.reliable:
         found.append("reliability")
@@ -168,14 +178,14 @@ class MismatchMonitor:
                 # A pair within this process is reported once, from the side of the subscription.
                 if own.is_writer and peer.guid in own_guids and own.on_mismatch is None:
                     continue
-                for reason in _reasons(own, peer):
+                for reason in _reasons(own, peer, self._graph):
                     if reason not in _QOS or not own.adapts:
                         yield own, peer, reason
 
 
-def _reasons(own: LocalEndpoint, peer: DiscoveredEndpoint) -> list[str]:
+def _reasons(own: LocalEndpoint, peer: DiscoveredEndpoint, graph: Graph) -> list[str]:
     pair = (own.description, peer) if own.is_writer else (peer, own.description)
-    reasons = mismatch_reasons(*pair) or ["other"]
+    reasons = mismatch_reasons(*pair, qos_must_match=graph.qos_must_match) or ["other"]
     # As in ROS, endpoints with a callback report the first policy only.
     return reasons if own.on_mismatch is None else reasons[:1]
 

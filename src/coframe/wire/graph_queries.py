@@ -19,6 +19,11 @@ class GraphQueries:
 
     _graph: Graph
 
+    @property
+    def qos_must_match(self) -> bool:
+        """Whether endpoints with incompatible quality of service do not communicate, as in DDS but not in Zenoh."""
+        return self._graph.qos_must_match
+
     def nodes(self) -> list[tuple[str, str]]:
         """Return the (namespace, name) of every node on the graph, including the nodes of this process."""
         return self._graph.nodes()

@@ -53,6 +53,8 @@ def select(environment: Mapping[str, str] = os.environ) -> Selection:
     from coframe.wire.dds import library  # noqa: PLC0415 - an import only if the environment does not decide
     from coframe.wire.zenoh.library import is_installed  # noqa: PLC0415
 
+    if environment.get(library.VARIABLE, "").strip():
+        return Selection("dds", f"{library.VARIABLE} is set")
     if any(place.path is not None for place in library.places(environment)) or not is_installed():
         return Selection("dds", "it is the default")
     return Selection("zenoh", "there is no DDS library on this machine")

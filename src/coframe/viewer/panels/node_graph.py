@@ -112,7 +112,9 @@ def describe_graph(connection: Connection) -> NodeGraph:
                         topic=len(topics) - 1,
                         publishes=publishes,
                         qos=_qos_text(info.qos),
-                        problem="" if name in own else _problem(endpoint, others, publishes=publishes),
+                        problem=""
+                        if name in own
+                        else _problem(endpoint, others, publishes=publishes, qos_must_match=participant.qos_must_match),
                     )
                 )
     return NodeGraph(
@@ -124,13 +126,13 @@ def describe_graph(connection: Connection) -> NodeGraph:
     )
 
 
-def _problem(endpoint: DiscoveredEndpoint, others: Endpoints, *, publishes: bool) -> str:
+def _problem(endpoint: DiscoveredEndpoint, others: Endpoints, *, publishes: bool, qos_must_match: bool) -> str:
     """Return why an endpoint does not match some on the other side; "" if it matches all."""
     for other, info in others:
-        reasons = mismatch_reasons(endpoint, other) if publishes else mismatch_reasons(other, endpoint)
+        writer, reader = (endpoint, other) if publishes else (other, endpoint)
+        reasons = mismatch_reasons(writer, reader, qos_must_match=qos_must_match)
         if not reasons:
             continue
-        writer, reader = (endpoint, other) if publishes else (other, endpoint)
         verbs = ("offers", "requests") if publishes else ("requests", "offers")
         own, peer = (writer, reader) if publishes else (reader, writer)
         if reasons == ["type"]:

@@ -128,6 +128,7 @@ def how_to_get_one() -> str:
         ways.append("pip install 'coframe[dds]'")
     if sys.platform == "linux":
         ways.append("sudo apt-get install libddsc0t64 (on Debian 12: libddsc0debian)")
+    ways.append("pip install 'coframe[zenoh]' to use Zenoh instead of DDS")
     ways += ["source a ROS 2 that has rmw_cyclonedds_cpp", f"set {VARIABLE} to the file of a libddsc"]
     return "Use one of these ways: " + "; ".join(ways) + "."
 

@@ -3,14 +3,14 @@
 
 from __future__ import annotations
 
-import os
 import socket
 
 from coframe import _core
 from coframe.errors import WireError
+from coframe.wire import descriptors
 from coframe.wire.dds import config
 
-_DESCRIPTORS = 16  # Cyclone DDS opens about 8, and more for each network interface.
+_DESCRIPTORS = 16  # Cyclone DDS opens about 8, and more for each network interface; it crashes if it gets none.
 
 
 def join(domain: int, xml: str, user_data: str) -> _core.DomainParticipant:
@@ -24,7 +24,7 @@ def join(domain: int, xml: str, user_data: str) -> _core.DomainParticipant:
     Raises:
         WireError: DDS cannot create the participant.
     """
-    _check_descriptors(domain)
+    descriptors.check(_DESCRIPTORS, "DDS", domain)
     try:
         return _core.DomainParticipant(domain, xml, user_data)
     except _core.EndpointError as error:
@@ -39,22 +39,6 @@ def join(domain: int, xml: str, user_data: str) -> _core.DomainParticipant:
             hint="DDS wrote the reason to stderr. If CYCLONEDDS_URI is set, check it. "
             "Otherwise, check that this machine has the configured network interface.",
         ) from error
-
-
-def _check_descriptors(domain: int) -> None:
-    """Raise WireError if few file descriptors are left: Cyclone DDS crashes if it cannot create its sockets."""
-    descriptors: list[int] = []
-    try:
-        descriptors += (os.open(os.devnull, os.O_RDONLY) for _ in range(_DESCRIPTORS))
-    except OSError as error:
-        raise WireError(
-            f"Joining domain {domain} failed: {error.strerror}. DDS needs {_DESCRIPTORS} file descriptors, and "
-            f"{len(descriptors)} are left.",
-            hint="Close files, or raise the limit: ulimit -n 1024.",
-        ) from error
-    finally:
-        for descriptor in descriptors:
-            os.close(descriptor)
 
 
 def participant_indexes(domain: int) -> tuple[int, int]:

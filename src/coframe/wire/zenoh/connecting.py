@@ -27,27 +27,38 @@ def open_session() -> zenoh.Session:
     Raises:
         WireError: Zenoh is not installed, the configuration is not valid, or a client finds no router.
     """
-    module = library.load()
     chosen = config.session_config()
-    routers = " or ".join(config.connect_endpoints(chosen)) or "any endpoint"
-    try:
-        session: zenoh.Session = module.open(chosen)
-    except module.ZError as error:
-        raise WireError(
-            f"Opening a Zenoh session failed: {config.reason_of(error)}. It connects to {routers}.",
-            hint=f"{_START} If {config.SESSION_FILE} or {config.OVERRIDE} is set, check it.",
-        ) from error
+    session = open_with(chosen)
     try:
         if not _has_router(session):
-            _logger.warning("%s", missing_router(routers))
+            _logger.warning("%s", missing_router(config.connect_endpoints(chosen)))
     except BaseException:
         session.close()  # type: ignore[no-untyped-call]
         raise
     return session
 
 
-def missing_router(routers: str) -> str:
+def open_with(chosen: zenoh.Config) -> zenoh.Session:
+    """Open a session with a configuration.
+
+    Raises:
+        WireError: The configuration is not valid, or a client finds no router.
+    """
+    module = library.load()
+    endpoints = " or ".join(config.connect_endpoints(chosen)) or "no endpoint"
+    try:
+        session: zenoh.Session = module.open(chosen)
+    except module.ZError as error:
+        raise WireError(
+            f"Opening a Zenoh session to {endpoints} failed: {config.reason_of(error)}.",
+            hint=f"{_START} If {config.SESSION_FILE} or {config.OVERRIDE} is set, check it.",
+        ) from error
+    return session
+
+
+def missing_router(endpoints: list[str]) -> str:
     """Return the warning that there is no router at some endpoints."""
+    routers = " or ".join(endpoints) or "any endpoint"
     if config.is_configured():
         return f"There is no Zenoh router at {routers}, so other processes are not found until it runs. {_START}"
     return (

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import os
 import threading
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -52,6 +53,7 @@ class ZenohEndpoint:
         self._known: set[int] = set()
         self._statuses: dict[int, tuple[int, int, int, int]] = {}
         self._totals: dict[int, int] = {}
+        self._process = os.getpid()
         self._closed = False
 
     @property
@@ -87,7 +89,16 @@ class ZenohEndpoint:
 
     def close(self) -> None:
         """Close the endpoint. A second call has no effect."""
-        self._closed = True
+        if not self._closed:
+            self._closed = True
+            if not self._is_forked():
+                self._undeclare()
+
+    def _undeclare(self) -> None:
+        """Release what the endpoint has declared in Zenoh."""
+
+    def _is_forked(self) -> bool:
+        return os.getpid() != self._process
 
     def _add_lost(self, count: int) -> None:
         """Count messages that did not arrive."""
@@ -102,6 +113,8 @@ class ZenohEndpoint:
             self._on_change.set()
 
     def _check_open(self) -> None:
+        if self._is_forked():
+            raise RuntimeError("This process was forked while its parent used Zenoh. Start processes with 'spawn'.")
         if self._closed:
             raise _core.EndpointError("the endpoint is closed")
 

@@ -84,6 +84,10 @@ class ZenohGraph(Graph):
         for thread in self._threads:
             thread.join()
 
+    def add_own(self, token: str, *, declared: bool) -> None:
+        """Process a token of this process at once; it also arrives from Zenoh, a little later."""
+        self._pending.append((declared, token))
+
     def matching(self, endpoint: Endpoint, type_hash: str, *, writers: bool) -> dict[int, DiscoveredEndpoint]:
         """Return the writers or readers that an endpoint exchanges messages with, by their handles.
 

@@ -27,12 +27,9 @@ class _Subscription(ZenohEndpoint):
     def __init__(self, place: Place, on_change: _core.Event | None) -> None:
         super().__init__(place.graph, place.endpoint, place.type_hash, place.guid, on_change)
 
-    def close(self) -> None:
-        """Close the subscription. A second call has no effect."""
-        super().close()
-        receiver, self._receiver = self._receiver, None
-        if receiver is not None:
-            receiver.close()
+    def _undeclare(self) -> None:
+        if self._receiver is not None:
+            self._receiver.close()
 
     def end_burst(self) -> None:
         """Do nothing after messages that arrived together."""

@@ -123,9 +123,7 @@ class ReplyReader(_Queue):
         self._table = table
         table.add_reader(self)
 
-    def close(self) -> None:
-        """Close the subscription. A second call has no effect."""
-        super().close()
+    def _undeclare(self) -> None:
         self._table.remove_reader(self)
 
 
@@ -142,11 +140,7 @@ class RequestReader(_Queue):
         self._thread = threading.Thread(target=self._run, name=f"coframe{place.endpoint.name}", daemon=True)
         self._thread.start()
 
-    def close(self) -> None:
-        """Close the subscription. A second call has no effect."""
-        if self._closed:
-            return
-        super().close()
+    def _undeclare(self) -> None:
         self._queryable.undeclare()
         if self._thread is not threading.current_thread():
             self._thread.join()
@@ -228,11 +222,8 @@ class RequestWriter(_Sender):
             **options,
         )
 
-    def close(self) -> None:
-        """Close the publisher. A second call has no effect."""
-        if not self._closed:
-            super().close()
-            self._querier.undeclare()
+    def _undeclare(self) -> None:
+        self._querier.undeclare()
 
     def _send(self, header: RequestHeader, cdr: bytes) -> None:
         def receive(reply: Any) -> None:

@@ -8,9 +8,10 @@ import logging
 import os
 import threading
 import weakref
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any, Final, TypeVar
 
 from coframe.errors import WireError
+from coframe.wire import descriptors
 from coframe.wire.type_hashes import type_hash_of_name
 from coframe.wire.zenoh import config, connecting, keys, library, tokens
 from coframe.wire.zenoh.endpoint import Place, ZenohEndpoint
@@ -31,6 +32,8 @@ if TYPE_CHECKING:
     from coframe.wire.names import Endpoint
     from coframe.wire.qos import QoS
 
+_DESCRIPTORS: Final = 64  # Zenoh uses about 20, and ends the process if it gets none
+
 OpenedT = TypeVar("OpenedT", bound=ZenohEndpoint)
 
 _logger = logging.getLogger("coframe.wire")
@@ -50,6 +53,7 @@ class ZenohSession:
     def __init__(self, domain: int, changed: _core.Event) -> None:
         self._error = library.load().ZError
         self._domain = domain
+        descriptors.check(_DESCRIPTORS, "Zenoh", domain)
         self._session: Any = connecting.open_session()
         self._zid = str(self._session.info.zid())
         self._counter = itertools.count()  # numbers nodes and endpoints alike
@@ -136,8 +140,10 @@ class ZenohSession:
                         wanted |= dict.fromkeys(identity.tokens(token, self._counter))
             for text in self._declared.keys() - wanted.keys():
                 self._declared.pop(text).undeclare()
+                self.graph.add_own(text, declared=False)
             for text in wanted.keys() - self._declared.keys():
                 self._declared[text] = self._session.liveliness().declare_token(text)
+                self.graph.add_own(text, declared=True)
             self._forget_closed(open_endpoints)
 
     def adapt(self) -> str:

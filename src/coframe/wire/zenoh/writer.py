@@ -42,8 +42,8 @@ class ZenohWriter(ZenohEndpoint):
         """Send a message without a check of its bytes."""
         if len(message) < ENCAPSULATION_SIZE:
             raise ValueError(TOO_SHORT)
+        self._check_open()
         with self._lock:
-            self._check_open()
             try:
                 self._publisher.put(message, attachment=self._sequence.next())
             except self._error as error:
@@ -57,12 +57,8 @@ class ZenohWriter(ZenohEndpoint):
         del timeout_ns
         return True
 
-    def close(self) -> None:
-        """Close the publisher. A second call has no effect."""
-        with self._lock:
-            if self._closed:
-                return
-            super().close()
+    def _undeclare(self) -> None:
+        with self._lock:  # waits for a message that is being sent
             self._publisher.undeclare()
 
 

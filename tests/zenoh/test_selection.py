@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The middleware is selected by variables, by `--wire`, and by what is installed."""
+
+import json
+import os
+import subprocess
+import sys
+
+import pytest
+from typer.testing import CliRunner
+from zenoh_router import Router
+
+from coframe.cli.app import app
+from coframe.cli.wire_option import take_wire
+from coframe.errors import WireError
+from coframe.wire import selection
+from coframe.wire.dds.library import Place
+
+COFRAME = [sys.executable, "-c", "from coframe.cli import main; main()"]
+
+
+def test_variables_select_the_middleware() -> None:
+    assert selection.select({"COFRAME_WIRE": "zenoh"}).wire == "zenoh"
+    assert selection.select({"RMW_IMPLEMENTATION": "rmw_zenoh_cpp"}).wire == "zenoh"
+    assert selection.select({"COFRAME_WIRE": "dds", "RMW_IMPLEMENTATION": "rmw_zenoh_cpp"}).wire == "dds"
+    with pytest.raises(WireError, match="COFRAME_WIRE is 'ros': it must be dds or zenoh"):
+        selection.select({"COFRAME_WIRE": "ros"})
+
+
+@pytest.mark.parametrize(("installed", "wire"), [(True, "zenoh"), (False, "dds")])
+def test_without_a_dds_library_zenoh_is_used_if_it_is_installed(
+    monkeypatch: pytest.MonkeyPatch, installed: bool, wire: str
+) -> None:
+    monkeypatch.setattr("coframe.wire.dds.library.places", lambda _: iter([Place("the system", "/usr/lib", None)]))
+    monkeypatch.setattr("coframe.wire.zenoh.library.is_installed", lambda: installed)
+    assert selection.select({}).wire == wire
+
+
+def test_the_option_is_taken_out_of_the_arguments(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("COFRAME_WIRE", "dds")
+    assert take_wire(["a", "--wire", "zenoh", "b"], leading_only=False) == ["a", "b"]
+    assert os.environ["COFRAME_WIRE"] == "zenoh"
+    assert take_wire(["--wire=dds", "pkg", "exe"], leading_only=True) == ["pkg", "exe"]
+    assert os.environ["COFRAME_WIRE"] == "dds"
+    for words in (["pkg", "exe", "--wire", "zenoh"], ["--", "--wire", "zenoh"], ["--ros-args", "--wire", "zenoh"]):
+        assert take_wire(words, leading_only=True) == words
+    with pytest.raises(ValueError, match="'foo' is neither dds nor zenoh"):
+        take_wire(["--wire", "foo"], leading_only=False)
+
+
+def test_the_doctor_reports_the_router(router: Router, zenoh_domain: int) -> None:
+    command = [*COFRAME, "doctor", "--system", "--json", "--domain", str(zenoh_domain), "--duration", "1s"]
+    done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=60)
+    report = json.loads(done.stdout)
+    assert report["wire"] == ["zenoh", "COFRAME_WIRE is set"]
+    assert report["zenoh"]["connect"] == [router.endpoint]
+    assert len(report["zenoh"]["routers"]) == 1
+    assert report["probe"] is None
+    assert [finding["severity"] for finding in report["findings"]] == ["note"]  # RMW_IMPLEMENTATION is not set
+
+
+def test_commands_join_over_zenoh(zenoh_domain: int, node, monkeypatch: pytest.MonkeyPatch) -> None:
+    assert node.full_name == "/robot1/tester"
+    monkeypatch.delenv("COFRAME_WIRE")
+    command = [*COFRAME, "node", "list", "--wire", "zenoh", "--spin-time", "3"]
+    done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=60)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert done.stdout.split() == ["/robot1/tester"]
+    assert zenoh_domain
+
+
+def test_a_wrong_value_is_one_sentence() -> None:
+    done = CliRunner().invoke(app, ["echo", "--wire", "ros", "a", "b"])
+    assert done.exit_code == 2
+    assert "Invalid value for '--wire': 'ros' is neither dds nor zenoh." in done.output
+
+
+def test_help_lists_the_option_only_for_commands_that_join_the_graph() -> None:
+    for words, listed in ((["echo"], True), (["topic", "list"], True), (["bag", "info"], False)):
+        assert ("--wire" in CliRunner().invoke(app, [*words, "--help"]).stdout) is listed
