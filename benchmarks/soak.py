@@ -21,11 +21,14 @@ import sys
 import tempfile
 import time
 from pathlib import Path
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import coframe
 from benchmarks import machine
 from benchmarks.faults.processes import Processes, Program, answers, descriptors, free_port, processes, wait_for
+
+if TYPE_CHECKING:
+    from coframe.bags import Recording
 
 NODES = 20
 TRANSFORMS = 20  # per message
@@ -155,8 +158,16 @@ class Soak:
         self._passing = self._started.start("python", "-m", "benchmarks.soak_programs", *arguments, quiet=True)
 
 
-def finish(watched: list[Watched], folder: Path) -> tuple[int, int, list[str]]:
-    """End all processes; return the messages sent and recorded, and what was not ended or removed."""
+def not_recorded(bag: Recording, sent: int) -> int:
+    """Return how many messages are missing after the first one of each node: before, the recorder was not connected."""
+    oldest = {frame.name: frame.oldest for frame in bag.buffer.frames()}
+    names = [f"robot{number}_0" for number in range(NODES)]
+    before = sum(int(bag.buffer.lookup("map", name, oldest[name]).x) for name in names)
+    return sent - before - bag.topics["/tf"].messages
+
+
+def finish(watched: list[Watched], folder: Path) -> tuple[int, list[str]]:
+    """End all processes; return how many messages were not recorded, and what was not ended or removed."""
     talkers = watched[-NODES:]
     sent = sum(int(each.program.ask()) for each in talkers)
     time.sleep(3.0)  # Lost messages are sent again.
@@ -171,10 +182,10 @@ def finish(watched: list[Watched], folder: Path) -> tuple[int, int, list[str]]:
         if code not in (0, 130):
             left.append(f"{each.name} ended with exit code {code}: {each.program.errors()[-500:]}")
     with coframe.open_bag(folder / "run") as bag:
-        recorded = bag.topics["/tf"].messages
+        missing = not_recorded(bag, sent)
         left += bag.problems
     left += [f"{path.name} in the temporary folder" for path in (folder / "temporary").iterdir()]
-    return sent, recorded, left
+    return missing, left
 
 
 def main() -> int:
@@ -193,12 +204,12 @@ def main() -> int:
             watched = start(started, folder, options.rate)
             soak = Soak(started, watched)
             soak.run(seconds)
-            sent, recorded, problems = finish(watched, folder)
-    return summarize(watched, soak.reports, warm_up, sent - recorded, problems)
+            missing, problems = finish(watched, folder)
+    return summarize(watched, soak.reports, warm_up, missing, problems)
 
 
 def summarize(
-    watched: list[Watched], reports: list[dict[str, float]], warm_up: int, not_recorded: int, problems: list[str]
+    watched: list[Watched], reports: list[dict[str, float]], warm_up: int, missing: int, problems: list[str]
 ) -> int:
     """Print the summary, and return the exit code."""
     print("\n| process | memory | growth after the warm-up | descriptors | threads |\n|---|---|---|---|---|")
@@ -212,8 +223,8 @@ def summarize(
         if files > 0 or threads > 0:
             problems.append(f"{each.name} has {files} more descriptors and {threads} more threads")
     lost = sum(report["lost"] for report in reports)
-    if lost or not_recorded:
-        problems.append(f"{lost:.0f} messages were not received, {not_recorded} were not recorded")
+    if lost or missing:
+        problems.append(f"{lost:.0f} messages were not received, {missing} were not recorded")
     facts = machine.facts()
     print("", *(f"{key}: {facts[key]}" for key in ("Date", "Machine", "Load", "coframe", "Python")), sep="\n")
     seconds = len(watched[0].samples)

@@ -10,11 +10,11 @@ from typing import Any
 __all__ = ["return_freed_arrays", "return_freed_blocks"]
 
 _M_MMAP_THRESHOLD = -3
-_SMALLEST = 1 << 20  # bytes
+_SMALLEST = 128 << 10  # bytes; also glibc's own value at first, before it adapts
 
 
 def return_freed_arrays() -> None:
-    """Let this process return freed blocks of 1 MB or more to the system immediately.
+    """Let this process return freed blocks of 128 kB or more to the system immediately.
 
     By default, glibc keeps blocks of up to 32 MB once one of that size was freed. Between them are small blocks in use,
     so a process that computes with arrays of varying sizes grows for hours. Without glibc, nothing is changed.
