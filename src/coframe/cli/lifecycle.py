@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import contextlib
+import gc
 import signal
 import sys
 from typing import TYPE_CHECKING
@@ -50,6 +51,8 @@ def run_to_completion() -> Iterator[None]:
         try:
             yield
         except KeyboardInterrupt:
+            # Python ends with several searches for unused objects, which take a second if there are millions of them.
+            gc.freeze()
             raise typer.Exit(_INTERRUPTED) from None
 
 
