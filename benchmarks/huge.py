@@ -49,6 +49,7 @@ class Row:
 
     command: str
     seconds: float
+    processor_seconds: float
     memory: int  # bytes at the peak, without mapped files
     shows_progress: bool
     end_seconds: float  # after Ctrl-C; NaN if the command was faster
@@ -125,6 +126,7 @@ class Command:
 
     def __init__(self, arguments: list[str], scratch: Path) -> None:
         self.memory = 0
+        self.processor_seconds = 0.0
         self.arguments = arguments
         self._output = bytearray()
         temporary = scratch / "temporary"
@@ -150,13 +152,15 @@ class Command:
         os.close(terminal)
 
     def _watch(self) -> None:
-        """Record the peak of the memory that the process has allocated: mapped files can be dropped at any time."""
-        status = Path(f"/proc/{self.process.pid}/status")
+        """Record the processor time, and the peak of the allocated memory: mapped files can be dropped at any time."""
+        folder = Path(f"/proc/{self.process.pid}")
         while self.process.poll() is None:
             try:
-                lines = dict(line.split(":", 1) for line in status.read_text().splitlines())
+                lines = dict(line.split(":", 1) for line in (folder / "status").read_text().splitlines())
+                ticks = (folder / "stat").read_text().rpartition(")")[2].split()[11:13]
             except (OSError, ValueError):
                 return
+            self.processor_seconds = sum(map(int, ticks)) / os.sysconf("SC_CLK_TCK")
             self.memory = max(self.memory, int(lines.get("RssAnon", "0 kB").split()[0]) << 10)
             time.sleep(STATUS_INTERVAL)
 
@@ -196,7 +200,7 @@ def measure(arguments: list[str], scratch: Path, limit: float) -> Row:
         except subprocess.TimeoutExpired:
             problems.append(f"not ready after {limit:g} s")
             command.process.kill()
-    seconds = time.monotonic() - command.started
+    seconds, processor_seconds = time.monotonic() - command.started, command.processor_seconds
     code = command.process.poll()
     if code not in ((None,) if is_view else (0, 1)):  # 1: the doctor has found problems
         problems.append(f"exit code {code}: {command.text()[-200:]!r}")
@@ -213,7 +217,8 @@ def measure(arguments: list[str], scratch: Path, limit: float) -> Row:
         problems.append("more than 1 GB of memory")
     if end_seconds > MOST_SECONDS_TO_END:
         problems.append(f"ended {end_seconds:.1f} s after Ctrl-C")
-    return Row(" ".join(arguments), seconds, command.memory, "\u2501" in command.text(), end_seconds, problems)
+    shows_progress = "\u2501" in command.text()
+    return Row(" ".join(arguments), seconds, processor_seconds, command.memory, shows_progress, end_seconds, problems)
 
 
 def ended_badly(command: Command, scratch: Path) -> list[str]:
@@ -233,7 +238,8 @@ def show(row: Row, hidden: Path) -> None:
     name = row.command.replace(f"{hidden}/", "")
     end = "" if math.isnan(row.end_seconds) else f"{row.end_seconds:.2f} s"
     progress = "yes" if row.shows_progress else ""
-    print(f"| coframe {name} | {row.seconds:.1f} s | {row.memory / 1e6:.0f} MB | {progress} | {end} |", flush=True)
+    times = f"{row.seconds:.1f} s | {row.processor_seconds:.1f} s"
+    print(f"| coframe {name} | {times} | {row.memory / 1e6:.0f} MB | {progress} | {end} |", flush=True)
     for problem in row.problems:
         print(f"    {problem}", flush=True)
 
@@ -264,7 +270,10 @@ def main() -> int:
             write_recording(folder / "recording", int(options.gigabytes * 1e9))
             print(f"wrote {options.gigabytes:g} GB in {time.monotonic() - began:.0f} s", file=sys.stderr, flush=True)
             runs += commands(folder / "recording")
-        print("| command | time | memory | progress | end after Ctrl-C |\n|---|---|---|---|---|", flush=True)
+        print(
+            "| command | time | processor time | memory | progress | end after Ctrl-C |\n|---|---|---|---|---|---|",
+            flush=True,
+        )
         for arguments in runs:
             rows.append(measure(arguments, folder, options.limit))
             show(rows[-1], folder)

@@ -60,6 +60,8 @@ def test_static_peers():
     environment = {"ROS_AUTOMATIC_DISCOVERY_RANGE": "SUBNET", "ROS_STATIC_PEERS": "10.0.0.1;robot.local; "}
     xml = config.cyclone_config(environment)
     assert '<Peer address="10.0.0.1"/><Peer address="robot.local"/>' in xml
+    assert "<AllowMulticast>spdp</AllowMulticast>" in xml, "peers are given where multicast is not delivered"
+    assert "AllowMulticast" not in config.cyclone_config({"ROS_AUTOMATIC_DISCOVERY_RANGE": "SUBNET"})
 
 
 def test_a_peer_on_another_machine_disables_the_loopback_interface():

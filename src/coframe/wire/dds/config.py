@@ -45,6 +45,10 @@ _LOOPBACK_INTERFACE = (
     "<AllowMulticast>true</AllowMulticast>"
 )
 
+# Peers are given where multicast is not delivered. Cyclone DDS would still send by multicast what several processes
+# receive, and none of them would learn what it has missed.
+_UNICAST_DATA = "<AllowMulticast>spdp</AllowMulticast>"
+
 _RANGES = ("OFF", "LOCALHOST", "SUBNET", "SYSTEM_DEFAULT")
 _PEER = re.compile(r"[A-Za-z0-9_.:%\-]+")
 _LOOPBACK = re.compile(r"localhost|127(\.\d+){3}|::1")
@@ -117,6 +121,7 @@ def cyclone_config(environment: Mapping[str, str] = os.environ) -> str:
     else:
         peers = static_peers(environment) if allowed == "SUBNET" else []
         discovery = _peers(peers) if peers else _ANNOUNCEMENTS
+        general += _UNICAST_DATA if peers else ""
     xml = (
         f'<CycloneDDS><Domain id="any"><General>{general}</General>'
         f"<Discovery>{discovery}</Discovery><Internal>{internal}</Internal></Domain></CycloneDDS>"
