@@ -171,6 +171,10 @@ def test_participants_without_a_certificate_get_nothing_and_the_log_says_why(sta
     without = {"root_ca_certificate": tls["root_ca_certificate"]}
     cases = {
         "without.json5": ({"transport": {"link": {"tls": without}}}, "peer sent no certificates"),
+        "other.json5": (
+            {"transport": {"link": {"tls": {**tls, "root_ca_certificate": "laptop.pem"}}}},
+            "received fatal alert: UnknownCA",
+        ),
         "plain.json5": ({"connect": {"endpoints": ["tcp/localhost:7447"]}}, "InvalidContentType"),
     }
     for name, (changes, reason) in cases.items():
@@ -195,6 +199,7 @@ def test_a_certificate_of_another_authority_or_another_name_gets_nothing(start, 
     for name in ("foreign", "guest"):
         (folder / f"{name}.json5").write_text(FILES["laptop.json5"].replace("laptop", name))
     assert "Unable to connect" in start("foreign.json5").process.communicate(timeout=60)[0]
+    eventually(lambda: "invalid peer certificate: " in router_log())
     stranger = start("guest.json5")
     stranger.wait("open")
     eventually(lambda: "certificate of guest" in router_log())
