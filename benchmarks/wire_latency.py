@@ -9,8 +9,9 @@ right before it is sent: its latency is measured.
     python -m benchmarks.wire_latency awake coframe 5       until a waiting Python thread is awake: the same
 
 A transform is stored when a lookup returns it; the reader records the time on the thread that stores it. The listeners
-are `coframe`, the native reader of a buffer; `tf2`, the TransformListener of the installed tf2_ros; and `udp`, a bare
-socket that receives the same bytes. The socket is the floor, and its two latencies are the same.
+are `coframe`, the native reader of a buffer; `zenoh`, the reader over Zenoh; `tf2`, the TransformListener of the
+installed tf2_ros; and `udp`, a bare socket that receives the same bytes. The socket is the floor, and its two latencies
+are the same.
 """
 
 import contextlib
@@ -80,6 +81,14 @@ class Coframe:
                 return self._last, stored
 
 
+class Zenoh(Coframe):
+    """Listener: the same over Zenoh, from peer to peer; the talker inherits the variable."""
+
+    def __init__(self) -> None:
+        os.environ["COFRAME_WIRE"] = "zenoh"
+        super().__init__()
+
+
 class Tf2:
     """Listener: tf2_ros.TransformListener, which spins in its own thread."""
 
@@ -134,7 +143,7 @@ class Udp:
         return int(seconds * NS + nanoseconds), received
 
 
-LISTENERS: dict[str, Callable[[], Listener]] = {"coframe": Coframe, "tf2": Tf2, "udp": Udp}
+LISTENERS: dict[str, Callable[[], Listener]] = {"coframe": Coframe, "zenoh": Zenoh, "tf2": Tf2, "udp": Udp}
 
 
 def message() -> bytearray:

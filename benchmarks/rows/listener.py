@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A listener over DDS: messages of ten transforms at 1 kHz from another process."""
+"""A listener over DDS and over Zenoh: messages of ten transforms at 1 kHz from another process."""
 
 import os
 import sys
@@ -32,7 +32,8 @@ def row(
         yield other()
 
     label, unit = NAMES[quantity]
-    subject = "listener" if listener == "coframe" else "tf2_ros.TransformListener"
+    subjects = {"coframe": "listener", "zenoh": "listener over Zenoh", "tf2": "tf2_ros.TransformListener"}
+    subject = subjects[listener]
     return Row(f"{subject}, 1 kHz x 10, {label}", reference, contenders, target, unit, least=3, processors=2)
 
 
@@ -51,6 +52,8 @@ ROWS = [
     row(CPU, "coframe", "floor: a bare UDP socket", udp(CPU), AtMost(1.5)),
     row(LATENCY, "coframe", "floor: a bare UDP socket", udp(LATENCY), AtMost(40_000)),
     row(AWAKE, "coframe", "floor: a bare UDP socket", udp(AWAKE)),
+    row(CPU, "zenoh", "floor: a bare UDP socket", udp(CPU)),
+    row(LATENCY, "zenoh", "floor: a bare UDP socket", udp(LATENCY)),
     row(CPU, "tf2", "floor: a bare UDP socket", udp(CPU)),
     row(CPU, "tf2", ROS2.name, ros2),
 ]

@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """Processes of coframe on Zenoh: they find each other, end cleanly, and leave the graph when they are killed."""
 
+import os
 import signal
+import subprocess
+import sys
 
 import pytest
 
@@ -92,6 +95,38 @@ def test_a_slow_callback_does_not_lose_messages_of_other_topics(participant, nod
     eventually(slow.pending)
     assert len(slow.take()) == 1  # the newest; the others were dropped and counted
     assert slow._reader.dropped > 0
+
+
+def test_processes_of_one_machine_find_each_other_without_a_router(network):
+    code = """
+import subprocess, sys, time
+from coframe.wire import Participant
+participant = Participant.get()
+participant.add_node("/", sys.argv[1])
+end = time.monotonic() + 20
+if sys.argv[1] == "first":
+    other = subprocess.Popen([sys.executable, "-c", sys.argv[2], "second"], stdin=subprocess.PIPE)
+while len(participant.nodes()) < 2 and time.monotonic() < end:
+    time.sleep(0.01)
+print(sorted(name for _, name in participant.nodes()), flush=True)
+if sys.argv[1] == "first":
+    other.communicate(timeout=20)
+else:
+    sys.stdin.read()
+participant.close()
+"""
+    unconfigured = {name: value for name, value in os.environ.items() if not name.startswith("ZENOH_")}
+    done = subprocess.run(
+        network.command(sys.executable, "-c", code, "first", code),
+        env={**unconfigured, "COFRAME_WIRE": "zenoh"},
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=60,
+    )
+    assert done.stdout.splitlines() == ["['first', 'second']"] * 2
+    assert "only processes of coframe on this machine are found" in done.stderr
+    assert "Start a router: coframe router" in done.stderr
 
 
 def test_late_listeners_get_static_transforms(zenoh_domain, child):

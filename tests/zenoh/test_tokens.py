@@ -4,6 +4,8 @@
 import dataclasses
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 pytest.importorskip("xxhash", reason="Zenoh's identifiers need xxhash")
 
@@ -150,6 +152,12 @@ def test_tokens_are_read():
 )
 def test_damaged_tokens_are_skipped(text):
     assert tokens.decode_token(text) is None
+
+
+@given(st.lists(st.sampled_from([*TALKER.split("/"), "", "%", "-1", "٣", "RIHS01_", "*"]) | st.text(max_size=5)))
+def test_any_token_is_read_or_skipped(chunks):
+    token = tokens.decode_token("/".join(chunks))
+    assert token is None or token.gid == keys.gid_of("/".join(chunks))
 
 
 def test_types_with_unbounded_bytes():

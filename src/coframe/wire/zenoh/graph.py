@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 # Tokens that wait to be processed. They must not be dropped, but a process that declares them without end must not fill
 # the memory.
 _MOST_PENDING: Final = 200_000
+_MOST_ENDPOINTS: Final = 100_000  # on the graph; further ones are not listed
 
 
 class _Node:
@@ -156,6 +157,8 @@ class ZenohGraph(Graph):
                     self._remove(left)
                 node.endpoints.clear()
         elif declared:
+            if len(self._writers) + len(self._readers) >= _MOST_ENDPOINTS:
+                return participant
             node.endpoints[text] = token
             for is_writer, end in _endpoints_of(token):
                 self._store(is_writer, end._replace(user_data=self._user_data.get(end.guid, b"")))
