@@ -1,9 +1,15 @@
 # SPDX-License-Identifier: Apache-2.0
 """Grades of whole folders: the solution, the stubs, and the lab's scripts as they stand."""
 
+import contextlib
 import json
 import re
 import shutil
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
 
 import pytest
 from grades import SOLUTION, lost  # of this folder
@@ -12,7 +18,7 @@ from typer.testing import CliRunner
 from coframe.cli.app import app
 from coframe.course import formats
 from coframe.course.assignment import assignment_of, read_assignment
-from coframe.course.checking import check_class, check_folder, submissions
+from coframe.course.checking import check_folder, submissions
 from coframe.course.folders import create_folder
 from coframe.errors import CourseError
 
@@ -102,18 +108,70 @@ def test_a_class_as_a_table(tmp_path):
         (tmp_path / "class" / name).mkdir(parents=True)
         shutil.copy(SOLUTION / "static_tf_broadcaster.py", tmp_path / "class" / name)
     (tmp_path / "class" / "bob" / "work" / "static_tf_broadcaster.py").write_text("1 / 0")
+    (tmp_path / "class" / "ada" / "lab.json").write_text('{"lab": "09-02", "variant": null}')
     table = tmp_path / "grades.csv"
     words = ["lab", "check", str(tmp_path / "class"), "--all", "-o", str(table), "--only", "static"]
     result = CliRunner().invoke(app, words)
     assert result.exit_code == 0, result.output
     rows = table.read_text().splitlines()
-    assert rows[0] == "submission,grade,bonus,Static transforms,problem"
-    assert rows[1].startswith("'=cmd(),20")  # A spreadsheet would run a cell that begins with an equals sign.
-    assert rows[2].startswith("ada,20")
-    assert rows[3].startswith("bob/work,0")
+    assert rows[0] == "submission,variant,grade,bonus,Static transforms,problem"
+    assert rows[1].startswith("'=cmd(),,20")  # A spreadsheet would run a cell that begins with an equals sign.
+    assert rows[2].startswith("ada,,20")
+    assert rows[3].startswith("bob,,0")
     assert "division by zero" in rows[3]
-    assert len(submissions(tmp_path / "class")) == 3
-    assert len(list(check_class(submissions(tmp_path / "class"), only=("urdf",)))) == 3
+
+
+@pytest.fixture
+def small_class(tmp_path):
+    """The submissions of a class, as they come out of archives."""
+    (tmp_path / "class").mkdir()
+    for name in ("ada", "bob/lab", "bob/old", "chen", "__MACOSX/ada", ".git"):
+        (tmp_path / "class" / name).mkdir(parents=True)
+    for name in ("ada/arm.urdf", "bob/lab/arm.urdf"):
+        shutil.copy(SOLUTION / "arm.urdf", tmp_path / "class" / name)
+    (tmp_path / "class" / "bob" / "old" / "notes.py").write_text("")
+    (tmp_path / "class" / "__MACOSX" / "ada" / "._static_tf_broadcaster.py").write_bytes(bytes(10))
+    return tmp_path / "class"
+
+
+def test_each_student_has_one_row(small_class, tmp_path):
+    assert list(submissions(small_class)) == ["ada", "bob", "chen"]
+    (small_class / "chen" / "lab.json").write_text("[")
+    table = tmp_path / "grades.csv"
+    words = ["lab", "check", str(small_class), "--all", "--only", "urdf", "--json", "-o", str(table)]
+    result = CliRunner().invoke(app, words)
+    reports = json.loads(result.stdout)
+    assert {name: each["bonus"] for name, each in reports.items()} == {"ada": 10, "bob": 10, "chen": 0}
+    rows = table.read_text().splitlines()
+    assert [row.split(",")[0] for row in rows] == ["submission", "ada", "bob", "chen"]
+    assert "lab.json" in rows[3]
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(sys.platform == "win32", reason="sends SIGINT")
+def test_ctrl_c_ends_the_grades_of_a_class(tmp_path):
+    for number in range(6):
+        (tmp_path / "class" / str(number)).mkdir(parents=True)
+        (tmp_path / "class" / str(number) / "static_tf_broadcaster.py").write_text("while True: pass")
+    words = [sys.executable, "-m", "coframe.cli", "lab", "check", tmp_path / "class", "--all", "--json"]
+    process = subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    running = f"{tmp_path}/class/1/static_tf_broadcaster.py".encode()
+    deadline = time.monotonic() + 60
+    while time.monotonic() < deadline and not any(running in each for each in command_lines()):
+        time.sleep(0.1)
+    process.send_signal(signal.SIGINT)
+    output, errors = process.communicate(timeout=30)  # Six grades would take 45 s or more after this moment.
+    assert (process.returncode, output) == (130, b""), errors
+    assert b"Traceback" not in errors
+    assert not any(str(tmp_path).encode() in each for each in command_lines())
+
+
+def command_lines():
+    found = []
+    for path in Path("/proc").glob("[0-9]*/cmdline"):
+        with contextlib.suppress(OSError):
+            found.append(path.read_bytes())
+    return found
 
 
 def test_reports_in_other_formats(folder):
@@ -127,6 +185,20 @@ def test_reports_in_other_formats(folder):
     assert scored["tests"][0]["status"] == "failed"
     assert "expected: " in scored["tests"][0]["output"]
     assert formats.classroom(report)["tests"][0]["status"] == "fail"
+    (folder / "arm.urdf").unlink()
+    report = check_folder(folder, only=("urdf",))
+    assert formats.gradescope(report)["tests"] == formats.classroom(report)["tests"] == []  # It was not attempted.
+
+
+def test_a_folder_that_cannot_be_graded_has_a_report(folder, tmp_path):
+    (folder / "lab.json").write_text("[")
+    files = [tmp_path / "gradescope.json", tmp_path / "classroom.json"]
+    words = ["lab", "check", str(folder), "--gradescope", str(files[0]), "--classroom", str(files[1])]
+    assert CliRunner().invoke(app, words).exit_code == 1
+    scored, result = (json.loads(file.read_text()) for file in files)
+    assert (scored["score"], result["tests"][0]["score"], result["tests"][0]["max_score"]) == (0, 0, 100)
+    assert "lab.json" in scored["output"]
+    assert "lab.json" in result["tests"][0]["message"]
 
 
 def test_the_current_folder_is_the_default_if_it_is_a_lab(tmp_path, monkeypatch):
@@ -146,6 +218,8 @@ def test_errors_are_sentences(tmp_path):
         (["lab", "check", str(tmp_path / "none")], "There is no folder"),
         (["lab", "check", str(tmp_path), "--only", "statics"], "there is no criterion statics"),
         (["lab", "check", str(tmp_path), "--all"], "No submissions"),
+        (["lab", "check", str(tmp_path), "--all", "--gradescope", "x.json"], "are for one folder"),
+        (["lab", "check", str(tmp_path), "-o", "x.csv"], "is for the table of a class"),
         (["lab", "run", str(tmp_path)], "contains none of the files"),
         (["lab", "break", "3", "--answer", "gremlins"], "is not the name of a fault"),
         (["lab", "break", "3", "--answer", "degrees"], "That is not the fault"),

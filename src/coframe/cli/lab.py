@@ -7,6 +7,7 @@ import csv
 import json
 import sys
 import threading
+from contextlib import closing
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -29,10 +30,11 @@ from coframe.course.grading import CRITERIA
 from coframe.course.handbook import chapters, contents, terminal_text, write_pages
 from coframe.course.isolation import isolation_problem
 from coframe.course.running import COMPLETE_TREE, SIMULATION, STEPS, programs_of, running
+from coframe.errors import CourseError
 from coframe.escaping import csv_cell
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Iterable, Sequence
 
     from coframe.course.running import Program
 
@@ -138,22 +140,38 @@ def check(
     chosen = tuple(only or CRITERIA)
     if unknown := set(chosen) - set(CRITERIA):
         fail(f"--only: there is no criterion {', '.join(sorted(unknown))}", f"Criteria: {', '.join(CRITERIA)}.", code=2)
+    formatted = ((gradescope, formats.gradescope), (classroom, formats.classroom))
+    if everyone and (record or gradescope or classroom):
+        fail("--gradescope, --classroom and --record are for one folder", "Omit them, or omit --all.", code=2)
+    if output and not everyone:
+        fail("-o is for the table of a class", "Add --all, or use --json for the report of one folder.", code=2)
     with run_to_completion():
         if problem := isolation_problem():
             warn(problem)
         if everyone:
-            _check_class(folder or Path("lab"), output, jobs, variant, chosen)
+            _check_class(folder or Path("lab"), output, jobs, variant, chosen, as_json=as_json)
             return
-        with item_progress("checking", len(chosen)) as progress:
-            report = check_folder(_folder(folder), variant=variant, only=chosen, record=record, progress=progress)
-        for path, convert in ((gradescope, formats.gradescope), (classroom, formats.classroom)):
-            if path is not None:
-                path.write_text(json.dumps(convert(report), indent=2) + "\n", encoding="utf-8")
+        student = _folder(folder)
+        try:
+            with item_progress("checking", len(chosen)) as progress:
+                report = check_folder(student, variant=variant, only=chosen, record=record, progress=progress)
+        except CourseError as error:
+            _write_reports(formats.ungraded(str(student), str(error)), formatted)
+            raise
+        _write_reports(report, formatted)
         if as_json:
             print(json.dumps(report, indent=2))
             return
         for line in formats.text(report):
             print(printable(line))
+
+
+def _write_reports(
+    report: dict[str, Any], formatted: Iterable[tuple[Path | None, Callable[[dict[str, Any]], dict[str, Any]]]]
+) -> None:
+    for path, convert in formatted:
+        if path is not None:
+            path.write_text(json.dumps(convert(report), indent=2) + "\n", encoding="utf-8")
 
 
 @lab.command("break", cls=PlainCommand, short_help="Start the system with a fault, for you to find.")
@@ -282,30 +300,39 @@ def _print_verdict(number: int, answer: str) -> None:
     print(f"Right: {fault.explanation}")
 
 
-def _check_class(folder: Path, output: Path | None, jobs: int, variant: int | None, only: tuple[str, ...]) -> None:
-    """Grade the folders of a class, print a table, and write it as CSV."""
-    from rich.table import Table  # noqa: PLC0415 - only for this table
-
+def _check_class(
+    folder: Path, output: Path | None, jobs: int, variant: int | None, only: tuple[str, ...], *, as_json: bool
+) -> None:
+    """Grade the folders of a class; print a table or all reports, and write the table as CSV."""
     folders = submissions(folder)
-    rows: list[dict[str, Any]] = []
-    with item_progress("checking", len(folders)) as progress:
-        for each, result in check_class(folders, jobs=jobs, variant=variant, only=only):
-            name = str(each.relative_to(folder))
-            if isinstance(result, dict):
-                rows.append(formats.csv_row(name, result))
-            else:
-                rows.append(formats.csv_row(name, None, str(result)))
-            progress(len(rows))
-    rows.sort(key=lambda row: str(row["submission"]))
+    reports: dict[str, dict[str, Any]] = {}
+    with (
+        item_progress("checking", len(folders)) as progress,
+        closing(check_class(folders, jobs=jobs, variant=variant, only=only)) as results,
+    ):
+        for name, result in results:
+            reports[name] = result if isinstance(result, dict) else formats.ungraded(name, str(result))
+            progress(len(reports))
+    rows = [formats.csv_row(name, reports[name]) for name in sorted(reports)]
     columns = list(dict.fromkeys(column for row in rows for column in row if column != "problem"))
     if output is not None:
         with output.open("w", encoding="utf-8", newline="") as file:
             writer = csv.DictWriter(file, [*columns, "problem"], restval=0.0)
             writer.writeheader()
             writer.writerows({key: csv_cell(value) for key, value in row.items()} for row in rows)
+    if as_json:
+        print(json.dumps({name: reports[name] for name in sorted(reports)}, indent=2))
+    else:
+        _print_table(rows, columns)
+
+
+def _print_table(rows: Sequence[dict[str, Any]], columns: Sequence[str]) -> None:
+    from rich.table import Table  # noqa: PLC0415 - only for this table
+
     table = Table(box=None, pad_edge=False, header_style="dim")
     for column in columns:
         table.add_column(column, justify="left" if column == "submission" else "right")
     for row in rows:
-        table.add_row(*(printable(str(row.get(column, 0.0))) for column in columns))
+        cells = (row.get(column, 0.0) for column in columns)
+        table.add_row(*("" if cell is None else printable(str(cell)) for cell in cells))
     report_console().print(table)

@@ -5,9 +5,11 @@ from __future__ import annotations
 
 import json
 import math
+import os
 import random
 from typing import TYPE_CHECKING, NamedTuple
 
+from coframe.course.submitted import read_submitted
 from coframe.errors import CourseError
 
 if TYPE_CHECKING:
@@ -100,10 +102,10 @@ def read_assignment(folder: Path) -> Assignment:
         CourseError: The file is damaged, or belongs to another lab.
     """
     path = folder / FILE
-    if not path.is_file():
+    if not os.path.lexists(path):
         return Assignment()
     try:
-        content = json.loads(path.read_text(encoding="utf-8"))
+        content = json.loads(read_submitted(path))
     except (OSError, ValueError, RecursionError) as error:
         raise CourseError(f"Cannot read {path}: {error}", hint=_HINT) from None
     variant = content.get("variant") if isinstance(content, dict) else None

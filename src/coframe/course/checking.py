@@ -3,26 +3,27 @@
 
 from __future__ import annotations
 
-import contextlib
 import json
 import subprocess
 import sys
-import tempfile
+import threading
 import time
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import IO, TYPE_CHECKING, Any
 
+from coframe.course.folders import file_names
 from coframe.course.grading import CRITERIA
 from coframe.course.isolation import isolated_command, isolated_environment
 from coframe.errors import CourseError
+from coframe.temporary_folders import temporary_folder
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Callable, Generator, Mapping
 
 __all__ = ["check_class", "check_folder", "submissions"]
 
-_LIMIT = 180.0  # seconds of real time for one folder
+_LIMIT = 400.0  # seconds of real time for one folder; nine programs that never respond need about half of it
 _PERIOD = 0.05  # seconds between two looks at the progress
 
 
@@ -34,6 +35,7 @@ def check_folder(
     record: Path | None = None,
     progress: Callable[[int], object] = lambda _done: None,
     number: int = 0,
+    cancelled: threading.Event | None = None,
 ) -> dict[str, Any]:
     """Grade a student's folder in an isolated process.
 
@@ -44,6 +46,7 @@ def check_folder(
         record: A folder for a recording of everything that was published.
         progress: Called with the number of criteria that are done.
         number: Number of this grade among those that run at the same time.
+        cancelled: Ends the grade when it is set.
 
     Returns:
         The report, as `Report.as_dict` describes it.
@@ -53,92 +56,126 @@ def check_folder(
     """
     if not folder.is_dir():
         raise CourseError(f"There is no folder {folder}.", hint="Create one with coframe lab new.")
-    with tempfile.TemporaryDirectory(prefix="coframe-check-", ignore_cleanup_errors=True) as scratch:
-        result, log = Path(scratch, "result.jsonl"), Path(scratch, "log")
-        words = [str(folder.resolve()), str(result), "own" if variant is None else str(variant), ",".join(only)]
+    with temporary_folder("coframe-check-") as name:
+        scratch, log = Path(name, "scratch"), Path(name, "log")
+        scratch.mkdir()
+        words = [str(folder.resolve()), str(scratch), "own" if variant is None else str(variant), ",".join(only)]
         words += [str(record.resolve())] if record is not None else []
-        with log.open("wb") as output:
+        with log.open("wb") as errors:
             process = subprocess.Popen(  # noqa: S603 - this Python, with arguments of ours
                 isolated_command([sys.executable, "-m", "coframe.course.grading", *words]),
                 stdin=subprocess.DEVNULL,
-                stdout=output,
-                stderr=output,
-                env=isolated_environment(number),
+                stdout=subprocess.PIPE,
+                stderr=errors,
+                env=isolated_environment(number, scratch),
                 start_new_session=True,
             )
-        try:
-            _follow(process, result, progress)
-        finally:
-            process.kill()
-            process.wait()
-        report = _last(result, "report")
-        if isinstance(report, dict):
-            return report
-        error = _last(result, "error")
-        if isinstance(error, list):
-            raise CourseError(error[0], hint=error[1])
-        last = log.read_text(errors="replace").strip().splitlines()[-1:]
-        reason = last[0] if last else f"it took more than {_LIMIT:g} s" if process.returncode else "it ended early"
+        assert process.stdout is not None
+        with process.stdout as output:
+            results = _Results(output)
+            try:
+                results.follow(progress, cancelled or threading.Event())
+            finally:
+                process.kill()
+                process.wait()
+                results.join()
+        if "report" in results.last:
+            return dict(results.last["report"])
+        if "error" in results.last:
+            text, hint = results.last["error"]
+            raise CourseError(text, hint=hint)
+        lines = log.read_text(errors="replace").strip().splitlines()[-1:]
+        reason = f"it took more than {_LIMIT:g} s" if results.is_late else lines[0] if lines else "the check was ended"
         raise CourseError(f"{folder} could not be graded: {reason}", hint="coframe lab run shows what its nodes print.")
 
 
-def submissions(folder: Path) -> list[Path]:
-    """Return the folders of a class: each folder in `folder` that contains a file of the lab, at any depth of two.
+def submissions(folder: Path) -> dict[str, Path]:
+    """Return the submissions of a class: the name of each folder in `folder`, and where its files of the lab are.
+
+    A folder without any such file is a submission too. Hidden folders, and those that macOS adds to archives, are not.
 
     Raises:
         CourseError: There is none.
     """
-    files = [*folder.glob("*/*.py"), *folder.glob("*/*/*.py")]
-    found = sorted({path.parent for path in files})
-    if not found:
+    students = [path for path in sorted(folder.glob("*/")) if path.is_dir() and not path.name.startswith((".", "__"))]
+    if not students:
         raise CourseError(
             f"No submissions in {folder}.", hint="It must contain a folder for each student, with the student's files."
         )
-    return found
+    return {student.name: _lab_below(student) for student in students}
+
+
+def _lab_below(student: Path) -> Path:
+    """Return the folder with most files of the lab, at most two levels below the folder of a student."""
+    names = file_names()
+    candidates = [student, *sorted(student.glob("*/")), *sorted(student.glob("*/*/"))]
+    return max(candidates, key=lambda path: sum((path / name).is_file() for name in names))
 
 
 def check_class(
-    folders: list[Path], *, jobs: int = 2, variant: int | None = None, only: tuple[str, ...] = CRITERIA
-) -> Iterator[tuple[Path, dict[str, Any] | CourseError]]:
+    folders: Mapping[str, Path], *, jobs: int = 2, variant: int | None = None, only: tuple[str, ...] = CRITERIA
+) -> Generator[tuple[str, dict[str, Any] | CourseError], None, None]:
     """Grade several folders at the same time.
 
     Args:
-        folders: The folders.
+        folders: The folders by the names of their submissions.
         jobs: How many to grade at a time.
         variant: The variant of all assignments. None: that in each folder.
         only: The criteria to check.
 
     Yields:
-        Each folder with its report, or with the error that prevented it, in the order in which they are done.
+        The name of each submission with its report, or with the error that prevented it, in the order in which they
+        are done.
     """
 
     def check(number: int) -> dict[str, Any]:
-        return check_folder(folders[number], variant=variant, only=only, number=number)
+        folder = list(folders.values())[number]
+        return check_folder(folder, variant=variant, only=only, number=number, cancelled=cancelled)
 
+    cancelled = threading.Event()
     with ThreadPoolExecutor(jobs) as pool:
-        running = {pool.submit(check, number): folder for number, folder in enumerate(folders)}
-        for done in as_completed(running):
-            error = done.exception()
-            if error is not None and not isinstance(error, CourseError):
-                raise error
-            yield running[done], done.result() if error is None else error
+        running = {pool.submit(check, number): name for number, name in enumerate(folders)}
+        try:
+            for done in as_completed(running):
+                error = done.exception()
+                if error is not None and not isinstance(error, CourseError):
+                    raise error
+                yield running[done], done.result() if error is None else error
+        finally:  # Ctrl-C ends the grades that run, and no other one starts.
+            cancelled.set()
+            pool.shutdown(wait=False, cancel_futures=True)
 
 
-def _follow(process: subprocess.Popen[bytes], result: Path, progress: Callable[[int], object]) -> None:
-    """Report the progress until the process ends or its time is over."""
-    deadline = time.monotonic() + _LIMIT
-    while process.poll() is None and time.monotonic() < deadline:
-        progress(sum(1 for kind, _ in _lines(result) if kind == "done"))
-        time.sleep(_PERIOD)
+class _Results(threading.Thread):
+    """Reads the lines of JSON that a grade prints.
 
+    Attributes:
+        last: The last value of each kind.
+        is_late: Whether the grade took too long.
+    """
 
-def _last(result: Path, wanted: str) -> Any:
-    values = [value for kind, value in _lines(result) if kind == wanted]
-    return values[-1] if values else None
+    def __init__(self, output: IO[bytes]) -> None:
+        super().__init__(daemon=True)
+        self.last: dict[str, Any] = {}
+        self.is_late = False
+        self._output = output
+        self._done = 0
 
+    def run(self) -> None:
+        """Read until the grade ends."""
+        for line in self._output:
+            if not line.endswith(b"\n"):  # The grade was ended meanwhile.
+                break
+            for kind, value in json.loads(line).items():
+                self.last[kind] = value
+                self._done += kind == "done"
 
-def _lines(result: Path) -> Iterator[tuple[str, Any]]:
-    """Yield the complete lines of a result file."""
-    with contextlib.suppress(OSError, ValueError):
-        for line in result.read_text(encoding="utf-8").splitlines():
-            yield next(iter(json.loads(line).items()))
+    def follow(self, progress: Callable[[int], object], cancelled: threading.Event) -> None:
+        """Report the progress until the grade ends, its time is over, or it is cancelled."""
+        self.start()
+        deadline = time.monotonic() + _LIMIT
+        while self.is_alive() and not cancelled.wait(_PERIOD):
+            progress(self._done)
+            if time.monotonic() > deadline:
+                self.is_late = True
+                return

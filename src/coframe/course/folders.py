@@ -13,7 +13,7 @@ from coframe.errors import CourseError
 if TYPE_CHECKING:
     from coframe.course.assignment import Assignment
 
-__all__ = ["create_folder"]
+__all__ = ["create_folder", "file_names"]
 
 _TEMPLATES = Path(__file__).parent / "templates"
 _SUFFIX = ".in"
@@ -33,7 +33,7 @@ def create_folder(folder: Path, variant: int | None) -> list[Path]:
         CourseError: A file exists already, or cannot be written.
     """
     assignment = assignment_of(variant)
-    names = sorted(path.name.removesuffix(_SUFFIX) for path in _TEMPLATES.glob(f"*{_SUFFIX}"))
+    names = file_names()
     existing = [name for name in (FILE, *names) if (folder / name).exists()]
     if existing:
         raise CourseError(
@@ -50,6 +50,11 @@ def create_folder(folder: Path, variant: int | None) -> list[Path]:
             f"Cannot write {error.filename or folder}: {error.strerror}.", hint="Choose another folder."
         ) from None
     return [folder / name for name in (*names, FILE)]
+
+
+def file_names() -> list[str]:
+    """Return the names of the files of the lab."""
+    return sorted(path.name.removesuffix(_SUFFIX) for path in _TEMPLATES.glob(f"*{_SUFFIX}"))
 
 
 def _filled(text: str, assignment: Assignment) -> str:

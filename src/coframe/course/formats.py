@@ -9,9 +9,10 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-__all__ = ["classroom", "csv_row", "gradescope", "text"]
+__all__ = ["classroom", "csv_row", "gradescope", "text", "ungraded"]
 
 _WIDTH = 100
+_FOLDER = "Folder"  # stands for all criteria of a folder that could not be graded
 
 
 def text(report: dict[str, Any]) -> Iterator[str]:
@@ -65,6 +66,22 @@ def _indented(content: str, start: str) -> list[str]:
     return textwrap.wrap(content, _WIDTH, initial_indent=start, subsequent_indent=" " * len(start))
 
 
+def ungraded(folder: str, problem: str) -> dict[str, Any]:
+    """Return the report of a folder that could not be graded: no points, and a sentence."""
+    fact = {"name": "the folder can be graded", "points": 100, "earned": 0.0, "cause": "", "read": ""}
+    fact |= {"expected": "a folder that can be graded", "observed": problem}
+    criterion = {"name": _FOLDER, "file": folder, "bonus": False, "earned": 0.0, "points": 100, "problem": problem}
+    return {
+        "folder": folder,
+        "variant": None,
+        "earned": 0.0,
+        "points": 100,
+        "bonus": 0.0,
+        "notices": [problem],
+        "criteria": [{**criterion, "last_lines": [], "facts": [fact]}],
+    }
+
+
 def gradescope(report: dict[str, Any]) -> dict[str, Any]:
     """Return a report as Gradescope's ``results.json``: one test for each fact."""
     return {
@@ -78,8 +95,7 @@ def gradescope(report: dict[str, Any]) -> dict[str, Any]:
                 "status": "passed" if fact["earned"] == fact["points"] else "failed",
                 "output": _explanation(criterion, fact),
             }
-            for criterion in report["criteria"]
-            for fact in criterion["facts"]
+            for criterion, fact in _graded_facts(report)
         ],
     }
 
@@ -95,23 +111,30 @@ def classroom(report: dict[str, Any]) -> dict[str, Any]:
             "max_score": 0 if criterion["bonus"] else fact["points"],
             "filename": criterion["file"],
         }
-        for criterion in report["criteria"]
-        for fact in criterion["facts"]
+        for criterion, fact in _graded_facts(report)
     ]
     status = "pass" if report["earned"] == report["points"] else "fail"
     return {"version": 1, "status": status, "max_score": report["points"], "tests": tests}
 
 
-def csv_row(folder: str, report: dict[str, Any] | None, problem: str = "") -> dict[str, Any]:
-    """Return the row of a table of grades: the folder, the sum, each criterion, and the first problem."""
-    row: dict[str, Any] = {"submission": folder, "grade": 0.0, "bonus": 0.0}
-    if report is not None:
-        row |= {"grade": report["earned"], "bonus": report["bonus"]}
-        row |= {criterion["name"]: criterion["earned"] for criterion in report["criteria"]}
-        problem = next(
-            (each["problem"] for each in report["criteria"] if each["problem"] and not _is_skipped(each)), ""
-        )
-    return {**row, "problem": problem}
+def _graded_facts(report: dict[str, Any]) -> Iterator[tuple[dict[str, Any], dict[str, Any]]]:
+    """Yield each fact with its criterion, without extensions that the student has not attempted."""
+    for criterion in report["criteria"]:
+        if not _is_skipped(criterion):
+            yield from ((criterion, fact) for fact in criterion["facts"])
+
+
+def csv_row(submission: str, report: dict[str, Any]) -> dict[str, Any]:
+    """Return the row of a table of grades: the submission, its variant, the sum, each criterion, the first problem."""
+    problems = [each["problem"] for each in report["criteria"] if each["problem"] and not _is_skipped(each)]
+    return {
+        "submission": submission,
+        "variant": report["variant"],
+        "grade": report["earned"],
+        "bonus": report["bonus"],
+        **{criterion["name"]: criterion["earned"] for criterion in report["criteria"] if criterion["name"] != _FOLDER},
+        "problem": next(iter(problems), ""),
+    }
 
 
 def _explanation(criterion: dict[str, Any], fact: dict[str, Any]) -> str:

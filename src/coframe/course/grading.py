@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The grade of one folder: ``python -m coframe.course.grading FOLDER RESULT`` writes it as JSON."""
+"""The grade of one folder: ``python -m coframe.course.grading FOLDER SCRATCH`` prints it as JSON."""
 
 from __future__ import annotations
 
@@ -9,12 +9,13 @@ import os
 import signal
 import subprocess
 import sys
-import tempfile
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TextIO
 
 from coframe.course.assignment import Assignment, assignment_of, read_assignment
-from coframe.course.isolation import bring_loopback_up
+from coframe.course.isolation import bring_loopback_up, limit_disk
+from coframe.course.processes import adopt_orphans
+from coframe.course.program import HOMES
 from coframe.course.sheet import Report
 from coframe.errors import CourseError
 
@@ -38,13 +39,14 @@ CRITERIA = (
 
 
 def grade(
-    folder: Path, assignment: Assignment, only: tuple[str, ...] = CRITERIA, done: Callable[[str], None] | None = None
+    folder: Path, assignment: Assignment, scratch: Path, only: tuple[str, ...], done: Callable[[str], None]
 ) -> Report:
     """Run a student's nodes beside a simulated robot, and return the grade.
 
     Args:
         folder: The student's folder.
         assignment: The numbers that the nodes have to use.
+        scratch: An empty folder for the output of the nodes and the files that they write.
         only: The criteria to check.
         done: Called with the name of each criterion after it was checked.
     """
@@ -54,36 +56,48 @@ def grade(
     from coframe.course.world import World  # noqa: PLC0415
 
     report = Report(str(folder), assignment.variant, [])
-    with tempfile.TemporaryDirectory(prefix="coframe-check-", ignore_cleanup_errors=True) as scratch, World() as world:
-        task = Task(folder, assignment, world, Path(scratch))
+    with World() as world:
+        task = Task(folder, assignment, world, scratch)
         for name in CRITERIA:
             if name in only:
                 report.sheets.append(importlib.import_module(f"coframe.course.criteria.{name}").check(task))
-                if done is not None:
-                    done(name)
+                done(name)
     return report
 
 
 def main() -> None:
-    """Grade the folder in the first argument; write the report, and progress, as lines of JSON to the second.
+    """Grade the folder in the first argument; print the report, and progress, as lines of JSON.
 
-    The other arguments are the variant ("own": that of the folder), the criteria, and a folder for a recording.
+    The other arguments are an empty folder, the variant ("own": that of the folder), the criteria, and a folder for a
+    recording.
     """
-    folder, result, variant, only = Path(sys.argv[1]), Path(sys.argv[2]), sys.argv[3], tuple(sys.argv[4].split(","))
+    folder, scratch, variant, only = Path(sys.argv[1]), Path(sys.argv[2]), sys.argv[3], tuple(sys.argv[4].split(","))
     bring_loopback_up()
-    with result.open("a", encoding="utf-8") as file, _recorded(sys.argv[5:]):
+    homes = scratch / HOMES
+    homes.mkdir()
+    limit_disk(homes)
+    adopt_orphans()
+    signal.signal(signal.SIGINT, lambda _number, _frame: None)  # A program can send it to its parent.
+    with _result_output() as output, _recorded(sys.argv[5:]):
 
         def write(kind: str, value: Any) -> None:
-            file.write(json.dumps({kind: value}) + "\n")
-            file.flush()
+            output.write(json.dumps({kind: value}) + "\n")
+            output.flush()
 
         try:
             assignment = read_assignment(folder) if variant == "own" else assignment_of(int(variant))
-            report = grade(folder, assignment, only, lambda name: write("done", name))
+            report = grade(folder, assignment, scratch, only, lambda name: write("done", name))
         except CourseError as error:
             write("error", [str(error), error.hint])
         else:
             write("report", report.as_dict())
+
+
+def _result_output() -> TextIO:
+    """Return the standard output as a file that no other process gets; from then on, it is the standard error."""
+    output = os.fdopen(os.dup(sys.stdout.fileno()), "w", encoding="utf-8")
+    os.dup2(sys.stderr.fileno(), sys.stdout.fileno())
+    return output
 
 
 @contextlib.contextmanager

@@ -1,28 +1,93 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The processes of a session, where the system lists them in ``/proc``; elsewhere none are found."""
+"""The processes below this one, where the system lists them in ``/proc``; elsewhere none are found."""
 
 from __future__ import annotations
 
 import contextlib
+import ctypes
 import os
 import signal
+import sys
 from pathlib import Path
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
-__all__ = ["Process", "in_session", "kill", "kill_group"]
+if TYPE_CHECKING:
+    from collections.abc import Container
+
+__all__ = ["Process", "adopt_orphans", "children", "descendants", "kill", "kill_group", "own_memory"]
 
 _PROC = Path("/proc")
+_SET_CHILD_SUBREAPER = 36  # in linux/prctl.h
 
 
 class Process(NamedTuple):
-    """A process, and its resident memory in bytes."""
+    """A process that has not ended, and its resident memory in bytes."""
 
     pid: int
     memory: int
 
 
-def in_session(session: int) -> list[Process]:
-    """Return the processes of a session, also those whose parents have ended."""
+class _Entry(NamedTuple):
+    pid: int
+    parent: int
+    state: str
+    memory: int
+
+
+def adopt_orphans() -> None:
+    """Become the parent of all descendants whose parents end, so that they remain descendants (Linux)."""
+    if sys.platform.startswith("linux"):
+        ctypes.CDLL(None).prctl(_SET_CHILD_SUBREAPER, 1, 0, 0, 0)
+
+
+def children() -> set[int]:
+    """Return the processes that this process has started or adopted."""
+    return {each.pid for each in _entries() if each.parent == os.getpid()}
+
+
+def descendants(without: Container[int] = ()) -> list[Process]:
+    """Return all processes below this one, in any session and process group.
+
+    Args:
+        without: Processes to leave out, with all below them.
+    """
+    below: dict[int, list[_Entry]] = {}
+    for entry in _entries():
+        below.setdefault(entry.parent, []).append(entry)
+    found, parents = [], [os.getpid()]
+    while parents:
+        for entry in below.get(parents.pop(), []):
+            if entry.pid in without:
+                continue
+            parents.append(entry.pid)
+            if entry.state != "Z":
+                found.append(Process(entry.pid, entry.memory))
+    return found
+
+
+def own_memory() -> int:
+    """Return the resident memory of this process in bytes; 0 if the system does not list it."""
+    return next((each.memory for each in _entries() if each.pid == os.getpid()), 0)
+
+
+def kill(pid: int) -> None:
+    """Kill a process that may have ended; forget it if it was adopted."""
+    with contextlib.suppress(OSError):
+        os.kill(pid, signal.SIGKILL if os.name == "posix" else signal.SIGTERM)
+    if os.name == "posix":
+        with contextlib.suppress(ChildProcessError):
+            os.waitpid(pid, os.WNOHANG)
+
+
+def kill_group(group: int) -> None:
+    """Kill a process group that may have ended."""
+    if os.name == "posix":
+        with contextlib.suppress(OSError):
+            os.killpg(group, signal.SIGKILL)
+
+
+def _entries() -> list[_Entry]:
+    """Return all processes that are listed."""
     if not _PROC.is_dir():
         return []
     page = os.sysconf("SC_PAGE_SIZE")
@@ -35,20 +100,5 @@ def in_session(session: int) -> list[Process]:
             fields = (folder / "stat").read_text(errors="replace").rpartition(")")[2].split()
         except OSError:  # The process has ended.
             continue
-        state, session_id, pages = fields[0], int(fields[3]), int(fields[21])
-        if session_id == session and state != "Z":
-            found.append(Process(int(folder.name), pages * page))
+        found.append(_Entry(int(folder.name), int(fields[1]), fields[0], int(fields[21]) * page))
     return found
-
-
-def kill(pid: int) -> None:
-    """Kill a process that may have ended."""
-    with contextlib.suppress(OSError):
-        os.kill(pid, signal.SIGKILL if os.name == "posix" else signal.SIGTERM)
-
-
-def kill_group(group: int) -> None:
-    """Kill a process group that may have ended."""
-    if os.name == "posix":
-        with contextlib.suppress(OSError):
-            os.killpg(group, signal.SIGKILL)

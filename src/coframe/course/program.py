@@ -9,40 +9,29 @@ import signal
 import subprocess
 import sys
 import time
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 from coframe.course import processes
+from coframe.course.isolation import PASSED
+from coframe.course.readable import readable_paths
 
-if TYPE_CHECKING:
-    from pathlib import Path
+__all__ = ["HOMES", "MAX_FILES", "MAX_MEMORY", "MAX_OUTPUT", "MAX_PROCESSES", "Program"]
 
-__all__ = ["MAX_MEMORY", "MAX_OUTPUT", "MAX_PROCESSES", "Program"]
-
-MAX_MEMORY = 1 << 30  # bytes of one process
+HOMES = "home"  # the folder for the home folders of all programs
+MAX_MEMORY = 1 << 30  # bytes of all its processes
 MAX_OUTPUT = 10 << 20  # bytes of the output, and of each file that it writes
+MAX_FILES = 100 << 20  # bytes of all files that it writes
 MAX_PROCESSES = 8
+_MOST_FILES = 10_000
+_ADDRESS_SPACE = 8 * MAX_MEMORY  # threads and libraries reserve more than they use
 _TOO_MUCH_OUTPUT = f"The program printed more than {MAX_OUTPUT >> 20} MB and was ended."
 MAX_CPU = 120  # seconds of processor time
 _STOP_PATIENCE = 3.0  # seconds between SIGINT and SIGKILL
 _LAST_LINES = 8
+_LIMITS = Path(__file__).with_name("limits.py")
+_KILL_ROUNDS = 50
+_BLOCK = 512  # bytes of a block, in which the system counts the size of a file
 _CHECK_PERIOD = 0.25  # seconds between two looks at its memory and processes
-# Variables of this process that a submission may see. All others may contain secrets of the teacher.
-_PASSED = (
-    "AMENT_PREFIX_PATH",
-    "COFRAME_ISOLATED",
-    "CYCLONEDDS_URI",
-    "LANG",
-    "LD_LIBRARY_PATH",
-    "PATH",
-    "PYTHONPATH",
-    "RMW_IMPLEMENTATION",
-    "ROS_AUTOMATIC_DISCOVERY_RANGE",
-    "ROS_DISTRO",
-    "ROS_DOMAIN_ID",
-    "ROS_LOCALHOST_ONLY",
-    "SYSTEMROOT",
-    "VIRTUAL_ENV",
-)
 
 
 class Program:
@@ -59,20 +48,23 @@ class Program:
 
         Args:
             file: The program.
-            scratch: A folder for its output and its temporary files.
+            scratch: A folder for its output; its folder ``home`` is for the home folders of all programs, the only ones
+                in which they can create files.
         """
         self.file = file
         self.violation = ""
-        self._scratch = scratch
+        self._home = scratch / HOMES / file.stem
         self._log = scratch / f"{file.stem}.log"
         self._process: subprocess.Popen[bytes] | None = None
         self._checked = 0.0
+        self._others: set[int] = set()  # processes of the grader, such as that of the recording
         self._exit_code: int | None = None
 
     def start(self) -> None:
         """Start the program with the simulated clock."""
-        environment = {name: os.environ[name] for name in _PASSED if name in os.environ}
-        home = str(self._scratch)
+        self._home.mkdir(parents=True, exist_ok=True)
+        home = str(self._home)
+        environment = {name: os.environ[name] for name in PASSED if name in os.environ}
         environment |= {
             "HOME": home,
             "TMPDIR": home,
@@ -80,19 +72,10 @@ class Program:
             "PYTHONDONTWRITEBYTECODE": "1",
             "ROS_LOG_DIR": home,
         }
-        limits = (str(MAX_MEMORY), str(MAX_OUTPUT), str(MAX_CPU))
+        self._others = processes.children()
         with self._log.open("wb") as log:
             self._process = subprocess.Popen(  # noqa: S603 - the purpose of the lab; limits.py describes what protects
-                [
-                    sys.executable,
-                    "-m",
-                    "coframe.course.limits",
-                    *limits,
-                    str(self.file),
-                    "--ros-args",
-                    "-p",
-                    "use_sim_time:=true",
-                ],
+                [*self._limited_python(), str(self.file), "--ros-args", "-p", "use_sim_time:=true"],
                 stdin=subprocess.DEVNULL,
                 stdout=log,
                 stderr=log,
@@ -100,6 +83,14 @@ class Program:
                 env=environment,
                 start_new_session=True,  # Ctrl-C reaches the grader only, and all its processes are one group.
             )
+
+    def _limited_python(self) -> list[str]:
+        """Return the words that start Python with limits; without limits on Windows, which has none of them."""
+        if os.name != "posix":
+            return [sys.executable]
+        numbers = (str(MAX_OUTPUT), str(MAX_CPU), str(_ADDRESS_SPACE))
+        readable = os.pathsep.join(readable_paths(self.file.parent))
+        return [sys.executable, "-I", "-S", str(_LIMITS), *numbers, str(self._home), readable]
 
     def is_running(self) -> bool:
         """Return whether the program runs; a program that has exceeded a limit is ended here."""
@@ -160,17 +151,38 @@ class Program:
         assert self._process is not None
         if self._log.stat().st_size >= MAX_OUTPUT:
             return _TOO_MUCH_OUTPUT
-        group = processes.in_session(self._process.pid)
-        if len(group) > MAX_PROCESSES:
+        running = processes.descendants(without=self._others)
+        if len(running) > MAX_PROCESSES:
             return f"The program started more than {MAX_PROCESSES} processes and was ended."
-        if sum(each.memory for each in group) > MAX_MEMORY:
+        if sum(each.memory for each in running) > MAX_MEMORY:
             return f"The program used more than {MAX_MEMORY >> 20} MB of memory and was ended."
+        if processes.own_memory() > MAX_MEMORY:
+            return "The program published more data than the check can store and was ended."
+        if _is_larger(self._home, MAX_FILES):
+            return f"The program wrote more than {MAX_FILES >> 20} MB or {_MOST_FILES} files and was ended."
         return ""
 
     def _kill(self) -> None:
         assert self._process is not None
-        for each in processes.in_session(self._process.pid):
-            processes.kill(each.pid)
         processes.kill_group(self._process.pid)
         self._process.kill()
         self._process.wait()
+        for _ in range(_KILL_ROUNDS):  # One of them may start another one before it is killed.
+            left = processes.descendants(without=self._others)
+            if not left:
+                break
+            for each in left:
+                processes.kill(each.pid)
+
+
+def _is_larger(folder: Path, size: int) -> bool:
+    """Return whether the files below a folder are larger than a size in bytes, or too many."""
+    total = count = 0
+    for path, _, names in os.walk(folder):
+        for name in names:
+            count += 1
+            with contextlib.suppress(OSError):
+                total += Path(path, name).lstat().st_blocks * _BLOCK
+            if total > size or count > _MOST_FILES:
+                return True
+    return False

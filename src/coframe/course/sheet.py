@@ -8,6 +8,8 @@ from typing import Any
 
 __all__ = ["Fact", "Report", "Sheet"]
 
+_LONGEST = 500  # characters of an observation
+
 
 @dataclass
 class Fact:
@@ -80,7 +82,7 @@ class Sheet:
         share = min(1.0, max(0.0, float(good)))
         lost = share < 1.0
         earned = round(points * share, 2)
-        details = (observed, cause, read) if lost else ("", "", "")
+        details = (_shortened(observed), cause, read) if lost else ("", "", "")
         self.facts.append(Fact(name, points, earned, expected, *details))
         return not lost
 
@@ -109,6 +111,11 @@ class Sheet:
     def earned(self) -> float:
         """The points that were earned."""
         return round(sum(fact.earned for fact in self.facts), 2)
+
+
+def _shortened(text: str) -> str:
+    """Return a text of a submission, such as the name of a frame, that may be too long to be read."""
+    return text if len(text) <= _LONGEST else f"{text[:_LONGEST]} ..."
 
 
 @dataclass

@@ -33,9 +33,13 @@ STEP = 10 * MILLISECOND  # of the simulated clock
 _START = 1000 * SECOND
 _NOT_JOINED = "The program does not join the ROS graph: it needs rclpy.init() and a node that spins."
 _NODE = "lab_check"
+_CLOCK = "/clock"
 _START_PATIENCE = 15.0  # seconds of real time until the node of a program must have joined the graph
 _RESPONSE = 1.0  # seconds of real time that a node may take for one callback
 _MOST_MISSED = 5  # responses, after which the world does not wait for the node any more
+_MOST_MESSAGES = 1000  # of a program in one step; with the highest rate of the lab, it publishes one
+_TOO_MANY = "The program publishes without a pause and was ended: it needs a timer."
+_GRAPH_PERIOD = 25 * STEP  # between two looks at the publishers of the world's topics
 _QUIET = 0.002  # seconds of real time without a message, after which all messages of a step have arrived
 _WITHOUT_RESPONSES = 0.01  # seconds of real time for each step, for a node that does not respond
 
@@ -64,12 +68,13 @@ class World:
         )
         self._executor = SingleThreadedExecutor()
         self._executor.add_node(self._node)
-        self._clock = self._node.create_publisher(Clock, "/clock", 10)
+        self._clock = self._node.create_publisher(Clock, _CLOCK, 10)
         self._publishers: dict[str, Any] = {}
         self._subscriptions: list[Any] = []
         self._messages = self._messages_before = 0
         self._probes: deque[Any] = deque()
         self._missed = 0
+        self._intruders: dict[str, set[str]] = {}
         self._program: Program | None = None
 
     def __enter__(self) -> Self:
@@ -92,10 +97,6 @@ class World:
         """Publish transforms with a stamp in nanoseconds on /tf or /tf_static."""
         messages = [_message(transform, stamp) for transform in transforms]
         self.publish("/tf_static" if static else "/tf", TFMessage(transforms=messages), latched=static)
-
-    def own_topics(self) -> list[str]:
-        """Return the topics, other than /clock, on which the world has published for the running program."""
-        return list(self._publishers)
 
     def stop_publishing(self) -> None:
         """Destroy all publishers but that of the clock, so that latched messages do not reach the next program."""
@@ -124,19 +125,37 @@ class World:
         return self._messages > self._messages_before
 
     def publishers_of(self, topic: str) -> list[Any]:
-        """Return information about the publishers of a topic in other processes."""
-        return [info for info in self._node.get_publishers_info_by_topic(topic) if info.node_name != _NODE]
+        """Return information about the publishers of a topic in other processes.
+
+        A program can give its node the name of the world's node, so one publisher of that name is left out, not all.
+        """
+        publishers = list(self._node.get_publishers_info_by_topic(topic))
+        if topic == _CLOCK or topic in self._publishers:
+            own = next((info for info in publishers if info.node_name == _NODE), None)
+            publishers = [info for info in publishers if info is not own]
+        return publishers
+
+    def intruders(self) -> dict[str, list[str]]:
+        """Return the topics of the world on which the running program has published, with the names of its nodes."""
+        self._find_intruders()
+        return {topic: sorted(names) for topic, names in self._intruders.items()}
+
+    def _find_intruders(self) -> None:
+        for topic in (_CLOCK, *self._publishers):
+            if names := {info.node_name for info in self.publishers_of(topic)}:
+                self._intruders.setdefault(topic, set()).update(names)
 
     def start(self, program: Program) -> None:
         """Start a program and wait until its node has joined the graph; the program may end before."""
         self._program = program
+        self._intruders.clear()
         self._messages_before = self._messages
         self._missed = 0
         program.start()
         deadline = time.monotonic() + _START_PATIENCE
         while time.monotonic() < deadline and program.is_running():
             names = self._other_nodes()
-            if names and self._node.count_subscribers("/clock") and all(map(self._has_parameters, names)):
+            if names and self._node.count_subscribers(_CLOCK) and all(map(self._has_parameters, names)):
                 break
             self._executor.spin_once(timeout_sec=0.02)
         else:
@@ -177,6 +196,8 @@ class World:
             if each_step is not None:
                 each_step(self.now)
             self.settle()
+            if self.now % _GRAPH_PERIOD == 0:
+                self._find_intruders()
 
     def settle(self) -> None:
         """Wait until the student's node has run all callbacks that are ready, and its messages have arrived."""
@@ -186,10 +207,13 @@ class World:
             self._await_responses()
         if not self._probes or self._missed >= _MOST_MISSED:
             time.sleep(_WITHOUT_RESPONSES)
-        count = -1
+        first, count = self._messages, -1
         while count != self._messages:
             count = self._messages
             self._spin(_QUIET)
+            if count - first > _MOST_MESSAGES and self._program is not None:
+                self._program.violation = _TOO_MANY
+                break
 
     def _await_responses(self) -> None:
         if self._missed >= _MOST_MISSED:
@@ -208,8 +232,10 @@ class World:
             self._executor.spin_once(timeout_sec=left)
 
     def _other_nodes(self) -> list[str]:
-        names = self._node.get_node_names_and_namespaces()
-        return [f"{space.rstrip('/')}/{name}" for name, space in names if name != _NODE]
+        names = [f"{space.rstrip('/')}/{name}" for name, space in self._node.get_node_names_and_namespaces()]
+        if self._node.get_fully_qualified_name() in names:  # once: a program can use the same name
+            names.remove(self._node.get_fully_qualified_name())
+        return names
 
     def _has_parameters(self, node: str) -> bool:
         return f"{node}/get_parameters" in dict(self._node.get_service_names_and_types())

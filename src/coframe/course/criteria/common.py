@@ -96,10 +96,8 @@ def program_problem(program: Program, intruder: str) -> str:
 
 
 def _intruder(world: World) -> str:
-    for topic in ("/clock", *world.own_topics()):
-        names = sorted({info.node_name for info in world.publishers_of(topic)})
-        if names:
-            return f"The program publishes on {topic} (node {', '.join(names)}), which only the simulation may do."
+    for topic, names in world.intruders().items():
+        return f"The program publishes on {topic} (node {', '.join(names)}), which only the simulation may do."
     return ""
 
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from coframe.course.criteria.common import Task, differs
 from coframe.course.motion import Robot
 from coframe.course.sheet import Sheet
+from coframe.course.submitted import check_submitted
 from coframe.errors import CoframeError
 from coframe.robots import load
 
@@ -28,6 +29,7 @@ def check(task: Task) -> Sheet:
     problem = f"There is no file {sheet.file}."
     if files:
         try:
+            check_submitted(files[0])
             description, problem = load(files[0]), ""
         except (CoframeError, OSError, ValueError) as error:
             problem = str(error)

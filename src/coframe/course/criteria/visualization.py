@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any
 from coframe.analysis.tree import FrameTrees
 from coframe.course.criteria.common import Task, edge_of, run_program
 from coframe.course.sheet import Sheet
-from coframe.errors import ViewerError
+from coframe.course.submitted import read_submitted
+from coframe.errors import CourseError, ViewerError
 from coframe.viewer.rviz.config import RvizConfig
 from tf2_msgs.msg import TFMessage
 
@@ -60,8 +61,8 @@ def _configuration(folder: Path) -> RvizConfig | str:
     if not files:
         return "there is no file *.rviz or rviz_config.yaml"
     try:
-        return RvizConfig.parse(files[0].read_text(encoding="utf-8", errors="replace"), files[0].name)
-    except (ViewerError, OSError) as error:
+        return RvizConfig.parse(read_submitted(files[0]), files[0].name)
+    except (CourseError, ViewerError, OSError) as error:
         return str(error)
 
 
