@@ -9,12 +9,14 @@ import signal
 import subprocess
 import sys
 import time
+import urllib.request
 from pathlib import Path
 
 import pytest
 from grades import SOLUTION, lost  # of this folder
 from typer.testing import CliRunner
 
+import coframe
 from coframe.cli.app import app
 from coframe.course import formats
 from coframe.course.assignment import assignment_of, read_assignment
@@ -41,6 +43,25 @@ def test_one_criterion_of_the_solution(grade):
 
 
 @pytest.mark.slow
+def test_a_recorded_grade_is_the_same_and_can_be_opened(folder, tmp_path):
+    path = folder / "tf_listener.py"
+    path.write_text(path.read_text().replace('"base_link", "end_effector", Time', '"end_effector", "base_link", Time'))
+    only = ("static", "urdf", "listener")
+    report = check_folder(folder, only=only, record=tmp_path / "run")
+    assert [each["problem"] for each in report["criteria"]] == [""] * 3
+    assert [each["earned"] for each in report["criteria"]] == [20, 10, 10]
+    bag = coframe.open_bag(tmp_path / "run")
+    poses = [each.message for each in bag.messages("/end_effector_pose")]
+    assert len(poses) > 30
+    assert {pose.header.frame_id for pose in poses} == {"end_effector"}  # the fault, as the teacher sees it
+    assert ("base_link", "link1") in {(edge.parent, edge.child) for edge in bag.buffer.edges()}
+    viewer = coframe.show(bag)
+    with urllib.request.urlopen(viewer.url) as page:
+        assert page.status == 200
+    viewer.close()
+
+
+@pytest.mark.slow
 @pytest.mark.timeout(600)
 def test_ten_grades_of_one_folder_are_equal(folder):
     path = folder / "dynamic_tf_broadcaster.py"
@@ -56,7 +77,7 @@ def test_the_scripts_of_the_lab(shared, tmp_path):
     static = lost(found["static_tf_broadcaster.py"])
     assert list(static) == ["camera_link is at the right place"]
     assert "0.707" in static["camera_link is at the right place"]["cause"]
-    assert list(lost(found["dynamic_tf_broadcaster.py"])) == ["nothing else moves the arm meanwhile"]
+    assert list(lost(found["dynamic_tf_broadcaster.py"])) == ["nothing else moves the arm at the same time"]
     listener = lost(found["tf_listener.py"])
     assert list(listener) == ["each pose is right at its stamp"]
     assert "use transform.header.stamp, not now()" in listener["each pose is right at its stamp"]["cause"]

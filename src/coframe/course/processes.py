@@ -11,10 +11,12 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
+from coframe.time import SECOND
+
 if TYPE_CHECKING:
     from collections.abc import Container
 
-__all__ = ["Process", "adopt_orphans", "children", "descendants", "kill", "kill_group", "own_memory"]
+__all__ = ["Process", "adopt_orphans", "children", "descendants", "kill", "kill_group", "own_memory", "waiting_time"]
 
 _PROC = Path("/proc")
 _SET_CHILD_SUBREAPER = 36  # in linux/prctl.h
@@ -63,6 +65,18 @@ def descendants(without: Container[int] = ()) -> list[Process]:
             if entry.state != "Z":
                 found.append(Process(entry.pid, entry.memory))
     return found
+
+
+def waiting_time(pid: int) -> float:
+    """Return how long the threads of a process have waited for a processor, in seconds: the longest time of a thread.
+
+    It is 0 where the system does not count it.
+    """
+    longest = 0
+    with contextlib.suppress(OSError, ValueError, IndexError):  # The process, or one of its threads, has ended.
+        for file in (_PROC / str(pid) / "task").glob("*/schedstat"):
+            longest = max(longest, int(file.read_text().split()[1]))
+    return longest / SECOND
 
 
 def own_memory() -> int:

@@ -104,6 +104,11 @@ class Program:
                 return False
         return True
 
+    def waiting_time(self) -> float:
+        """Return how long the program and the grader have waited for a processor, in seconds."""
+        own = processes.waiting_time(os.getpid())
+        return own if self._process is None else own + processes.waiting_time(self._process.pid)
+
     def stop(self) -> None:
         """End the program and all processes that it has started."""
         process = self._process

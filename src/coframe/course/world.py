@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import rclpy
 from builtin_interfaces.msg import Time
+from coframe.course.patience import Patience
 from coframe.time import MILLISECOND, SECOND
 from geometry_msgs.msg import TransformStamped
 from rcl_interfaces.srv import GetParameters
@@ -33,9 +34,11 @@ STEP = 10 * MILLISECOND  # of the simulated clock
 _START = 1000 * SECOND
 _NOT_JOINED = "The program does not join the ROS graph: it needs rclpy.init() and a node that spins."
 _NODE = "lab_check"
+_RECORDER = "/coframe_record"  # the node of coframe record, which runs beside all programs
 _CLOCK = "/clock"
-_START_PATIENCE = 15.0  # seconds of real time until the node of a program must have joined the graph
-_RESPONSE = 1.0  # seconds of real time that a node may take for one callback
+_START_PATIENCE = 15.0  # seconds until the node of a program must have joined the graph, see Patience
+_RESPONSE = 1.0  # seconds that a node may take for one callback, see Patience
+_MATCHING = 2.0  # seconds that a subscription may need to find a publisher, see Patience
 _MOST_MISSED = 5  # responses, after which the world does not wait for the node any more
 _MOST_MESSAGES = 1000  # of a program in one step; with the highest rate of the lab, it publishes one
 _TOO_MANY = "The program publishes without a pause and was ended: it needs a timer."
@@ -90,7 +93,12 @@ class World:
     def publish(self, topic: str, message: Any, *, latched: bool = False) -> None:
         """Publish a message; the publisher is created at the first one."""
         if topic not in self._publishers:
-            self._publishers[topic] = self._node.create_publisher(type(message), topic, _qos(100, latched=latched))
+            publisher = self._node.create_publisher(type(message), topic, _qos(100, latched=latched))
+            self._publishers[topic] = publisher
+            # On a busy machine, the program may need many steps to find a new publisher, and would lose its messages.
+            self.wait_until(
+                lambda: publisher.get_subscription_count() >= self._node.count_subscribers(topic), _MATCHING
+            )
         self._publishers[topic].publish(message)
 
     def publish_transforms(self, transforms: Iterable[Transform], stamp: int, *, static: bool = False) -> None:
@@ -152,8 +160,8 @@ class World:
         self._messages_before = self._messages
         self._missed = 0
         program.start()
-        deadline = time.monotonic() + _START_PATIENCE
-        while time.monotonic() < deadline and program.is_running():
+        patience = Patience(_START_PATIENCE, program.waiting_time)
+        while not patience.is_over() and program.is_running():
             names = self._other_nodes()
             if names and self._node.count_subscribers(_CLOCK) and all(map(self._has_parameters, names)):
                 break
@@ -199,6 +207,12 @@ class World:
             if self.now % _GRAPH_PERIOD == 0:
                 self._find_intruders()
 
+    def wait_until(self, is_true: Callable[[], bool], seconds: float) -> None:
+        """Wait until a condition is true, without advancing the clock; at most some seconds, see Patience."""
+        patience = Patience(seconds, self._waiting_time)
+        while not (is_true() or patience.is_over()) and self._program is not None and self._program.is_running():
+            self._spin(_QUIET)
+
     def settle(self) -> None:
         """Wait until the student's node has run all callbacks that are ready, and its messages have arrived."""
         # An executor runs everything that is ready before it runs anything twice. The first response shows that it has
@@ -219,12 +233,17 @@ class World:
         if self._missed >= _MOST_MISSED:
             return
         futures = [probe.call_async(GetParameters.Request(names=["use_sim_time"])) for probe in self._probes]
-        for future in futures:
-            self._executor.spin_until_future_complete(future, timeout_sec=_RESPONSE)
+        patience = Patience(_RESPONSE, self._waiting_time)
+        while not (all(future.done() for future in futures) or patience.is_over()):
+            for future in futures:
+                self._executor.spin_until_future_complete(future, timeout_sec=_RESPONSE / 4)
         if all(future.done() for future in futures):
             self._missed = 0
             return
         self._missed += 1
+
+    def _waiting_time(self) -> float:
+        return 0.0 if self._program is None else self._program.waiting_time()
 
     def _spin(self, seconds: float) -> None:
         deadline = time.monotonic() + seconds
@@ -233,8 +252,9 @@ class World:
 
     def _other_nodes(self) -> list[str]:
         names = [f"{space.rstrip('/')}/{name}" for name, space in self._node.get_node_names_and_namespaces()]
-        if self._node.get_fully_qualified_name() in names:  # once: a program can use the same name
-            names.remove(self._node.get_fully_qualified_name())
+        for known in (self._node.get_fully_qualified_name(), _RECORDER):
+            if known in names:  # once: a program can use the same name
+                names.remove(known)
         return names
 
     def _has_parameters(self, node: str) -> bool:

@@ -49,10 +49,10 @@ def check(task: Task) -> Sheet:
         is_alive = program is not None and program.is_running()
         sheet.check(
             3,
-            "it is silent while everything is well",
+            "it publishes nothing while there is no problem",
             is_alive and not healthy and bool(problems),
             expected=f"no message on {_TOPIC} until something is wrong",
-            observed=f"{healthy} messages" if healthy else "it never publishes anything",
+            observed=f"{healthy} messages" if healthy else "no message, also not when there is a problem",
             cause=f"a limit that is too strict: the arm is published at {task.assignment.dynamic_rate:g} Hz",
             read=_READ,
         )

@@ -140,9 +140,9 @@ def _check_messages(sheet: Sheet, world: World, scans: dict[int, _Scan], clouds:
     answered = min(len(set(stamps)), len(scans))
     sheet.check(
         2,
-        "hardly any scan is lost",
+        "at least 95 % of the scans become clouds",
         bool(scans) and answered >= 0.95 * len(scans),
-        expected="at least 95 % of the scans become clouds",
+        expected="a cloud for each scan; 5 % may be missing",
         observed=f"{answered} of {len(scans)} scans",
         cause=_TOO_EARLY,
         read="handbook chapter 5, time, interpolation, waiting",

@@ -24,6 +24,7 @@ _NOT_UNIT = "0.707 is not the square root of one half: use math.sqrt(0.5)"
 _ON_TF = (
     "TransformBroadcaster sends on /tf, where a listener that joins later misses it: use StaticTransformBroadcaster"
 )
+_LATE = 3.0  # seconds of real time in which a late listener receives stored transforms
 _READ = "handbook chapter 3, static and dynamic transforms"
 
 
@@ -39,6 +40,8 @@ def check(task: Task) -> Sheet:
             world.run(5.0)
         late = world.watch(_TOPIC, TFMessage, latched=True)
         if program is not None:
+            frames = {mount.frame for mount in task.assignment.mounts}
+            world.wait_until(lambda: frames <= _by_child(late).keys(), _LATE)
             world.run(0.3)
         sent, repeated = _by_child(static), _repeated(_by_child(dynamic))
         missing = _ON_TF if world.publishers_of("/tf") else "a misspelt child_frame_id"
