@@ -10,7 +10,7 @@ from coframe.errors import CourseError
 if TYPE_CHECKING:
     from pathlib import Path
 
-__all__ = ["check_submitted", "read_submitted"]
+__all__ = ["MAX_BYTES", "check_submitted", "read_submitted"]
 
 MAX_BYTES: Final = 1 << 20  # many times the largest file of the lab
 

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from coframe.course.program import Program
     from coframe.transform import Transform
 
-__all__ = ["STEP", "Received", "World", "stamp_of"]
+__all__ = ["MAX_MESSAGES", "STEP", "Received", "World", "stamp_of"]
 
 STEP = 10 * MILLISECOND  # of the simulated clock
 _START = 1000 * SECOND
@@ -40,7 +40,7 @@ _START_PATIENCE = 15.0  # seconds until the node of a program must have joined t
 _RESPONSE = 1.0  # seconds that a node may take for one callback, see Patience
 _MATCHING = 2.0  # seconds that a subscription may need to find a publisher, see Patience
 _MOST_MISSED = 5  # responses, after which the world does not wait for the node any more
-_MOST_MESSAGES = 1000  # of a program in one step; with the highest rate of the lab, it publishes one
+MAX_MESSAGES = 1000  # of a program in one step; with the highest rate of the lab, it publishes one
 _TOO_MANY = "The program publishes without a pause and was ended: it needs a timer."
 _GRAPH_PERIOD = 25 * STEP  # between two looks at the publishers of the world's topics
 _QUIET = 0.002  # seconds of real time without a message, after which all messages of a step have arrived
@@ -225,7 +225,7 @@ class World:
         while count != self._messages:
             count = self._messages
             self._spin(_QUIET)
-            if count - first > _MOST_MESSAGES and self._program is not None:
+            if count - first > MAX_MESSAGES and self._program is not None:
                 self._program.violation = _TOO_MANY
                 break
 
