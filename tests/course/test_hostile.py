@@ -151,6 +151,7 @@ def test_the_home_folder_of_the_teacher_is_out_of_reach(folder, grade):
     assert not Path("~", name).expanduser().exists()
 
 
+@pytest.mark.slow
 @restricted
 def test_a_program_can_write_in_its_own_home_and_start_programs(folder, grade):
     program = folder / "static_tf_broadcaster.py"
