@@ -77,6 +77,7 @@ def test_descriptions_of_nodes_are_those_of_ros(size, padding):
     assert decode_info(sample(padding)) == (bytes.fromhex(PARTICIPANT), [NODE], size)
 
 
+@pytest.mark.dds_only("the other participant is one of DDS")
 def test_the_form_is_that_of_the_other_participants(participant, foreign, eventually):
     warnings = []
     participant.on_warning(warnings.append)
@@ -96,6 +97,7 @@ def test_the_form_is_that_of_the_other_participants(participant, foreign, eventu
     eventually(lambda: jazzy.size_of(own) == 16)
 
 
+@pytest.mark.dds_only("the other participant is one of DDS")
 def test_other_processes_of_coframe_are_not_followed(participant, child, foreign, eventually):
     other = child("import coframe\nwith coframe.connect('other'): input()", ROS_DISTRO="jazzy")
     eventually(lambda: ("/", "other") in participant.nodes())
@@ -105,6 +107,7 @@ def test_other_processes_of_coframe_are_not_followed(participant, child, foreign
     assert other.finish() == (0, "")
 
 
+@pytest.mark.dds_only("the other participant is one of DDS")
 def test_endpoints_announce_the_hash_of_their_type(participant, node, foreign, eventually):
     string, trigger = find("std_msgs/msg/String"), find("std_srvs/srv/Trigger")
     participant.publisher(node, "/chatter", string, QoS(), user_data="more=1;")

@@ -54,9 +54,9 @@ def test_a_later_transform_for_the_same_child_replaces_the_earlier(participant, 
     broadcaster.send([message])
     message.transform.translation.x = 2.0
     broadcaster.send([stamped("base_link", "camera")])
-    assert late_joiner(participant, node).lookup("base_link", "lidar").translation[0] == 1.0
+    assert late_joiner(participant, node).lookup("base_link", "lidar", timeout="10s").translation[0] == 1.0
     broadcaster.send([message])
-    assert late_joiner(participant, node).lookup("base_link", "lidar").translation[0] == 2.0
+    assert late_joiner(participant, node).lookup("base_link", "lidar", timeout="10s").translation[0] == 2.0
 
 
 def test_closing_the_last_broadcaster_closes_the_writer(participant, node, eventually):
@@ -80,7 +80,7 @@ def test_closing_a_node_keeps_the_writer_of_other_nodes(participant, node):
     first.send([stamped("base_link", "lidar")])
     other.close()
     second.send([stamped("base_link", "camera")])
-    assert late_joiner(participant, node).can_transform("lidar", "camera")
+    assert late_joiner(participant, node).can_transform("lidar", "camera", timeout="10s")
 
 
 def test_a_new_writer_starts_without_transforms(participant, node):

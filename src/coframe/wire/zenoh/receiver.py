@@ -147,13 +147,18 @@ class Receiver:
 
 
 def queue_length(qos: QoS) -> int:
-    """Return how many messages of a subscription may wait."""
+    """Return how many messages of a subscription may wait until they are taken."""
     return KEEP_ALL if qos.keep_all else qos.depth
+
+
+def ring_length(qos: QoS) -> int:
+    """Return how many messages of a subscription may wait for its thread. Zenoh allocates this memory at once."""
+    return min(max(queue_length(qos), _LEAST_RING), KEEP_ALL)
 
 
 def _declare(session: zenoh.Session, key: str, qos: QoS) -> Any:
     module = library.load()
-    ring = module.handlers.RingChannel(max(queue_length(qos), _LEAST_RING))
+    ring = module.handlers.RingChannel(ring_length(qos))
     if not qos.transient_local:
         return session.declare_subscriber(key, ring)
     ext = module.ext

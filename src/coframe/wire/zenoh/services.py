@@ -18,7 +18,7 @@ from coframe.wire import request_header
 from coframe.wire.request_header import RequestHeader
 from coframe.wire.zenoh import config, keys, library
 from coframe.wire.zenoh.endpoint import ZenohEndpoint
-from coframe.wire.zenoh.receiver import KEEP_ALL, queue_length
+from coframe.wire.zenoh.receiver import KEEP_ALL, queue_length, ring_length
 from coframe.wire.zenoh.writer import ENCAPSULATION_SIZE, TOO_SHORT
 
 if TYPE_CHECKING:
@@ -135,7 +135,7 @@ class RequestReader(_Queue):
         module = library.load()
         self._closed_error = module.ZError
         self._table = table
-        ring = module.handlers.RingChannel(queue_length(qos))
+        ring = module.handlers.RingChannel(ring_length(qos))
         self._queryable: Any = place.session.declare_queryable(self.key, ring, complete=True)
         self._thread = threading.Thread(target=self._run, name=f"coframe{place.endpoint.name}", daemon=True)
         self._thread.start()

@@ -64,7 +64,11 @@ class ZenohSession:
         self._declared: dict[str, Any] = {}  # the tokens of this process
         self._announced: set[bytes] = set()  # the identifiers of the announced endpoints
         self._services = ServiceTable()
-        self.graph = ZenohGraph(self._session, domain, changed)
+        try:
+            self.graph = ZenohGraph(self._session, domain, changed)
+        except BaseException:
+            self._session.close()  # an open session would keep the process alive
+            raise
 
     def writer(
         self,
