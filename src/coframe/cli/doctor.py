@@ -35,7 +35,7 @@ from coframe.doctor import codes, diagnose, observe_recording, page
 from coframe.doctor.rendering.plain import as_data
 from coframe.doctor.rendering.sarif import as_sarif
 from coframe.doctor.rendering.text import lines
-from coframe.freed_memory import return_freed_arrays, return_freed_blocks
+from coframe.freed_memory import return_freed_arrays
 
 if TYPE_CHECKING:
     from coframe.doctor import Report
@@ -231,5 +231,4 @@ def _watch(observer: LiveObserver, ignore: list[str], as_json: bool) -> None:
             else:
                 live.update(Group(*_texts(report)), refresh=True)
             del report  # with all transforms of the window
-            return_freed_blocks()
             observer.listen(max(1.0, (time.process_time() - begun) / _CPU_SHARE))

@@ -25,6 +25,7 @@ from coframe.doctor.observation import (
 )
 from coframe.errors import DecodeError
 from coframe.frame_names import renaming
+from coframe.freed_memory import return_freed_blocks
 from coframe.messages import deserialize, find
 from coframe.messages.header_peek import HEADER_BYTES, opens_with_header, peek_header
 from coframe.messages.slices import Slices
@@ -58,6 +59,7 @@ _DESCRIPTION = "robot_description"
 MAX_TRANSFORMS = 1_000_000
 MAX_MESSAGES = 20_000  # for each topic
 MAX_DECODED_BYTES = 64 << 20  # of the messages of one topic that are decoded: descriptions, joint states, log messages
+_RETURN_PERIOD = 10.0  # seconds
 MAX_TOPICS = 4000  # subscriptions; a typical graph has hundreds of topics
 
 
@@ -167,6 +169,7 @@ class LiveObserver:
         self._static_writers: set[int] = set()  # those that have delivered
         self._topics: dict[str, _Topic] = {}
         self._topics_ignored = 0
+        self._return_due = 0.0
         try:
             self._node = self._participant.add_node(namespace, node_name)
             self._transforms = {
@@ -212,6 +215,7 @@ class LiveObserver:
             self._leave(
                 [name for name, topic in self._topics.items() if name not in published and topic.is_over(before)]
             )
+            self._return_memory()
 
     def listen(self, seconds: float) -> None:
         """Poll for a duration in seconds."""
@@ -292,6 +296,12 @@ class LiveObserver:
         active |= {head.writer for topic in self._topics.values() for head in topic.headers}
         self._writers = {handle: writer for handle, writer in self._writers.items() if handle in active}
         self._delays = {handle: delays for handle, delays in self._delays.items() if handle in active}
+
+    def _return_memory(self) -> None:
+        """Return the memory of discarded messages and reports to the system from time to time."""
+        if time.monotonic() >= self._return_due:
+            self._return_due = time.monotonic() + _RETURN_PERIOD
+            return_freed_blocks()
 
     def _with_node_names(self, received: Transforms) -> Transforms:
         """Replace the writer handles of the collector with the names of nodes."""

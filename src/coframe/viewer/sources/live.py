@@ -7,7 +7,6 @@ import time
 import weakref
 from typing import TYPE_CHECKING, Any
 
-from coframe.freed_memory import return_freed_blocks
 from coframe.time import MINUTE, SECOND
 from coframe.viewer.sources.adaptive_subscription import AdaptiveSubscription
 from coframe.viewer.sources.display_types import DISPLAY_OF_TYPE
@@ -119,7 +118,6 @@ class LiveSource:
                 begin = time.thread_time()
                 yield {"": diagnose(observer.observe())}
                 due = time.monotonic() + max(_REPORT_PERIOD, (time.thread_time() - begin) / _SHARE)
-                return_freed_blocks()  # of the report, which contains all transforms of the window
 
     def close(self) -> None:
         """Close the connection if the source owns it."""
