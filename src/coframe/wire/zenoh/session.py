@@ -67,7 +67,7 @@ class ZenohSession:
         try:
             self.graph = ZenohGraph(self._session, domain, changed)
         except BaseException:
-            self._session.close()  # an open session would keep the process alive
+            self._session.close()  # type: ignore[no-untyped-call] # an open session would keep the process alive
             raise
 
     def writer(
