@@ -23,7 +23,7 @@ void define_poses(nb::module_& module);
 void define_relay(nb::module_& module);
 void define_frozen(nb::module_& module);
 void define_failure(nb::module_& module);
-void define_encoder(nb::module_& module);
+void define_message_codec(nb::module_& module);
 void define_event(nb::module_& module);
 void define_robots(nb::module_& module);
 void define_sensors(nb::module_& module);

@@ -16,7 +16,7 @@ NB_MODULE(_core, module) {
   define_poses(module);
   define_relay(module);
   define_frozen(module);
-  define_encoder(module);
+  define_message_codec(module);
   define_event(module);
   define_robots(module);
   define_sensors(module);

@@ -12,6 +12,7 @@
 #include "bindings/arguments.hpp"
 #include "bindings/bindings.hpp"
 #include "bindings/buffer.hpp"
+#include "bindings/message_codec.hpp"
 #include "bindings/relay.hpp"
 #include "core/cdr.hpp"
 #include "wire/endpoint_reader.hpp"
@@ -76,6 +77,17 @@ void write_bytes(const PyWriter& writer, nb::bytes message) {
   (writer.*write)(data, size);
 }
 
+// Serialises and sends a message. Returns false if Python code has to serialise it.
+bool publish_message(const PyWriter& writer, const MessageCodec& codec, nb::handle message) {
+  Output out;
+  if (!codec.put_message(message.ptr(), out)) return false;
+  std::vector<dds::IoVector> parts;
+  out.each_part([&](const void* data, std::size_t size) { parts.push_back(dds::io_vector(data, size)); });
+  WithoutGil release;
+  writer.write(parts, out.size());
+  return true;
+}
+
 nb::tuple to_tuple(const QosProfile& qos) {
   return nb::make_tuple(qos.depth, qos.reliable, qos.transient_local, qos.keep_all, qos.manual_liveliness,
                         qos.deadline_ns, qos.lifespan_ns, qos.lease_ns);
@@ -103,7 +115,8 @@ nb::bytes to_bytes(const dds::Sample& sample) {
   return copy;
 }
 
-nb::list take_messages(PyReader& reader, std::uint32_t limit) {
+// With a codec, messages that it can read are returned as messages, others as bytes.
+nb::list take_messages(PyReader& reader, std::uint32_t limit, const MessageCodec* codec) {
   std::vector<dds::Sample> samples;
   {
     WithoutGil release;
@@ -111,7 +124,9 @@ nb::list take_messages(PyReader& reader, std::uint32_t limit) {
   }
   nb::list messages;
   for (const dds::Sample& sample : samples) {
-    messages.append(nb::make_tuple(to_bytes(sample), sample.info().source_timestamp, sample.info().publication_handle));
+    nb::object message = codec == nullptr ? nb::none() : codec->decode(sample.bytes());
+    if (message.is_none()) message = to_bytes(sample);
+    messages.append(nb::make_tuple(message, sample.info().source_timestamp, sample.info().publication_handle));
   }
   return messages;
 }
@@ -174,6 +189,8 @@ void define_writer(nb::module_& wire) {
            nb::arg("participant"), nb::arg("topic"), nb::arg("qos"), nb::arg("user_data"),
            nb::arg("checks_transforms") = false, nb::arg("on_change") = nb::none(), ReleaseGil())
       .def("write", &write_bytes<&Writer::write>, nb::arg("message"), "Send one serialised message without the GIL.")
+      .def("publish", &publish_message, nb::arg("codec"), nb::arg("message"),
+           "Serialize and send a message; return False if Python code has to serialize it.")
       .def("forward", &write_bytes<&Writer::forward>, nb::arg("message"),
            "Send a message without a check of its bytes.")
       .def("assert_liveliness", &PyWriter::assert_liveliness, ReleaseGil(),
@@ -248,8 +265,16 @@ void define_readers(nb::module_& wire) {
       .def(nb::init<dds::Entity, dds::Entity, const QosProfile&, const std::string&, std::shared_ptr<Event>>(),
            nb::arg("participant"), nb::arg("topic"), nb::arg("qos"), nb::arg("user_data"), nb::arg("on_data").none(),
            ReleaseGil())
-      .def("take", &take_messages, nb::arg("limit"),
-           "Return up to `limit` tuples (bytes, source timestamp in ns, writer's handle).")
+      .def(
+          "take", [](PyReader& self, std::uint32_t limit) { return take_messages(self, limit, nullptr); },
+          nb::arg("limit"), "Return up to `limit` tuples (bytes, source timestamp in ns, writer's handle).")
+      .def(
+          "take_decoded",
+          [](PyReader& self, std::uint32_t limit, const MessageCodec& codec) {
+            return take_messages(self, limit, &codec);
+          },
+          nb::arg("limit"), nb::arg("codec"),
+          "The same with messages in place of bytes, except for messages that Python code has to read.")
       .def_prop_ro("pending", &PyReader::pending, "Whether messages may be waiting.");
   define_reader_properties<PyReader>(reader);
 

@@ -37,16 +37,22 @@ Entity create_unchecked_topic(Entity participant, const std::string& name, const
                "create the topic");
 }
 
-Code write(Entity writer, const void* data, std::size_t size) {
+Code write(Entity writer, std::span<const IoVector> parts, std::size_t size) {
   const Functions& f = functions();
-  if (f.dds_get_entity_sertype == nullptr) return RawSample(data, size).write(writer);
+  if (f.dds_get_entity_sertype == nullptr) {
+    if (parts.size() == 1) return RawSample(parts[0].data, size).write(writer);
+    std::vector<char> whole;
+    whole.reserve(size);
+    for (const IoVector& part : parts) {
+      const char* begin = static_cast<const char*>(part.data);
+      whole.insert(whole.end(), begin, begin + part.size);
+    }
+    return RawSample(whole.data(), size).write(writer);
+  }
   const Sertype* type;
   if (const Code code = f.dds_get_entity_sertype(writer, &type); code < 0) return code;
-  IoVector whole{};
-  whole.data = const_cast<void*>(data);
-  whole.size = static_cast<decltype(whole.size)>(size);
-  Serdata* sample = f.ddsi_serdata_from_ser_iov(type, kData, 1, &whole, size);  // copies the bytes
-  return sample ? f.dds_writecdr(writer, sample) : kBadParameter;               // releases the sample
+  Serdata* sample = f.ddsi_serdata_from_ser_iov(type, kData, parts.size(), parts.data(), size);  // copies the bytes
+  return sample ? f.dds_writecdr(writer, sample) : kBadParameter;                                // releases the sample
 }
 
 void release_topic(Entity topic) {

@@ -244,8 +244,16 @@ Code check(Code code, const char* what);
 // sent messages takes three times as long as the rest of sending.
 Entity create_unchecked_topic(Entity participant, const std::string& name, const std::string& type);
 
-// Sends serialised bytes: 4 bytes of encapsulation, then CDR. They are copied.
-Code write(Entity writer, const void* data, std::size_t size);
+inline IoVector io_vector(const void* data, std::size_t size) {
+  IoVector vector{};
+  vector.data = const_cast<void*>(data);
+  vector.size = static_cast<decltype(vector.size)>(size);
+  return vector;
+}
+
+// Sends serialised bytes: 4 bytes of encapsulation, all in the first part, then CDR. `size` is that of all parts. They
+// are copied.
+Code write(Entity writer, std::span<const IoVector> parts, std::size_t size);
 
 // Deletes a topic once its reader or writer was created, which keeps what it needs of it. Built-in topics stay.
 void release_topic(Entity topic);

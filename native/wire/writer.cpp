@@ -15,6 +15,10 @@ void check_encapsulation(std::size_t size) {
     throw std::invalid_argument("The message is too short: a serialised message begins with 4 bytes of encapsulation.");
 }
 
+bool is_damaged_tf_message(const dds::IoVector& bytes) {
+  return check_tf_message(static_cast<const std::uint8_t*>(bytes.data), bytes.size).reason != nullptr;
+}
+
 }  // namespace
 
 Writer::Writer(dds::Entity participant, dds::Entity topic, const QosProfile& profile, const std::string& user_data,
@@ -30,20 +34,26 @@ Writer::Writer(dds::Entity participant, dds::Entity topic, const QosProfile& pro
 }
 
 void Writer::write(const void* data, std::size_t size) const {
+  const dds::IoVector whole = dds::io_vector(data, size);
+  write({&whole, 1}, size);
+}
+
+void Writer::write(std::span<const dds::IoVector> parts, std::size_t size) const {
   check_encapsulation(size);
-  const bool is_damaged =
-      checks_transforms_ && check_tf_message(static_cast<const std::uint8_t*>(data), size).reason != nullptr;
-  dds::check(is_damaged ? dds::kBadParameter : pass_on(data, size), "write");
+  // A TFMessage has no large arrays, so it is in one part.
+  const bool is_damaged = checks_transforms_ && (parts.size() != 1 || is_damaged_tf_message(parts[0]));
+  dds::check(is_damaged ? dds::kBadParameter : pass_on(parts, size), "write");
 }
 
 void Writer::forward(const void* data, std::size_t size) const {
   check_encapsulation(size);
-  dds::check(pass_on(data, size), "write");
+  const dds::IoVector whole = dds::io_vector(data, size);
+  dds::check(pass_on({&whole, 1}, size), "write");
 }
 
-dds::Code Writer::pass_on(const void* data, std::size_t size) const {
+dds::Code Writer::pass_on(std::span<const dds::IoVector> parts, std::size_t size) const {
   const std::lock_guard lock(closing_);
-  return dds::write(entity_, data, size);
+  return dds::write(entity_, parts, size);
 }
 
 void Writer::close() noexcept {

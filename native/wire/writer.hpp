@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <mutex>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,8 @@ class Writer {
 
   // Sends one message: 4 bytes of encapsulation, then CDR. Throws std::invalid_argument for less than 4 bytes.
   void write(const void* data, std::size_t size) const;
+  // The same for a message in several parts, of `size` bytes together. The first part has the encapsulation.
+  void write(std::span<const dds::IoVector> parts, std::size_t size) const;
   // Sends one message without checking its bytes.
   void forward(const void* data, std::size_t size) const;
   void close() noexcept;
@@ -40,7 +43,7 @@ class Writer {
   bool wait_for_acks(std::int64_t timeout_ns) const;
 
  private:
-  dds::Code pass_on(const void* data, std::size_t size) const;
+  dds::Code pass_on(std::span<const dds::IoVector> parts, std::size_t size) const;
 
   const bool checks_transforms_;
   StatusEvents events_;

@@ -395,18 +395,22 @@ def wait_full(
 def watch(buffer: Buffer, mailbox: Mailbox, token: int, child: str) -> Watch:
     """Put the token into the mailbox when the edge from `child` to its parent changes; "": any edge."""
 
-class Encoder:
-    """Serializes the messages of a class to CDR."""
+class MessageCodec:
+    """Reads and writes the messages of a class as CDR."""
 
-    def __init__(self, cls: type, fields: list[tuple[str, str | Encoder, int, int, int]]) -> None:
-        """Each field is a tuple (slot, item, container, size, text_bound).
+    def __init__(self, cls: type, fields: list[tuple[str, str | MessageCodec, int, int, int, Any]]) -> None:
+        """Each field is a tuple (slot, item, container, size, text_bound, dtype).
 
-        The item is the struct code of a number, an empty text for texts, or the Encoder of a message. The container is
-        0 for a single item, 1 for an array of `size` items, 2 for a sequence of at most `size`. 0 is no limit.
+        The item is the struct code of a number, an empty text for texts, or the MessageCodec of a message. The
+        container is 0 for a single item, 1 for an array of `size` items, 2 for a sequence of at most `size`. 0 is no
+        limit. `dtype` is that of an array of numbers.
         """
 
     def encode(self, message: Any) -> bytes | None:
         """Return the CDR of a message, or None if Python code has to serialize it."""
+
+    def decode(self, data: Any) -> Any:
+        """Return the message in CDR bytes, or None if Python code has to read it."""
 
 class Event:
     """A flag that DDS threads and Python set, and for which one thread waits without the GIL."""
@@ -761,6 +765,9 @@ class Writer:
     def write(self, message: bytes) -> None:
         """Send one serialized message without the GIL."""
 
+    def publish(self, codec: MessageCodec, message: Any) -> bool:
+        """Serialize and send a message; return False if Python code has to serialize it."""
+
     def forward(self, message: bytes) -> None:
         """Send a message without a check of its bytes."""
 
@@ -796,6 +803,9 @@ class Reader:
     ) -> None: ...
     def take(self, limit: int) -> list[tuple[bytes, int, int]]:
         """Return up to `limit` tuples (bytes, source timestamp in ns, writer's handle)."""
+
+    def take_decoded(self, limit: int, codec: MessageCodec) -> list[tuple[Any, int, int]]:
+        """Do the same with messages in place of bytes, except for messages that Python code has to read."""
 
     @property
     def pending(self) -> bool:

@@ -2,7 +2,9 @@
 """Publishers and subscriptions."""
 
 import threading
+from array import array
 
+import numpy as np
 import pytest
 
 import rclpy.serialization
@@ -11,7 +13,8 @@ from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.qos import DurabilityPolicy, QoSProfile, qos_profile_sensor_data
 from rclpy.wait_for_message import wait_for_message
-from std_msgs.msg import Int32, String
+from sensor_msgs.msg import JointState, PointCloud2
+from std_msgs.msg import ByteMultiArray, Int32, String
 
 
 @pytest.fixture
@@ -72,6 +75,24 @@ def test_coroutine_callbacks_message_info_and_bytes(node, spin):
     assert rclpy.serialization.deserialize_message(raw[0], String) == String(data="x")
     publisher.publish(raw[0])
     spin(lambda: len(got) == 2)
+
+
+def test_large_arrays_and_fields_that_only_python_code_serializes(node, spin):
+    cloud = PointCloud2(
+        data=array("B", np.arange(1_000_003, dtype=np.uint32).astype(np.uint8).tobytes()), is_dense=True
+    )
+    octets = ByteMultiArray(data=[b"\1", b"\xff"])
+    unusual = JointState(name=["elbow"])
+    unusual._velocity = array("f", [1.0, 2.5])  # an array of another type, assigned past the checks
+    got = []
+    for topic, message in (("cloud", cloud), ("octets", octets), ("unusual", unusual)):
+        node.create_subscription(type(message), topic, got.append, 10)
+        publisher = node.create_publisher(type(message), topic, 10)
+        spin(lambda publisher=publisher: publisher.get_subscription_count() == 1)
+        publisher.publish(message)
+        spin(lambda topic=topic: len(got) == ["cloud", "octets", "unusual"].index(topic) + 1)
+    assert got == [cloud, octets, JointState(name=["elbow"], velocity=[1.0, 2.5])]
+    cloud.data.append(7)  # Publishing has released the memory of the array.
 
 
 def test_wrong_types_are_rejected(node):

@@ -11,7 +11,7 @@ from coframe.messages.decoding import decoding
 from coframe.messages.encapsulation import BYTE_ORDERS, HEADER_SIZE, LITTLE_ENDIAN_HEADER
 from coframe.messages.encoding import encoding
 from coframe.messages.message import Message
-from coframe.messages.native_encoding import native_encoder
+from coframe.messages.native_codec import native_codec
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 M = TypeVar("M", bound=Message)
 
 _native_encodings: dict[type, Callable[[Any], bytes | None]] = {}
+_native_decodings: dict[type, Callable[[Any], Any]] = {}
 _encodings: dict[type, Plan] = {}
 _decodings: dict[tuple[type, bytes], Plan] = {}
 
@@ -62,7 +63,13 @@ def deserialize(data: bytes, cls: type[M]) -> M:
         DecodeError: The bytes are not a message of this class.
         TypeError: ``cls`` is not a message class.
     """
-    data = bytes(data)
+    decode = _native_decodings.get(cls) or _new_native_decoding(cls)
+    message = decode(data)
+    return _deserialize_in_python(bytes(data), cls) if message is None else message
+
+
+def _deserialize_in_python(data: bytes, cls: type[M]) -> M:
+    """Read what the native codec leaves, and report what is wrong with the bytes."""
     if len(data) < HEADER_SIZE:
         raise _header_error(_message_class(cls), data)
     plan = _decodings.get((cls, data[:2])) or _new_decoding(cls, data)
@@ -74,9 +81,15 @@ def deserialize(data: bytes, cls: type[M]) -> M:
 
 
 def _new_native_encoding(cls: type) -> Callable[[Any], bytes | None]:
-    encoder = native_encoder(_message_class(cls))
-    _native_encodings[cls] = encoder.encode if encoder else lambda _: None
+    codec = native_codec(_message_class(cls))
+    _native_encodings[cls] = codec.encode if codec else lambda _: None
     return _native_encodings[cls]
+
+
+def _new_native_decoding(cls: type) -> Callable[[Any], Any]:
+    codec = native_codec(_message_class(cls))
+    _native_decodings[cls] = codec.decode if codec else lambda _: None
+    return _native_decodings[cls]
 
 
 def _new_encoding(cls: type) -> Plan:

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import threading
-from typing import TYPE_CHECKING, ClassVar, NamedTuple, TypeVar
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, TypeVar
 
 from coframe import _core
 from coframe.errors import WireError
@@ -26,12 +26,12 @@ class Sample(NamedTuple):
     """A received message.
 
     Attributes:
-        data: The message: 4 bytes of encapsulation, then CDR.
+        data: The message: 4 bytes of encapsulation, then CDR. `Subscription.take_decoded` returns message objects.
         source_timestamp: The time at which it was published, in nanoseconds since 1970 on the publisher's clock.
         writer: The handle of the writer that sent it, for `Participant.writer_node`.
     """
 
-    data: bytes
+    data: Any
     source_timestamp: int
     writer: int
 
@@ -188,6 +188,8 @@ class Publisher(LocalEndpoint):
         on_mismatch: Callable[[str, str], object] | None = None,
     ) -> None:
         self._writer = native
+        # Writers of DDS can send a message in parts.
+        self._publish: Callable[[_core.MessageCodec, object], bool] | None = getattr(native, "publish", None)
         self.on_mismatch = on_mismatch
         super().__init__(native, node, endpoint, qos)
 
@@ -200,6 +202,20 @@ class Publisher(LocalEndpoint):
         """
         try:
             self._send(cdr)
+        except _core.EndpointError as error:
+            raise self._write_error(error) from error
+
+    def publish(self, codec: _core.MessageCodec, message: object) -> bool:
+        """Serialize and publish a message, without the copies of large arrays that `write` needs.
+
+        Returns:
+            False if the message was not published, because the codec leaves it to Python code: `write` its bytes.
+
+        Raises:
+            WireError: As for `write`.
+        """
+        try:
+            return self._publish is not None and self._publish(codec, message)
         except _core.EndpointError as error:
             raise self._write_error(error) from error
 
@@ -252,6 +268,9 @@ class Subscription(LocalEndpoint):
         on_mismatch: Callable[[str, str], object] | None = None,
     ) -> None:
         self._reader = native
+        # Readers of DDS can decode messages without a copy of their bytes.
+        self._take_decoded: Callable[[int, _core.MessageCodec], list[tuple[Any, int, int]]] | None
+        self._take_decoded = getattr(native, "take_decoded", None)
         self.adapts = adapts
         self.on_mismatch = on_mismatch
         super().__init__(native, node, endpoint, qos)
@@ -259,6 +278,12 @@ class Subscription(LocalEndpoint):
     def take(self, limit: int = 100) -> list[Sample]:
         """Return up to `limit` queued messages, oldest first, without waiting."""
         return [Sample(*message) for message in self._reader.take(limit)]
+
+    def take_decoded(self, codec: _core.MessageCodec, limit: int = 100) -> list[Sample]:
+        """Return what `take` returns, with messages in place of their bytes where the codec can read them."""
+        if self._take_decoded is None:
+            return self.take(limit)
+        return [Sample(*message) for message in self._take_decoded(limit, codec)]
 
     def pending(self) -> bool:
         """Return whether messages may be queued. The check is cheap and can be true although `take` finds none."""

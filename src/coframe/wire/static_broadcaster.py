@@ -148,6 +148,12 @@ class StaticBroadcaster:
         message = deserialize(cdr, find("tf2_msgs/msg/TFMessage"))
         self._shared.send(self, message.transforms, replace_all=True)
 
+    def publish(self, codec: object, message: Any) -> bool:
+        """Publish a TFMessage as `write` does, and return True."""
+        del codec
+        self._shared.send(self, message.transforms, replace_all=True)
+        return True
+
     def close(self) -> None:
         """Close this broadcaster. Its transforms stay available until the last broadcaster of the topic is closed."""
         self._shared.leave(self)

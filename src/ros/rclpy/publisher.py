@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from coframe.errors import WireError
 from coframe.messages import codec
+from coframe.messages.native_codec import native_codec
 from rclpy._absent import Handle
 from rclpy._destroyable import destroyed
 from rclpy.duration import Duration, Infinite
@@ -63,17 +64,16 @@ class Publisher:
             RCLError: The context was shut down, or the bytes are not a message of the publisher's type.
             InvalidHandle: The publisher was destroyed.
         """
-        if isinstance(msg, self.msg_type):
-            data = codec.serialize(msg)
-        elif isinstance(msg, bytes):
-            data = msg
-        else:
+        if not isinstance(msg, (self.msg_type, bytes)):
             raise TypeError(f"Expected {self.msg_type}, got {type(msg)}")
         # After a signal, a program may still publish final messages, for example to stop the robot.
         if not self.__context.ok() and not self.__context._Coframe__was_shut_down_by_signal:
             raise RCLError("Failed to publish: publisher's context is invalid")
+        wire = self.__require_wire()
         try:
-            self.__require_wire().write(data)
+            native = None if isinstance(msg, bytes) else native_codec(type(msg))
+            if native is None or not wire.publish(native, msg):
+                wire.write(msg if isinstance(msg, bytes) else codec.serialize(msg))
         except WireError as error:
             raise RCLError(f"Failed to publish: {error}") from error
 

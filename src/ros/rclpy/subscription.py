@@ -10,13 +10,15 @@ from typing import TYPE_CHECKING, Any, Final
 
 from coframe.errors import DecodeError
 from coframe.messages import codec
+from coframe.messages.native_codec import native_codec
+from coframe.wire import TfReader
 from rclpy._absent import Handle
 from rclpy.logging import get_logger
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from coframe.wire import Sample, TfReader
+    from coframe.wire import Sample
     from coframe.wire import Subscription as WireSubscription
     from rclpy.callback_groups import CallbackGroup
     from rclpy.event_handler import EventHandler
@@ -81,12 +83,19 @@ class Subscription:
 
     def _Coframe__take(self) -> Callable[[], Any] | None:
         wire = self.__wire
-        samples = [] if wire is None else wire.take(limit=1)
+        if wire is None:
+            return None
+        native = None if self.raw else native_codec(self.msg_type)
+        if native is None or isinstance(wire, TfReader):
+            samples = wire.take(limit=1)
+        else:
+            samples = wire.take_decoded(native, limit=1)
         return partial(self.__deliver, samples[0], time.time_ns()) if samples else None
 
     def __deliver(self, sample: Sample, received: int) -> Any:
         try:
-            message = sample.data if self.raw else codec.deserialize(sample.data, self.msg_type)
+            is_done = self.raw or not isinstance(sample.data, bytes)
+            message = sample.data if is_done else codec.deserialize(sample.data, self.msg_type)
         except DecodeError as error:  # A damaged message of another program must not end this one.
             _log.warning(f"Dropped a message on {self.topic_name}: {error}", throttle_duration_sec=_WARNING_PERIOD_S)
             return None
