@@ -206,6 +206,9 @@ TARGETS = [
     ("talos, one configuration", "Pinocchio, poses kept", TimesAsFast(5)),
     ("listener, 1 kHz x 10, CPU of one core", "floor: a bare UDP socket", AtMost(1.5)),
     ("listener, 1 kHz x 10, latency, p50", "floor: a bare UDP socket", AtMost(40_000)),
+    ("sendTransform, 1 transform, time of a call", "floor: bare UDP sockets", GrowsAtMost(1.5)),
+    ("publish, PointCloud2 of 1 MB, time of a call", "ROS 2's rclpy", TimesAsFast(2)),
+    ("receive, PointCloud2 of 1 MB, processor time", "ROS 2's rclpy", TimesAsFast(3)),
     (
         "relay, 10 robots x 20 x 50 Hz, nothing lost, CPU of one core",
         "floor: no relay, the listener renames the frames",
