@@ -30,6 +30,11 @@ def transforms(parent, child, *, x, stamp=1):
     return codec.serialize(TF_MESSAGE(transforms=[transform]))
 
 
+def knows_subscription(ros_peer, topic):
+    """Return whether the peer knows a subscription, so that its messages are sent to it."""
+    return any("/MS/" in token and f"/{topic.replace('/', '%')}/" in token for token in ros_peer("tokens"))
+
+
 def numbers(attachment):
     sequence, _, size = struct.unpack_from("<qqB", bytes.fromhex(attachment))
     assert size == 16
@@ -38,6 +43,7 @@ def numbers(attachment):
 
 def test_its_messages_arrive_with_the_name_of_its_node(participant, node, ros_peer, eventually):
     subscription = participant.subscription(node, "/chatter", STRING, QoS())
+    eventually(lambda: knows_subscription(ros_peer, "/chatter"))
     ros_peer("publish", "/chatter", "std_msgs/msg/String", "::,10:,:,:,,", codec.serialize(STRING(data="hello")).hex())
     eventually(subscription.pending)
     (sample,) = subscription.take()
@@ -84,6 +90,7 @@ def test_its_transforms_reach_a_buffer(participant, node, ros_peer, eventually):
     buffer = coframe.Buffer()
     reader = participant.tf_reader(node, "/tf", buffer, static=False, authority=None)
     kind, qos = "tf2_msgs/msg/TFMessage", "::,100:,:,:,,"
+    eventually(lambda: knows_subscription(ros_peer, "/tf"))
     ros_peer("publish", "/tf", kind, qos, transforms("odom", "base_link", x=2.5).hex())
     eventually(lambda: buffer.can_transform("odom", "base_link"))
     assert buffer.lookup("odom", "base_link").translation[0] == 2.5
@@ -111,7 +118,7 @@ def test_static_transforms_reach_late_subscribers_in_both_directions(participant
 def test_a_message_without_an_attachment_is_dropped_with_a_warning(participant, node, ros_peer, eventually, caplog):
     subscription = participant.subscription(node, "/chatter", STRING, QoS())
     cdr = codec.serialize(STRING(data="x")).hex()
-    eventually(lambda: any("/MS/" in token for token in ros_peer("tokens")))
+    eventually(lambda: knows_subscription(ros_peer, "/chatter"))
     ros_peer("publish_without_attachment", "/chatter", "std_msgs/msg/String", cdr)
     ros_peer("publish", "/chatter", "std_msgs/msg/String", "::,10:,:,:,,", cdr)
     eventually(subscription.pending)
@@ -123,6 +130,7 @@ def test_a_message_without_an_attachment_is_dropped_with_a_warning(participant, 
 def test_lost_messages_are_counted(participant, node, ros_peer, eventually):
     subscription = participant.subscription(node, "/chatter", STRING, QoS(depth=3))
     cdr = codec.serialize(STRING(data="x")).hex()
+    eventually(lambda: knows_subscription(ros_peer, "/chatter"))
     for _ in range(2):
         ros_peer("publish", "/chatter", "std_msgs/msg/String", "::,10:,:,:,,", cdr)
     eventually(lambda: len(subscription.take()) > 0)
@@ -189,8 +197,8 @@ def test_an_unknown_type_is_received_and_announced_once_its_hash_is_known(
     assert "The definition of custom_msgs/msg/Thing on /thing is not known" in caplog.text
     with pytest.raises(coframe.errors.WireError, match="needs the definition of custom_msgs/msg/Thing"):
         participant.raw_publisher(node, "/thing", endpoint, QoS())
-    ros_peer("publish_type", "/thing", "custom_msgs::msg::dds_::Thing_", "ab" * 32, "00010000" + "2a000000")
-    eventually(subscription.pending)
+    message = "/thing", "custom_msgs::msg::dds_::Thing_", "ab" * 32, "00010000" + "2a000000"
+    eventually(lambda: ros_peer("publish_type", *message) or subscription.pending())
     assert subscription.take()[0].data == bytes.fromhex("000100002a000000")
     eventually(lambda: [token for token in ros_peer("tokens") if "/MS/" in token and "Thing_/RIHS01_abab" in token])
     participant.raw_publisher(node, "/thing", endpoint, QoS())  # the hash is known from the other node

@@ -62,10 +62,10 @@ def test_the_doctor_reports_the_router(router: Router, zenoh_domain: int) -> Non
 def test_commands_join_over_zenoh(zenoh_domain: int, node, monkeypatch: pytest.MonkeyPatch) -> None:
     assert node.full_name == "/robot1/tester"
     monkeypatch.delenv("COFRAME_WIRE")
-    command = [*COFRAME, "node", "list", "--wire", "zenoh", "--spin-time", "3"]
+    command = [*COFRAME, "node", "info", "/robot1/tester", "--wire", "zenoh"]
     done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=60)
     assert (done.returncode, done.stderr) == (0, "")
-    assert done.stdout.split() == ["/robot1/tester"]
+    assert done.stdout.startswith("/robot1/tester")
     assert zenoh_domain
 
 
