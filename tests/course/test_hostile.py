@@ -3,12 +3,13 @@
 
 import os
 import re
+import subprocess
 import sys
 from pathlib import Path
 
 import pytest
 
-from coframe.course.isolation import isolation_problem
+from coframe.course.isolation import isolated_environment, isolation_problem
 
 NODE = """
 import rclpy
@@ -161,6 +162,12 @@ def test_a_program_can_write_in_its_own_home_and_start_programs(folder, grade):
         "subprocess.run([sys.executable, '-c', 'import numpy'], check=True)\n" + program.read_text()
     )
     assert grade("static")["static_tf_broadcaster.py"]["earned"] == 20
+
+
+def test_packages_of_the_user_are_found_with_another_home_folder(tmp_path):
+    asked = [sys.executable, "-c", "import site; print(site.getusersitepackages())"]
+    folders = [subprocess.check_output(asked, env=env) for env in (os.environ, isolated_environment(0, tmp_path))]
+    assert folders[0] == folders[1]
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="needs links and named pipes")

@@ -7,6 +7,7 @@ import ctypes
 import functools
 import os
 import shutil
+import site
 import socket
 import struct
 import subprocess
@@ -31,6 +32,7 @@ PASSED: Final = (
     "PATH",
     "PATHEXT",
     "PYTHONPATH",
+    "PYTHONUSERBASE",
     "RMW_IMPLEMENTATION",
     "ROS_AUTOMATIC_DISCOVERY_RANGE",
     "ROS_DISTRO",
@@ -68,6 +70,8 @@ def isolated_environment(number: int, home: Path) -> dict[str, str]:
         home: The home folder of the grade.
     """
     environment = {name: os.environ[name] for name in PASSED if name in os.environ}
+    # The packages of `pip install --user` are usually below the home folder, which is another one.
+    environment["PYTHONUSERBASE"] = site.getuserbase()
     environment |= {"HOME": str(home), "TMPDIR": str(home), "ROS_LOG_DIR": str(home)}
     environment |= {"ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST", "PYTHONDONTWRITEBYTECODE": "1"}
     if _unshare():
