@@ -2,6 +2,7 @@
 """Completion of commands, options, frame names and topics in a shell."""
 
 import os
+import re
 import select
 import shutil
 import signal
@@ -51,41 +52,87 @@ def test_what_cannot_be_completed_is_silent(tmp_path):
     assert completed("coframe topic echo /", tmp_path, ROS_DOMAIN_ID="no number") == []
 
 
-@pytest.mark.skipif(shutil.which("bash") is None, reason="no bash")
-def test_a_tab_in_bash(tmp_path):
-    """A real bash with a terminal, in which `coframe --install-completion` has been run."""
-    pty = pytest.importorskip("pty", reason="no pseudo-terminals")
-    recordings.write_mcap(tmp_path / "walk.mcap")
-    folder = str(Path(sys.executable).parent)
-    environment = {**os.environ, "HOME": str(tmp_path), "PATH": f"{folder}:{os.environ['PATH']}", "PS1": "$ "}
+class Terminal:
+    """A shell in a pseudo-terminal, in which a person presses keys."""
+
+    def __init__(self, command, folder, environment):
+        pty = pytest.importorskip("pty", reason="no pseudo-terminals")
+        self.shown = b""
+        self.process, self.file = pty.fork()
+        if self.process == 0:
+            os.chdir(folder)
+            os.execvpe(command[0], command, environment)
+
+    def press(self, keys, expected, again=b""):
+        """Press keys, and wait until the terminal shows a text after them; press some of them again every 5 s."""
+        begin, start = len(self.shown), time.monotonic()
+        next_press = start
+        while expected not in ESCAPES.sub(b"", self.shown[begin:]):
+            now = time.monotonic()
+            assert now - start < 60, self.shown
+            if now >= next_press:
+                os.write(self.file, keys)
+                keys, next_press = again, now + 5
+            if select.select([self.file], [], [], 0.1)[0]:
+                read = os.read(self.file, 10_000)
+                self.shown += read
+                if b"\x1b[c" in read:  # fish asks what kind of terminal this is
+                    os.write(self.file, b"\x1b[?62c")
+
+    def close(self):
+        os.kill(self.process, signal.SIGKILL)
+        os.waitpid(self.process, 0)
+        os.close(self.file)
+
+
+ESCAPES = re.compile(rb"\x1b(\[[0-?]*[ -/]*[@-~]|\][^\x07\x1b]*(\x07|\x1b\\)|[()][A-Z0-9]|[=>])|\x07")
+
+
+@pytest.fixture(
+    params=["bash", pytest.param("zsh", marks=pytest.mark.slow), pytest.param("fish", marks=pytest.mark.slow)]
+)
+def terminal(request, tmp_path):
+    """A real shell with a terminal, in which `coframe --install-completion` has been run."""
+    shell = request.param
+    if shutil.which(shell) is None:
+        pytest.skip(f"{shell} is not installed")
+    environment = {
+        **{name: value for name, value in os.environ.items() if not name.startswith("XDG_")},
+        "HOME": str(tmp_path),
+        "PATH": f"{Path(sys.executable).parent}:{os.environ['PATH']}",
+        "TERM": "xterm",
+    }
     # The command asks which shell has started it.
-    install = ["bash", "-c", "coframe --install-completion; true"]
+    install = [shell, "-c", "coframe --install-completion; true"]
     installed = subprocess.run(install, env=environment, capture_output=True, text=True, check=True)
-    assert "bash completion installed" in installed.stdout
-    process, terminal = pty.fork()
-    if process == 0:
-        os.chdir(tmp_path)
-        os.execvpe("bash", ["bash", "--rcfile", str(tmp_path / ".bashrc"), "-i"], environment)
-    try:
-        os.write(terminal, b"coframe lookup walk.mcap od\t")
-        shown = typed_until(terminal, b"walk.mcap odom ")
-        os.write(terminal, b"li\t")
-        shown += typed_until(terminal, b"lidar ")
-        assert b"rror" not in shown
-    finally:
-        os.kill(process, signal.SIGKILL)
-        os.waitpid(process, 0)
-        os.close(terminal)
+    assert f"{shell} completion installed" in installed.stdout
+    opened = Terminal([shell, "-i"], tmp_path, environment)
+    if shell == "zsh":  # the first TAB only loads the function that typer has installed
+        opened.press(b"coframe --version \t\r", coframe.__version__.encode())
+    yield opened
+    opened.close()
 
 
-def typed_until(terminal, text):
-    """Return what a terminal shows until it contains a text."""
-    shown, deadline = b"", time.monotonic() + 30
-    while text not in shown:
-        assert time.monotonic() < deadline, shown
-        if select.select([terminal], [], [], 0.1)[0]:
-            shown += os.read(terminal, 10_000)
-    return shown
+def test_the_frames_of_a_recording_by_tab(terminal, tmp_path):
+    recordings.write_mcap(tmp_path / "walk.mcap")
+    terminal.press(b"coframe lookup walk.mcap od\t", b"walk.mcap odom ")
+    terminal.press(b"li\t", b"lidar ")
+    terminal.press(b"\r", b"Translation")
+    assert b"rror" not in terminal.shown
+
+
+@pytest.mark.slow
+@pytest.mark.usefixtures("domain_id")
+def test_live_frames_by_tab(terminal, tmp_path):
+    pytest.importorskip("dds_library", reason="frames are found over DDS")
+    command = [sys.executable, "-m", "coframe.cli", "static", "--frame-id", "gripper_base"]
+    command += ["--child-frame-id", "gripper_tip"]
+    with subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as publisher:
+        try:
+            terminal.press(b"coframe echo gripper_b\t", b"gripper_base ", again=b"\t")
+        finally:
+            publisher.terminate()
+    assert completed("coframe echo gripper_b", tmp_path, ROS_DOMAIN_ID="no number") == []
 
 
 def completed(line, folder, **variables):

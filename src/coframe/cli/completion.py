@@ -10,16 +10,23 @@ import functools
 import os
 import time
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-__all__ = ["complete_frames", "complete_live_topics", "complete_recordings", "complete_tf_topics"]
+__all__ = [
+    "complete_frames",
+    "complete_live_frames",
+    "complete_live_topics",
+    "complete_recordings",
+    "complete_tf_topics",
+]
 
+_Names = TypeVar("_Names")
 _TF_TYPE = "tf2_msgs/msg/TFMessage"
-_DISCOVERY = 0.6  # seconds: the longest discovery of topics
-_UNCHANGED = 0.2  # seconds without a new topic, after which the known topics are complete
+_DISCOVERY = 0.6  # seconds: the longest discovery of topics or frames
+_UNCHANGED = 0.2  # seconds without a new name, after which the known names are complete
 _LARGEST = 200 << 20  # bytes: reading more takes longer than typing the name
 _RECORDINGS = {".mcap", ".bag", ".db3"}
 
@@ -66,11 +73,16 @@ def _is_recording(path: Path) -> bool:
 
 @_silent
 def complete_frames(ctx: Any, incomplete: str) -> list[str]:
-    """Return the frames of the recording in the first argument that begin with a text, or recordings for this one."""
-    words = [ctx.params["bag"]] if ctx.params.get("bag") else ctx.params.get("names") or []
-    if not words:
-        return complete_recordings(incomplete)
-    path = Path(words[0])
+    """Return the frames that begin with a text: of the recording in the first argument, otherwise of the ROS graph.
+
+    The first argument may itself be a recording, so that matching recordings are returned for it instead.
+    """
+    bag, names = ctx.params.get("bag"), ctx.params.get("names") or []
+    if not bag and not names:
+        return complete_recordings(incomplete) or complete_live_frames(ctx, incomplete)
+    path = Path(bag or names[0])
+    if not path.exists():
+        return [] if bag else complete_live_frames(ctx, incomplete)
     files = path.iterdir() if path.is_dir() else [path]
     if sum(file.stat().st_size for file in files if file.is_file()) > _LARGEST:
         return []
@@ -78,6 +90,17 @@ def complete_frames(ctx: Any, incomplete: str) -> list[str]:
 
     with open_bag(path) as recording:
         names = {name for buffer in recording.buffers.values() for name in buffer.frame_names()}
+    return sorted(name for name in names if name.startswith(incomplete))
+
+
+@_silent
+def complete_live_frames(ctx: Any, incomplete: str) -> list[str]:
+    """Return the frames of the ROS graph that begin with a text."""
+    import coframe  # noqa: PLC0415 - only for this completion
+
+    options = {name: ctx.params[name] for name in ("domain", "tf_topic", "tf_static_topic") if ctx.params.get(name)}
+    with coframe.connect("completion", **options) as connection:
+        names = _settled(connection.buffer.frame_names)
     return sorted(name for name in names if name.startswith(incomplete))
 
 
@@ -102,12 +125,17 @@ def _live_topics(domain: int | None) -> dict[str, list[str]]:
 
     participant = Participant.get(domain)
     try:
-        begin = changed = time.monotonic()
-        topics: dict[str, list[str]] = {}
-        while (now := time.monotonic()) - begin < _DISCOVERY and not (topics and now - changed > _UNCHANGED):
-            time.sleep(0.02)
-            if (found := participant.topics()) != topics:
-                topics, changed = found, now
-        return topics
+        return _settled(participant.topics)
     finally:
         participant.close()
+
+
+def _settled(observe: Callable[[], _Names]) -> _Names:
+    """Return what is known of the ROS graph once it no longer changes, or after the longest discovery."""
+    begin = changed = time.monotonic()
+    names = observe()
+    while (now := time.monotonic()) - begin < _DISCOVERY and not (names and now - changed > _UNCHANGED):
+        time.sleep(0.02)
+        if (found := observe()) != names:
+            names, changed = found, time.monotonic()
+    return names

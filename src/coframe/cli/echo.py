@@ -13,6 +13,7 @@ import numpy as np
 import typer
 
 import coframe
+from coframe.cli.completion import complete_live_frames
 from coframe.cli.lifecycle import run_until_interrupted
 from coframe.cli.options import (
     TF_STATIC_TOPIC,
@@ -47,10 +48,17 @@ def echo(
     source_frame: Annotated[
         str,
         typer.Argument(
-            metavar="SOURCE_FRAME", help="Frame in which the pose is expressed (tf2_echo calls it the source)."
+            metavar="SOURCE_FRAME",
+            help="Frame in which the pose is expressed (tf2_echo calls it the source).",
+            autocompletion=complete_live_frames,
         ),
     ],
-    target_frame: Annotated[str, typer.Argument(metavar="TARGET_FRAME", help="Frame whose pose is printed.")],
+    target_frame: Annotated[
+        str,
+        typer.Argument(
+            metavar="TARGET_FRAME", help="Frame whose pose is printed.", autocompletion=complete_live_frames
+        ),
+    ],
     echo_rate: Annotated[
         str | None, typer.Argument(metavar="[RATE]", help="Lookups per second, in Hz. [default: 1]")
     ] = None,
