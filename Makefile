@@ -8,6 +8,9 @@ NATIVE := $(shell find native -name '*.cpp' -o -name '*.hpp' -o -name '*.inc') C
 # For scripts that need the standard library only.
 ANY_PYTHON = $(if $(wildcard $(BIN)/python),$(BIN)/python,python3)
 
+# build-system.requires of pyproject.toml.
+BUILD_TOOLS = $(shell sed -n 's/^requires = \[\(.*\)\]/\1/p' pyproject.toml | sed 's/", "/" "/g')
+
 .DEFAULT_GOAL := help
 .PHONY: help setup build build-split demo test test-zenoh test-slow test-long test-ros test-ros-wheels sanitize sanitize-suite fuzz faults soak docs lint licences typecheck format conformance bench generate page page-check clean
 
@@ -27,7 +30,10 @@ $(STAMP): pyproject.toml scripts/make_venv.sh $(NATIVE)
 
 setup: $(STAMP) ## create the virtual environment with everything in it, and build the native core
 
-build: ## rebuild the native core
+$(VENV)/.build_tools: pyproject.toml
+	@$(BIN)/python -m pip install --quiet $(BUILD_TOOLS) && touch $@
+
+build: $(VENV)/.build_tools ## rebuild the native core
 	$(BIN)/python -m pip install --quiet --no-build-isolation --no-deps --editable .
 	@touch $(DEMO_STAMP) $(STAMP)
 
@@ -50,7 +56,10 @@ $(VENV)/.oracle: pyproject.toml | $(STAMP)
 	@$(BIN)/python -m pip install --quiet "pip>=25.1" && $(BIN)/python -m pip install --quiet --group oracle && touch $@ || \
 		echo "test-slow: the package index does not provide Pinocchio; tests that compare with it are skipped"
 
-test-slow: $(STAMP) $(VENV)/.oracle $(VENV)/.docs ## run the tests that take minutes
+$(VENV)/.installers: pyproject.toml | $(STAMP)
+	@$(BIN)/python -m pip install --quiet "pip>=25.1" && $(BIN)/python -m pip install --quiet --group installers && touch $@
+
+test-slow: $(STAMP) $(VENV)/.oracle $(VENV)/.installers $(VENV)/.docs ## run the tests that take minutes
 	$(BIN)/python -m pytest -m "slow and not long" $(ARGS)
 
 test-ros: $(STAMP) ## run programs with the sourced ROS 2 and with coframe, and compare their outputs
@@ -134,8 +143,8 @@ wheels: ## build, repair and test wheels into dist/: PYTHONS="python3.12 /path/t
 sdist: ## build the source distribution into dist/
 	$(ANY_PYTHON) scripts/wheels.py --sdist
 
-test-root: ## install dist/'s wheels in an empty Debian root and run the installed-package tests there (needs root)
-	sh scripts/test_in_root.sh $(PYTHONS)
+test-root: ## install dist/ in an empty Debian root and run the installed-package tests there: ARGS="--sdist --suite sid" (needs root)
+	VENV=$(VENV) sh scripts/test_in_root.sh $(ARGS) $(PYTHONS)
 
 release-check: ## check what is in dist/: metadata, sizes, licences of bundled parts, links, changelog
 	$(ANY_PYTHON) scripts/release_check.py

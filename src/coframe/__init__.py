@@ -36,7 +36,7 @@ if TYPE_CHECKING:
     from coframe.transform import Transform
     from coframe.viewer.show import show
 
-__version__ = "0.1.0"
+    __version__: str
 
 __all__ = [
     "Buffer",
@@ -125,6 +125,8 @@ def _import_core() -> None:
 
 def __getattr__(name: str) -> Any:
     """Import a function or module of the public interface on first use."""
+    if name == "__version__":
+        return importlib.import_module("importlib.metadata").version("coframe")
     if name in __all__ or name in _RENAMED:
         _import_core()
     if name in _LAZY:
