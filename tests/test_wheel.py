@@ -114,6 +114,20 @@ def test_uninstalling_leaves_nothing(wheel, tmp_path):
     assert run(python, "-c", "import sys; print([f for f in sys.meta_path if 'Coframe' in repr(f)])") == "[]\n"
 
 
+def test_uninstalling_removes_the_executables_of_ros2_as_well(wheel, tmp_path):
+    python, packages = virtual(tmp_path / "env")
+    scripts = python.parent
+    pip(python, "install", f"{wheel}[cli]")
+    pip(python, "uninstall", "--yes", "coframe")
+    before = files_below(packages), files_below(scripts)
+    pip(python, "install", "--no-deps", wheel)
+    home = {"HOME": str(tmp_path), "PATH": f"{scripts}{os.pathsep}{os.environ['PATH']}"}
+    run(scripts / "coframe", "ros2", "install", **home)
+    assert "Example" in run(scripts / "ros2", "topic", "list", "--help", **home)
+    pip(python, "uninstall", "--yes", "coframe")
+    assert (files_below(packages), files_below(scripts)) == before
+
+
 def test_an_environment(wheel, tmp_path):
     python, packages = virtual(tmp_path / "env")
     pip(python, "install", "--no-deps", wheel)
@@ -132,7 +146,7 @@ def test_an_environment_made_by_uv(wheel, tmp_path):
 def test_an_application_of_pipx(wheel, tmp_path):
     pytest.importorskip("pipx", reason="needs pipx from the package index")
     folders = {"PIPX_HOME": str(tmp_path / "home"), "PIPX_BIN_DIR": str(tmp_path / "bin")}
-    run(sys.executable, "-m", "pipx", "install", "--pip-args=--no-deps", wheel, **folders)
+    run(sys.executable, "-m", "pipx", "install", wheel, **folders)
     assert (tmp_path / "bin/coframe").exists()
     python = tmp_path / "home/venvs/coframe/bin/python"
     packages = Path(run(python, "-c", "import sysconfig; print(sysconfig.get_path('purelib'))").strip())
@@ -150,6 +164,19 @@ def test_the_packages_of_a_user(wheel, tmp_path):
     assert where.startswith(str(tmp_path))
     packages = Path(where).parents[3]
     check_sides(base, packages, **home)
+
+
+def test_the_executables_of_ros2_for_a_user(wheel, tmp_path):
+    """They are next to the user's `coframe`, and `pip uninstall` removes them."""
+    base = Path(sysconfig.get_config_var("BINDIR")) / f"python3.{sys.version_info[1]}"
+    home = {"PYTHONUSERBASE": str(tmp_path), "PIP_BREAK_SYSTEM_PACKAGES": "1", "HOME": str(tmp_path)}
+    pip(base, "install", "--user", "--ignore-installed", f"{wheel}[cli]", **home)
+    scripts = tmp_path / "bin"
+    run(scripts / "coframe", "ros2", "install", **home)
+    assert "Example" in run(scripts / "ros2", "topic", "list", "--help", **home)
+    pip(base, "uninstall", "--yes", "coframe", **home)
+    left = {name for name in files_below(tmp_path) if "coframe" in name or Path(name).name in {"ros2", "rviz2"}}
+    assert left == set()
 
 
 def test_a_prefix_as_conda_makes_it(wheel, tmp_path):

@@ -10,6 +10,7 @@ from __future__ import annotations
 import contextlib
 import importlib.metadata
 import os
+import site
 import sys
 import sysconfig
 from pathlib import Path
@@ -71,9 +72,16 @@ def remove() -> None:
 
 def _scripts() -> Iterator[tuple[str, Path]]:
     """Yield the name and the path of each executable."""
-    folder = Path(sysconfig.get_path("scripts"))
+    folder = _folder()
     for name in _NAMES:
         yield name, folder / (f"{name}.cmd" if os.name == "nt" else name)
+
+
+def _folder() -> Path:
+    """Return the folder of the executables of this installation; that of `pip install --user` is the user's own."""
+    if Path(__file__).is_relative_to(site.getusersitepackages()):
+        return Path(sysconfig.get_path("scripts", sysconfig.get_preferred_scheme("user")))
+    return Path(sysconfig.get_path("scripts"))
 
 
 def _script(name: str) -> str:
