@@ -5,7 +5,7 @@ import os
 import subprocess
 import sys
 import textwrap
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 
 import pytest
 
@@ -77,8 +77,8 @@ def child(domain_id: int) -> Iterator[Callable[..., Child]]:
     """Return a function that starts processes in the domain of the test: child("code", ROS_DISTRO="jazzy")."""
     children: list[Child] = []
 
-    def start(code: str, **environment: str) -> Child:
-        command = [sys.executable, "-c", textwrap.dedent(code)]
+    def start(code: str, python: Sequence[str] = (sys.executable,), **environment: str) -> Child:
+        command = [*python, "-c", textwrap.dedent(code)]
         children.append(Child(command, {"ROS_DOMAIN_ID": str(domain_id), **environment}))
         return children[-1]
 

@@ -1,9 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
 """Processes that use different releases of the DDS library, on one graph."""
 
+import os
+import shlex
+
 import pytest
 
 from coframe.wire.dds import library
+
+LAB = ["static_tf_broadcaster", "dynamic_tf_broadcaster", "tf_listener", "sensor_transform", "complete_tf_tree"]
 
 # A robot: transforms, a static transform that is published before the other side starts, and a service.
 ROBOT = """
@@ -86,13 +91,55 @@ def test_transforms_late_statics_and_services(libraries, child, robot, station):
 @pytest.mark.slow
 @pytest.mark.parametrize(("nodes", "observer"), [("0.10", "11"), ("11", "0.10")])
 def test_the_lab_nodes(libraries, child, nodes, observer):
-    modules = ["static_tf_broadcaster", "dynamic_tf_broadcaster", "tf_listener", "sensor_transform", "complete_tf_tree"]
-    for module in modules:
+    for module in LAB:
         child(f"from coframe.lab import {module}; {module}.main()", COFRAME_DDS_LIBRARY=libraries[nodes])
     other = child(OBSERVER, COFRAME_DDS_LIBRARY=libraries[observer])
     assert other.read() == observer
     seen = other.read().split(",")
-    assert [name for name in modules if name not in seen] == []
+    assert [name for name in LAB if name not in seen] == []
+
+
+@pytest.fixture
+def other_python() -> list[str]:
+    """The command of another Python in which coframe is installed; scripts/test_in_root.sh sets it."""
+    command = shlex.split(os.environ.get("COFRAME_TEST_OTHER_PYTHON", ""))
+    if not command:
+        pytest.skip("there is no other Python: scripts/test_in_root.sh --sdist --suite sid")
+    return command
+
+
+@pytest.mark.slow
+def test_transforms_and_services_of_another_python(other_python, child):
+    publisher = child(ROBOT, python=other_python)
+    other = publisher.read()
+    listener = child(STATION)
+    here, *received = listener.read().split(" ", 1)
+    assert received == ["2.25 True from the robot robot,station"]
+    print(f"published with Cyclone DDS {other}, received with {here}")
+    assert publisher.finish()[0] == listener.finish()[0] == 0
+
+
+@pytest.mark.slow
+def test_transforms_and_services_in_another_python(other_python, child):
+    publisher = child(ROBOT)
+    publisher.read()
+    listener = child(STATION, python=other_python)
+    assert listener.read().split(" ", 1)[1] == "2.25 True from the robot robot,station"
+    assert publisher.finish()[0] == listener.finish()[0] == 0
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("nodes_are_here", [True, False])
+def test_the_lab_nodes_of_another_python(other_python, child, nodes_are_here):
+    here: dict[str, list[str]] = {}
+    there = {"python": other_python}
+    nodes, observer = (here, there) if nodes_are_here else (there, here)
+    for module in LAB:
+        child(f"from coframe.lab import {module}; {module}.main()", **nodes)
+    other = child(OBSERVER, **observer)
+    other.read()
+    seen = other.read().split(",")
+    assert [name for name in LAB if name not in seen] == []
 
 
 OBSERVER = """
