@@ -211,8 +211,9 @@ def measure(arguments: list[str], scratch: Path, limit: float) -> Row:
     elif seconds > 2 * FIRST_SECONDS:
         second = Command(arguments, scratch)
         time.sleep(max(seconds / 2, FIRST_SECONDS))
-        end_seconds = second.interrupt()
-        problems += ended_badly(second, scratch)
+        if second.process.poll() is None:  # It can be faster than the first one.
+            end_seconds = second.interrupt()
+            problems += ended_badly(second, scratch)
     if command.memory > MOST_MEMORY:
         problems.append("more than 1 GB of memory")
     if end_seconds > MOST_SECONDS_TO_END:
