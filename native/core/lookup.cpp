@@ -206,12 +206,13 @@ bool latest_common_time(const Tree& tree, FrameId target, FrameId source, Stamp&
     return true;
   };
   int depth = 0;
+  // A view may contain a sample more than a span, which cached paths use: both must have the same latest time.
   for (FrameId frame = source;;) {
-    const History::View history = tree.history(frame);
-    if (history.empty()) break;
-    keep_earlier(history.newest(), common);
-    frame = history.parent();
-    edges.push_back({history.newest(), frame});
+    const History::Span span = tree.span(frame);
+    if (span.first > span.last) break;
+    keep_earlier(span.last, common);
+    frame = span.parent;
+    edges.push_back({span.last, frame});
     if (frame == target) return finish();
     if (++depth > kMaxDepth) return fail_loop(target, source, 0, 0, failure);
   }
@@ -219,13 +220,13 @@ bool latest_common_time(const Tree& tree, FrameId target, FrameId source, Stamp&
   common = kNoTime;
   depth = 0;
   for (FrameId frame = target;;) {
-    const History::View history = tree.history(frame);
-    if (history.empty()) {
+    const History::Span span = tree.span(frame);
+    if (span.first > span.last) {
       failure.reset(ErrorCode::not_connected, target, source, 0);
       return fail_apart(frame, source_root, failure);
     }
-    keep_earlier(history.newest(), common);
-    frame = history.parent();
+    keep_earlier(span.last, common);
+    frame = span.parent;
     const auto meeting =
         std::find_if(edges.begin(), edges.end(), [&](const Edge& edge) { return edge.parent == frame; });
     if (meeting != edges.end()) {

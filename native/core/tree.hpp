@@ -73,6 +73,7 @@ class Tree {
   std::size_t frame_count() const { return frames_.size(); }  // including NO_PARENT
   const std::string& name(FrameId id) const { return frame(id).name; }
   History::View history(FrameId id) const { return frame(id).history.view(); }
+  History::Span span(FrameId id) const { return frame(id).history.span(); }
   // Accepts any number, also from the samples of a damaged file; returns NO_PARENT for an unknown one.
   const Frame& frame(FrameId id) const {
     const Frame* frame = frames_.find(id);
