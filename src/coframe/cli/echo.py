@@ -25,7 +25,7 @@ from coframe.cli.options import (
     TfStaticTopicOption,
     TfTopicOption,
 )
-from coframe.cli.output import awaited_statics_text, fail, log, printable, with_doctor_command
+from coframe.cli.output import awaited_statics_text, fail, log, print_bounded, printable, with_doctor_command
 from coframe.cli.ros_arguments import node_identity
 from coframe.errors import TransformException
 from coframe.time import SECOND, SHORTEST_INT
@@ -194,11 +194,10 @@ def _print_answer(buffer: Buffer, source: str, target: str, stamp: int, write: C
     try:
         transform = buffer.lookup(source, target, stamp)
     except TransformException as error:
-        print(f"Failure at {time.time()}")
-        print(printable(f"Exception thrown:{error}"))
-        print(printable(f"The current list of frames is:\n{buffer.all_frames_as_string()}"), flush=True)
+        text = f"Failure at {time.time()}\nException thrown:{error}\nThe current list of frames is:\n"
+        print_bounded(printable(text + buffer.all_frames_as_string()))
         return 0
-    print(write(transform), flush=True)
+    print_bounded(write(transform))
     return 1
 
 

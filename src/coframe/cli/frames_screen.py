@@ -12,6 +12,7 @@ from rich.live import Live
 from rich.table import Table
 from rich.text import Text
 
+from coframe.cli.output import print_bounded
 from coframe.formatting import count
 from coframe.tree_drawing import changes, grow
 from coframe.tree_drawing.labels import summary
@@ -104,7 +105,7 @@ def _print_changes(steps: Iterator[tuple[Forest, list[Change]]]) -> None:
         if number == 0:
             print(summary(forest), flush=True)
         for change in news:
-            print(_line(change), flush=True)
+            print_bounded(_line(change).plain)
 
 
 def _line(change: Change) -> Text:

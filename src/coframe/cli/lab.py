@@ -17,7 +17,7 @@ import coframe
 from coframe.cli.help_format import PlainCommand, PlainGroup
 from coframe.cli.lifecycle import run_to_completion, run_until_interrupted
 from coframe.cli.options import DurationOption
-from coframe.cli.output import fail, printable, report_console, warn
+from coframe.cli.output import fail, print_bounded, printable, report_console, warn
 from coframe.cli.progress import item_progress
 from coframe.cli.view import PortOption, open_browser, optional_viewer
 from coframe.course import formats
@@ -273,7 +273,7 @@ def _run(
 
     def write(name: str, line: str) -> None:
         try:
-            print(f"{name:>{width}} | {printable(line)}", flush=True)
+            print_bounded(f"{name:>{width}} | {printable(line)}")
         except BrokenPipeError:
             closed.set()
 

@@ -10,13 +10,23 @@ from typing import IO, TYPE_CHECKING, Any, NoReturn, cast
 
 import typer
 
+from coframe.bounded_lines import print_bounded
 from coframe.escaping import printable
 from coframe.time import SECOND
 
 if TYPE_CHECKING:
     from rich.console import Console
 
-__all__ = ["awaited_statics_text", "fail", "log", "printable", "report_console", "warn", "with_doctor_command"]
+__all__ = [
+    "awaited_statics_text",
+    "fail",
+    "log",
+    "print_bounded",
+    "printable",
+    "report_console",
+    "warn",
+    "with_doctor_command",
+]
 
 _REDIRECTED_WIDTH = 1000  # columns
 
@@ -42,13 +52,13 @@ def awaited_statics_text(nodes: list[str]) -> str:
 
 def warn(text: str) -> None:
     """Print a warning on stderr."""
-    print(f"coframe: {printable(text)}", file=sys.stderr, flush=True)
+    print_bounded(f"coframe: {printable(text)}", error=True)
 
 
 def log(level: str, node: str, text: str) -> None:
     """Print a line on stderr in the format of ROS's console logger, without control characters."""
     seconds, nanoseconds = divmod(time.time_ns(), SECOND)
-    print(f"[{level}] [{seconds}.{nanoseconds:09d}] [{node}]: {printable(text)}", file=sys.stderr, flush=True)
+    print_bounded(f"[{level}] [{seconds}.{nanoseconds:09d}] [{node}]: {printable(text)}", error=True)
 
 
 def report_console() -> Console:

@@ -7,6 +7,7 @@ import time
 from typing import TYPE_CHECKING
 
 from coframe.wire import names
+from coframe.wire.warn_once import LAST_WARNING, MAX_WARNINGS
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -150,7 +151,7 @@ class MismatchMonitor:
             if own.on_mismatch is not None:
                 about = own.guid
             key = (about, node or peer.guid, reason)
-            if key in self._warned:
+            if key in self._warned or len(self._warned) > MAX_WARNINGS:
                 continue
             suspect = (own.guid, peer.guid, reason)
             since = suspects.get(suspect, now)
@@ -159,6 +160,8 @@ class MismatchMonitor:
                 continue
             self._warned.add(key)
             text = mismatch_text(own, peer, node, reason, self._graph.foreign_services(peer.guid))
+            if len(self._warned) > MAX_WARNINGS:
+                text = LAST_WARNING
             if own.on_mismatch is None or reason == "services":
                 self._warn(text)
             else:

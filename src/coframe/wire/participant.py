@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, ClassVar
 
 from coframe import _core
 from coframe.errors import WireError
+from coframe.escaping import printable
 from coframe.frame_names import naming_problems
 from coframe.time import SECOND
 from coframe.wire import domains, names, selection
@@ -172,7 +173,7 @@ class Participant(EndpointFactory, GraphQueries):
         with self._lock:
             callbacks = list(self._warning_callbacks)
         for callback in callbacks or [_logger.warning]:
-            callback(text)
+            callback(printable(text))  # with names from the network
 
     def _endpoints(self) -> list[LocalEndpoint]:
         with self._lock:

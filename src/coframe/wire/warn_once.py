@@ -9,15 +9,18 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
 
+MAX_WARNINGS = 1000
+"""The most warnings of a process: their texts contain names from the network, of which there can be any number."""
+
+LAST_WARNING = f"Further warnings are not shown: there were {MAX_WARNINGS}. Check which node creates so many names."
+
+
 class WarnOnce:
-    """A function that passes on each warning the first time only.
+    """A function that passes on each warning the first time only, and at most `MAX_WARNINGS`.
 
     Args:
         warn: Called with the text of each new warning.
     """
-
-    # The texts contain names from the network, so their number must have a limit.
-    _LIMIT = 1000
 
     def __init__(self, warn: Callable[[str], None]) -> None:
         self._warn = warn
@@ -25,6 +28,7 @@ class WarnOnce:
 
     def __call__(self, key: str, text: str) -> None:
         """Pass on `text`, unless it is empty or a warning with the same key was passed on before."""
-        if text and key not in self._keys and len(self._keys) < self._LIMIT:
-            self._keys.add(key)
-            self._warn(text)
+        if not text or key in self._keys or len(self._keys) > MAX_WARNINGS:
+            return
+        self._keys.add(key)
+        self._warn(text if len(self._keys) <= MAX_WARNINGS else LAST_WARNING)

@@ -9,7 +9,7 @@ import typer
 
 from coframe.cli.help_format import PlainCommand, PlainGroup
 from coframe.cli.options import with_leading_slash
-from coframe.cli.output import fail, printable
+from coframe.cli.output import fail, print_bounded, printable
 from coframe.cli.ros2.graph import (
     DISCOVERY,
     DaemonOption,
@@ -159,7 +159,7 @@ def _print_indented(title: str, message: Any) -> None:
     from rosidl_runtime_py import message_to_yaml  # noqa: PLC0415 - slow import
 
     text = "\n".join(f"    {line}" for line in message_to_yaml(message).splitlines())
-    print(f"{title}:\n{printable(text)}\n", flush=True)
+    print_bounded(f"{title}:\n{printable(text)}\n")
 
 
 def _status_name(status: int) -> str:

@@ -4,12 +4,11 @@
 from __future__ import annotations
 
 import functools
-import sys
 import time
 from collections import deque
 from typing import TYPE_CHECKING, Any
 
-from coframe.cli.output import fail
+from coframe.cli.output import fail, print_bounded
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -113,4 +112,4 @@ def _lost_events() -> Any:
 
 def _report_lost(status: Any) -> None:
     changed, total = status.total_count_change, status.total_count
-    print(f"A message was lost!!!\n\ttotal count change:{changed}\n\ttotal count: {total}", file=sys.stderr, flush=True)
+    print_bounded(f"A message was lost!!!\n\ttotal count change:{changed}\n\ttotal count: {total}", error=True)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from coframe.cli.options import NonNegativeDuration
-from coframe.cli.output import fail, printable
+from coframe.cli.output import fail, print_bounded, printable
 from coframe.cli.ros2.graph import (
     AT_ONCE,
     DaemonOption,
@@ -119,7 +119,7 @@ def echo(
         )
         for message in stream.messages(None if timeout is None else timeout.seconds):
             if raw or accepts(message):
-                print(write(message), flush=True)
+                print_bounded(write(message))
                 if once:
                     return
         fail(f"No message arrived on {topic_name} within {timeout}.", "coframe topic info shows its publishers.")

@@ -12,6 +12,8 @@ import tempfile
 from pathlib import Path
 from typing import Any, Final
 
+from coframe.bounded_lines import print_bounded
+
 __all__ = ["ProcessOutput", "get_logger", "get_output_loggers", "launch_config", "reset"]
 
 _SCREEN_FORMATS: Final = {
@@ -175,9 +177,9 @@ def _print(text: str, color: str = "", *, colored: int | None = None) -> None:
         end = len(text) if colored is None else colored
         text = f"\x1b[{color}m{text[:end]}\x1b[0m{text[end:]}"
     try:
-        print(text, file=sys.stdout, flush=True)  # noqa: T201 - the screen is the purpose
+        print_bounded(text)
     except UnicodeEncodeError:
-        print(text.encode("ascii", "replace").decode(), file=sys.stdout, flush=True)  # noqa: T201
+        print_bounded(text.encode("ascii", "replace").decode())
     except (BrokenPipeError, ValueError):  # The reader of the output is gone; the processes continue.
         pass
 

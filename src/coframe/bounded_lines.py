@@ -1,0 +1,111 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A limit for the lines per second in a terminal: other nodes can cause more of them than anyone can read."""
+
+from __future__ import annotations
+
+import atexit
+import contextlib
+import functools
+import sys
+import threading
+import time
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+    from typing import TextIO
+
+__all__ = ["MAX_LINES", "LineLimit", "print_bounded"]
+
+MAX_LINES = 2_000  # per second; a screen shows about 50
+_LINE_LENGTH = 1_000  # characters; longer lines count as several
+
+
+class LineLimit:
+    """Passes on texts of at most `MAX_LINES` lines per second; may be used by any thread.
+
+    A text that does not fit is omitted as a whole, so that no message is shown in part; only a text that would never
+    fit is cut. A sentence says how many lines are missing, before the next text that is shown.
+
+    Args:
+        write: Called with each text to show.
+        clock: Returns the time in seconds.
+    """
+
+    def __init__(self, write: Callable[[str], object], clock: Callable[[], float] = time.monotonic) -> None:
+        self._write = write
+        self._clock = clock
+        self._lock = threading.Lock()
+        self._since = clock()
+        self._shown = 0  # lines since then
+        self.omitted = 0
+        """The number of lines that were not shown and not reported yet."""
+
+    def __call__(self, text: str) -> None:
+        """Show a text of one or more lines, without the last line end, or count its lines."""
+        with self._lock:
+            if self._clock() - self._since >= 1.0:
+                self._report()
+                self._since, self._shown = self._clock(), 0
+            lines = text.split("\n")
+            left = MAX_LINES - self._shown
+            fitting = _fitting(lines, left)
+            if fitting < len(lines) and (self._shown or fitting == 0):
+                self.omitted += len(lines)
+                return
+            self._shown += sum(map(_weight, lines[:fitting]))
+            self.omitted += len(lines) - fitting
+            self._write("\n".join(lines[:fitting]))
+
+    def close(self) -> None:
+        """Say how many lines were not shown since the last report."""
+        with self._lock:
+            self._report()
+
+    def _report(self) -> None:
+        if self.omitted:
+            omitted, self.omitted = self.omitted, 0
+            self._write(f"... {omitted} more lines not shown, because more than {MAX_LINES} arrived in a second")
+
+
+def print_bounded(text: str, *, error: bool = False) -> None:
+    """Print text that other nodes caused; a terminal gets at most `MAX_LINES` lines per second, a file all.
+
+    Args:
+        text: One or more lines, without the last line end.
+        error: Whether to print on the standard error.
+    """
+    stream = _stream(error)
+    if stream.isatty():
+        _limit(error)(text)
+    else:
+        print(text, file=stream, flush=True)
+
+
+def _fitting(lines: list[str], room: int) -> int:
+    """Return how many of the first lines fit."""
+    for number, line in enumerate(lines):
+        room -= _weight(line)
+        if room < 0:
+            return number
+    return len(lines)
+
+
+def _weight(line: str) -> int:
+    return 1 + len(line) // _LINE_LENGTH
+
+
+def _stream(error: bool) -> TextIO:
+    return sys.stderr if error else sys.stdout
+
+
+@functools.cache
+def _limit(error: bool) -> LineLimit:
+    limit = LineLimit(lambda text: print(text, file=_stream(error), flush=True))
+    atexit.register(_close, limit)
+    return limit
+
+
+def _close(limit: LineLimit) -> None:
+    with contextlib.suppress(OSError, ValueError):  # The terminal is gone, or the stream is closed.
+        limit.close()
