@@ -9,14 +9,13 @@ from __future__ import annotations
 import difflib
 import importlib
 import re
-import shutil
 from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from coframe.bags import mcap_file, ros1_file, sqlite_file
 from coframe.bags.compressed_messages import UnpackedMessages
-from coframe.bags.storage import Channel
+from coframe.bags.storage import Channel, unpacked_budget
 from coframe.bounded_yaml import read_yaml
 from coframe.errors import RecordingError
 from coframe.formatting import listed
@@ -39,6 +38,7 @@ _READERS: dict[bytes, type[Storage]] = {
 }
 _SUFFIXES = (".mcap", ".db3", ".bag")
 _METADATA = "metadata.yaml"
+_UNPACKED_PIECE = 1 << 20  # bytes
 _LARGEST_METADATA = 16 << 20
 _ROS1_DATE = re.compile(r"[_-]?\d{4}(-\d\d){5}$", re.ASCII)
 
@@ -153,7 +153,7 @@ def _open(file: Path, problems: Problems, closing: ExitStack) -> Storage | None:
     with file.open("rb") as opened:
         start = opened.read(16)
     if start.startswith(_ZSTD):
-        file, start = _unpacked(file, closing)
+        file, start = _unpacked(file, problems, closing)
     for magic, reader in _READERS.items():
         if start.startswith(magic):
             storage = reader(file, problems)
@@ -170,7 +170,7 @@ def _open(file: Path, problems: Problems, closing: ExitStack) -> Storage | None:
     return None
 
 
-def _unpacked(file: Path, closing: ExitStack) -> tuple[Path, bytes]:
+def _unpacked(file: Path, problems: Problems, closing: ExitStack) -> tuple[Path, bytes]:
     """Unpack a file that was compressed as a whole, into a folder that exists while the recording is open."""
     try:
         zstandard: Any = importlib.import_module("zstandard")
@@ -180,9 +180,15 @@ def _unpacked(file: Path, closing: ExitStack) -> tuple[Path, bytes]:
         ) from None
     folder = Path(closing.enter_context(temporary_folder("coframe-unpacked-")))
     target = folder / file.name.removesuffix(".zstd")
+    budget = unpacked_budget(file.stat().st_size)
     # A damaged file yields a truncated one, and reading that reports the damage.
     with file.open("rb") as packed, target.open("wb") as whole, suppress(zstandard.ZstdError):
-        shutil.copyfileobj(zstandard.ZstdDecompressor().stream_reader(packed), whole)
+        reader = zstandard.ZstdDecompressor().stream_reader(packed)
+        while piece := reader.read(_UNPACKED_PIECE):
+            if whole.tell() + len(piece) > budget:
+                problems.add(f"{file.name} unpacks to more than {budget} bytes, the limit; the rest was not read")
+                break
+            whole.write(piece)
     with target.open("rb") as opened:
         return target, opened.read(16)
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from coframe.bags.compression import DamagedError
+from coframe.bags.compression import LARGEST, DamagedError
 from coframe.bags.storage import Batch, Channel, Storage
 from coframe.messages.slices import Slices
 
@@ -26,6 +26,7 @@ MAGIC = b"SQLite format 3\0"
 # SQLite's error texts quote damaged data, which may not be UTF-8.
 _DAMAGE = (sqlite3.Error, UnicodeDecodeError)
 _BATCH_SIZE = 2000  # rows
+_BATCH_BYTES = 64 << 20
 
 
 class SqliteStorage(Storage):
@@ -73,7 +74,8 @@ class SqliteStorage(Storage):
             return
         with_data = [number for number, channel in self._channels.items() if wanted(channel)]
         without_data = [number for number in self._channels if number not in with_data]
-        for numbers, column in ((with_data, "data"), (without_data, "NULL")):
+        data = f"CASE WHEN length(data) <= {LARGEST} THEN data END"
+        for numbers, column in ((with_data, data), (without_data, "NULL")):
             yield from self._rows(numbers, column, lambda row: progress(self.size * row // max(total, 1)))
         progress(self.size)
 
@@ -87,9 +89,9 @@ class SqliteStorage(Storage):
         )
         try:
             cursor = self._database.execute(query)
-            while rows := cursor.fetchmany(_BATCH_SIZE):
+            for rows in _parts(cursor):
                 progress(rows[-1][1])
-                yield from self._grouped(rows, with_data=column == "data")
+                yield from self._grouped(rows, with_data=column != "NULL")
         except _DAMAGE as error:
             self.add_problem(f"the database is damaged and was read only in part: {error}")
 
@@ -98,7 +100,9 @@ class SqliteStorage(Storage):
         topics, _, times, data = zip(*rows, strict=True)
         if set(map(type, times)) != {int} or (with_data and set(map(type, data)) != {bytes}):
             good = [row for row in rows if isinstance(row[2], int) and (isinstance(row[3], bytes) or not with_data)]
-            self.add_problem("rows with a time or data of the wrong type", len(rows) - len(good))
+            self.add_problem(
+                f"rows with a time or data of the wrong type, or with more than {LARGEST} bytes", len(rows) - len(good)
+            )
             rows = good
         numbers = set(topics)
         for number in numbers:
@@ -163,6 +167,20 @@ class SqliteStorage(Storage):
     def close(self) -> None:
         """Close the file."""
         self._database.close()
+
+
+def _parts(cursor: sqlite3.Cursor) -> Iterator[list[tuple[Any, ...]]]:
+    """Yield the rows in parts of limited size, so that the data of few messages is in memory."""
+    rows: list[tuple[Any, ...]] = []
+    size = 0
+    for row in cursor:
+        rows.append(row)
+        size += len(row[3]) if isinstance(row[3], bytes) else 0
+        if len(rows) == _BATCH_SIZE or size > _BATCH_BYTES:
+            yield rows
+            rows, size = [], 0
+    if rows:
+        yield rows
 
 
 def _row(position: int) -> int:

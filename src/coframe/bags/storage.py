@@ -31,6 +31,11 @@ MIN_BUDGET = 4 << 30  # bytes of unpacked chunks that any file may have
 MOST_DAMAGED = 1000  # places in a file after which a reader continues; an index can name any number of them
 
 
+def unpacked_budget(size: int) -> int:
+    """Return how many bytes a file of some bytes may unpack to."""
+    return max(MIN_BUDGET, MAX_RATIO * size)
+
+
 @dataclass(frozen=True, eq=False)
 class Channel:
     """The messages of one type on one topic in one file.
@@ -186,7 +191,7 @@ class ChunkedStorage(Storage):
         """
         if offset <= self._unpacked_end or size <= packed or size > LARGEST:
             return  # `unpack` refuses a chunk that is too large.
-        budget = max(MIN_BUDGET, MAX_RATIO * self.size)
+        budget = unpacked_budget(self.size)
         if self._unpacked_bytes + size > budget:
             raise DamagedError(
                 f"the chunks before it have {self._unpacked_bytes} unpacked bytes; the limit is {budget}"

@@ -48,7 +48,7 @@ if TYPE_CHECKING:
 __all__ = ["bag"]
 
 _NUMBER = re.compile(r"\d+(\.\d+)?")
-_MOST_EDGES = 500  # rows of `bag info`: no user reads more, and a table of 100 000 rows takes gigabytes
+_MAX_ROWS = 500  # rows of `bag info`: no user reads more, and a table of 100 000 rows takes gigabytes
 
 OutputArgument = Annotated[Path, typer.Argument(metavar="OUT", help="Folder of the copy; it must not exist yet.")]
 CompressionOption = Annotated[str, typer.Option(metavar="METHOD", help="Compression of the copy: none, zstd or lz4.")]
@@ -240,38 +240,45 @@ def _print(summary: Summary) -> None:
     else:
         console.print("The recording contains no messages.")
     topics = _table("topic", "type", "messages", "Hz")
-    for topic in summary.topics:
+    for topic in summary.topics[:_MAX_ROWS]:
         topics.add_row(
             _text(topic.name), _text(topic.type), str(topic.messages), f"{topic.rate:.1f}" if topic.rate else "-"
         )
     if summary.topics:
         console.print(topics)
-    for tree in summary.trees:
+    _print_omitted(console, len(summary.topics), "topic")
+    for tree in summary.trees[:_MAX_ROWS]:
         console.print(_text(f"tree with root {tree.root}: {count(tree.size, 'frame')}", style="bold"))
+    _print_omitted(console, len(summary.trees), "tree")
     edges = _table("parent", "child", "samples", "Hz", "longest gap", "from", "to")
-    for edge in summary.edges[:_MOST_EDGES]:
+    for edge in summary.edges[:_MAX_ROWS]:
         moving = (f"{edge.rate:.1f}", f"{edge.longest_gap / SECOND:.3f} s", seconds(edge.oldest), seconds(edge.newest))
         cells: tuple[Any, ...] = ("static", "", "", "") if edge.static else moving
         edges.add_row(_text(edge.parent), _text(edge.child), str(edge.samples), *cells)
     if summary.edges:
         console.print(edges)
-    if (omitted := len(summary.edges) - _MOST_EDGES) > 0:
-        console.print(f"{count(omitted, 'more edge')}. All of them: coframe bag info --json")
+    _print_omitted(console, len(summary.edges), "edge")
     if summary.sensors:
         _print_sensors(summary.sensors, console)
+
+
+def _print_omitted(console: Console, number: int, what: str) -> None:
+    if (omitted := number - _MAX_ROWS) > 0:
+        console.print(f"{count(omitted, f'more {what}')}. All of them: coframe bag info --json")
 
 
 def _print_sensors(summaries: list[SensorSummary], console: Console) -> None:
     """Print which sensor data can be transformed, and below it once each reason why not."""
     sensors = _table("sensor", "frame", "transformable")
     reasons: dict[str, list[tuple[str, str]]] = {}
-    for sensor in summaries:
+    for sensor in summaries[:_MAX_ROWS]:
         share = f"{sensor.possible} of {sensor.messages} into {sensor.root}" if sensor.root else "none"
         sensors.add_row(_text(sensor.topic), _text(sensor.frame), _text(share))
         if sensor.why_not:
             # The sentences about the topics of one frame differ only in the times.
             reasons.setdefault(_NUMBER.sub("", sensor.why_not), []).append((sensor.topic, sensor.why_not))
     console.print(sensors)
+    _print_omitted(console, len(summaries), "sensor")
     for group in reasons.values():
         console.print(_text(f"{listed(topic for topic, _ in group)}: {group[0][1]}"), soft_wrap=True)
 

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from itertools import zip_longest
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -16,15 +17,20 @@ if TYPE_CHECKING:
 
 __all__ = ["joint_states"]
 
+_MAX_POSITIONS = 10_000_000
+"""Of all joints and messages together: one message can name any number of joints."""
+
 
 def joint_states(topic: str, stamps: Sequence[int], messages: Sequence[Any]) -> JointStates:
     """Return the positions in JointState messages; with fewer positions than names, those of the first joints."""
     positions: dict[str, NDArray[np.float64]] = {}
+    most = _MAX_POSITIONS // max(len(messages), 1)
     for row, message in enumerate(messages):
-        for name, position in zip(message.name, message.position, strict=False):
+        for name, position in zip_longest(message.name, message.position[: len(message.name)]):
             if name not in positions:
+                if len(positions) >= most:
+                    continue
                 positions[name] = np.full(len(messages), np.nan)
-            positions[name][row] = position
-        for name in message.name[len(message.position) :]:
-            positions.setdefault(name, np.full(len(messages), np.nan))
+            if position is not None:
+                positions[name][row] = position
     return JointStates(topic, np.array(stamps, dtype=np.int64), positions)

@@ -144,8 +144,13 @@ class _Facts:
             for name in self._of_type({"std_msgs/msg/String"})
             if name.endswith("robot_description")
             for message in self._decoded(name, _MOST_DESCRIPTIONS)
+            if hasattr(message, "data")
         ]
-        self.joints = [self._joints(name) for name in self._of_type({"sensor_msgs/msg/JointState"})]
+        self.joints = [
+            joints
+            for name in self._of_type({"sensor_msgs/msg/JointState"})
+            if (joints := self._joints(name)) is not None
+        ]
         self.log = tuple(line for name in self._of_type(_LOGS) for line in self._lines(name))
 
     def _publishers(self, topic: str) -> tuple[Endpoint, ...]:
@@ -166,7 +171,11 @@ class _Facts:
         return Clock(arrived, stamp) if len(stamp) else None
 
     def _decoded(self, topic: str, most: int) -> Iterator[Any]:
-        """Yield the first messages of a topic; damaged ones are in the problems of the recording."""
+        """Yield the first messages of a topic; damaged ones are in the problems of the recording.
+
+        The definition in a recording can differ from that of the type's name: any field can be missing, and a message
+        whose definition cannot be used is bytes.
+        """
         messages = islice(self._recording.messages(topic), most)
         while (recorded := next(messages, None)) is not None:
             try:
@@ -187,12 +196,17 @@ class _Facts:
         stamps, received = self._recording.stamps(topic), self._recording.received(topic)
         return Sensor(topic, facts.type, self._recording.frame(frame.lstrip("/")), stamps, received)
 
-    def _joints(self, topic: str) -> JointStates:
+    def _joints(self, topic: str) -> JointStates | None:
+        """Return the joint states of a topic; None if its messages have other fields."""
         messages = list(self._decoded(topic, _MOST_DECODED))
-        stamps = [message.header.stamp.sec * SECOND + message.header.stamp.nanosec for message in messages]
-        return joint_states(topic, stamps, messages)
+        try:
+            stamps = [int(message.header.stamp.sec) * SECOND + message.header.stamp.nanosec for message in messages]
+            return joint_states(topic, stamps, messages)
+        except (AttributeError, TypeError, ValueError, OverflowError):
+            return None
 
     def _lines(self, topic: str) -> Iterator[LogLine]:
         received = self._recording.received(topic)
         for arrived, message in zip(received.tolist(), self._decoded(topic, _MOST_DECODED), strict=False):
-            yield LogLine(str(message.name), str(message.msg), arrived)
+            if hasattr(message, "name") and hasattr(message, "msg"):
+                yield LogLine(str(message.name), str(message.msg), arrived)

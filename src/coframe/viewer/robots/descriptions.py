@@ -110,7 +110,9 @@ def _read(
 ) -> Description | DescriptionProblem | None:
     """Return the robot of a message, the problem with it, or None if the message is empty."""
     try:
-        text = message.read().data
+        content = message.read()
+        if not isinstance(text := getattr(content, "data", None), str):
+            return DescriptionProblem(f"{topic} contains no robot description: its messages have other fields", "")
         if not text.strip():  # Some programs publish an empty description first.
             return None
         robot = parse_urdf(text)
