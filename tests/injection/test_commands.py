@@ -2,20 +2,12 @@
 """Commands print hostile names of a recording without control characters."""
 
 import pytest
+from hostile_names import NAMES
 from typer.testing import CliRunner
 
 import coframe
 from coframe.bags import Writer
 from coframe.cli.app import app
-
-NAMES = [
-    "<img src=x onerror=alert(1)>",
-    "esc\x1b[2J\x1b]0;t\x07",
-    "two\nlines",
-    "rtl\u202egnp",
-    "=cmd()",
-    "'; rm -rf $(x) `y`",
-]
 
 
 @pytest.fixture(scope="module")
@@ -25,7 +17,7 @@ def bag(tmp_path_factory):
         topic = writer.add_topic("/tf", "tf2_msgs/msg/TFMessage")
         for second in range(1, 4):
             moment = coframe.Buffer()
-            for name in [*NAMES, "x" * 1_000_000]:
+            for name in NAMES:
                 moment.set("map", name, coframe.Transform(), second * 10**9)
             writer.write(topic, moment.encode(static=False), received=second * 10**9)
     return str(path)
@@ -40,8 +32,8 @@ def bag(tmp_path_factory):
         ["doctor", "--json"],
         ["doctor", "--sarif"],
         ["bag", "info"],
-        *[["why", "{bag}", "map", name] for name in NAMES],
-        *[["lookup", "{bag}", "map", name] for name in [*NAMES, "nothing\x1b[2J"]],
+        *[["why", "{bag}", "map", name] for name in NAMES[:-1]],
+        *[["lookup", "{bag}", "map", name] for name in [*NAMES[:-1], "nothing\x1b[2J"]],
         ["why", "{bag}", "map", "nothing\x1b[2J\u202e"],
     ],
 )

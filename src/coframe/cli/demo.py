@@ -40,6 +40,7 @@ from coframe.robots import Robot, load
 __all__ = ["demo"]
 
 REFRESH = 0.1  # seconds
+OTHER_LINES = 6  # above and below the rows of the tree
 # These frames exist once every node has published.
 COMPLETE = ("world", "end_effector", "camera_link", "lidar_link")
 START_TIMEOUT = 20.0
@@ -133,7 +134,13 @@ def demo(
             running = time.monotonic() - start
             state = f"{running:.0f} s, Ctrl-C to stop: {', '.join(nodes.names)}"
             return Group(
-                tree_table(ros.buffer, name("base_link"), liveness, wide=console.width >= 100),
+                tree_table(
+                    ros.buffer,
+                    name("base_link"),
+                    liveness,
+                    most=max(1, console.height - OTHER_LINES),
+                    wide=console.width >= 100,
+                ),
                 Text(str(clouds)),
                 *(Text(warning, style="red") for warning in _duplicate_nodes(ros, nodes)),
                 Text(state, style="dim"),

@@ -7,11 +7,14 @@ import time
 from typing import TYPE_CHECKING
 
 import numpy as np
+from rich.console import Group
 from rich.table import Table
 from rich.text import Text
 
 from coframe.analysis.tree import FrameTrees
 from coframe.errors import TransformException
+from coframe.escaping import printable
+from coframe.formatting import count
 from coframe.time import SECOND
 
 if TYPE_CHECKING:
@@ -21,16 +24,17 @@ if TYPE_CHECKING:
 __all__ = ["tree_table"]
 
 
-def tree_table(buffer: Buffer, reference: str, liveness: LivenessTracker, *, wide: bool = True) -> Table:
+def tree_table(buffer: Buffer, reference: str, liveness: LivenessTracker, *, most: int, wide: bool = True) -> Group:
     """Return a table with each frame below its parent, and poses in metres and degrees.
 
     Args:
         buffer: The buffer that contains the frames.
         reference: The frame in which poses are expressed.
         liveness: Decides which frames are stale; the table updates it.
+        most: Maximum number of rows.
         wide: Whether the terminal has at least 100 columns, enough to show millimetres.
     """
-    title = f"transform tree, poses relative to {reference} (metres, degrees)"
+    title = Text(f"transform tree, poses relative to {printable(reference)} (metres, degrees)")
     table = Table(title=title, title_justify="left", box=None, padding=(0, 1, 0, 0), pad_edge=False)
     for column in ("frame", "parent"):
         table.add_column(column, no_wrap=True)
@@ -45,17 +49,19 @@ def tree_table(buffer: Buffer, reference: str, liveness: LivenessTracker, *, wid
     liveness.update(frames)
     rows = dict(zip((frame.name for frame in frames), zip(frames, liveness.stale().tolist(), strict=True), strict=True))
     trees = FrameTrees.from_parents({frame.name: frame.parent for frame in frames}, sorted(rows))
-    for number in trees.order:
+    for number in trees.order[:most]:
         frame, stale = rows[trees.names[number]]
         age = (now - frame.newest) / SECOND
         table.add_row(
-            Text(" " * trees.depths[number] + frame.name, style="dim" if stale else "bold"),
-            frame.parent,
+            Text(" " * trees.depths[number] + printable(frame.name), style="dim" if stale else "bold"),
+            Text(printable(frame.parent)),
             Text(_rate(frame), style="dim" if frame.static else "cyan"),
             Text(_age(frame, age), style="red" if stale else ""),
             *_pose(buffer, reference, frame.name, decimals),
         )
-    return table
+    left = len(trees.order) - most
+    more = [Text(f"... and {count(left, 'more frame')}", style="dim")] if left > 0 else []
+    return Group(table, *more)
 
 
 def _rate(frame: FrameInfo) -> str:

@@ -34,13 +34,21 @@ class ParameterClient:
         self._target = target
         if required and not wait_until(lambda: target in node_names(node, include_hidden=True)):
             fail_without_node(node, f"Node not found: {target}", target)
-        from rcl_interfaces.srv import ListParameters  # noqa: PLC0415 - slow import
-
-        probe = node.create_client(ListParameters, f"{target}/list_parameters")
-        self.is_available = probe.wait_for_service(PATIENCE if required else _SHORT_PATIENCE)
-        node.destroy_client(probe)
+        self.is_available = self._has_services(PATIENCE if required else _SHORT_PATIENCE)
         if required and not self.is_available:
             fail(f"Node {target} has no parameter services.", "It was started without them, or does not respond.")
+
+    def _has_services(self, patience: float) -> bool:
+        from rcl_interfaces.srv import ListParameters  # noqa: PLC0415 - slow import
+        from rclpy.exceptions import InvalidServiceNameException  # noqa: PLC0415
+
+        try:
+            probe = self._node.create_client(ListParameters, f"{self._target}/list_parameters")
+        except InvalidServiceNameException:  # Other programs can announce nodes with any name.
+            return False
+        found: bool = probe.wait_for_service(patience)
+        self._node.destroy_client(probe)
+        return found
 
     def names(self, prefixes: Iterable[str] = ()) -> list[str]:
         """Return the names of the parameters, sorted."""
