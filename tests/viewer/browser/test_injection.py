@@ -116,3 +116,61 @@ def test_hostile_names_of_nodes_and_frames_on_the_graph_are_text(domain_id, view
             boxes.nth(i).focus()
             page.key("Enter")
             check(page, f"message of {i}")
+
+
+@pytest.mark.slow
+@pytest.mark.timeout(300)
+def test_hostile_names_of_a_recording_are_text_in_plots_log_and_messages(view, open_page, tmp_path):
+    path = hostile_run([*SHORT, LONG]).write(tmp_path)
+    url = f"{view(path, fixed='odom').url}#panel=plots&panel=log&panel=message"
+    page = open_page(url, expected_errors=["Failed to load resource"]).drawn()
+    page.wait(lambda: any(MARKUP in row for row in page.texts(".log-row")), "the log")
+    check(page, "log")
+    box = page.raw.locator("#pane-plots input")
+    # The name of 1 MB is not offered: a text that is that long cannot be edited, and the server refuses it.
+    for typed, first in (("base_link:<", f"base_link:{MARKUP}."), ("base_link:mm", None), ("m", None), ("/<", None)):
+        box.fill("")
+        box.press_sequentially(typed)
+        if first is not None:
+            page.wait(lambda first=first: first in page.texts("#completion-expression li"), "the completion")
+        page.key("ArrowDown")
+        page.key("Enter")
+        assert page.evaluate("document.querySelector('#pane-plots input').value.length") <= 1000
+    for name in SHORT[:1]:
+        box.fill(f"base_link:{name}.x")
+        page.key("Enter")
+    page.wait(lambda: page.raw.locator("#curves .curve[data-state=ok]").count(), "a curve")
+    check(page, "plots")
+    topic = page.raw.locator("#pane-message input")
+    topic.fill(f"/{MARKUP}")
+    page.key("Enter")
+    page.wait(lambda: MARKUP in page.text("#fields"), "the message")
+    check(page, "message")
+
+
+@pytest.mark.slow
+@pytest.mark.timeout(300)
+def test_hostile_names_are_text_in_a_replay(view, open_page, tmp_path):
+    path = hostile_run([*SHORT, LONG]).write(tmp_path)
+    page = open_page(view(path, fixed="odom").url, expected_errors=["Failed to load resource"]).drawn()
+    file = page.save_replay(tmp_path / "replay.html", 2)
+    replay = open_page(file, expected_errors=["Failed to load resource"]).drawn()
+    replay.wait(lambda: MARKUP in replay.rows(), "the frames in the tree")
+    check_scene(replay)
+
+
+@pytest.mark.slow
+def test_a_name_that_is_too_long_for_a_request_does_not_close_the_connection(view, open_page):
+    buffer = coframe.Buffer()
+    buffer.set("map", "n" * 1_200_000, coframe.Transform(), static=True)
+    buffer.set("map", "base", coframe.Transform(), static=True)
+    sockets = []
+    page = open_page("about:blank")
+    page.raw.on("websocket", sockets.append)
+    page.raw.goto(view(buffer, fixed="map").url)
+    page.drawn()
+    page.raw.locator("#panel .row:visible .name").filter(has_text="nnn").click()
+    page.click("text=Use as Fixed Frame")
+    page.wait(lambda: "too large for the server" in page.text("#toasts"), "the message")
+    page.shows("base")
+    assert len(sockets) == 1

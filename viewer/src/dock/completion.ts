@@ -5,6 +5,9 @@ import { h, shorten } from "../util/dom";
 import type { Model } from "../model/model";
 import type { CompletionKind } from "../protocol/messages";
 
+/** The most characters of an expression, or of the name of a topic; those of the server. */
+export const MAX_TEXT = 1000;
+
 let lastId = 0;
 
 export class CompletedInput {
@@ -29,6 +32,7 @@ export class CompletedInput {
       type: "text",
       placeholder,
       autocomplete: "off",
+      maxlength: String(MAX_TEXT),
       role: "combobox",
       aria: { label, controls: id, expanded: "false", autocomplete: "list" },
     });

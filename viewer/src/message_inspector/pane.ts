@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The newest message of one topic, or the one at the displayed time, as a tree. */
 
-import { CompletedInput } from "../dock/completion";
+import { CompletedInput, MAX_TEXT } from "../dock/completion";
 import type { Pane } from "../dock/dock";
 import type { Model } from "../model/model";
 import type { InspectedField, Inspection } from "../protocol/messages";
@@ -9,6 +9,7 @@ import { h, icon, iconButton, setText, shorten } from "../util/dom";
 import * as format from "../util/format";
 import { link, linked } from "../util/link";
 import { remember, remembered } from "../util/storage";
+import { toast } from "../util/toast";
 import { hasChildren, isOpen, keyOf, visibleRows } from "./rows";
 
 const MAX_VALUE = 320;
@@ -35,7 +36,7 @@ export class MessagePane implements Pane {
   private isOpen = false;
 
   constructor(private readonly model: Model) {
-    this.wanted = linked("topic")[0] ?? remembered("inspected", "");
+    this.wanted = (linked("topic")[0] ?? remembered("inspected", "")).slice(0, MAX_TEXT);
     this.topic = new CompletedInput(model, "topic", "Topic to inspect", "/topic", (text) => this.inspect(text));
     this.topic.input.value = this.wanted;
     this.body = h("div", { class: "message" }, this.topic.element, this.facts, this.tree);
@@ -57,6 +58,10 @@ export class MessagePane implements Pane {
   }
 
   private inspect(topic: string): void {
+    if (topic.length > MAX_TEXT) {
+      toast(`The name of this topic has more than ${MAX_TEXT} characters.`);
+      return;
+    }
     this.topic.input.value = this.wanted = topic;
     remember("inspected", topic);
     link("topic", [topic]);

@@ -2,7 +2,7 @@
 /** Curves over time: live as they arrive, or of a whole recording. */
 
 import "uplot/dist/uPlot.min.css";
-import { CompletedInput } from "../dock/completion";
+import { CompletedInput, MAX_TEXT } from "../dock/completion";
 import type { Pane } from "../dock/dock";
 import type { Model } from "../model/model";
 import { copyText, h, iconButton, select, setText, shorten } from "../util/dom";
@@ -52,7 +52,8 @@ export class PlotsPane implements Pane {
   ) {
     this.seconds = Number(linked("window")[0] ?? remembered("plot-window", -1));
     const expressions = linked("plot").length ? linked("plot") : remembered<string[]>("plots", []);
-    for (const expression of expressions.slice(0, MAX_CURVES)) this.insert(expression);
+    for (const expression of expressions.slice(0, MAX_CURVES))
+      if (typeof expression === "string" && expression.length <= MAX_TEXT) this.insert(expression);
     this.input = new CompletedInput(
       model,
       "expression",
@@ -138,6 +139,10 @@ export class PlotsPane implements Pane {
 
   private add(expression: string): void {
     if (this.curves.some((curve) => curve.expression === expression)) return;
+    if (expression.length > MAX_TEXT) {
+      toast(`An expression has at most ${MAX_TEXT} characters, and this one has ${expression.length}.`);
+      return;
+    }
     if (this.curves.length >= MAX_CURVES) {
       toast(`The plots show at most ${MAX_CURVES} curves.`, "Remove a curve first.");
       return;

@@ -2,12 +2,17 @@
 /** The WebSocket to the server; opens immediately and reconnects whenever it closes. */
 
 import { fatal } from "../util/fatal";
+import { toast } from "../util/toast";
 import { checkServerMessage, decode, PROTOCOL_VERSION, type ClientMessage } from "./messages";
 import type { Source, SourceEvents } from "./source";
 import { compareVersion } from "./version";
 
 const FIRST_WAIT_MS = 250;
 const LONGEST_WAIT_MS = 4000;
+/** That of the server. */
+const MAX_REQUEST_BYTES = 1 << 20;
+/** The most bytes of UTF-8 of one unit of UTF-16. */
+const MAX_UTF8 = 3;
 
 type Listener = <K extends keyof SourceEvents>(event: K, value: SourceEvents[K]) => void;
 
@@ -31,7 +36,12 @@ export class SocketSource implements Source {
   }
 
   send(message: ClientMessage): void {
-    if (this.socket?.readyState === WebSocket.OPEN) this.socket.send(JSON.stringify(message));
+    if (this.socket?.readyState !== WebSocket.OPEN) return;
+    const text = JSON.stringify(message);
+    // The server closes the connection after a larger one, and the page would send it again after each reconnection.
+    if (text.length * MAX_UTF8 > MAX_REQUEST_BYTES && new TextEncoder().encode(text).length > MAX_REQUEST_BYTES)
+      toast("A request is too large for the server.", "Names of frames and topics may be too long.");
+    else this.socket.send(text);
   }
 
   private open(): void {

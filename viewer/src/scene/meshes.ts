@@ -7,11 +7,21 @@ import { GLTFLoader } from "three/examples/jsm/loaders/GLTFLoader.js";
 import { MTLLoader } from "three/examples/jsm/loaders/MTLLoader.js";
 import { OBJLoader } from "three/examples/jsm/loaders/OBJLoader.js";
 import { STLLoader } from "three/examples/jsm/loaders/STLLoader.js";
+import {
+  binaryTriangles,
+  colladaProblem,
+  gltfJson,
+  gltfProblem,
+  MAX_VERTICES,
+  objProblem,
+  stlCoordinates,
+} from "./mesh_limits";
 
 const MAX_BYTES = 200e6;
 /** The page blocks while a text file is parsed. */
 const MAX_TEXT_BYTES = 60e6;
-const MAX_VERTICES = 6e6;
+/** The most pixels of a texture; those of compressed images in the scene. */
+const MAX_PIXELS = 1 << 25;
 /** A URL that replaces forbidden ones; loading it fails immediately. */
 export const FORBIDDEN_URL = "data:,";
 
@@ -122,29 +132,40 @@ async function parseFormat(
     case "stl":
       return { object: new THREE.Mesh(parseStl(bytes, name)), coloured: false };
     case "dae": {
-      const scene = new ColladaLoader(manager).parse(text(bytes, name), folder)?.scene;
+      const document = new DOMParser().parseFromString(text(bytes, name), "application/xml");
+      refuse(colladaProblem(document), name);
+      const source = new XMLSerializer().serializeToString(document);
+      const scene = new ColladaLoader(manager).parse(source, folder)?.scene;
       if (!scene) throw new MeshError(`${short(name)} is not a COLLADA file.`);
       return { object: scene, coloured: true };
     }
     case "obj":
-      return parseObj(text(bytes, name), folder, manager);
+      return parseObj(text(bytes, name), name, folder, manager);
     case "glb":
     case "gltf":
-      return { object: (await new GLTFLoader(manager).parseAsync(bytes, folder)).scene, coloured: true };
+      return parseGltf(bytes, name, folder, manager);
     default:
       throw new MeshError(`${short(name)} has an unsupported format. Supported formats: STL, DAE, OBJ, GLB and glTF.`);
   }
 }
 
 /** Parses an OBJ file with its material library, if it exists. */
-async function parseObj(source: string, folder: string, manager: THREE.LoadingManager): Promise<LoadedMesh> {
+async function parseObj(
+  source: string,
+  name: string,
+  folder: string,
+  manager: THREE.LoadingManager,
+): Promise<LoadedMesh> {
+  refuse(objProblem(source), name);
   const loader = new OBJLoader(manager);
   const library = /^mtllib[ \t]+(.+?)\s*$/m.exec(source)?.[1];
   let coloured = false;
   if (library && folder)
     try {
       const url = folder + library.replaceAll("\\", "/").split("/").map(encodeURIComponent).join("/");
-      const materials = new MTLLoader(manager).parse(text(await fetchBytes(url, library), library), folder);
+      const definitions = text(await fetchBytes(url, library), library);
+      refuse(objProblem(definitions), library);
+      const materials = new MTLLoader(manager).parse(definitions, folder);
       materials.preload();
       loader.setMaterials(materials);
       coloured = true;
@@ -155,13 +176,43 @@ async function parseObj(source: string, folder: string, manager: THREE.LoadingMa
 }
 
 function parseStl(bytes: ArrayBuffer, name: string): THREE.BufferGeometry {
-  const binary = bytes.byteLength >= 84 && 84 + new DataView(bytes).getUint32(80, true) * 50 === bytes.byteLength;
-  if (!binary) text(bytes, name);
-  const geometry = new STLLoader().parse(bytes);
+  let geometry = new THREE.BufferGeometry();
+  const triangles = binaryTriangles(bytes);
+  if (triangles !== null) {
+    refuse(
+      3 * triangles > MAX_VERTICES ? `has ${triangles} triangles; at most ${MAX_VERTICES / 3} can be drawn` : "",
+      name,
+    );
+    const size = 84 + 50 * triangles;
+    geometry = new STLLoader().parse(size === bytes.byteLength ? bytes : bytes.slice(0, size));
+  } else {
+    // The loader of three.js needs quadratic time for a text with many beginnings of facets and no ends.
+    geometry.setAttribute("position", new THREE.BufferAttribute(stlCoordinates(text(bytes, name)), 3));
+  }
   if (!geometry.getAttribute("position")?.count) throw new MeshError(`${short(name)} contains no triangles.`);
   // The normals in STL files are unreliable; those of the triangles are always correct.
   geometry.computeVertexNormals();
   return geometry;
+}
+
+async function parseGltf(
+  bytes: ArrayBuffer,
+  name: string,
+  folder: string,
+  manager: THREE.LoadingManager,
+): Promise<LoadedMesh> {
+  refuse(gltfProblem(gltfJson(bytes)), name);
+  const loader = new GLTFLoader(manager);
+  // The usual one decodes images before their size can be checked.
+  loader.register((parser) => {
+    parser.textureLoader = new THREE.TextureLoader(manager);
+    return { name: "coframe" };
+  });
+  return { object: (await loader.parseAsync(bytes, folder)).scene, coloured: true };
+}
+
+function refuse(problem: string, name: string): void {
+  if (problem) throw new MeshError(`${short(name)} ${problem}.`);
 }
 
 function text(bytes: ArrayBuffer, name: string): string {
@@ -172,21 +223,22 @@ function text(bytes: ArrayBuffer, name: string): string {
   return new TextDecoder().decode(bytes);
 }
 
-/** Replaces textures that could not be loaded, and would be drawn black, by grey. */
+/** Removes textures that cannot be drawn, and draws grey instead of the black of a missing colour. */
 export function dropEmptyTextures(object: THREE.Object3D): void {
   object.traverse((part) => {
-    for (const material of materialsOf(part)) {
-      const textured = material as THREE.MeshPhongMaterial;
-      if (!textured.map || hasImage(textured.map)) continue;
-      textured.map = null;
-      textured.color.set("#b8bcc0");
-      textured.needsUpdate = true;
-    }
+    for (const material of materialsOf(part))
+      for (const [key, texture] of Object.entries(material)) {
+        if (!(texture instanceof THREE.Texture) || hasImage(texture)) continue;
+        Object.assign(material, { [key]: null, needsUpdate: true });
+        if (key === "map") (material as THREE.MeshPhongMaterial).color.set("#b8bcc0");
+      }
   });
 }
 
+/** Whether a texture has an image of a size that can be drawn; others would be decoded only to be refused. */
 export function hasImage(texture: THREE.Texture): boolean {
-  return Boolean((texture.image as { width?: number } | undefined)?.width);
+  const { width, height } = (texture.image as { width?: number; height?: number } | undefined) ?? {};
+  return Boolean(width) && (width as number) * (height ?? 1) <= MAX_PIXELS;
 }
 
 export function materialsOf(object: THREE.Object3D): THREE.Material[] {

@@ -18,6 +18,7 @@ interface Properties {
   max?: string;
   step?: string;
   placeholder?: string;
+  maxlength?: string;
   tabindex?: string;
   accept?: string;
   list?: string;

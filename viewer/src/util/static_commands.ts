@@ -10,9 +10,15 @@ function number(value: number): string {
   return String(Number(value.toFixed(6)) + 0);
 }
 
-/** Quotes a name for a shell, if necessary. */
+/** Quotes a name for a shell, if necessary; control characters as escapes, because a terminal acts on them. */
 export function quoted(name: string): string {
-  return /^[\w./-]+$/.test(name) ? name : `'${name.replaceAll("'", `'\\''`)}'`;
+  if (/^[\w./-]+$/.test(name)) return name;
+  if (!/\p{Cc}/u.test(name)) return `'${name.replaceAll("'", `'\\''`)}'`;
+  const escaped = name.replace(/[\\']/g, "\\$&").replace(/\p{Cc}/gu, (control) => {
+    const code = (control.codePointAt(0) as number).toString(16);
+    return `\\u${code.padStart(4, "0")}`;
+  });
+  return `$'${escaped}'`;
 }
 
 export function staticCommands(parent: string, child: string, pose: Pose): { name: string; text: string }[] {

@@ -18,8 +18,6 @@ if TYPE_CHECKING:
 
 __all__ = ["PANEL_HANDLERS"]
 
-_MAX_TEXT = 1000
-
 
 async def _set_curves(client: ClientState, request: messages.SetCurves) -> None:
     from coframe.viewer.panels.curve import CurveSpan  # noqa: PLC0415 - only curves need it
@@ -41,10 +39,14 @@ async def _show_graph(client: ClientState, request: messages.ShowGraph) -> None:
 
 
 async def _complete(client: ClientState, request: messages.Complete) -> Completions:
-    from coframe.viewer.panels.completion import complete_expression, complete_topic  # noqa: PLC0415 - see above
+    from coframe.viewer.panels.completion import (  # noqa: PLC0415 - see above
+        MAX_TEXT,
+        complete_expression,
+        complete_topic,
+    )
 
-    if len(request.text) > _MAX_TEXT:
-        raise BadRequestError(f"a text to be completed has at most {_MAX_TEXT} characters")
+    if len(request.text) > MAX_TEXT:
+        raise BadRequestError(f"a text to be completed has at most {MAX_TEXT} characters")
     complete = complete_expression if request.subject == "expression" else complete_topic
     viewer = client.viewer
     loop = asyncio.get_running_loop()

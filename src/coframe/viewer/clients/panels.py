@@ -6,6 +6,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from coframe.errors import WireError
+from coframe.viewer.panels.completion import MAX_TEXT
 from coframe.viewer.protocol.requests import BadRequestError
 
 if TYPE_CHECKING:
@@ -17,7 +18,6 @@ if TYPE_CHECKING:
 __all__ = ["ClientPanels", "ShownCurve"]
 
 _MAX_CURVES = 32
-_MAX_EXPRESSION = 1000
 
 
 class ShownCurve:
@@ -77,8 +77,8 @@ class ClientPanels:
         """
         if len(requests) > _MAX_CURVES:
             raise BadRequestError(f"a page shows at most {_MAX_CURVES} curves", "Remove a curve.")
-        if any(len(request.expression) > _MAX_EXPRESSION for request in requests):
-            raise BadRequestError(f"an expression has at most {_MAX_EXPRESSION} characters")
+        if any(len(request.expression) > MAX_TEXT for request in requests):
+            raise BadRequestError(f"an expression has at most {MAX_TEXT} characters")
         wanted = {request.id: request.expression for request in requests}
         for number in [number for number, shown in self.curves.items() if wanted.get(number) != shown.expression]:
             shown = self.curves.pop(number)

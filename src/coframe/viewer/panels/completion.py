@@ -16,7 +16,10 @@ if TYPE_CHECKING:
 
     from coframe.viewer.sources.source import Source
 
-__all__ = ["complete_expression", "complete_topic", "topic_types"]
+__all__ = ["MAX_TEXT", "complete_expression", "complete_topic", "topic_types"]
+
+MAX_TEXT = 1000
+"""The most characters of an expression, or of the name of a topic, in a panel."""
 
 _MAX_ITEMS = 60
 _SEPARATOR = re.compile(r"->|→|:")
@@ -72,9 +75,9 @@ def _example(source: Source, topic: str, ros_type: str) -> Any:
 
 
 def _matching(candidates: Iterable[str], text: str) -> list[str]:
-    """Return the candidates that begin with the text, then those that contain it."""
+    """Return the candidates that begin with the text, then those that contain it; not those that are too long."""
     wanted = text.lower()
-    names = sorted(set(candidates))
+    names = sorted({name for name in candidates if len(name) <= MAX_TEXT})
     first = [name for name in names if name.lower().startswith(wanted)]
     other = [name for name in names if wanted in name.lower() and not name.lower().startswith(wanted)]
     return (first + other)[:_MAX_ITEMS]
