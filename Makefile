@@ -12,7 +12,7 @@ ANY_PYTHON = $(if $(wildcard $(BIN)/python),$(BIN)/python,python3)
 BUILD_TOOLS = $(shell sed -n 's/^requires = \[\(.*\)\]/\1/p' pyproject.toml | sed 's/", "/" "/g')
 
 .DEFAULT_GOAL := help
-.PHONY: help setup build build-split demo test test-zenoh test-slow test-long test-ros test-ros-wheels sanitize sanitize-suite fuzz faults soak docs lint licences typecheck format conformance bench generate page page-check clean
+.PHONY: help setup build build-split demo test test-zenoh test-slow test-long test-ros test-ros-wheels sanitize sanitize-suite fuzz faults soak docs lint licences audit typecheck format conformance bench generate page page-check clean
 
 help: ## list the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  make %-12s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -117,6 +117,15 @@ lint: $(STAMP) ## check style, words, import directions and generated files
 
 licences: $(STAMP) ## check the licences of all packages that coframe[all] installs
 	$(BIN)/python scripts/check_licences.py
+
+$(VENV)/.audit: pyproject.toml | $(STAMP)
+	@$(BIN)/python -m pip install --quiet "pip>=25.1" && $(BIN)/python -m pip install --quiet --group audit && touch $@
+
+audit: $(VENV)/.audit ## compare the versions of all packages with published vulnerabilities; needs a database on the Internet
+	@mkdir -p build; $(BIN)/python -m pip_audit --skip-editable --progress-spinner off >build/audit.txt 2>&1; \
+		status=$$?; cat build/audit.txt; ! grep -q "could not be audited" build/audit.txt || \
+		{ echo "audit: the database does not know these packages, or cannot be reached: nothing is proven"; exit 1; }; \
+		exit $$status
 
 typecheck: $(STAMP) ## run mypy --strict, and compare the stub with the native module
 	$(BIN)/mypy
