@@ -24,7 +24,7 @@ WATCH = """() => {
 }"""
 COLLADA = """<?xml version="1.0"?>{doctype}
 <COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
-<library_geometries><geometry id="g"><mesh>
+<asset><up_axis>Z_UP</up_axis></asset><library_geometries><geometry id="g"><mesh>
 <source id="s"><float_array id="a" count="9">0 0 0 1 0 0 0 1 0</float_array>
 <technique_common><accessor source="#a" count="3" stride="{stride}"/></technique_common></source>
 <vertices id="v"><input semantic="POSITION" source="#s"/></vertices>
