@@ -19,6 +19,7 @@ import array, subprocess, sys, time
 import coframe
 from coframe.messages import find, serialize
 from coframe.wire import Participant, QoS
+from coframe.wire.domains import domain_id
 from coframe.wire.dds.discovery_info import NodeInfo, encode_info
 
 def eventually(condition):
@@ -106,7 +107,7 @@ def test_late_static_transforms_arrive_before_why_answers(run):
         stamped = find("geometry_msgs/msg/TransformStamped")(child_frame_id="camera_link")
         stamped.header.frame_id = "base_link"
         message = find("tf2_msgs/msg/TFMessage")(transforms=[stamped])
-        fast = FastDds(coframe.wire.dds.config.domain_id())
+        fast = FastDds(domain_id())
         guid = fast.ask("guid", "writer", "rt/tf_static", "tf2_msgs::msg::dds_::TFMessage_", "transient")
         fast.announce("calibration", writers=[guid])
         fast.ask("written", "write", "rt/tf_static", serialize(message).hex())
@@ -126,7 +127,7 @@ def test_services_are_reported_and_never_ready(run):
         from std_srvs.srv import SetBool
         rclpy.init()
         node = rclpy.create_node("robot")
-        fast = FastDds(coframe.wire.dds.config.domain_id())
+        fast = FastDds(domain_id())
         endpoints = [
             fast.ask("guid", kind, topic, f"std_srvs::srv::dds_::SetBool_{part}_", "volatile")
             for kind, topic, part in (
