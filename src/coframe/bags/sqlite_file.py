@@ -100,10 +100,9 @@ class SqliteStorage(Storage):
         topics, _, times, data = zip(*rows, strict=True)
         if set(map(type, times)) != {int} or (with_data and set(map(type, data)) != {bytes}):
             good = [row for row in rows if isinstance(row[2], int) and (isinstance(row[3], bytes) or not with_data)]
-            self.add_problem(
-                f"rows with a time or data of the wrong type, or with more than {LARGEST >> 20} MiB",
-                len(rows) - len(good),
-            )
+            limit = f"{LARGEST >> 20} MiB"
+            problem = f"rows with a time or data of the wrong type, or with more than {limit}"
+            self.add_problem(problem, len(rows) - len(good))
             rows = good
         numbers = set(topics)
         for number in numbers:
