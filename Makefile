@@ -71,9 +71,13 @@ test-ros-wheels: ## grade the lab's solution on rclpy and Fast DDS of ROS 2 Kilt
 test-long: $(STAMP) ## compare ten million random operations with the real tf2 (a new seed each run); ten minutes with a stuck tab; a class of 36
 	$(BIN)/python -m pytest -m long -rP $(ARGS)
 
-sanitize: ## run the native core under ThreadSanitizer and AddressSanitizer, also with damaged messages
-	@$(MAKE) -s -C tests/native thread address
+sanitize: ## run the native core under ThreadSanitizer and AddressSanitizer, with damaged messages and dying writers
+	@$(MAKE) -s -C tests/native thread address plain
 	tests/native/sanitized.sh build/sanitize/thread/stress $(or $(ARGS),60)
+	tests/native/sanitized.sh build/sanitize/thread/shared_stress 20
+	build/sanitize/plain/crash
+	build/sanitize/explored/explore
+	build/sanitize/plain/kill_writer 100
 	tests/native/sanitized.sh build/sanitize/address/stress 20
 	tests/native/sanitized.sh build/sanitize/address/latest 10
 	tests/native/sanitized.sh build/sanitize/address/fuzz_ingest 200000

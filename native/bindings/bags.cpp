@@ -44,6 +44,7 @@ nb::tuple ingest_slices(nb::handle buffer, nb::handle data, nb::handle starts, n
   const Memory bytes(data, PyBUF_SIMPLE), first(starts, PyBUF_SIMPLE), last(ends, PyBUF_SIMPLE);
   const std::size_t count = first.size() / sizeof(std::uint64_t);
   if (first.size() != last.size()) throw nb::value_error("as many ends as starts are wanted");
+  self.stop_sharing();
   const AuthorityId who = self.authority(authority.ptr());
   const nb::ft_lock_guard lock(self.ingesting);
   TransformStream& stream = self.stream(is_static, who, encoding_of(encoding), renaming);

@@ -27,6 +27,7 @@ void define_message_codec(nb::module_& module);
 void define_event(nb::module_& module);
 void define_robots(nb::module_& module);
 void define_sensors(nb::module_& module);
+void define_shared(nb::module_& module);
 void define_bags(nb::module_& module);
 void define_wire(nb::module_& module);
 

@@ -6,6 +6,7 @@
 #include <nanobind/stl/string_view.h>
 #include <nanobind/stl/vector.h>
 
+#include <chrono>
 #include <optional>
 #include <set>
 
@@ -20,11 +21,28 @@ namespace coframe::bindings {
 
 namespace {
 
+// Waits without the GIL for a change of shared data that makes the lookup succeed.
+bool wait_for_shared(const Buffer& core, LookupQuery& query, std::int64_t timeout_ns, LookupResult& result,
+                     Failure& failure) {
+  using clock = std::chrono::steady_clock;
+  return wait_with_signals(timeout_ns, [&](std::int64_t slice) {
+    const auto end = clock::now() + std::chrono::nanoseconds(slice);
+    for (;;) {
+      const std::uint64_t seen = core.changes();
+      if (core.lookup_by_name(query, result, failure)) return true;
+      const std::int64_t left = (end - clock::now()) / std::chrono::nanoseconds(1);
+      if (left <= 0) return false;
+      core.wait_for_change(seen, left);
+    }
+  });
+}
+
 // Tries at once, then waits without the GIL for an insertion that makes the lookup succeed.
 bool lookup_by_name_waiting(BufferObject& self, LookupQuery& query, std::int64_t timeout_ns, LookupResult& result,
                             Failure& failure) {
   if (self.core->lookup_by_name(query, result, failure)) return true;
   if (timeout_ns <= 0) return false;
+  if (self.core->following()) return wait_for_shared(*self.core, query, timeout_ns, result, failure);
   const auto wait = std::make_shared<Wait>(query);
   const ScopedWait queued(self.core->wait_queue(), wait);
   if (wait_with_signals(timeout_ns, [&](std::int64_t slice) { return wait->wait_for(slice); })) {
@@ -275,6 +293,7 @@ nb::tuple set_rows(BufferObject& self, std::string_view parent, std::string_view
   const Memory times(stamps, PyBUF_C_CONTIGUOUS), places(poses, PyBUF_C_CONTIGUOUS);
   const std::size_t count = times.size() / sizeof(Stamp);
   const Track track{parent, child, count, times.data<const Stamp>(), rows(places, 7, count)};
+  self.stop_sharing();
   const AuthorityId who = self.authority(authority.ptr());
   std::size_t stored, bad_row;
   unsigned refusals;
@@ -359,8 +378,6 @@ PyObject* py_set_values(PyObject* object, PyObject* const* arguments, Py_ssize_t
   if (!signature.parse(arguments, count, keywords, values)) return nullptr;
   return guarded([&]() -> PyObject* {
     BufferObject& self = buffer_of(object);
-    const FrameId parent = self.frame(values[0]), child = self.frame(values[1]);
-    const AuthorityId authority = self.authority(values[11]);
     double v[7];
     for (int i = 0; i < 7; ++i) {
       v[i] = PyFloat_AsDouble(values[3 + i]);
@@ -369,10 +386,13 @@ PyObject* py_set_values(PyObject* object, PyObject* const* arguments, Py_ssize_t
     const Stamp stamp = to_int64(values[2]);
     const bool is_static = is_true(values[10]);
     const TransformValues transform{{v[0], v[1], v[2]}, {v[3], v[4], v[5], v[6]}};
-    const bool known = parent != 0 && child != 0 && parent != child;
-    return PyLong_FromUnsignedLong(
-        known ? self.core->insert(parent, child, stamp, transform, is_static, authority)
-              : self.core->insert(text(values[0]), text(values[1]), stamp, transform, is_static, authority));
+    return PyLong_FromUnsignedLong(self.insert([&] {
+      const FrameId parent = self.frame(values[0]), child = self.frame(values[1]);
+      const AuthorityId authority = self.authority(values[11]);
+      const bool known = parent != 0 && child != 0 && parent != child;
+      return known ? self.core->insert(parent, child, stamp, transform, is_static, authority)
+                   : self.core->insert(text(values[0]), text(values[1]), stamp, transform, is_static, authority);
+    }));
   });
 }
 
@@ -394,7 +414,8 @@ PyObject* py_set_plain(PyObject* object, PyObject* const* arguments, Py_ssize_t 
     if (!is_plain || !has_time) return Py_NewRef(Py_None);
     const double *p = given.pose.p, *q = given.pose.q;
     const TransformValues transform{{p[0], p[1], p[2]}, {q[0], q[1], q[2], q[3]}};
-    return PyLong_FromUnsignedLong(self.core->insert(parent, child, given.stamp, transform, false, 0));
+    return PyLong_FromUnsignedLong(
+        self.insert([&] { return self.core->insert(parent, child, given.stamp, transform, false, 0); }));
   });
 }
 
@@ -414,6 +435,7 @@ PyObject* py_ingest(PyObject* object, PyObject* const* arguments, Py_ssize_t cou
   return guarded([&] {
     BufferObject& self = buffer_of(object);
     const bool is_static = is_true(values[1]);
+    self.stop_sharing();
     const AuthorityId authority = values[2] ? self.authority(values[2]) : 0;
     const Memory bytes(values[0], PyBUF_SIMPLE);
     std::size_t stored;
@@ -604,16 +626,28 @@ Raises:
           "encode", &encode, nb::kw_only(), arg("static"),
           R"doc(Return the newest sample of every static, or of every dynamic, frame as the CDR bytes of one TFMessage.)doc")
       .def(
-          "clear", [](BufferObject& self) { self.core->clear(); },
+          "clear",
+          [](BufferObject& self) {
+            self.stop_sharing();
+            self.core->clear();
+          },
           R"doc(Remove all dynamic samples; frames stay known, and static transforms stay, as in tf2.)doc")
       .def(
-          "remove_frame", [](BufferObject& self, std::string_view name) { return self.core->remove_frame(name); },
+          "remove_frame",
+          [](BufferObject& self, std::string_view name) {
+            self.stop_sharing();
+            return self.core->remove_frame(name);
+          },
           arg("name"), R"doc(Remove a frame with the edges to its parent and to its children, also static ones.
 
 Returns:
     Whether the frame existed.)doc")
       .def(
-          "freeze", [](BufferObject& self) { self.core->freeze(); },
+          "freeze",
+          [](BufferObject& self) {
+            self.stop_sharing();
+            self.core->freeze();
+          },
           R"doc(Make the buffer read-only: from now on it stores nothing and removes nothing.)doc")
       .def_prop_ro(
           "frozen", [](const BufferObject& self) { return self.core->frozen(); },
@@ -621,6 +655,11 @@ Returns:
       .def(
           "_become_snapshot", [](BufferObject& self, const BufferObject& other) { self.core = other.core->snapshot(); },
           arg("other"))
+      .def("_stop_following", [](BufferObject& self) { self.core->stop_following(); })
+      .def(
+          "_on_local_change", [](BufferObject& self, nb::object call) { self.on_local_change = std::move(call); },
+          any("call"))
+      .def_prop_ro("_following", [](const BufferObject& self) { return self.core->following(); })
       .def("_frame_tuples", &frame_tuples)
       .def("_edge_at", &edge_at, arg("child"), arg("stamp"))
       .def("_edge_tuples", &edge_tuples, arg("children") = nb::none())

@@ -43,6 +43,21 @@ struct BufferObject {
     return paths.with([&](PathCache& cache) { return core->check_cached_path(cache, target, source, stamp); });
   }
 
+  // Calls `insert`, which returns the refusals. A buffer that reads shared transforms first becomes a private one.
+  template <class Insert>
+  unsigned insert(Insert&& insert) {
+    const unsigned refusals = insert();
+    if (!(refusals & kShared)) return refusals;
+    stop_sharing();
+    return insert();
+  }
+  // Before every other change: a buffer that reads shared transforms becomes a private one.
+  void stop_sharing() {
+    if (!core->following()) return;
+    if (on_local_change.is_valid() && !on_local_change.is_none()) on_local_change();
+    core->stop_following();
+  }
+
   using StreamKey = std::tuple<bool, TransformStream::Encoding, AuthorityId>;
   // Returns the message stream of this authority, to be used while `ingesting` is locked. Its renaming is set when the
   // stream is first used.
@@ -60,6 +75,7 @@ struct BufferObject {
     return stream;
   }
 
+  nb::object on_local_change;  // called before a buffer stops to read shared transforms; None: nothing
   IdentityCache<FrameId, 256> frames;
   IdentityCache<AuthorityId, 256> authorities;
   CallPaths paths;

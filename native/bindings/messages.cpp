@@ -147,8 +147,10 @@ PyObject* set_message(PyObject* object, PyObject* const* arguments, Py_ssize_t c
     if (!PyUnicode_CheckExact(values[2]) || !read_message(values[0], content)) return Py_NewRef(Py_None);
     const FrameId parent = self.frame(content.parent.ptr()), child = self.frame(content.child.ptr());
     if (parent == 0 || child == 0 || parent == child) return Py_NewRef(Py_None);
-    return PyLong_FromUnsignedLong(self.core->insert(parent, child, content.stamp, content.values,
-                                                     PyObject_IsTrue(values[1]) == 1, self.authority(values[2])));
+    const bool is_static = PyObject_IsTrue(values[1]) == 1;
+    return PyLong_FromUnsignedLong(self.insert([&] {
+      return self.core->insert(parent, child, content.stamp, content.values, is_static, self.authority(values[2]));
+    }));
   });
 }
 

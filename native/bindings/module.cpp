@@ -20,6 +20,7 @@ NB_MODULE(_core, module) {
   define_event(module);
   define_robots(module);
   define_sensors(module);
+  define_shared(module);
   define_bags(module);
   define_wire(module);
 }

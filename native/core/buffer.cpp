@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <stdexcept>
 #include <system_error>
 #include <thread>
 #include <utility>
@@ -76,8 +78,8 @@ void write_pose(const Pose& pose, double* row) {
 FrameSummary summary_of(const Tree& tree, FrameId id) {
   const Frame& frame = tree.frame(id);
   const History::View history = tree.history(id);
-  if (history.empty()) return {frame.name, "", "", false, 0, 0, 0, 0.0};
-  return {frame.name,
+  if (history.empty()) return {std::string(frame.name.view()), "", "", false, 0, 0, 0, 0.0};
+  return {std::string(frame.name.view()),
           tree.name(history.parent()),
           tree.authority_name(frame.authority),
           history.is_static(),
@@ -94,13 +96,10 @@ unsigned Buffer::insert_and_announce(Insert&& insert) {
   Inserted inserted;
   {
     const std::lock_guard lock(writing_);
-    if (frozen()) {
-      ++counts_.refused;
-      return kFrozen;
-    }
+    if (const unsigned refusal = refusal_.load()) return refuse(refusal, 1);
     insert(inserted);
     count(inserted.refusals);
-    count_change();
+    tree_.count_change();
   }
   notify(&inserted, 1);
   return inserted.refusals;
@@ -138,10 +137,7 @@ unsigned Buffer::insert_many(const Track& track, bool is_static, AuthorityId aut
     std::vector<Inserted> inserted;
     {
       const std::lock_guard lock(writing_);
-      if (frozen()) {
-        counts_.refused += track.count - first;
-        return kFrozen;
-      }
+      if (const unsigned refusal = refusal_.load()) return refuse(refusal, track.count - first);
       stored += insert_block(block, is_static, authority, inserted);
     }
     announce(inserted.data(), inserted.size());
@@ -157,7 +153,7 @@ std::size_t Buffer::insert_block(const Track& block, bool is_static, AuthorityId
     const std::size_t run = is_static ? 0
                                       : tree_.append_run(block.parent, block.child, block.stamps + i,
                                                          block.poses + 7 * i, block.count - i, authority);
-    counts_.stored += run;
+    tree_.counts().stored.add(run);
     stored += run;
     i += run;
     if (run > 0) inserted.push_back({0, tree_.find(without_slash(block.child)), false, false});
@@ -172,6 +168,7 @@ std::size_t Buffer::insert_block(const Track& block, bool is_static, AuthorityId
 
 AuthorityId Buffer::authority(std::string_view name) {
   const std::lock_guard lock(writing_);
+  if (following()) return 0;
   return tree_.authority(name);
 }
 
@@ -181,12 +178,13 @@ TransformStream Buffer::open_stream(bool is_static, std::string_view authority,
   TransformStream stream;
   stream.is_static = is_static;
   stream.renaming = std::move(renaming);
-  stream.authority = tree_.authority(authority);
+  stream.authority = following() ? 0 : tree_.authority(authority);
   return stream;
 }
 
 void Buffer::rename(TransformStream& stream, std::string_view authority) {
   const std::lock_guard lock(writing_);
+  if (refusal_.load() != 0) return;
   const AuthorityId before = stream.authority;
   stream.authority = tree_.authority(authority);
   for (const ExpectedNames& names : stream.expected) tree_.change_authority(names.child, before, stream.authority);
@@ -209,14 +207,19 @@ DecodeFailure Buffer::ingest_without_notify(TransformStream& stream, const std::
   for (const TransformView& view : stream.decoded) stream.newest = std::max(stream.newest, view.stamp);
   {
     const std::lock_guard lock(writing_);
-    ++counts_.messages;
-    if (failure.reason) ++counts_.malformed;
+    if (following()) {
+      stream.inserted.assign(transforms, {.refusals = kShared});
+      return failure;
+    }
+    TreeCounts& counts = tree_.counts();
+    counts.messages.add(1);
+    if (failure.reason) counts.malformed.add(1);
     for (std::size_t i = 0; i < transforms; ++i) {
       // Rejected old samples also change the tree: they create frames, and older samples may be pruned.
       store(stream, i, stream.decoded[i], stream.inserted[i]);
       if (count(stream.inserted[i].refusals)) ++stored;
     }
-    if (transforms > 0) count_change();
+    if (transforms > 0) tree_.count_change();
   }
   return failure;
 }
@@ -230,8 +233,8 @@ void Buffer::notify_ingested(TransformStream& stream) {
 }
 
 void Buffer::store(TransformStream& stream, std::size_t index, const TransformView& view, Inserted& inserted) {
-  if (frozen()) {
-    inserted = {.refusals = kFrozen};
+  if (const unsigned refusal = refusal_.load()) {
+    inserted = {.refusals = refusal};
   } else if (view.as_expected) {
     const ExpectedNames& names = stream.expected[index];
     tree_.insert(names.parent, names.child, view.stamp, view.values, stream.is_static, stream.authority, inserted);
@@ -253,9 +256,10 @@ Inserted Buffer::store_unexpected(TransformStream& stream, std::size_t index, co
 Inserted Buffer::store_named(TransformStream& stream, std::size_t index, const TransformView& view,
                              std::string_view parent, std::string_view child) {
   const std::size_t frames = tree_.frame_count();
-  const bool is_full = frames >= kMaxFrames || received_name_bytes_ + parent.size() + child.size() > kMaxNameBytes;
+  const bool is_full = frames >= kMaxFrames || received_name_bytes_ + parent.size() + child.size() > kMaxNameBytes ||
+                       !tree_.has_room_for_names(parent.size() + child.size());
   if (is_full && (tree_.find(without_slash(parent)) == 0 || tree_.find(without_slash(child)) == 0)) {
-    ++counts_.over_limit;
+    tree_.counts().over_limit.add(1);
     return {.refusals = kTooManyFrames};
   }
   const Inserted inserted = tree_.insert(parent, child, view.stamp, view.values, stream.is_static, stream.authority);
@@ -270,14 +274,20 @@ Inserted Buffer::store_named(TransformStream& stream, std::size_t index, const T
 
 // Returns true for a stored transform.
 bool Buffer::count(unsigned refusals) {
-  ++(refusals == 0 ? counts_.stored : refusals & kOldData ? counts_.old : counts_.refused);
+  TreeCounts& counts = tree_.counts();
+  (refusals == 0 ? counts.stored : refusals & kOldData ? counts.old : counts.refused).add(1);
   return refusals == 0;
+}
+
+unsigned Buffer::refuse(unsigned refusal, std::uint64_t transforms) {
+  if (refusal == kFrozen) tree_.counts().refused.add(transforms);
+  return refusal;
 }
 
 void Buffer::clear() {
   {
     const std::lock_guard lock(writing_);
-    if (frozen()) return;
+    if (refusal_.load() != 0) return;
     tree_.clear();
   }
   Inserted cleared;
@@ -290,7 +300,7 @@ bool Buffer::remove_frame(std::string_view name) {
   {
     const std::lock_guard lock(writing_);
     const FrameId frame = tree_.find(name);
-    if (frame == 0 || frozen()) return false;
+    if (frame == 0 || refusal_.load() != 0) return false;
     tree_.remove(frame);
     removed.rewired = true;
   }
@@ -300,9 +310,42 @@ bool Buffer::remove_frame(std::string_view name) {
 
 std::shared_ptr<Buffer> Buffer::snapshot() const {
   const std::lock_guard lock(writing_);
-  std::shared_ptr<Buffer> copy(new Buffer(tree_));
-  copy->counts_ = counts_;
-  return copy;
+  return consistent([this] { return std::shared_ptr<Buffer>(new Buffer(tree_)); });
+}
+
+bool Buffer::follow(SharedTreeData shared) {
+  {
+    const std::lock_guard lock(writing_);
+    if (refusal_.load() != 0 || tree_.frame_count() > 1) return false;
+    refusal_.store(kShared);
+    tree_.become(std::move(shared));
+    follower_.emplace(tree_, wait_queue_);
+  }
+  notify_of_other_data();
+  return true;
+}
+
+void Buffer::stop_following() {
+  {
+    const std::lock_guard lock(writing_);
+    if (!following()) return;
+    follower_.reset();
+    tree_.become_private();
+    refusal_.store(0);
+  }
+  notify_of_other_data();
+}
+
+void Buffer::notify_of_other_data() {
+  Inserted all;
+  all.new_names = all.rewired = true;
+  notify(&all, 1);
+}
+
+void Buffer::pause_reading(int attempt) {
+  constexpr int kMost = 40'000;  // two seconds
+  if (attempt > kMost) throw std::runtime_error("the shared buffer changes faster than this process can read it");
+  std::this_thread::sleep_for(std::chrono::microseconds(50));
 }
 
 std::shared_ptr<Buffer> Buffer::restored(Stamp cache_length, std::span<const std::uint8_t> table,
@@ -348,10 +391,9 @@ bool Buffer::lookup_by_id(PathCache* paths, FrameId target, FrameId source, Stam
 }
 
 bool Buffer::lookup_cached_path(PathCache& paths, FrameId target, FrameId source, Stamp& stamp, Pose& pose) const {
-  const std::uint64_t revision = tree_.revision().start_reading();
+  const std::uint64_t revision = tree_.start_reading();
   Stamp when = stamp;
-  if (!lookup_path_in_tree(tree_, paths, target, source, when, pose) || !tree_.revision().unchanged(revision))
-    return false;
+  if (!lookup_path_in_tree(tree_, paths, target, source, when, pose) || !tree_.unchanged(revision)) return false;
   stamp = when;
   return true;
 }
@@ -618,8 +660,8 @@ std::string Buffer::encode(bool is_static) const {
       if (history.empty() || history.is_static() != is_static) continue;
       const Sample sample = history.sample(history.size() - 1);
       const Pose& pose = sample.pose;
-      views.push_back({tree_.name(sample.parent),
-                       tree_.name(id),
+      views.push_back({tree_.frame(sample.parent).name,
+                       tree_.frame(id).name,
                        history.newest(),
                        {{pose.p[0], pose.p[1], pose.p[2]}, {pose.q[0], pose.q[1], pose.q[2], pose.q[3]}}});
     }
@@ -627,15 +669,10 @@ std::string Buffer::encode(bool is_static) const {
   });
 }
 
-Counts Buffer::counts() const {
-  const std::lock_guard lock(writing_);
-  return counts_;
-}
-
 void Buffer::announce(const Inserted* inserted, std::size_t count) {
   {
     const std::lock_guard lock(writing_);
-    count_change();
+    tree_.count_change();
   }
   notify(inserted, count);
 }
@@ -643,6 +680,7 @@ void Buffer::announce(const Inserted* inserted, std::size_t count) {
 // Unlocking was a full barrier between storing the data and checking for waiters; a waiter has one between registering
 // and reading the data.
 void Buffer::notify(const Inserted* inserted, std::size_t count) {
+  if (woken_) woken_->wake();
   if (wait_queue_.empty()) return;
   for (std::size_t i = 0; i < count; ++i) wait_queue_.notify(inserted[i]);
 }

@@ -30,9 +30,13 @@
 #include <mutex>
 #include <optional>
 #include <span>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "core/batch.hpp"
 #include "core/cdr.hpp"
+#include "core/follower.hpp"
 #include "core/light_mutex.hpp"
 #include "core/lookup.hpp"
 #include "core/query.hpp"
@@ -41,15 +45,6 @@
 #include "core/wait_queue.hpp"
 
 namespace coframe {
-
-struct Counts {
-  std::uint64_t messages = 0;    // TFMessages received as bytes
-  std::uint64_t malformed = 0;   // of those, not decodable
-  std::uint64_t stored = 0;      // transforms
-  std::uint64_t refused = 0;     // transforms with invalid names or values, or for a frozen buffer
-  std::uint64_t old = 0;         // transforms older than the cache
-  std::uint64_t over_limit = 0;  // of the refused transforms, those with a new name beyond kMaxFrames or kMaxNameBytes
-};
 
 // The messages of one publisher. A publisher sends the same names in the same order, so the previous names are compared
 // first. Used by one thread at a time.
@@ -91,6 +86,8 @@ class Buffer {
   static constexpr std::size_t kMaxFrames = 250'000, kMaxNameBytes = 64 << 20;
 
   explicit Buffer(Stamp cache_length) : tree_(cache_length) {}
+  // Writes to shared data.
+  explicit Buffer(SharedTreeData shared) : tree_(std::move(shared)), woken_(tree_.access()) { tree_.recover(); }
   Buffer(const Buffer&) = delete;
   Buffer& operator=(const Buffer&) = delete;
 
@@ -127,14 +124,28 @@ class Buffer {
   static std::shared_ptr<Buffer> restored(Stamp cache_length, std::span<const std::uint8_t> table,
                                           std::span<const std::uint8_t> chunks, std::shared_ptr<const void> memory,
                                           const char*& reason);
-  // From now on, nothing is inserted or removed.
-  void freeze() { frozen_.store(true); }
-  bool frozen() const { return frozen_.load(); }
+  // From now on, nothing is inserted or removed. Waits for an insertion that is in progress.
+  void freeze() {
+    const std::lock_guard lock(writing_);
+    refusal_.store(kFrozen);
+  }
+  bool frozen() const { return refusal_.load() == kFrozen; }
+
+  // Continues as a reader of shared data. Returns false if the buffer already contains a frame, or is frozen.
+  bool follow(SharedTreeData shared);
+  // Stops: continues with a copy of the shared data, to which it can insert.
+  void stop_following();
+  // Whether the buffer reads shared data, and refuses insertions.
+  bool following() const { return refusal_.load() == kShared; }
+  // Waits until the shared data have changed since `seen`, or `timeout_ns` has passed. May return earlier.
+  void wait_for_change(std::uint64_t seen, std::int64_t timeout_ns) const {
+    if (SharedAccess* access = tree_.access()) access->wait_for_change(seen, timeout_ns);
+  }
 
   FrameId find(std::string_view name) const { return tree_.find(name); }
   // Returns whether an id that find() returned earlier still is a frame.
   bool knows(FrameId frame) const { return tree_.frame(frame).known; }
-  const std::string& name(FrameId frame) const { return tree_.name(frame); }
+  std::string name(FrameId frame) const { return tree_.name(frame); }
 
   bool lookup_by_id(FrameId target, FrameId source, Stamp& stamp, Pose& pose, Failure& failure) const;
   // Both legs are read from one state of the tree. `target_stamp` is in and out.
@@ -147,8 +158,8 @@ class Buffer {
   bool lookup_cached_path(PathCache& paths, FrameId target, FrameId source, Stamp& stamp, Pose& pose) const;
   // Returns whether lookup_by_id() would succeed. False may also mean that it has to decide.
   bool check_cached_path(PathCache& paths, FrameId target, FrameId source, Stamp stamp) const {
-    const std::uint64_t revision = tree_.revision().start_reading();
-    return check_path_in_tree(tree_, paths, target, source, stamp) && tree_.revision().unchanged(revision);
+    const std::uint64_t revision = tree_.start_reading();
+    return check_path_in_tree(tree_, paths, target, source, stamp) && tree_.unchanged(revision);
   }
   // Looks up by name and stores the ids of the frames in the query. With `extrapolation`, also beyond the data as far
   // as it allows; `extrapolation->furthest` is set.
@@ -172,7 +183,7 @@ class Buffer {
   std::vector<std::string> frame_names() const;
   // Returns the newest sample of every static or every dynamic frame as the CDR of a TFMessage.
   std::string encode(bool is_static) const;
-  Counts counts() const;
+  Counts counts() const { return tree_.counts().get(); }
   // Calls `read` with one consistent state of the tree. It may be called several times.
   template <class Read>
   auto read(Read&& read) const {
@@ -181,19 +192,22 @@ class Buffer {
 
   WaitQueue& wait_queue() { return wait_queue_; }
   // The number of changes of the tree so far.
-  std::uint64_t changes() const { return changes_.load(); }
+  std::uint64_t changes() const { return tree_.changes().load(); }
 
  private:
-  explicit Buffer(const Tree& tree) : tree_(tree), frozen_(true) {}
+  explicit Buffer(const Tree& tree) : tree_(tree), refusal_(kFrozen) {}
 
   // Readers retry while writers change what they read. After this many attempts they lock the writers out.
   static constexpr int kAttempts = 200;
   template <class Read>
   auto consistent(Read&& read) const {
-    for (int attempt = 0; attempt < kAttempts; ++attempt) {
-      const std::uint64_t revision = tree_.revision().start_reading();
+    for (int attempt = 0;; ++attempt) {
+      const std::uint64_t revision = tree_.start_reading();
       auto result = read();
-      if (tree_.revision().unchanged(revision)) return result;
+      if (tree_.unchanged(revision)) return result;
+      if (attempt < kAttempts) continue;
+      if (!tree_.read_only()) break;
+      pause_reading(attempt);
     }
     const std::lock_guard lock(writing_);
     return read();
@@ -212,6 +226,7 @@ class Buffer {
   bool resolve_both(LookupQuery& query, Failure& failure) const;
   bool resolve(std::string_view name, Argument argument, FrameId& frame, Failure& failure) const;
   std::size_t insert_block(const Track& block, bool is_static, AuthorityId authority, std::vector<Inserted>& inserted);
+  static void pause_reading(int attempt);
   template <class Insert>
   unsigned insert_and_announce(Insert&& insert);
   void store(TransformStream& stream, std::size_t index, const TransformView& view, Inserted& inserted);
@@ -219,20 +234,21 @@ class Buffer {
   Inserted store_named(TransformStream& stream, std::size_t index, const TransformView& view, std::string_view parent,
                        std::string_view child);
   bool count(unsigned refusals);
-  void count_change() { changes_.store(changes_.load(std::memory_order_relaxed) + 1, std::memory_order_release); }
+  unsigned refuse(unsigned refusal, std::uint64_t transforms);
   void announce(const Inserted* inserted, std::size_t count);
   void notify(const Inserted* inserted, std::size_t count);
+  void notify_of_other_data();
 
   mutable LightMutex writing_;
   Tree tree_;
   mutable PathCache paths_;
-  Counts counts_;                        // guarded by writing_
   std::size_t received_name_bytes_ = 0;  // guarded by writing_
-  std::atomic<bool> frozen_{false};
+  std::atomic<unsigned> refusal_{0};     // kFrozen, kShared, or 0: accepts insertions
+  SharedAccess* woken_ = nullptr;        // of a writer of shared data
   WaitQueue wait_queue_{tree_, [this](LookupQuery& query, LookupResult& result, Failure& failure) {
                           return this->lookup_by_name(query, result, failure);
                         }};
-  std::atomic<std::uint64_t> changes_{0};  // written under writing_
+  std::optional<ChangeFollower> follower_;  // of a reader of shared data; last: its thread uses the members above
 };
 
 }  // namespace coframe

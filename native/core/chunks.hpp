@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -15,7 +14,10 @@
 #include <vector>
 
 #include "core/arena.hpp"
+#include "core/atomic.hpp"
+#include "core/memory.hpp"
 #include "core/pose.hpp"
+#include "core/relative_pointer.hpp"
 #include "core/relaxed_atomic.hpp"
 
 namespace coframe {
@@ -68,7 +70,7 @@ class alignas(64) SharedSample {
 
  private:
   std::array<RelaxedAtomic<double>, 7> numbers_;
-  std::atomic<FrameId> parent_{0};
+  Atomic<FrameId> parent_{0};
 };
 static_assert(sizeof(SharedSample) == 64);
 
@@ -83,13 +85,28 @@ struct Chunk {
 static_assert(sizeof(Chunk) == Chunk::kSize * (sizeof(Stamp) + sizeof(SharedSample)));
 
 struct PooledChunk : Chunk {
-  std::atomic<std::uint32_t> holders{0};  // the history that contains the chunk and its snapshots
+  Atomic<std::uint32_t> holders{0};       // the history that contains the chunk and its snapshots
+  RelativePointer<PooledChunk> previous;  // in a ChunkList
 };
+
+// All chunks of a shared tree, so that the next writer finds those that no history contains.
+using ChunkList = RelativePointer<PooledChunk>;
 
 class ChunkPool {
  public:
+  ChunkPool() = default;
+  // Takes the chunks from `memory`, which may have no room for another one.
+  ChunkPool(Memory& memory, ChunkList& all) : memory_(&memory), all_(&all) {}
+
+  // Returns whether take() will return a chunk.
+  bool has_room() {
+    if (!memory_) return true;
+    const std::lock_guard lock(mutex_);
+    return !free_.empty() || memory_->has_room(kReserve + sizeof(PooledChunk));
+  }
+
   // Returns a chunk with one holder. The caller must announce the change to readers (Revision::Change), which may still
-  // be reading the chunk as part of another history.
+  // be reading the chunk as part of another history. Throws std::bad_alloc if there is no room.
   PooledChunk* take() {
     const std::lock_guard lock(mutex_);
     PooledChunk* chunk = free_.empty() ? fresh() : free_.back();
@@ -104,11 +121,31 @@ class ChunkPool {
     free_.push_back(chunk);
   }
 
+  // For a pool with a list: sets which chunks are free, after `mark` has counted the holders of all others.
+  template <class Mark>
+  void rebuild(Mark&& mark) {
+    const std::lock_guard lock(mutex_);
+    free_.clear();
+    for (PooledChunk* chunk = all_->load(); chunk; chunk = chunk->previous.load()) chunk->holders.store(0);
+    mark();
+    for (PooledChunk* chunk = all_->load(); chunk; chunk = chunk->previous.load()) {
+      if (chunk->holders.load() == 0) free_.push_back(chunk);
+    }
+  }
+
  private:
   // Small buffers take little memory; large ones use large pages.
   static constexpr std::size_t kFew = 16, kMany = Arena::kLarge / sizeof(PooledChunk);
+  // Chunks leave this much of a limited memory for the names and the directories of new frames.
+  static constexpr std::size_t kReserve = 4 << 20;
 
   PooledChunk* fresh() {
+    if (memory_) {
+      auto* chunk = memory_->make<PooledChunk>();
+      chunk->previous.store(all_->load());
+      all_->store(chunk);
+      return chunk;
+    }
     if (used_ == last_size_) {
       const std::size_t size = count_ < kFew ? std::max<std::size_t>(3 * count_, 1) : kMany;
       arenas_.push_back(std::make_unique<Arena>(size == kMany ? Arena::kLarge : size * sizeof(PooledChunk)));
@@ -119,6 +156,8 @@ class ChunkPool {
     return new (arenas_.back()->data() + used_++ * sizeof(PooledChunk)) PooledChunk;
   }
 
+  Memory* memory_ = nullptr;  // if set, the chunks are in it and in this list
+  ChunkList* all_ = nullptr;
   std::mutex mutex_;  // snapshots may be destroyed in any thread
   std::vector<std::unique_ptr<Arena>> arenas_;
   std::size_t count_ = 0;                 // number of chunks

@@ -72,6 +72,7 @@ enum Refusal : unsigned {
   kOldData = 1u << 5,
   kFrozen = 1u << 6,         // not a check of tf2: the buffer is frozen
   kTooManyFrames = 1u << 7,  // not a check of tf2: other nodes have published more names than the buffer stores
+  kShared = 1u << 8,         // not a check of tf2: the buffer only reads what another buffer writes
 };
 
 }  // namespace coframe

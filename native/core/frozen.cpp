@@ -107,7 +107,7 @@ bool read_history(ByteReader& reader, std::uint8_t kind, bool one_parent, std::u
     History::Span span;
     const Chunk* first = chunks.take(samples);
     if (!first || !read_span(reader, span)) return false;
-    history.map(first, samples, one_parent, span);
+    history.map(context.storage, first, samples, one_parent, span);
     return true;
   }
   Sample sample;

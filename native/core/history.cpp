@@ -17,15 +17,11 @@ bool same(const Sample& a, const Sample& b) {
          std::equal(a.pose.p, a.pose.p + 3, b.pose.p);
 }
 
-// Fills entries without a chunk.
-Chunk* no_chunk() {
-  static Chunk chunk;
-  return &chunk;
-}
-
 // A publisher may send any number of different transforms with one stamp; comparing each with all others would take
 // quadratic time.
 constexpr std::size_t kMostCompared = 64;
+
+constexpr std::uint64_t kFirstDirectory = 2;
 
 // Returns whether one of the last samples at `stamp`, which end before index `end`, equals `sample`.
 bool repeats(const History::View& samples, std::size_t end, Stamp stamp, const Sample& sample) {
@@ -35,6 +31,26 @@ bool repeats(const History::View& samples, std::size_t end, Stamp stamp, const S
   }
   return false;
 }
+
+// The scope of a change that a successor can complete. Of a tree that is not shared there is no successor.
+class RedoScope {
+ public:
+  template <class Prepare>
+  RedoScope(Interrupted* entry, History& history, Interrupted::Kind kind, Prepare&& prepare) : entry_(entry) {
+    if (!entry) return;
+    prepare(*entry);
+    entry->history.store(&history);
+    entry->kind.store(kind, std::memory_order_release);
+  }
+  RedoScope(const RedoScope&) = delete;
+  RedoScope& operator=(const RedoScope&) = delete;
+  ~RedoScope() {
+    if (entry_) entry_->kind.store(Interrupted::Kind::none, std::memory_order_release);
+  }
+
+ private:
+  Interrupted* entry_;
+};
 
 }  // namespace
 
@@ -126,13 +142,14 @@ std::uint64_t History::Search::first_after(Stamp stamp, std::uint64_t guess) con
   return std::max(high, low_ + 1);
 }
 
-History::Directory::Directory(std::uint64_t size) : mask(size - 1), chunks(new std::atomic<Chunk*>[size]) {
-  for (std::uint64_t i = 0; i < size; ++i) chunks[i].store(no_chunk(), std::memory_order_relaxed);
+History::Directory* History::Directory::create(const HistoryStorage& storage, std::uint64_t size) {
+  auto* directory = new (storage.memory.take(bytes(size), alignof(RelativePointer<Chunk>))) Directory{size - 1};
+  for (std::uint64_t i = 0; i < size; ++i) {
+    new (&directory->chunk(i)) RelativePointer<Chunk>;
+    directory->chunk(i).store(storage.nothing, std::memory_order_relaxed);
+  }
+  return directory;
 }
-
-History::History() { grow(); }
-
-History::~History() = default;
 
 bool History::find_elsewhere(const View& samples, Stamp stamp, std::uint64_t& hint, Pair& pair) {
   if (!samples.surrounded(stamp, hint + 1, pair)) return samples.find(stamp, pair, hint) == Found::ok;
@@ -178,27 +195,91 @@ Insertion History::insert_behind(const HistoryContext& context, Stamp stamp, con
 Insertion History::insert_fixed(const HistoryContext& context, const Sample& sample) {
   if (!view().empty() && same(fixed_.load(), sample)) return Insertion::repeated;
   const Revision::Change change(context.revision);
+  const RedoScope redo(context.storage.interrupted, *this, Interrupted::Kind::set_fixed,
+                       [&](Interrupted& entry) { entry.sample.store(sample); });
+  set_fixed(sample);
+  return Insertion::appended;
+}
+
+void History::set_fixed(const Sample& sample) {
   fixed_.store(sample);
   end_.store(begin_ + 1, std::memory_order_release);
   parent_ = sample.parent;
   first_.store(kFirstStamp, std::memory_order_release);
   last_.store(kLastStamp, std::memory_order_release);
-  return Insertion::appended;
 }
 
 void History::reset(const HistoryContext& context, HistoryKind kind) {
   const Revision::Change change(context.revision);
-  drop_all(context.pool);
+  const RedoScope redo(context.storage.interrupted, *this, Interrupted::Kind::reset,
+                       [&](Interrupted& entry) { entry.new_kind = kind; });
+  drop_all(context.storage.pool);
   kind_ = kind;
 }
 
 void History::clear(const HistoryContext& context) {
-  if (kind_ != HistoryKind::dynamic) return;
-  const Revision::Change change(context.revision);
-  drop_all(context.pool);
+  if (kind_ == HistoryKind::dynamic) reset(context, HistoryKind::dynamic);
 }
 
-void History::share(const History& other) {
+// Every case can be repeated from the beginning.
+void History::complete(const HistoryContext& context, Interrupted& change) {
+  switch (change.kind.load()) {
+    case Interrupted::Kind::none: break;
+    case Interrupted::Kind::put:
+      shift_and_put(&change, change.first, change.next, change.end, change.stamp, change.sample.load());
+      break;
+    case Interrupted::Kind::set_fixed: set_fixed(change.sample.load()); break;
+    case Interrupted::Kind::reset:
+      drop_all(context.storage.pool);
+      kind_ = change.new_kind.get();
+      break;
+  }
+}
+
+void History::repair() {
+  const View samples = view();
+  if (kind_ != HistoryKind::dynamic) return;
+  first_.store(samples.empty() ? kLastStamp : samples.time(0));
+  last_.store(samples.empty() ? kFirstStamp : samples.newest());
+  if (!samples.empty()) parent_ = samples.parent();
+  for (std::size_t i = 1; one_parent_ && i < samples.size(); ++i) {
+    if (samples.parent_at(i) != samples.parent_at(0)) one_parent_ = false;
+  }
+}
+
+void History::hold_chunks() const {
+  const View samples = view();
+  if (samples.empty() || samples.is_static()) return;
+  for (std::uint64_t n = samples.begin_ / Chunk::kSize; n <= (samples.end_ - 1) / Chunk::kSize; ++n) {
+    pooled_chunk_at(n * Chunk::kSize)->holders.store(1);
+  }
+}
+
+bool History::has_room(const HistoryStorage& storage) const {
+  if (kind_ == HistoryKind::dynamic && end_ % Chunk::kSize != 0) return true;
+  if (!storage.pool.has_room()) return false;
+  const std::uint64_t size = directory_.load() ? 2 * (directory_.known()->mask + 1) : kFirstDirectory;
+  return !must_grow() || storage.memory.has_room(Directory::bytes(size) + Memory::kAlignment);
+}
+
+std::uint64_t History::chunk_count() const {
+  const View samples = view();
+  if (samples.empty() || samples.is_static()) return 0;
+  return (samples.end_ - 1) / Chunk::kSize - samples.begin_ / Chunk::kSize + 1;
+}
+
+void History::drop_oldest_chunk(ChunkPool& pool) { drop_before(pool, (begin_ / Chunk::kSize + 1) * Chunk::kSize); }
+
+void History::copy(const HistoryContext& context, const History& other) {
+  const View samples = other.view();
+  kind_ = samples.kind_;
+  if (samples.empty()) return;
+  if (samples.is_static()) return set_fixed(samples.sample(0));
+  for (std::size_t i = 0; i < samples.size(); ++i) append(context, samples.time(i), samples.sample(i));
+  one_parent_ = other.one_parent_.get();
+}
+
+void History::share(const HistoryStorage& storage, const History& other) {
   const View samples = other.view();
   kind_ = other.kind_.get();
   one_parent_ = other.one_parent_.get();
@@ -210,24 +291,23 @@ void History::share(const History& other) {
   last_ = other.last_.load();
   parent_ = other.parent_.get();
   if (samples.empty() || samples.is_static()) return;
-  auto copy = std::make_unique<Directory>(samples.directory_->mask + 1);
+  Directory* copy = Directory::create(storage, samples.directory_->mask + 1);
   for (std::uint64_t n = samples.begin_ / Chunk::kSize; n <= (samples.end_ - 1) / Chunk::kSize; ++n) {
     Chunk* chunk = other.chunk_at(n * Chunk::kSize);
     if (!mapped_) static_cast<PooledChunk*>(chunk)->holders.fetch_add(1, std::memory_order_relaxed);
-    copy->chunks[n & copy->mask].store(chunk, std::memory_order_relaxed);
+    copy->chunk(n).store(chunk, std::memory_order_relaxed);
   }
-  directories_.push_back(std::move(copy));
-  directory_ = directories_.back().get();
+  directory_.store(copy);
 }
 
-void History::map(const Chunk* chunks, std::uint64_t samples, bool one_parent, const Span& span) {
+void History::map(const HistoryStorage& storage, const Chunk* chunks, std::uint64_t samples, bool one_parent,
+                  const Span& span) {
   const std::uint64_t count = (samples + Chunk::kSize - 1) / Chunk::kSize;
-  auto directory = std::make_unique<Directory>(std::bit_ceil(std::max<std::uint64_t>(count, 1)));
+  Directory* directory = Directory::create(storage, std::bit_ceil(std::max<std::uint64_t>(count, 1)));
   // Mapped chunks are never written: their tree is frozen.
   auto* first = const_cast<Chunk*>(chunks);
-  for (std::uint64_t n = 0; n < count; ++n) directory->chunks[n].store(first + n, std::memory_order_relaxed);
-  directories_.push_back(std::move(directory));
-  directory_ = directories_.back().get();
+  for (std::uint64_t n = 0; n < count; ++n) directory->chunk(n).store(first + n, std::memory_order_relaxed);
+  directory_.store(directory);
   kind_ = HistoryKind::dynamic;
   one_parent_ = one_parent;
   mapped_ = true;
@@ -278,27 +358,45 @@ std::size_t History::append_run(const HistoryContext& context, const Stamp* stam
 
 // All samples from the position on move by one; this is rare and usually affects few.
 void History::put_at(const HistoryContext& context, std::size_t position, Stamp stamp, const Sample& sample) {
-  const std::uint64_t first = begin_ + position;
-  std::uint64_t last = end_;
-  if (last % Chunk::kSize == 0) add_chunk(context);
+  const std::uint64_t first = begin_ + position, end = end_;
+  if (end % Chunk::kSize == 0) add_chunk(context);
   const Revision::Change change(context.revision);
-  own_chunks(context.pool, first, last + 1);
+  own_chunks(context.storage.pool, first, end + 1);
+  Interrupted* progress = context.storage.interrupted;
+  const RedoScope redo(progress, *this, Interrupted::Kind::put, [&](Interrupted& entry) {
+    entry.first = first;
+    entry.end = end;
+    entry.next.store(end, std::memory_order_release);
+    entry.stamp = stamp;
+    entry.sample.store(sample);
+  });
+  shift_and_put(progress, first, end, end, stamp, sample);
+}
+
+// With `progress`, the change can be continued after any step: a sample is intact until the next one is done.
+void History::shift_and_put(Interrupted* progress, std::uint64_t first, std::uint64_t last, std::uint64_t end,
+                            Stamp stamp, const Sample& sample) {
   for (; last > first; --last) {
+    if (progress) progress->next.store(last, std::memory_order_release);
     const Chunk& from = *chunk_at(last - 1);
     const std::size_t i = (last - 1) % Chunk::kSize;
     put(last, from.stamps[i], from.samples[i].load());
   }
+  if (progress) progress->next.store(first, std::memory_order_release);
   put(first, stamp, sample);
-  if (position == 0) first_.store(stamp, std::memory_order_release);
-  end_.store(end_ + 1, std::memory_order_release);
+  if (first == begin_) first_.store(stamp, std::memory_order_release);
+  end_.store(end + 1, std::memory_order_release);
+}
+
+bool History::must_grow() const {
+  const Directory* directory = directory_.load(std::memory_order_relaxed);
+  return !directory || end_ / Chunk::kSize - begin_ / Chunk::kSize > directory->mask;
 }
 
 void History::add_chunk(const HistoryContext& context) {
-  const std::uint64_t number = end_ / Chunk::kSize;
   const Revision::Change change(context.revision);
-  if (number - begin_ / Chunk::kSize > directory_.load()->mask) grow();
-  const Directory& directory = *directory_;
-  directory.chunks[number & directory.mask].store(context.pool.take(), std::memory_order_release);
+  if (must_grow()) grow(context.storage);
+  directory_.known()->chunk(end_ / Chunk::kSize).store(context.storage.pool.take());
 }
 
 // Copies chunks that are shared with a snapshot before they change.
@@ -311,8 +409,7 @@ void History::own_chunks(ChunkPool& pool, std::uint64_t first, std::uint64_t end
       own->stamps[i] = shared->stamps[i].get();
       own->samples[i].store(shared->samples[i].load());
     }
-    const Directory& directory = *directory_;
-    directory.chunks[n & directory.mask].store(own, std::memory_order_release);
+    directory_.known()->chunk(n).store(own);
     pool.release(shared);
   }
 }
@@ -355,16 +452,15 @@ void History::put(std::uint64_t index, Stamp stamp, const Sample& sample) {
   chunk.samples[index % Chunk::kSize].store(sample);
 }
 
-void History::grow() {
-  const Directory* old = directory_;
-  auto larger = std::make_unique<Directory>(old ? 2 * (old->mask + 1) : 2);
+void History::grow(const HistoryStorage& storage) {
+  const Directory* old = directory_.load();
+  Directory* larger = Directory::create(storage, old ? 2 * (old->mask + 1) : kFirstDirectory);
   if (old) {
     for (std::uint64_t n = begin_ / Chunk::kSize, i = 0; i <= old->mask; ++n, ++i) {
-      larger->chunks[n & larger->mask].store(old->chunks[n & old->mask].load(), std::memory_order_relaxed);
+      larger->chunk(n).store(old->chunk(n).known(), std::memory_order_relaxed);
     }
   }
-  directories_.push_back(std::move(larger));
-  directory_.store(directories_.back().get(), std::memory_order_release);
+  directory_.store(larger);
 }
 
 }  // namespace coframe

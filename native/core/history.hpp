@@ -5,12 +5,9 @@
 #pragma once
 
 #include <algorithm>
-#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <memory>
-#include <vector>
 
 #include "core/chunks.hpp"
 #include "core/pose.hpp"
@@ -35,10 +32,20 @@ enum class Insertion { appended, put_before_newer, repeated, refused_as_old };
 // A frame without a history is the root of a tree: no transform was published for it.
 enum class HistoryKind : std::uint8_t { none, dynamic, fixed };
 
+struct Interrupted;
+
+// Where the histories of a tree are stored.
+struct HistoryStorage {
+  Memory& memory;
+  ChunkPool& pool;
+  Chunk* nothing;            // fills entries without a chunk
+  Interrupted* interrupted;  // of a shared tree, otherwise nullptr
+};
+
 // What all histories of a tree share.
 struct HistoryContext {
   Stamp cache_length;
-  ChunkPool& pool;
+  const HistoryStorage& storage;
   Revision& revision;
 };
 
@@ -54,9 +61,17 @@ inline void prefetch(const void* address) {
 class History {
   // Chunk n since the start of the history is stored at index n modulo the size.
   struct Directory {
-    explicit Directory(std::uint64_t size);
+    static Directory* create(const HistoryStorage& storage, std::uint64_t size);
+    static std::size_t bytes(std::uint64_t size) { return sizeof(Directory) + size * sizeof(RelativePointer<Chunk>); }
+
     std::uint64_t mask;
-    std::unique_ptr<std::atomic<Chunk*>[]> chunks;
+    // The entries follow.
+    RelativePointer<Chunk>& chunk(std::uint64_t number) {
+      return reinterpret_cast<RelativePointer<Chunk>*>(this + 1)[number & mask];
+    }
+    const RelativePointer<Chunk>& chunk(std::uint64_t number) const {
+      return reinterpret_cast<const RelativePointer<Chunk>*>(this + 1)[number & mask];
+    }
   };
 
  public:
@@ -145,9 +160,7 @@ class History {
     friend class History;
     friend class Search;
     // By number since the start of the history.
-    const Chunk& chunk_of(std::uint64_t number) const {
-      return *directory_->chunks[number / Chunk::kSize & directory_->mask].load(std::memory_order_acquire);
-    }
+    const Chunk& chunk_of(std::uint64_t number) const { return *directory_->chunk(number / Chunk::kSize).known(); }
     Stamp stamp_of(std::uint64_t number) const { return chunk_of(number).stamps[number % Chunk::kSize]; }
     const SharedSample& sample_of(std::uint64_t number) const {
       return is_static() ? *fixed_ : chunk_of(number).samples[number % Chunk::kSize];
@@ -199,10 +212,9 @@ class History {
     double per_nanosecond_;     // samples
   };
 
-  History();
+  History() = default;
   History(const History&) = delete;
   History& operator=(const History&) = delete;
-  ~History();
 
   // Reads the beginning before the end: samples that are pruned in between are still in place.
   View view() const {
@@ -211,7 +223,7 @@ class History {
     view.fixed_ = &fixed_;
     view.begin_ = begin_.load(std::memory_order_acquire);
     view.end_ = end_.load(std::memory_order_acquire);
-    view.directory_ = directory_.load(std::memory_order_acquire);
+    view.directory_ = directory_.known();
     return view;
   }
   // The range of stamps with samples and the parent in the newest one, without access to the samples. The range of a
@@ -277,10 +289,27 @@ class History {
   // Removes all samples of a dynamic history. A static one does not change.
   void clear(const HistoryContext& context);
   // Copies the current state of `other`. The samples are shared.
-  void share(const History& other);
+  void share(const HistoryStorage& storage, const History& other);
+  // Copies the current state of `other` with its samples. Requires that `other` does not change meanwhile, or that the
+  // caller discards the copy then.
+  void copy(const HistoryContext& context, const History& other);
   // Uses samples that are owned elsewhere and never change: contiguous chunks, all full except the last.
-  void map(const Chunk* chunks, std::uint64_t samples, bool one_parent, const Span& span);
+  void map(const HistoryStorage& storage, const Chunk* chunks, std::uint64_t samples, bool one_parent,
+           const Span& span);
   void release(ChunkPool& pool);
+
+  // For a tree with limited memory: returns whether one more sample can be stored.
+  bool has_room(const HistoryStorage& storage) const;
+  std::uint64_t chunk_count() const;
+  // Removes the samples of the oldest chunk, of two or more.
+  void drop_oldest_chunk(ChunkPool& pool);
+
+  // For a writer that continues the work of one that died: completes a change.
+  void complete(const HistoryContext& context, Interrupted& change);
+  // Computes what is derived from the samples, which the dead writer may have left behind.
+  void repair();
+  // Counts the history as a holder of its chunks.
+  void hold_chunks() const;
 
  private:
   static bool find_elsewhere(const View& samples, Stamp stamp, std::uint64_t& hint, Pair& pair);
@@ -294,9 +323,10 @@ class History {
   Stamp prune(const HistoryContext& context, Stamp newest) {
     if (context.cache_length == kKeepAll) return kFirstStamp;
     const Stamp start = minus(newest, context.cache_length);
-    if (first_.load(std::memory_order_relaxed) < start) drop_older_than(context.pool, start);
+    if (first_.load(std::memory_order_relaxed) < start) drop_older_than(context.storage.pool, start);
     const std::uint64_t begin = begin_.load(std::memory_order_relaxed);
-    if (end_.load(std::memory_order_relaxed) - begin >= kMaxSamples) drop_before(context.pool, begin + Chunk::kSize);
+    if (end_.load(std::memory_order_relaxed) - begin >= kMaxSamples)
+      drop_before(context.storage.pool, begin + Chunk::kSize);
     return start;
   }
   // Saturates: stamps may have any value.
@@ -306,23 +336,40 @@ class History {
   void drop_all(ChunkPool& pool);
   PooledChunk* pooled_chunk_at(std::uint64_t index) const { return static_cast<PooledChunk*>(chunk_at(index)); }
   Chunk* chunk_at(std::uint64_t index) const {
-    const Directory& directory = *directory_;
-    return directory.chunks[index / Chunk::kSize & directory.mask].load(std::memory_order_relaxed);
+    return directory_.known()->chunk(index / Chunk::kSize).known(std::memory_order_relaxed);
   }
   void put(std::uint64_t index, Stamp stamp, const Sample& sample);
-  void grow();
+  void shift_and_put(Interrupted* progress, std::uint64_t first, std::uint64_t last, std::uint64_t end, Stamp stamp,
+                     const Sample& sample);
+  void set_fixed(const Sample& sample);
+  bool must_grow() const;
+  void grow(const HistoryStorage& storage);
 
-  std::atomic<const Directory*> directory_{nullptr};
-  std::atomic<std::uint64_t> begin_{0};  // samples are numbered since the start of the history
-  std::atomic<std::uint64_t> end_{0};
+  RelativePointer<Directory> directory_;  // set before the first sample is; readers may still use earlier ones
+  Atomic<std::uint64_t> begin_{0};        // samples are numbered since the start of the history
+  Atomic<std::uint64_t> end_{0};
   // The values of span(): of the samples from begin_ to end_, or of fewer during a change.
-  std::atomic<Stamp> first_{kLastStamp}, last_{kFirstStamp};
+  Atomic<Stamp> first_{kLastStamp}, last_{kFirstStamp};
   RelaxedAtomic<FrameId> parent_{0};
   RelaxedAtomic<HistoryKind> kind_{HistoryKind::none};
   RelaxedAtomic<bool> one_parent_{true};
-  bool mapped_ = false;                                  // the chunks do not belong to a pool
-  SharedSample fixed_;                                   // the one sample of a static history
-  std::vector<std::unique_ptr<Directory>> directories_;  // the last one is in use; readers may still use the others
+  bool mapped_ = false;  // the chunks do not belong to a pool
+  SharedSample fixed_;   // the one sample of a static history
+};
+
+// The change of a history that is in progress, with what a writer needs that completes it after the death of its own
+// writer. Its kind is set last, and reset at the end of the change.
+struct Interrupted {
+  enum class Kind : std::uint32_t { none, put, set_fixed, reset };
+
+  Atomic<Kind> kind{Kind::none};
+  RelativePointer<History> history;
+  // Of `put`: the samples from `first` on, which end before `end`, move by one; those from `next` on are done.
+  RelaxedAtomic<std::uint64_t> first, end;
+  Atomic<std::uint64_t> next{0};
+  RelaxedAtomic<Stamp> stamp;
+  SharedSample sample;                  // of `put` and `set_fixed`
+  RelaxedAtomic<HistoryKind> new_kind;  // of `reset`
 };
 
 }  // namespace coframe

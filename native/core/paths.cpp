@@ -6,10 +6,10 @@ namespace coframe {
 void PathCache::update(const Tree& tree, FrameId target, FrameId source, Path& path) {
   const std::uint64_t version = tree.version();
   if (path.frames == key_of(target, source) && path.version == version) return;
-  const std::uint64_t revision = tree.revision().start_reading();
+  const std::uint64_t revision = tree.start_reading();
   walk(tree, target, source, path);
   path.frames = key_of(target, source);
-  path.version = tree.revision().unchanged(revision) ? version : 0;
+  path.version = tree.unchanged(revision) ? version : 0;
 }
 
 void PathCache::make_room() { paths_.resize(kEntries); }

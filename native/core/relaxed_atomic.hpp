@@ -3,7 +3,7 @@
 // the values written, with no ordering relative to the surrounding code.
 #pragma once
 
-#include <atomic>
+#include "core/atomic.hpp"
 
 namespace coframe {
 
@@ -24,7 +24,7 @@ class RelaxedAtomic {
   void add(T value) { set(get() + value); }
 
  private:
-  std::atomic<T> value_{};
+  Atomic<T> value_{};
 };
 
 }  // namespace coframe

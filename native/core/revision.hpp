@@ -3,10 +3,11 @@
 // writer.
 #pragma once
 
-#include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <thread>
+
+#include "core/atomic.hpp"
 
 namespace coframe {
 
@@ -17,6 +18,8 @@ class Revision {
     const std::uint64_t now = number_.load(std::memory_order_acquire);
     return now % 2 == 0 ? now : wait_for_writer();
   }
+  // Returns an odd number while a change is in progress.
+  std::uint64_t number() const { return number_.load(std::memory_order_acquire); }
   bool unchanged(std::uint64_t since) const {
     std::atomic_thread_fence(std::memory_order_acquire);
     return number_.load(std::memory_order_relaxed) == since;
@@ -37,6 +40,20 @@ class Revision {
     Revision& revision_;
   };
 
+  // For a writer that continues the work of one that died: ends the change that was in progress.
+  void complete() {
+    if (number() % 2 != 0) raise(std::memory_order_release);
+  }
+  // Before there are readers: starts at an even number that no other revision is likely to have.
+  void start_at(std::uint64_t number) { number_.store(number & ~std::uint64_t{1}, std::memory_order_relaxed); }
+
+  // A writer that was descheduled in the middle needs the processor to continue.
+  static void step_back(int turn) {
+    if (turn < 50) return;
+    if (turn < 500) return std::this_thread::yield();
+    std::this_thread::sleep_for(std::chrono::microseconds(50));
+  }
+
  private:
   void raise(std::memory_order order) { number_.store(number_.load(std::memory_order_relaxed) + 1, order); }
 
@@ -48,14 +65,7 @@ class Revision {
     }
   }
 
-  // A writer that was descheduled in the middle needs the processor to continue.
-  static void step_back(int turn) {
-    if (turn < 50) return;
-    if (turn < 500) return std::this_thread::yield();
-    std::this_thread::sleep_for(std::chrono::microseconds(50));
-  }
-
-  std::atomic<std::uint64_t> number_{0};  // an odd number while a change is in progress
+  Atomic<std::uint64_t> number_{0};  // an odd number while a change is in progress
 };
 
 }  // namespace coframe

@@ -4,9 +4,11 @@
 #pragma once
 
 #include <array>
-#include <atomic>
 #include <bit>
 #include <cstddef>
+
+#include "core/memory.hpp"
+#include "core/relative_pointer.hpp"
 
 namespace coframe {
 
@@ -16,9 +18,6 @@ class StableVector {
   StableVector() = default;
   StableVector(const StableVector&) = delete;
   StableVector& operator=(const StableVector&) = delete;
-  ~StableVector() {
-    for (auto& segment : segments_) delete[] segment.load();
-  }
 
   std::size_t size() const { return size_.load(std::memory_order_acquire); }
 
@@ -30,17 +29,17 @@ class StableVector {
   T* find(std::size_t index) const {
     const std::size_t number = segment_of(index);
     if (number >= kSegments) return nullptr;
-    T* segment = segments_[number].load(std::memory_order_acquire);
+    T* segment = segments_[number].load();
     return segment ? segment + (index - first_of(number)) : nullptr;
   }
 
   // Appends an element; `prepare` fills it before readers see it.
   template <class Prepare>
-  std::size_t append(Prepare&& prepare) {
+  std::size_t append(Memory& memory, Prepare&& prepare) {
     const std::size_t index = size_.load(std::memory_order_relaxed);
     const std::size_t number = segment_of(index);
     if (!segments_[number].load(std::memory_order_relaxed)) {
-      segments_[number].store(new T[kFirst << number], std::memory_order_release);
+      segments_[number].store(memory.make_array<T>(kFirst << number));
     }
     prepare((*this)[index]);
     size_.store(index + 1, std::memory_order_release);
@@ -53,13 +52,13 @@ class StableVector {
 
   T& at(std::size_t index) const {
     const std::size_t number = segment_of(index);
-    return segments_[number].load(std::memory_order_acquire)[index - first_of(number)];
+    return segments_[number].known()[index - first_of(number)];
   }
   static std::size_t segment_of(std::size_t index) { return std::bit_width(index / kFirst + 1) - 1; }
   static std::size_t first_of(std::size_t segment) { return kFirst * ((std::size_t{1} << segment) - 1); }
 
-  std::array<std::atomic<T*>, kSegments> segments_{};
-  std::atomic<std::size_t> size_{0};
+  std::array<RelativePointer<T>, kSegments> segments_{};
+  Atomic<std::size_t> size_{0};
 };
 
 }  // namespace coframe

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/tree.hpp"
 
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 
@@ -66,51 +67,211 @@ void Frame::Counts::copy(const Counts& other) {
   quaternion = other.quaternion.get();
 }
 
-Tree::Tree(Stamp cache_length) : cache_length_(cache_length), pool_(std::make_shared<ChunkPool>()) {
-  frames_.append([](Frame& frame) { frame.name = "NO_PARENT"; });
-  frame_numbers_.add("NO_PARENT", 0);
-  authorities_.append([](std::string& name) { name = "no recorded authority"; });
+void TreeCounts::set(const Counts& counts) {
+  messages = counts.messages;
+  malformed = counts.malformed;
+  stored = counts.stored;
+  refused = counts.refused;
+  old = counts.old;
+  over_limit = counts.over_limit;
 }
 
-Tree::Tree(const Tree& other) : cache_length_(other.cache_length_), memory_(other.memory_), pool_(other.pool_) {
-  for (FrameId id = 0; id < other.frame_count(); ++id) {
-    const Frame& theirs = other.frame(id);
-    frames_.append([&](Frame& frame) {
-      frame.name = theirs.name;
-      frame.history.share(theirs.history);
-      frame.authority = theirs.authority.get();
-      frame.known = theirs.known.get();
-      frame.counts.copy(theirs.counts);
-    });
-    frame_numbers_.add(theirs.name, id);
-  }
-  for (AuthorityId id = 0; id < other.authorities_.size(); ++id) {
-    authorities_.append([&](std::string& name) { name = other.authorities_[id]; });
-    authority_numbers_.add(other.authorities_[id], id);
-  }
+namespace {
+
+// Frames and versions of data that replace others must not be mistaken for theirs.
+std::uint64_t new_version() {
+  static std::atomic<std::uint64_t> next{1};
+  return next.fetch_add(1) << 40;
+}
+
+// Fills the entries of histories on the heap that have no chunk.
+Chunk* no_chunk() {
+  static Chunk chunk;
+  return &chunk;
+}
+
+}  // namespace
+
+void initialize(TreeData& data, Memory& memory, Stamp cache_length, std::uint64_t version) {
+  data.cache_length = cache_length;
+  data.version.store(version);
+  data.revision.start_at(version);
+  data.frames.append(memory, [&](Frame& frame) { frame.name.set(memory, "NO_PARENT"); });
+  data.frame_numbers.add(memory, "NO_PARENT", 0);
+  data.authorities.append(memory, [&](Name& name) { name.set(memory, "no recorded authority"); });
+}
+
+std::unique_ptr<Tree::Storage> Tree::heap_storage(std::shared_ptr<ChunkPool> pool, Stamp cache_length) {
+  auto storage = std::make_unique<Storage>();
+  storage->memory = std::make_shared<HeapMemory>();
+  storage->pool = std::move(pool);
+  storage->data = storage->memory->make<TreeData>();
+  storage->parts.emplace(HistoryStorage{*storage->memory, *storage->pool, no_chunk(), nullptr});
+  initialize(*storage->data, *storage->memory, cache_length, new_version());
+  return storage;
+}
+
+std::unique_ptr<Tree::Storage> Tree::shared_storage(SharedTreeData shared) {
+  auto storage = std::make_unique<Storage>();
+  storage->memory = std::move(shared.memory);
+  storage->data = shared.data;
+  storage->shared = true;
+  storage->access = std::move(shared.access);
+  if (!storage->memory) return storage;
+  storage->pool = std::make_shared<ChunkPool>(*storage->memory, storage->data->chunks);
+  if (!storage->data->nothing.load()) storage->data->nothing.store(storage->memory->make<Chunk>());
+  storage->parts.emplace(
+      HistoryStorage{*storage->memory, *storage->pool, storage->data->nothing.load(), &storage->data->interrupted});
+  return storage;
+}
+
+void Tree::use(std::unique_ptr<Storage> storage) {
+  storages_.push_back(std::move(storage));
+  storage_.store(storages_.back().get(), std::memory_order_release);
+  data_.store(storages_.back()->data, std::memory_order_release);
+}
+
+Tree::Tree(Stamp cache_length) { use(heap_storage(std::make_shared<ChunkPool>(), cache_length)); }
+
+Tree::Tree(SharedTreeData shared) { use(shared_storage(std::move(shared))); }
+
+Tree::Tree(const Tree& other) {
+  const bool with_samples = other.shared();
+  use(heap_storage(with_samples ? std::make_shared<ChunkPool>() : other.storage().pool, other.cache_length()));
+  keep(other.storage().kept);
+  copy_from(other, with_samples);
 }
 
 Tree::~Tree() {
-  for (FrameId id = 0; id < frame_count(); ++id) frames_[id].history.release(*pool_);
+  for (const auto& storage : storages_) {
+    if (storage->shared) continue;
+    TreeData& tree = *storage->data;
+    for (FrameId id = 0; id < tree.frames.size(); ++id) tree.frames[id].history.release(*storage->pool);
+  }
+}
+
+void Tree::become(SharedTreeData shared) { use(shared_storage(std::move(shared))); }
+
+void Tree::become_private() {
+  for (int attempt = 0;; ++attempt) {
+    const std::uint64_t revision = start_reading();
+    Tree copy(*this);
+    if (unchanged(revision)) {
+      use(std::move(copy.storages_.back()));
+      copy.storages_.clear();
+      return;
+    }
+    Revision::step_back(attempt);
+  }
+}
+
+void Tree::copy_from(const Tree& other, bool with_samples) {
+  TreeData& tree = data();
+  Memory& memory = *storage().memory;
+  const auto copy = [&](Frame& frame, const Frame& theirs) {
+    if (with_samples) {
+      frame.history.copy(context(), theirs.history);
+    } else {
+      frame.history.share(storage().histories(), theirs.history);
+    }
+    frame.authority = theirs.authority.get();
+    frame.known = theirs.known.get();
+    frame.counts.copy(theirs.counts);
+  };
+  const std::size_t frames = other.frame_count();
+  copy(tree.frames[0], other.frame(0));
+  for (FrameId id = 1; id < frames; ++id) {
+    const Frame& theirs = other.frame(id);
+    tree.frames.append(memory, [&](Frame& frame) {
+      frame.name.set(memory, theirs.name);
+      copy(frame, theirs);
+    });
+    tree.frame_numbers.add(memory, theirs.name, id);
+  }
+  for (AuthorityId id = 1; id < other.authority_count(); ++id) {
+    const std::string name = other.authority_name(id);
+    tree.authorities.append(memory, [&](Name& copy) { copy.set(memory, name); });
+    tree.authority_numbers.add(memory, name, id);
+  }
+  tree.counts.set(other.counts().get());
+}
+
+std::uint64_t Tree::wait_for_writer() const {
+  constexpr int kPatience = 600;  // turns, about 5 ms: a writer that lives is faster, unless it is suspended
+  const auto start = std::chrono::steady_clock::now();
+  for (int turn = 0;; ++turn) {
+    const std::uint64_t now = data().revision.number();
+    if (now % 2 == 0) return now;
+    Revision::step_back(turn);
+    if (access() && turn > kPatience && turn % 16 == 0) {
+      access()->complete_change((std::chrono::steady_clock::now() - start) / std::chrono::nanoseconds(1));
+    }
+  }
+}
+
+bool Tree::has_room_for_names(std::size_t bytes) {
+  // The tables and the vector of the frames double their size at most.
+  constexpr std::size_t kPerFrame = 2 * (sizeof(Frame) + sizeof(Name) + 64), kFixed = 64 * kPerFrame;
+  return storage().memory->has_room(kFixed + kPerFrame * frame_count() + 2 * bytes);
+}
+
+// If there is no room, the longest history loses its oldest samples.
+bool Tree::make_room(const History& history) {
+  const HistoryStorage& parts = storage().histories();
+  while (!history.has_room(parts)) {
+    History* longest = nullptr;
+    std::uint64_t most = 1;
+    for (FrameId id = 0; id < frame_count(); ++id) {
+      History& other = data().frames[id].history;
+      if (other.chunk_count() > most) {
+        most = other.chunk_count();
+        longest = &other;
+      }
+    }
+    if (!longest) return false;
+    longest->drop_oldest_chunk(parts.pool);
+  }
+  return true;
+}
+
+void Tree::recover() {
+  TreeData& tree = data();
+  if (History* history = tree.interrupted.history.load()) history->complete(context(), tree.interrupted);
+  storage().pool->rebuild([&] {
+    for (FrameId id = 0; id < frame_count(); ++id) tree.frames[id].history.hold_chunks();
+  });
+  for (FrameId id = 0; id < frame_count(); ++id) tree.frames[id].history.repair();
+  tree.interrupted.kind.store(Interrupted::Kind::none);
+  raise_version();
+  tree.revision.complete();
 }
 
 std::uint32_t Tree::find_number(std::string_view name) const {
-  return frame_numbers_.find(name, [this](FrameId id) { return std::string_view(frames_[id].name); });
+  const TreeData& tree = data();
+  return tree.frame_numbers.find(name, [&tree](FrameId id) { return tree.frames[id].name.view(); });
 }
 
 FrameId Tree::find(std::string_view name) const {
   const std::uint32_t id = find_number(name);
-  return id == NameTable::kNone || !frames_[id].known ? 0 : id;
+  return id == NameTable::kNone || !frame(id).known ? 0 : id;
+}
+
+FrameId Tree::add_frame(std::string_view name) {
+  TreeData& tree = data();
+  Memory& memory = *storage().memory;
+  const std::size_t id = tree.frames.append(memory, [&](Frame& frame) { frame.name.set(memory, name); });
+  tree.frame_numbers.add(memory, name, static_cast<FrameId>(id));
+  return static_cast<FrameId>(id);
 }
 
 FrameId Tree::find_or_add(std::string_view name, bool& is_new) {
   std::uint32_t id = find_number(name);
   if (id == NameTable::kNone) {
-    id = static_cast<FrameId>(frames_.append([&](Frame& frame) { frame.name = name; }));
-    frame_numbers_.add(name, id);
+    id = add_frame(name);
   }
-  if (id != 0 && !frames_[id].known) {
-    frames_[id].known = true;
+  Frame& frame = data().frames[id];
+  if (id != 0 && !frame.known) {
+    frame.known = true;
     is_new = true;
   }
   return id;
@@ -118,19 +279,20 @@ FrameId Tree::find_or_add(std::string_view name, bool& is_new) {
 
 Frame* Tree::restore_frame(std::string_view name) {
   if (find_number(name) != NameTable::kNone) return nullptr;
-  const auto id = static_cast<FrameId>(frames_.append([&](Frame& frame) { frame.name = name; }));
-  frame_numbers_.add(name, id);
+  const FrameId id = add_frame(name);
   raise_version();
-  return &frames_[id];
+  return &data().frames[id];
 }
 
 AuthorityId Tree::authority(std::string_view name) {
+  TreeData& tree = data();
+  Memory& memory = *storage().memory;
   const std::uint32_t found =
-      authority_numbers_.find(name, [this](AuthorityId id) { return std::string_view(authorities_[id]); });
+      tree.authority_numbers.find(name, [&](AuthorityId id) { return tree.authorities[id].view(); });
   if (found != NameTable::kNone) return found;
-  const auto id = static_cast<AuthorityId>(authorities_.append([&](std::string& text) { text = name; }));
-  authority_numbers_.add(name, id);
-  return id;
+  const std::size_t id = tree.authorities.append(memory, [&](Name& text) { text.set(memory, name); });
+  tree.authority_numbers.add(memory, name, static_cast<AuthorityId>(id));
+  return static_cast<AuthorityId>(id);
 }
 
 Inserted Tree::insert(std::string_view parent, std::string_view child, Stamp stamp, const TransformValues& values,
@@ -141,19 +303,19 @@ Inserted Tree::insert(std::string_view parent, std::string_view child, Stamp sta
   parent = without_slash(parent);
   child = without_slash(child);
   if (inserted.refusals != 0) {
-    if (const FrameId id = find(child)) frames_[id].counts.refuse(inserted.refusals);
+    if (const FrameId id = find(child)) data().frames[id].counts.refuse(inserted.refusals);
     return inserted;
   }
   const FrameId child_id = find_or_add(child, inserted.new_names);  // the child first: tf2's order of creation
   const FrameId parent_id = find_or_add(parent, inserted.new_names);
-  store(frames_[child_id], child_id, stamp, {pose, parent_id}, is_static, authority, inserted);
+  store(data().frames[child_id], child_id, stamp, {pose, parent_id}, is_static, authority, inserted);
   return inserted;
 }
 
 void Tree::insert(FrameId parent, FrameId child, Stamp stamp, const TransformValues& values, bool is_static,
                   AuthorityId authority, Inserted& inserted) {
   const Sample sample{canonical_pose(values), parent};
-  Frame& frame = frames_[child];
+  Frame& frame = data().frames[child];
   inserted = {};
   if (const unsigned refusals = check_values(sample.pose)) {
     frame.counts.refuse(refusals);
@@ -168,7 +330,7 @@ void Tree::insert(FrameId parent, FrameId child, Stamp stamp, const TransformVal
     return;
   }
   know_again(child, frame, inserted);
-  know_again(parent, frames_[parent], inserted);
+  know_again(parent, data().frames[parent], inserted);
   store(frame, child, stamp, sample, is_static, authority, inserted);
 }
 
@@ -194,8 +356,8 @@ unsigned check_values(const TransformValues& values) { return check_values(canon
 std::size_t Tree::append_run(std::string_view parent, std::string_view child, const Stamp* stamps, const double* rows,
                              std::size_t count, AuthorityId authority) {
   const FrameId child_id = find(without_slash(child)), parent_id = find(without_slash(parent));
-  if (child_id == 0 || parent_id == 0 || child_id == parent_id) return 0;
-  Frame& frame = frames_[child_id];
+  if (child_id == 0 || parent_id == 0 || child_id == parent_id || shared()) return 0;
+  Frame& frame = data().frames[child_id];
   const History::View before = frame.history.view();
   if (before.empty() || before.is_static() || before.parent() != parent_id) return 0;
   if (!frame.history.one_parent()) return 0;  // dropped samples may matter to waiters
@@ -209,6 +371,10 @@ std::size_t Tree::append_run(std::string_view parent, std::string_view child, co
 void Tree::store(Frame& frame, FrameId child, Stamp stamp, const Sample& sample, bool is_static, AuthorityId authority,
                  Inserted& inserted) {
   History& history = frame.history;
+  if (!is_static && shared() && !make_room(history)) {
+    inserted.refusals = kTooManyFrames;
+    return;
+  }
   prepare(history, is_static, inserted);
   const History::View before = history.view();
   const bool had_one_parent = history.one_parent();
@@ -238,15 +404,15 @@ void Tree::prepare(History& history, bool is_static, Inserted& inserted) {
 }
 
 void Tree::clear() {
-  for (FrameId id = 0; id < frame_count(); ++id) frames_[id].history.clear(context());
+  for (FrameId id = 0; id < frame_count(); ++id) data().frames[id].history.clear(context());
   raise_version();
 }
 
 void Tree::remove(FrameId frame) {
-  frames_[frame].known = false;
-  frames_[frame].history.reset(context(), HistoryKind::none);
+  data().frames[frame].known = false;
+  data().frames[frame].history.reset(context(), HistoryKind::none);
   for (FrameId id = 0; id < frame_count(); ++id) {
-    if (frames_[id].history.mentions(frame)) frames_[id].history.reset(context(), HistoryKind::none);
+    if (data().frames[id].history.mentions(frame)) data().frames[id].history.reset(context(), HistoryKind::none);
   }
   raise_version();
 }

@@ -3,43 +3,19 @@
 // without a lock; what they read is consistent if revision() did not change meanwhile.
 #pragma once
 
-#include <array>
+#include <atomic>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
-#include "core/history.hpp"
-#include "core/name_table.hpp"
-#include "core/stable_vector.hpp"
+#include "core/tree_data.hpp"
 
 namespace coframe {
 
-using AuthorityId = std::uint32_t;  // 0 is "no recorded authority"
-
 inline constexpr int kMaxDepth = 1000;  // tf2's MAX_GRAPH_DEPTH
-
-struct Frame {
-  // What happened to the samples of the frame since the buffer was created.
-  struct Counts {
-    RelaxedAtomic<std::uint64_t> stored;
-    RelaxedAtomic<std::uint64_t> late;                   // of these, inserted before newer ones
-    RelaxedAtomic<std::uint64_t> repeated;               // exact repetitions, which change nothing
-    RelaxedAtomic<std::uint64_t> old;                    // rejected as older than the cache
-    RelaxedAtomic<std::uint64_t> self, nan, quaternion;  // rejected for these reasons
-
-    void add(Insertion outcome);
-    void refuse(unsigned refusals);
-    void copy(const Counts& other);
-  };
-
-  std::string name;
-  History history;  // kind none: the root of a tree
-  RelaxedAtomic<AuthorityId> authority;
-  RelaxedAtomic<bool> known{false};  // false after the frame was removed
-  Counts counts;
-  std::atomic<std::uint32_t> watchers{0};  // the waiters to notify of insertions; see WaitQueue
-};
 
 struct TransformValues {
   double translation[3];
@@ -63,46 +39,79 @@ struct Inserted {
 class Tree {
  public:
   explicit Tree(Stamp cache_length);
-  // Copies the current state of `other`. The samples are shared.
+  explicit Tree(SharedTreeData shared);
+  // Copies the current state of `other`. The samples are shared, those of shared data copied.
   Tree(const Tree& other);
   Tree& operator=(const Tree&) = delete;
   ~Tree();
 
   // Returns 0 if there is no such frame. In tf2, "NO_PARENT" also is a frame name, with the id 0.
   FrameId find(std::string_view name) const;
-  std::size_t frame_count() const { return frames_.size(); }  // including NO_PARENT
-  const std::string& name(FrameId id) const { return frame(id).name; }
+  std::size_t frame_count() const { return data().frames.size(); }  // including NO_PARENT
+  std::string name(FrameId id) const { return std::string(frame(id).name.view()); }
   History::View history(FrameId id) const { return frame(id).history.view(); }
   History::Span span(FrameId id) const { return frame(id).history.span(); }
   // Accepts any number, also from the samples of a damaged file; returns NO_PARENT for an unknown one.
   const Frame& frame(FrameId id) const {
-    const Frame* frame = frames_.find(id);
-    return frame ? *frame : frames_[0];
+    const TreeData& tree = data();
+    const Frame* frame = tree.frames.find(id);
+    return frame ? *frame : tree.frames[0];
   }
-  Frame& frame(FrameId id) {
-    Frame* frame = frames_.find(id);
-    return frame ? *frame : frames_[0];
-  }
+  Frame& frame(FrameId id) { return const_cast<Frame&>(std::as_const(*this).frame(id)); }
 
-  const std::string& authority_name(AuthorityId id) const { return authorities_[id]; }
-  Stamp cache_length() const { return cache_length_; }
-  const Revision& revision() const { return revision_; }
+  std::string authority_name(AuthorityId id) const { return std::string(data().authorities[id].view()); }
+  Stamp cache_length() const { return data().cache_length; }
+  const TreeCounts& counts() const { return data().counts; }
   // Changes whenever a known path may have changed.
-  std::uint64_t version() const { return version_.load(std::memory_order_acquire); }
+  std::uint64_t version() const { return data().version.load(std::memory_order_acquire); }
+  const Atomic<std::uint64_t>& changes() const { return data().changes; }
+
+  // Waits while a change is in progress. What is read from now on is consistent if unchanged() returns true afterwards.
+  std::uint64_t start_reading() const {
+    const std::uint64_t now = data().revision.number();
+    return now % 2 == 0 ? now : wait_for_writer();
+  }
+  bool unchanged(std::uint64_t since) const { return data().revision.unchanged(since); }
+
+  // Whether the data are those of another writer, which cannot be locked out.
+  bool read_only() const { return !storage().memory; }
+  bool shared() const { return storage().shared; }
+
+  // nullptr for data that are not shared.
+  SharedAccess* access() const { return storage().access.get(); }
+
+  // Continues with shared data instead of its own, which must not contain a frame. Other threads may be reading.
+  void become(SharedTreeData shared);
+  // Continues with a copy of the shared data on the heap, with the same ids. Other threads may be reading.
+  void become_private();
 
   // The methods below are for the only writer.
 
   AuthorityId authority(std::string_view name);
   // Adds a frame of another tree, with an empty history; returns nullptr if the name exists already.
   Frame* restore_frame(std::string_view name);
-  HistoryContext context() { return {cache_length_, *pool_, revision_}; }
+  HistoryContext context() {
+    TreeData& tree = data();
+    return {tree.cache_length, storage().histories(), tree.revision};
+  }
+  TreeCounts& counts() { return data().counts; }
+  void count_change() {
+    Atomic<std::uint64_t>& changes = data().changes;
+    changes.store(changes.load(std::memory_order_relaxed) + 1, std::memory_order_release);
+  }
   // Keeps `memory` alive as long as the samples.
-  void keep(std::shared_ptr<const void> memory) { memory_ = std::move(memory); }
-  std::size_t authority_count() const { return authorities_.size(); }
+  void keep(std::shared_ptr<const void> memory) { storage().kept = std::move(memory); }
+  std::size_t authority_count() const { return data().authorities.size(); }
   // Changes the authority of a frame whose newest transform came from `from`.
   void change_authority(FrameId id, AuthorityId from, AuthorityId to) {
-    if (frames_[id].authority == from) frames_[id].authority = to;
+    Frame& changed = data().frames[id];
+    if (changed.authority == from) changed.authority = to;
   }
+  // Returns whether there is room for the names of a few more frames.
+  bool has_room_for_names(std::size_t bytes);
+  // For a writer that continues the work of one that died, before its first change: completes the change that was in
+  // progress, and repairs what is derived from the samples.
+  void recover();
 
   // Performs the checks of tf2's setTransform and stores the transform.
   Inserted insert(std::string_view parent, std::string_view child, Stamp stamp, const TransformValues& values,
@@ -120,23 +129,42 @@ class Tree {
   void remove(FrameId frame);
 
  private:
+  // Where this process keeps the data.
+  struct Storage {
+    std::shared_ptr<Memory> memory;   // nullptr: read only
+    std::shared_ptr<ChunkPool> pool;  // shared with the snapshots
+    TreeData* data;
+    bool shared;
+    std::shared_ptr<SharedAccess> access;
+    std::shared_ptr<const void> kept;
+    std::optional<HistoryStorage> parts;  // of a writer
+
+    const HistoryStorage& histories() const { return *parts; }
+  };
+
+  static std::unique_ptr<Storage> heap_storage(std::shared_ptr<ChunkPool> pool, Stamp cache_length);
+  static std::unique_ptr<Storage> shared_storage(SharedTreeData shared);
+  void use(std::unique_ptr<Storage> storage);
+  const TreeData& data() const { return *data_.load(std::memory_order_acquire); }
+  TreeData& data() { return *data_.load(std::memory_order_acquire); }
+  Storage& storage() const { return *storage_.load(std::memory_order_acquire); }
+
+  std::uint64_t wait_for_writer() const;
+  void copy_from(const Tree& other, bool with_samples);
+  FrameId add_frame(std::string_view name);
   FrameId find_or_add(std::string_view name, bool& is_new);
   std::uint32_t find_number(std::string_view name) const;
   void prepare(History& history, bool is_static, Inserted& inserted);
   void know_again(FrameId id, Frame& frame, Inserted& inserted);
+  bool make_room(const History& history);
   void store(Frame& frame, FrameId child, Stamp stamp, const Sample& sample, bool is_static, AuthorityId authority,
              Inserted& inserted);
-  void raise_version() { version_.fetch_add(1, std::memory_order_release); }
+  void raise_version() { data().version.fetch_add(1, std::memory_order_release); }
 
-  Stamp cache_length_;
-  std::shared_ptr<const void> memory_;
-  std::shared_ptr<ChunkPool> pool_;  // shared with the snapshots
-  Revision revision_;
-  StableVector<Frame> frames_;
-  NameTable frame_numbers_;
-  StableVector<std::string> authorities_;
-  NameTable authority_numbers_;
-  std::atomic<std::uint64_t> version_{1};
+  // Readers may be using data that were replaced, so all are kept.
+  std::vector<std::unique_ptr<Storage>> storages_;
+  std::atomic<Storage*> storage_{nullptr};
+  std::atomic<TreeData*> data_{nullptr};
 };
 
 // Why the names or values of a transform are rejected, as bits; 0 if they are valid.

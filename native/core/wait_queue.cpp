@@ -87,11 +87,18 @@ void Watch::note(FrameId child) {
   if (is_first) mailbox_->put(token_);
 }
 
+void WaitQueue::on_add(std::function<void()> call) {
+  const std::lock_guard lock(mutex_);
+  on_add_ = std::move(call);
+  if (on_add_ && !empty()) on_add_();
+}
+
 void WaitQueue::add(const std::shared_ptr<Wait>& wait) {
   const std::lock_guard lock(mutex_);
   waits_.emplace(wait.get(), wait);
   entries_.fetch_add(1);
   waiting_.fetch_add(1);
+  if (on_add_) on_add_();
   complete_or_enqueue(wait, false);
 }
 
@@ -110,6 +117,7 @@ void WaitQueue::forget(const std::shared_ptr<Wait>& wait) {
 void WaitQueue::add(const std::shared_ptr<Watch>& watch) {
   const std::lock_guard lock(mutex_);
   entries_.fetch_add(1);
+  if (on_add_) on_add_();
   if (watch->child_.empty()) {
     watches_of_all_.push_back(watch);
     watching_all_.fetch_add(1);
@@ -130,7 +138,7 @@ void WaitQueue::remove(const std::shared_ptr<Watch>& watch) {
     remove_from_name(watch->child_, &Waiters::watches, watch);
   } else {
     remove_unordered(by_frame_[watch->frame_].watches, watch);
-    tree_.frame(watch->frame_).watchers.fetch_sub(1);
+    watchers(watch->frame_).fetch_sub(1);
   }
 }
 
@@ -141,7 +149,7 @@ void WaitQueue::attach_to_frame(const std::shared_ptr<Watch>& watch) {
   remove_from_name(watch->child_, &Waiters::watches, watch);
   watch->frame_ = frame;
   by_frame_[frame].watches.push_back(watch);
-  tree_.frame(frame).watchers.fetch_add(1);
+  watchers(frame).fetch_add(1);
 }
 
 void WaitQueue::notify(const Inserted& inserted) {
@@ -155,7 +163,7 @@ void WaitQueue::notify(const Inserted& inserted) {
   }
   if (inserted.new_names && names_.load() > 0) on_new_names();
   if (inserted.child == 0) return;
-  if (tree_.frame(inserted.child).watchers.load() > 0 || watching_all_.load() > 0) on_insertion(inserted.child);
+  if (watchers(inserted.child).load() > 0 || watching_all_.load() > 0) on_insertion(inserted.child);
 }
 
 void WaitQueue::on_insertion(FrameId child) {
@@ -240,7 +248,7 @@ void WaitQueue::enqueue(const std::shared_ptr<Wait>& wait, WaitCondition conditi
   wait->condition_ = std::move(condition);
   for (const FrameId frame : wait->condition_.frames) {
     by_frame_[frame].waits.push_back(wait);
-    tree_.frame(frame).watchers.fetch_add(1);
+    watchers(frame).fetch_add(1);
   }
   if (!wait->condition_.name.empty()) {
     by_name_[wait->condition_.name].waits.push_back(wait);
@@ -252,7 +260,7 @@ void WaitQueue::enqueue(const std::shared_ptr<Wait>& wait, WaitCondition conditi
 void WaitQueue::dequeue(const std::shared_ptr<Wait>& wait) {
   for (const FrameId frame : wait->condition_.frames) {
     remove_unordered(by_frame_[frame].waits, wait);
-    tree_.frame(frame).watchers.fetch_sub(1);
+    watchers(frame).fetch_sub(1);
   }
   if (!wait->condition_.name.empty()) remove_from_name(wait->condition_.name, &Waiters::waits, wait);
   wait->condition_ = WaitCondition{};

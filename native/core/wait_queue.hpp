@@ -3,6 +3,7 @@
 // thread.
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <condition_variable>
 #include <cstdint>
@@ -102,7 +103,9 @@ class WaitQueue {
   // Tries the lookup; on false, the failure says what is missing.
   using Ask = std::function<bool(LookupQuery&, LookupResult&, Failure&)>;
 
-  WaitQueue(Tree& tree, Ask ask) : tree_(tree), ask_(std::move(ask)) {}
+  WaitQueue(const Tree& tree, Ask ask) : tree_(tree), ask_(std::move(ask)) {}
+  // Called before the first attempt of every wait and watch; nullptr: nothing.
+  void on_add(std::function<void()> call);
 
   // The wait is completed as soon as its lookup succeeds, which may be immediately.
   void add(const std::shared_ptr<Wait>& wait);
@@ -137,8 +140,14 @@ class WaitQueue {
   void on_insertion(FrameId child);
   void on_new_names();
 
-  Tree& tree_;
+  // The waiters to notify of insertions, by frame modulo kCounters: the writer checks this before it takes the mutex.
+  static constexpr std::size_t kCounters = 256;
+  std::atomic<std::uint32_t>& watchers(FrameId frame) { return watchers_[frame % kCounters]; }
+
+  const Tree& tree_;
   Ask ask_;
+  std::function<void()> on_add_;
+  std::array<std::atomic<std::uint32_t>, kCounters> watchers_{};
   std::mutex mutex_;
   std::unordered_map<FrameId, Waiters> by_frame_;
   std::unordered_map<std::string, Waiters> by_name_;  // for frames that do not exist yet

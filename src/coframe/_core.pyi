@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The native core. Private: use `import coframe`."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from types import ModuleType
 from typing import Any
 
@@ -291,6 +291,10 @@ class Buffer:
     def frozen(self) -> bool:
         """Whether the buffer is read-only."""
 
+    def _on_local_change(self, call: Callable[[], object] | None) -> None: ...
+    def _stop_following(self) -> None: ...
+    @property
+    def _following(self) -> bool: ...
     def _become_snapshot(self, other: Buffer) -> None:
         """Become a frozen copy of `other` as it is now; only for a buffer that is not used yet."""
 
@@ -343,6 +347,41 @@ class Buffer:
     @property
     def _changes(self) -> int:
         """A counter that increases with every insertion."""
+
+class SegmentError(OSError): ...
+
+class Segment:
+    """A transform tree in memory that the processes of a user share."""
+
+    @staticmethod
+    def open(folder: str, name: str, cache_ns: int) -> Segment:
+        """Open a tree, or create it; raise SegmentError if sharing is not possible here."""
+
+    def follow(self, buffer: Buffer) -> bool:
+        """Let an empty buffer read the tree from now on; return False if it is not empty."""
+
+    def try_to_write(self) -> bool:
+        """Become the writer if there is none; return whether it is."""
+
+    def write(self, buffer: Buffer) -> None:
+        """Let a new buffer write the tree, after try_to_write() has succeeded."""
+
+    @property
+    def writer_process(self) -> int:
+        """The process that writes, or wrote last."""
+
+    def wait_for_vacancy(self, timeout_ns: int) -> None:
+        """Wait until there may be no writer, an interrupt, or the timeout (negative: no limit)."""
+
+    def interrupt(self) -> None:
+        """End the wait of another thread."""
+
+    @property
+    def used(self) -> int:
+        """Bytes in use."""
+
+    def close(self) -> None:
+        """Stop writing, and no longer keep the tree."""
 
 class Mailbox:
     """A queue of tokens that waits and watches put when something has happened."""

@@ -1,19 +1,24 @@
 # SPDX-License-Identifier: Apache-2.0
 """`coframe.connect()`: a node with a buffer that receives transforms, and with publishers and subscriptions."""
 
+# ruff: noqa: SLF001 - Sharing requires private members of the buffer.
+
 from __future__ import annotations
 
 import logging
 import threading
 import time
+import weakref
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 from coframe import _core
 from coframe.buffer import Buffer
 from coframe.errors import WireError
 from coframe.frame_names import kept, renaming
+from coframe.shared_transforms import SharedTransforms, Source
 from coframe.tf_publishers import TfPublisher, publishers_of
 from coframe.time import MILLISECOND, SECOND, duration_ns
+from coframe.wire import domains
 from coframe.wire.names import any_ros_name
 from coframe.wire.participant import Participant
 from coframe.wire.qos import DEFAULT, QoS
@@ -28,7 +33,8 @@ if TYPE_CHECKING:
 
     from coframe.messages.message import Message
     from coframe.viewer import Viewer
-    from coframe.wire.endpoints import Publisher, Subscription
+    from coframe.wire.endpoints import GraphNode, Publisher, Subscription
+    from coframe.wire.tf_reader import TfReader
 
 _logger = logging.getLogger("coframe.wire")
 
@@ -147,8 +153,6 @@ class Connection:
 
     Attributes:
         buffer: The buffer, which contains all received transforms.
-        participant: The DDS participant of this process.
-        node: The node.
         tf_topics: The topics of dynamic and of static transforms.
         prefix: The prefix of the frames in the buffer.
         keep: The frames without a prefix.
@@ -165,24 +169,37 @@ class Connection:
         cache: str | int | timedelta | None,
         prefix: str,
         keep: Iterable[str],
+        shared: bool,
     ) -> None:
-        self._renaming = names = renaming(prefix, keep)
+        self._renaming = renaming(prefix, keep)
         self.buffer = Buffer(cache)
         self.tf_topics = (tf_topic, tf_static_topic)
         self.prefix, self.keep = prefix, kept(keep)
-        self.participant = Participant.get(domain)
-        self._closing = threading.Lock()
+        self._name = (namespace, node_name)
+        self._domain = domains.domain_id() if domain is None else domain
+        self._participant: Participant | None = None
+        self._closing = threading.RLock()
         self._closed = False
         self._subscriptions: list[MessageSubscription[Any]] = []
-        try:
-            self.node = self.participant.add_node(namespace, node_name)
-            self._readers = [
-                self.participant.tf_reader(self.node, topic, self.buffer, static=static, authority=None, renaming=names)
-                for topic, static in ((tf_topic, False), (tf_static_topic, True))
-            ]
-        except BaseException:
-            self.participant.close()
-            raise
+        self._readers: list[TfReader] = []
+        self._shared = self._share() if shared else None
+        if self._shared is None:
+            self._receive()
+
+    @property
+    def participant(self) -> Participant:
+        """The DDS participant of this process. A connection with shared transforms joins the graph at its first use."""
+        return self._join()[0]
+
+    @property
+    def node(self) -> GraphNode:
+        """The node. A connection with shared transforms joins the graph at its first use."""
+        return self._join()[1]
+
+    @property
+    def shared(self) -> bool:
+        """Whether the buffer reads the transforms that one process receives for all."""
+        return self._shared is not None
 
     def publisher(self, topic: str, message_type: type[M], qos: QoS | int | None = None) -> MessagePublisher[M]:
         """Create a publisher on a topic.
@@ -238,12 +255,14 @@ class Connection:
 
     def publishers(self) -> list[TfPublisher]:
         """Return the publishers that transforms were received from, including those that have left."""
-        return [publisher for reader in self._readers for publisher in publishers_of(self.participant, reader)]
+        participant, readers = self._receiver()
+        return [publisher for reader in readers for publisher in publishers_of(participant, reader)]
 
     def awaited_statics(self) -> list[str]:
         """Return the nodes that have a publisher of static transforms from which nothing was received yet."""
-        awaited = {writer for reader in self._readers if reader.static for writer in reader.awaited_writers()}
-        return sorted(self.participant.writer_node(writer) or "an unnamed node" for writer in awaited)
+        participant, readers = self._receiver()
+        awaited = {writer for reader in readers if reader.static for writer in reader.awaited_writers()}
+        return sorted(participant.writer_node(writer) or "an unnamed node" for writer in awaited)
 
     def wait_for_statics(self, timeout: float | str = STATICS_TIMEOUT) -> bool:
         """Wait until every discovered publisher of static transforms has delivered them.
@@ -283,8 +302,13 @@ class Connection:
             self._closed = True
         for subscription in self._subscriptions:
             subscription.close()
-        self.node.close()
-        self.participant.close()
+        if self._shared is not None:
+            self.buffer._on_local_change(None)
+            self.buffer._stop_following()
+            self._shared.leave()
+        if self._participant is not None:
+            self._node.close()
+            self._participant.close()
 
     def __enter__(self) -> Self:
         return self
@@ -294,11 +318,73 @@ class Connection:
     ) -> None:
         self.close()
 
+    def _join(self) -> tuple[Participant, GraphNode]:
+        """Join the graph, unless the connection has done so."""
+        with self._closing:
+            if self._participant is None:
+                if self._closed:
+                    raise _closed_error(self._name[1])
+                participant = Participant.get(self._domain)
+                try:
+                    self._node = participant.add_node(*self._name)
+                except BaseException:
+                    participant.close()
+                    raise
+                self._participant = participant
+            return self._participant, self._node
+
+    def _receive(self) -> None:
+        """Subscribe to the transforms."""
+        participant, node = self._join()
+        try:
+            self._readers = [
+                participant.tf_reader(node, topic, self.buffer, static=static, authority=None, renaming=self._renaming)
+                for topic, static in zip(self.tf_topics, (False, True), strict=True)
+            ]
+        except BaseException:
+            self.close()
+            raise
+
+    def _share(self) -> SharedTransforms | None:
+        """Let the buffer read the transforms that one process receives for all; return None if that is not possible."""
+        source = Source(self._domain, *self.tf_topics, self.buffer.cache_ns, self.prefix, tuple(sorted(self.keep)))
+        try:
+            shared = SharedTransforms.join(source)
+        except _core.SegmentError as error:
+            _logger.warning("The transforms are not shared with other processes: %s", error)
+            return None
+        shared.follow(self.buffer)
+        method = weakref.WeakMethod(self._receive_alone)
+
+        def receive_alone() -> None:
+            receive = method()
+            if receive is not None:
+                receive()
+
+        self.buffer._on_local_change(receive_alone)
+        return shared
+
+    def _receive_alone(self) -> None:
+        """Stop sharing: the buffer becomes one of its own, because the program changes it."""
+        with self._closing:
+            shared, self._shared = self._shared, None
+            if shared is None or self._closed:
+                return
+            _logger.info("The buffer no longer shares its transforms with other processes, because it was changed.")
+            self.buffer._stop_following()
+            self._receive()
+            shared.leave()
+
+    def _receiver(self) -> tuple[Participant, list[TfReader]]:
+        """Return the subscriptions to the transforms in this process."""
+        shared = self._shared
+        if shared is None:
+            return self.participant, self._readers
+        return shared.participant or self.participant, shared.readers
+
     def _check(self, topic: Any, message_type: Any) -> None:
         if self._closed:
-            raise WireError(
-                f"The connection of {self.node.name} is closed.", hint="Create a new one: coframe.connect()."
-            )
+            raise _closed_error(self._name[1])
         if not isinstance(topic, str):
             raise TypeError(f"the first argument must be the topic's name, not {topic!r}; the message class is second")
         if not isinstance(message_type, type) or not hasattr(message_type, "ROS_TYPE"):
@@ -308,7 +394,11 @@ class Connection:
             )
 
     def _qualified(self, topic: str) -> str:
-        return topic if topic.startswith("/") else f"{self.node.namespace.rstrip('/')}/{topic}"
+        return topic if topic.startswith("/") else f"{self._name[0].rstrip('/')}/{topic}"
+
+
+def _closed_error(name: str) -> WireError:
+    return WireError(f"The connection of {name} is closed.", hint="Create a new one: coframe.connect().")
 
 
 def _timeout_ns(timeout: float | str) -> int:
@@ -331,6 +421,7 @@ def connect(
     cache: str | int | timedelta | None = "10s",
     prefix: str = "",
     keep: Iterable[str] = (),
+    shared: bool = False,
 ) -> Connection:
     """Join the ROS 2 graph and receive its transforms into a buffer in the background.
 
@@ -348,6 +439,10 @@ def connect(
         prefix: The prefix of the frames in the buffer, used as given: "robot1/" makes "robot1/base_link" of
             "base_link".
         keep: The frames that are shared by robots and get no prefix: ["map"].
+        shared: Whether to read the transforms from memory that all processes of this user on this machine share. The
+            first of them receives the transforms for all; if it ends, another one takes over. A buffer that the program
+            changes (`set`, `clear`, ...) becomes one of its own. Linux only: elsewhere, a warning is logged and this
+            process receives the transforms itself. See docs/how-to/shared_transforms.md.
 
     Raises:
         ValueError: The prefix begins with a slash.
@@ -366,4 +461,5 @@ def connect(
         cache=cache,
         prefix=prefix,
         keep=keep,
+        shared=shared,
     )

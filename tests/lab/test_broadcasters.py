@@ -132,8 +132,9 @@ def test_joint_states_replace_the_simulation_until_they_stop(start):
 def arm_after(start, *states):
     """Return a function that passes a joint state to the node and returns the angles and stamps of the arm."""
     observer = start()
-    node = observer.add(DynamicFramePublisher())
-    node.timer.cancel()
+    node = DynamicFramePublisher()
+    node.timer.cancel()  # before anything runs its callback
+    observer.add(node)
     received, _ = observer.hear_tf()
     observer.until(node.tf_broadcaster.pub_tf.get_subscription_count)
     for state in states:

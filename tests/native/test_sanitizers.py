@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Tests of the native core under sanitizers: concurrent readers and writers, and damaged messages.
+"""Tests of the native core under sanitizers: concurrent readers and writers, damaged messages, and writers that die.
 
 `make sanitize` runs the same programs. The results of the build stay in build/sanitize.
 """
@@ -7,6 +7,7 @@
 import fcntl
 import shutil
 import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -15,7 +16,8 @@ pytestmark = pytest.mark.timeout(600)  # includes the first build
 
 FOLDER = Path(__file__).parent
 BUILD = FOLDER.parents[1] / "build" / "sanitize"
-FLAGS = {"thread": "-fsanitize=thread", "address": "-fsanitize=address,undefined"}
+FLAGS = {"thread": "-fsanitize=thread", "address": "-fsanitize=address,undefined", "plain": "-pthread"}
+on_linux = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="transforms are shared on Linux only")
 
 
 def build(kind, tmp_path):
@@ -36,7 +38,9 @@ def build(kind, tmp_path):
 
 
 def run(kind, program, amount):
-    command = [FOLDER / "sanitized.sh", BUILD / kind / program, str(amount)]
+    command = [BUILD / kind / program, str(amount)]
+    if kind in ("thread", "address"):
+        command.insert(0, FOLDER / "sanitized.sh")
     ended = subprocess.run(command, capture_output=True, text=True, check=False)
     print(ended.stdout)
     assert (ended.returncode, ended.stderr) == (0, ""), ended.stderr
@@ -70,3 +74,31 @@ def test_damaged_messages_cause_no_memory_error(tmp_path):
 def test_damaged_frozen_buffers_cause_no_memory_error(tmp_path):
     build("address", tmp_path)
     run("address", "fuzz_frozen", 3000)
+
+
+@on_linux
+@pytest.mark.slow
+def test_readers_of_a_shared_tree_have_no_data_race(tmp_path):
+    build("thread", tmp_path)
+    run("thread", "shared_stress", 10)
+
+
+@on_linux
+@pytest.mark.slow
+def test_another_writer_continues_after_every_instruction_of_a_change(tmp_path):
+    build("plain", tmp_path)
+    run("plain", "crash", 0)
+
+
+@on_linux
+@pytest.mark.slow
+def test_readers_see_whole_samples_in_every_order_of_steps(tmp_path):
+    build("plain", tmp_path)
+    run("explored", "explore", 0)
+
+
+@on_linux
+@pytest.mark.slow
+def test_nothing_is_lost_when_writers_are_killed(tmp_path):
+    build("plain", tmp_path)
+    run("plain", "kill_writer", 100)

@@ -46,6 +46,7 @@ COMMANDS: dict[str, tuple[str, dict[str, Any]]] = {
         {"context_settings": {**_PASSES_WORDS_ON["context_settings"], "allow_interspersed_args": False}},
     ),
     "interfaces": ("Find, check and add your own .msg, .srv and .action files.", {}),
+    "hub": ("Receive the transforms once for all programs that share them.", {}),
     "relay": ("Merge the transforms of several robots, or split them.", {}),
     "router": ("Run a Zenoh router, which connects nodes across networks.", {}),
     "record": ("Record topics as MCAP files in rosbag2's layout.", {}),

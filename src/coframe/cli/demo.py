@@ -24,6 +24,7 @@ from coframe.cli.options import (
     DomainOption,
     DurationOption,
     KeepOption,
+    ListenerOptions,
     PrefixOption,
     TfStaticTopicOption,
     TfTopicOption,
@@ -101,7 +102,7 @@ def demo(
     """
     console = Console()
     seconds = None if duration is None else duration.seconds
-    listener_options = {"tf_topic": tf_topic, "tf_static_topic": tf_static_topic, "prefix": prefix, "keep": keep}
+    listener_options = ListenerOptions(tf_topic=tf_topic, tf_static_topic=tf_static_topic, prefix=prefix, keep=keep)
     if robots is not None:
         if urdf:
             fail("--robots cannot be combined with --urdf", "Several robots are simulated without a URDF.", code=2)

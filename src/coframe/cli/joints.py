@@ -22,6 +22,7 @@ from coframe.cli.options import (
     TF_TOPIC,
     DomainOption,
     KeepOption,
+    ListenerOptions,
     PrefixOption,
     TfStaticTopicOption,
     TfTopicOption,
@@ -116,12 +117,9 @@ def joints(
         overrides = [Parameter(name, value=value) for name, value in values.items()]
         with reported_node_errors(), _running_node(["coframe", *words], robot, domain, overrides) as running:
             if gui:
-                listener_options = {
-                    "tf_topic": tf_topic,
-                    "tf_static_topic": tf_static_topic,
-                    "prefix": prefix,
-                    "keep": keep,
-                }
+                listener_options = ListenerOptions(
+                    tf_topic=tf_topic, tf_static_topic=tf_static_topic, prefix=prefix, keep=keep
+                )
                 with coframe.connect("coframe_joints", domain=domain, **listener_options) as ros:
                     _show_in_viewer(running, robot, ros, port, browser=not no_browser)
             elif sys.stdin.isatty() and sys.stdout.isatty():

@@ -20,6 +20,7 @@ from coframe.cli.options import (
     TIMES,
     DomainOption,
     KeepOption,
+    ListenerOptions,
     NamespaceOption,
     PositiveDuration,
     PrefixOption,
@@ -130,8 +131,13 @@ def lookup(
             reject_namespace_of_live_graph(namespace)
             if Path(target).exists() and not {"/", "."}.isdisjoint(target):
                 fail(f"{target} is a file or a folder. Give TARGET and SOURCE after the recording.", code=2)
-            topics = {"tf_topic": tf_topic or TF_TOPIC, "tf_static_topic": tf_static_topic or TF_STATIC_TOPIC}
-            with coframe.connect("coframe_lookup", domain=domain, **topics, prefix=prefix, keep=keep) as ros:
+            options = ListenerOptions(
+                tf_topic=tf_topic or TF_TOPIC,
+                tf_static_topic=tf_static_topic or TF_STATIC_TOPIC,
+                prefix=prefix,
+                keep=keep,
+            )
+            with coframe.connect("coframe_lookup", domain=domain, **options) as ros:
                 try:
                     found = _when_possible(lambda: transform(ros.buffer, _clock_time(duration)), duration)
                 except TransformException as error:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, TypedDict
 
 import typer
 
@@ -30,6 +30,7 @@ __all__ = [
     "Duration",
     "DurationOption",
     "KeepOption",
+    "ListenerOptions",
     "NamespaceOption",
     "NonNegativeDuration",
     "OptionalBagArgument",
@@ -223,6 +224,15 @@ KeepOption = Annotated[
     str,
     typer.Option(metavar="FRAMES", help="Shared frames that get no prefix, e.g. map,world.", show_default=False),
 ]
+
+
+class ListenerOptions(TypedDict):
+    """The arguments of :func:`coframe.connect` that the options above give."""
+
+    tf_topic: str
+    tf_static_topic: str
+    prefix: str
+    keep: str
 
 
 def recorded_tf_topics(tf_topic: str | None, tf_static_topic: str | None) -> tuple[str, str] | None:

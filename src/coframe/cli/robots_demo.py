@@ -16,6 +16,7 @@ from rich.text import Text
 
 import coframe
 from coframe.cli.lifecycle import run_until_interrupted
+from coframe.cli.options import ListenerOptions
 from coframe.cli.output import fail, printable
 from coframe.cli.view import optional_viewer
 from coframe.errors import TransformException
@@ -71,7 +72,7 @@ def show_robots(
     """
     names = [f"robot{number}" for number in range(1, number_of_robots + 1)]
     shown = renaming(prefix, keep) or str
-    listener_options = {"tf_topic": tf_topic, "tf_static_topic": tf_static_topic, "prefix": prefix, "keep": keep}
+    listener_options = ListenerOptions(tf_topic=tf_topic, tf_static_topic=tf_static_topic, prefix=prefix, keep=keep)
     topics = None if own_topics else (tf_topic, tf_static_topic)
     commands = tuple(_command(name, number, number_of_robots, topics) for number, name in enumerate(names))
     warnings: list[str] = []

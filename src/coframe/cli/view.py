@@ -21,6 +21,7 @@ from coframe.cli.options import (
     TF_TOPIC,
     DomainOption,
     KeepOption,
+    ListenerOptions,
     PrefixOption,
     RecordedTfStaticTopicOption,
     RecordedTfTopicOption,
@@ -164,8 +165,13 @@ def view(
             # The browser starts while the graph is joined or the recording is read.
             if live:
                 announce(viewer, browser=not no_browser)
-                topics = {"tf_topic": tf_topic or TF_TOPIC, "tf_static_topic": tf_static_topic or TF_STATIC_TOPIC}
-                node = coframe.connect("coframe_view", domain=domain, **topics, prefix=prefix, keep=keep)
+                options = ListenerOptions(
+                    tf_topic=tf_topic or TF_TOPIC,
+                    tf_static_topic=tf_static_topic or TF_STATIC_TOPIC,
+                    prefix=prefix,
+                    keep=keep,
+                )
+                node = coframe.connect("coframe_view", domain=domain, **options)
                 from coframe.viewer.sources.live import LiveSource  # noqa: PLC0415 - recordings need no DDS
 
                 viewer.set_source(LiveSource(node, own=True))

@@ -76,6 +76,21 @@ def check() -> None:
         library.check()
 
 
+def network(environment: Mapping[str, str] = os.environ) -> str:
+    """Return a text that is equal for processes that join the same network: the middleware with its configuration.
+
+    Raises:
+        WireError: An environment variable has an invalid value.
+    """
+    selected = select(environment)
+    if selected.wire == "dds":
+        from coframe.wire.dds.config import cyclone_config  # noqa: PLC0415 - loads only what is used
+
+        return cyclone_config(environment)
+    names = sorted(name for name in environment if name.startswith("ZENOH_"))
+    return "zenoh " + repr([(name, environment[name]) for name in names])
+
+
 def join(domain: int, changed: _core.Event) -> Session:
     """Join a ROS domain through the selected middleware.
 

@@ -12,6 +12,7 @@ from rclpy.publisher import Publisher
 from rclpy.qos import QoSProfile, as_qos_profile
 from rclpy.subscription import Subscription
 from tf2_msgs.msg import TFMessage
+from tf2_ros._shared_subscriptions import shared_subscriptions
 from tf2_ros._subscriptions import AUTHORITY, Request, Subscriptions, Topic
 
 if TYPE_CHECKING:
@@ -26,7 +27,11 @@ profile = as_qos_profile
 
 def open_subscriptions(request: Request) -> Subscriptions:
     """Subscribe, and insert transforms into the buffer without Python code."""
-    return _NativeSubscriptions(request)
+
+    def receive_alone() -> Subscriptions:
+        return _NativeSubscriptions(request)
+
+    return shared_subscriptions(request, receive_alone) or receive_alone()
 
 
 def static_publisher(node: Node, topic: str, qos: QoSProfile) -> Any:

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/follower.hpp"
+
+#include <thread>
+
+#ifdef __unix__
+#include <unistd.h>
+#endif
+
+namespace coframe {
+
+namespace {
+
+constexpr std::int64_t kLongestWait = 1'000'000'000;
+
+std::int64_t current_process() {
+#ifdef __unix__
+  return getpid();
+#else
+  return 0;
+#endif
+}
+
+}  // namespace
+
+ChangeFollower::ChangeFollower(const Tree& tree, WaitQueue& queue) : tree_(tree), queue_(queue) {
+  queue_.on_add([this] { ensure_running(); });
+}
+
+ChangeFollower::~ChangeFollower() {
+  queue_.on_add(nullptr);
+  stopped_.store(true);
+  std::unique_lock lock(mutex_);
+  if (!running_ || process_ != current_process()) return;
+  tree_.access()->wake();
+  ended_.wait(lock, [this] { return !running_; });
+}
+
+void ChangeFollower::ensure_running() {
+  const std::lock_guard lock(mutex_);
+  if (stopped_ || (running_ && process_ == current_process())) return;
+  remember();
+  std::thread([this] { run(); }).detach();
+  running_ = true;
+  process_ = current_process();
+}
+
+void ChangeFollower::run() {
+  for (;;) {
+    try {
+      tree_.access()->wait_for_change(changes_, kLongestWait);
+      if (!stopped_) notify();
+    } catch (...) {  // the writer is suspended: the next change is handled later
+    }
+    const std::lock_guard lock(mutex_);
+    if (!stopped_ && !queue_.empty()) continue;
+    running_ = false;
+    ended_.notify_all();
+    return;
+  }
+}
+
+void ChangeFollower::remember() {
+  changes_ = tree_.changes().load();
+  version_ = tree_.version();
+  stored_.resize(tree_.frame_count());
+  for (FrameId id = 0; id < stored_.size(); ++id) stored_[id] = tree_.frame(id).counts.stored;
+}
+
+// The number of changes is read first: later ones lead to another call.
+void ChangeFollower::notify() {
+  changes_ = tree_.changes().load();
+  Inserted all;
+  const std::uint64_t version = tree_.version();
+  const std::size_t frames = tree_.frame_count();
+  if (version != version_ || frames != stored_.size()) {
+    version_ = version;
+    all.new_names = all.rewired = true;
+    queue_.notify(all);
+  }
+  stored_.resize(frames);
+  for (FrameId id = 0; id < frames; ++id) {
+    const std::uint64_t stored = tree_.frame(id).counts.stored;
+    if (stored == stored_[id]) continue;
+    stored_[id] = stored;
+    Inserted one;
+    one.child = id;
+    queue_.notify(one);
+  }
+}
+
+}  // namespace coframe

@@ -1,0 +1,229 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The transforms of a domain in memory that all processes of a user on this machine share: one receives, all read."""
+
+from __future__ import annotations
+
+import atexit
+import hashlib
+import logging
+import os
+import threading
+from pathlib import Path
+from typing import TYPE_CHECKING, ClassVar, NamedTuple
+
+from coframe import _core
+from coframe.buffer import Buffer
+from coframe.frame_names import kept, renaming
+from coframe.time import MILLISECOND, SECOND
+from coframe.wire import selection
+from coframe.wire.participant import Participant
+
+if TYPE_CHECKING:
+    from coframe.wire import TfReader
+    from coframe.wire.endpoints import GraphNode
+
+__all__ = ["SharedTransforms", "Source"]
+
+_logger = logging.getLogger("coframe.wire")
+
+_FOLDER = "/dev/shm/coframe-{user}"  # noqa: S108 - memory of this user only; the native code checks its owner
+_VACANCY_TIMEOUT = 1 * SECOND  # in case that the end of a writer was not noticed
+_RETRY_PAUSE = 10 * MILLISECOND / SECOND
+_EXIT_TIMEOUT = 1.0  # seconds
+
+
+class Source(NamedTuple):
+    """What is received. Processes share the transforms if all of this is equal.
+
+    Attributes:
+        domain: The ROS domain.
+        tf_topic: The topic of dynamic transforms.
+        tf_static_topic: The topic of static transforms.
+        cache: The length of the cache in nanoseconds; negative to keep everything.
+        prefix: The prefix of the frames.
+        keep: The frames without a prefix.
+    """
+
+    domain: int
+    tf_topic: str
+    tf_static_topic: str
+    cache: int
+    prefix: str = ""
+    keep: tuple[str, ...] = ()
+
+    def open(self) -> _core.Segment:
+        """Open the memory of the transforms.
+
+        Raises:
+            SegmentError: This system cannot share transforms.
+        """
+        if not hasattr(os, "getuid"):
+            raise _core.SegmentError("sharing transforms between processes is supported on Linux only")
+        # The name differs for every source, network namespace and configuration of the middleware.
+        text = repr((*self[:-1], sorted(kept(self.keep)), selection.network(), _network()))
+        name = f"{self.domain}-{hashlib.sha256(text.encode()).hexdigest()[:16]}"
+        return _core.Segment.open(_FOLDER.format(user=os.getuid()), name, self.cache)
+
+
+class SharedTransforms:
+    """The shared transforms of one source, as this process uses them. Created by `join`.
+
+    The first process becomes the writer: it receives the transforms. If it ends, another one takes over.
+    """
+
+    _instances: ClassVar[dict[Source, SharedTransforms]] = {}
+    _lock: ClassVar[threading.RLock] = threading.RLock()
+
+    def __init__(self, source: Source) -> None:
+        self.source = source
+        self._users = 0
+        self._closed = threading.Event()
+        self._hub: _Hub | None = None
+        self._segment = source.open()
+        try:
+            if self._segment.try_to_write():
+                self._hub = _Hub(self._segment, source)
+        except BaseException:
+            self._segment.close()
+            raise
+        self._thread = threading.Thread(target=self._take_over, name="coframe shared transforms", daemon=True)
+        self._thread.start()
+
+    @classmethod
+    def join(cls, source: Source) -> SharedTransforms:
+        """Return the shared transforms of a source. Each call needs one call of `leave`.
+
+        Raises:
+            SegmentError: This system cannot share transforms.
+            WireError: This process is the first one, and DDS cannot join the graph.
+        """
+        with cls._lock:
+            shared = cls._instances.get(source)
+            if shared is None:
+                shared = cls._instances[source] = cls(source)
+            shared._users += 1
+            return shared
+
+    @classmethod
+    def forget_all(cls) -> None:
+        """Forget everything in a forked process: its buffers continue to read, but it has none of the threads."""
+        cls._instances.clear()
+        cls._lock = threading.RLock()
+
+    @classmethod
+    def close_all(cls) -> None:
+        """Stop receiving, at the exit of the interpreter."""
+        for shared in list(cls._instances.values()):
+            shared.close()
+
+    def leave(self) -> None:
+        """Stop using the transforms. The last call in this process also stops receiving them."""
+        with self._lock:
+            self._users -= 1
+            if self._users > 0 or self._instances.get(self.source) is not self:
+                return
+            del self._instances[self.source]
+        self.close()
+
+    def follow(self, buffer: Buffer) -> bool:
+        """Let an empty buffer read the shared transforms; return False if the buffer is not empty."""
+        return self._segment.follow(buffer)
+
+    @property
+    def writes(self) -> bool:
+        """Whether this process receives the transforms."""
+        return self._hub is not None
+
+    @property
+    def writer_process(self) -> int:
+        """The ID of the process that receives the transforms."""
+        return self._segment.writer_process
+
+    @property
+    def used(self) -> int:
+        """The size of the shared memory in use, in bytes."""
+        return self._segment.used
+
+    @property
+    def readers(self) -> list[TfReader]:
+        """The subscriptions of this process; empty if another process receives the transforms."""
+        hub = self._hub
+        return [] if hub is None else hub.readers
+
+    @property
+    def participant(self) -> Participant | None:
+        """The participant of these subscriptions."""
+        hub = self._hub
+        return None if hub is None else hub.participant
+
+    def _take_over(self) -> None:
+        """Wait until this process is the writer."""
+        while not self._closed.is_set() and self._hub is None:
+            try:
+                if self._segment.try_to_write():
+                    hub = _Hub(self._segment, self.source)
+                    with self._lock:
+                        self._hub = hub
+                    if self._closed.is_set():
+                        self._close_hub()
+                    return
+            except Exception:
+                _logger.exception("This process cannot receive the shared transforms; another one has to.")
+                self._segment.close()
+                return
+            self._segment.wait_for_vacancy(_VACANCY_TIMEOUT)
+            self._closed.wait(_RETRY_PAUSE)
+
+    def close(self) -> None:
+        """Stop receiving, also if other parts of this process still use the transforms."""
+        self._closed.set()
+        self._segment.interrupt()
+        if self._thread is not threading.current_thread():
+            self._thread.join(_EXIT_TIMEOUT)
+        self._close_hub()
+        self._segment.close()
+
+    def _close_hub(self) -> None:
+        with self._lock:
+            hub, self._hub = self._hub, None
+        if hub is not None:
+            hub.close()
+
+
+class _Hub:
+    """The subscriptions that store transforms in the shared memory."""
+
+    def __init__(self, segment: _core.Segment, source: Source) -> None:
+        self._buffer = Buffer(source.cache if source.cache >= 0 else None)
+        segment.write(self._buffer)
+        self.participant = Participant.get(source.domain)
+        try:
+            self._node: GraphNode = self.participant.add_node("/", f"coframe_hub_{os.getpid()}")
+            names = renaming(source.prefix, source.keep)
+            self.readers = [
+                self.participant.tf_reader(
+                    self._node, topic, self._buffer, static=static, authority=None, renaming=names
+                )
+                for topic, static in ((source.tf_topic, False), (source.tf_static_topic, True))
+            ]
+        except BaseException:
+            self.participant.close()
+            raise
+
+    def close(self) -> None:
+        self._node.close()
+        self._buffer.freeze()  # before another process writes
+        self.participant.close()
+
+
+def _network() -> int:
+    """Return a number that is equal for processes with the same network interfaces; containers often have others."""
+    try:
+        return Path("/proc/self/ns/net").stat().st_ino
+    except OSError:
+        return 0
+
+
+if hasattr(os, "register_at_fork"):
+    os.register_at_fork(after_in_child=SharedTransforms.forget_all)
+atexit.register(SharedTransforms.close_all)
