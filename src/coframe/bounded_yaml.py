@@ -16,6 +16,8 @@ MAX_DEPTH = 100
 MAX_VALUES = 1 << 18
 MAX_DIGITS = 100  # of an integer; one in base 60, such as 1:30:00, takes quadratic time
 _INTEGER = "tag:yaml.org,2002:int"
+_TOO_DEEP = f"it is nested more than {MAX_DEPTH} levels deep"
+_PARSER_TOO_DEEP = "maximum nesting depth"  # newer parsers have a limit of their own, and may reach it before _check
 
 
 def read_yaml(text: str | bytes, max_bytes: int = MAX_BYTES) -> Any:
@@ -57,7 +59,8 @@ def _within_limits(text: str | bytes, max_bytes: int, load: Callable[[Any, Any],
         _check(yaml.parse(text, Loader=base), yaml)
         return load(yaml, base)
     except (yaml.YAMLError, ValueError, TypeError, OverflowError) as error:
-        raise ValueError(" ".join(str(error).split())) from None
+        reason = " ".join(str(error).split())
+        raise ValueError(_TOO_DEEP if _PARSER_TOO_DEEP in reason else reason) from None
 
 
 def _integer(loader: Any, node: Any) -> Any:
@@ -97,7 +100,7 @@ class _Extents:
 
     def _check_depth(self, levels: int) -> None:
         if len(self._open) + levels > MAX_DEPTH + 1:
-            raise ValueError(f"it is nested more than {MAX_DEPTH} levels deep")
+            raise ValueError(_TOO_DEEP)
 
 
 def _check(events: Any, yaml: Any) -> None:
