@@ -7,6 +7,7 @@
 from __future__ import annotations
 
 import uuid
+from collections import deque
 from functools import partial
 from typing import TYPE_CHECKING, Any, Final
 
@@ -27,6 +28,8 @@ if TYPE_CHECKING:
     from rclpy.node import Node
     from rclpy.task import Future
 
+# Feedback can arrive after the result, because they take different ways through the middleware.
+_KEPT_CALLBACKS: Final = 100  # of goals that have ended
 _ENDED: Final = {GoalStatus.STATUS_SUCCEEDED, GoalStatus.STATUS_CANCELED, GoalStatus.STATUS_ABORTED}
 
 
@@ -126,7 +129,7 @@ class ActionClient:
         self._action_type = action_type
         self._action_name = action_name
         self._feedback_callbacks: dict[bytes, Callable[[Any], Any]] = {}
-        self.__ended: list[bytes] = []
+        self.__ended: deque[bytes] = deque()  # the goals that have ended and whose feedback is still passed on
         self.__status_cdr: bytes | None = None
         self.__known_statuses: dict[bytes, int] = {}
 
@@ -258,20 +261,13 @@ class ActionClient:
         if response.status in _ENDED:
             goal_handle._status = response.status
         self.__ended.append(_key(goal_handle.goal_id))
-        self.__forget_ended()
+        if len(self.__ended) > _KEPT_CALLBACKS:
+            self._feedback_callbacks.pop(self.__ended.popleft(), None)
         return response
 
     def __on_feedback(self, message: Any) -> Any:
         callback = self._feedback_callbacks.get(_key(message.goal_id))
-        self.__forget_ended()
         return None if callback is None else callback(message)
-
-    def __forget_ended(self) -> None:
-        """Remove the feedback callbacks of finished goals once no feedback message is queued."""
-        if self.__feedback_subscription._Coframe__remaining_ns() is None:
-            ended, self.__ended = self.__ended, []
-            for key in ended:
-                self._feedback_callbacks.pop(key, None)
 
     def __on_status(self, cdr: bytes) -> None:
         self.__status_cdr = cdr
