@@ -145,12 +145,14 @@ def test_the_graph_marks_endpoints_that_do_not_match(domain_id, ros, view, open_
     laser = find("sensor_msgs/msg/LaserScan")
     with coframe.connect("listener", domain=domain_id) as listener:
         listener.subscribe("/scan", laser, lambda _scan: None)
+        strict = QoS(deadline=SECOND // 2, lease=SECOND)
+        listener.subscribe("/number", find("std_msgs/msg/String"), lambda _text: None, qos=strict)
         tab = open_tab(view(ros))
         tab.send("graph", shown=True)
 
         def complete(graph):
             names = {node["name"] for node in graph["nodes"]}
-            return {"/robot", "/listener"} <= names and any(link["problem"] for link in graph["links"])
+            return {"/robot", "/listener"} <= names and sum(bool(link["problem"]) for link in graph["links"]) == 4
 
         graph = tab.wait("graph", complete)
     nodes, topics_ = [node["name"] for node in graph["nodes"]], [topic["topic"] for topic in graph["topics"]]
@@ -159,6 +161,10 @@ def test_the_graph_marks_endpoints_that_do_not_match(domain_id, ros, view, open_
         "requests reliable, but /robot offers best-effort: no messages arrive"
     )
     assert links["/robot", "/scan", True]["problem"].startswith("offers best-effort, but /listener requests reliable")
+    assert links["/listener", "/number", False]["problem"] == (
+        "requests a deadline of 500 ms, automatic liveliness with a lease of 1 s, but /robot offers no deadline, "
+        "automatic liveliness: no messages arrive"
+    )
     assert links["/robot", "/tf", True]["problem"] == ""
     assert links["/robot", "/tf", True]["qos"] == "reliable, volatile"
     assert {node["name"]: node["infrastructure"] for node in graph["nodes"]}["/coframe_view"]

@@ -7,10 +7,12 @@ import time
 from typing import TYPE_CHECKING
 
 from coframe import _core
+from coframe.formatting import duration
 from coframe.viewer.protocol.messages import GraphLink, GraphNode, GraphTopic, NodeGraph
 from coframe.wire.endpoint_mismatch import mismatch_reasons
 from coframe.wire.graph import UNKNOWN_NODE
 from coframe.wire.names import full_name, ros_type
+from coframe.wire.qos import INFINITE
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -146,6 +148,9 @@ def _words(qos: QoS, reasons: list[str]) -> str:
     words = {
         "reliability": "reliable" if qos.reliable else "best-effort",
         "durability": "transient-local" if qos.transient_local else "volatile",
+        "deadline": "no deadline" if qos.deadline == INFINITE else f"a deadline of {duration(qos.deadline)}",
+        "liveliness": f"{'manual' if qos.manual_liveliness else 'automatic'} liveliness"
+        + ("" if qos.lease == INFINITE else f" with a lease of {duration(qos.lease)}"),
     }
     return ", ".join(words[reason] for reason in reasons)
 
