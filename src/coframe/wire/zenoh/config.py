@@ -159,7 +159,7 @@ def reason_of(error: Exception) -> str:
     text = re.sub(r" at /\S+| location: .*", "", str(error), flags=re.DOTALL)
     quoted = re.search(r'"(.*?)(?:"|\Z)', text) if text.startswith(("Json5Err", "Str(")) else None
     *_, last = (quoted[1] if quoted else text).replace("\\n", "\n").splitlines() or [text]
-    return last.strip(" =.")
+    return last.strip(" =.!")
 
 
 def _config(file: str, variable: str, defaults: Mapping[str, Any], environment: Mapping[str, str]) -> zenoh.Config:
