@@ -123,11 +123,11 @@ def test_live_trees_name_their_publishers(inside, tmp_path, eventually):
         inside.start("-m", "coframe.cli", "frames", "--watch", "--json", stdout=output)
         inside.start("-m", "coframe.lab.complete_tf_tree")
         eventually(lambda: len(frames()) == 11 and frames()["link1"]["edges"][-1]["transforms"] > 40)
+        eventually(lambda: 40 < frames()["link1"]["edges"][-1]["rate"] < 60)  # a busy machine publishes more slowly
     found = frames()
     # Transforms that arrive before the discovery of their publisher have no publisher name.
     assert {edge["publisher"] for frame in found.values() for edge in frame["edges"]} - {""} == {"/complete_tf_tree"}
     assert found["link1"]["parent"] == "base_link"
-    assert 40 < found["link1"]["edges"][-1]["rate"] < 60
     assert found["link1"]["edges"][-1]["age"] is not None
     assert found["lidar_link"]["static"]
 

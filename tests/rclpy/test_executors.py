@@ -384,8 +384,8 @@ def test_shutdown_waits_for_running_callbacks(node, pool):
 
 
 def test_rate_keeps_the_frequency(node):
+    start = time.monotonic()  # the periods begin when the rate is created
     rate = node.create_rate(50)
-    start = time.monotonic()
     for _ in range(5):
         rate.sleep()
     assert 0.09 < time.monotonic() - start < 0.5
@@ -401,9 +401,9 @@ def test_groups_contain_their_entities(node):
 
 def test_rate_in_a_loop_with_spin_once(context, node):
     """The loop of the official URDF tutorial: the rate's timer ends `spin_once`, and `sleep` does not wait again."""
-    rate = node.create_rate(50)
     executor = SingleThreadedExecutor(context=context)
     start = time.monotonic()
+    rate = node.create_rate(50)
     for _ in range(5):
         rclpy.spin_once(node, executor=executor)
         rate.sleep()
@@ -420,8 +420,8 @@ def test_rate_beside_a_spinning_thread(context, node):
     executor.add_node(node)
     thread = threading.Thread(target=executor.spin)
     thread.start()
+    start = time.monotonic()  # the periods begin when the rate is created
     rate = node.create_rate(50)
-    start = time.monotonic()
     for _ in range(5):
         rate.sleep()
     assert 0.07 < time.monotonic() - start < 1
