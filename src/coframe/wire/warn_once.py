@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 MAX_WARNINGS = 1000
 """The most warnings of a process: their texts contain names from the network, of which there can be any number."""
 
-LAST_WARNING = f"Further warnings are not shown: there were {MAX_WARNINGS}. Check which node creates so many names."
+LAST_WARNING = f"Further warnings are not shown: there were {MAX_WARNINGS}. Check which node creates these names."
 
 
 class WarnOnce:
