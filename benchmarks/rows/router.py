@@ -13,7 +13,7 @@ FEW, MANY = 10, 100
 FRAMES, HERTZ, SECONDS = "20", "50", "5"
 SAMPLES = 2
 # rmw_zenoh_cpp drops messages of /tf if a connection is congested, which happens if other programs use the processors.
-MOST_LOST = 0.1
+MOST_LOST = 0.01
 
 
 class Runs:
