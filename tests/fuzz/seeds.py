@@ -276,7 +276,7 @@ def viewer_messages() -> Iterable[bytes]:
     ]
     from typing import get_args
 
-    from coframe.viewer.protocol.messages import ClientMessage
+    from coframe.viewer.protocol.client_messages import ClientMessage
     from coframe.viewer.protocol.schema import record
 
     frames += [

@@ -16,7 +16,7 @@ pytest.importorskip("websockets", reason="the viewer needs websockets")
 from websockets.sync.client import connect
 
 import coframe
-from coframe.viewer.protocol import messages
+from coframe.viewer.protocol import binary_messages, client_messages, server_messages, shapes
 from coframe.viewer.protocol.layout import Layout
 from coframe.viewer.protocol.schema import record
 
@@ -30,9 +30,11 @@ def by_literal(types, field):
     return {value: one for one in records for part in one.fields if part.name == field for value in part.type.values}
 
 
-SERVER_MESSAGES = by_literal(messages.ServerMessage, "type")
-SHAPES_BY_KIND = by_literal(messages.ShapesDescription, "kind")
-CLIENT_FIELDS = {one.type: {part.name for part in record(one).fields} for one in get_args(messages.ClientMessage)}
+SERVER_MESSAGES = by_literal(server_messages.ServerMessage, "type")
+SHAPES_BY_KIND = by_literal(shapes.ShapesDescription, "kind")
+CLIENT_FIELDS = {
+    one.type: {part.name for part in record(one).fields} for one in get_args(client_messages.ClientMessage)
+}
 
 
 class Tab:
@@ -130,43 +132,46 @@ class Tab:
         self._connection.__exit__(None, None, None)
 
 
-FRAMES, ENTRY = Layout(messages.FramesHeader), Layout(messages.EntryRecord)
-CLOUD, GRID = Layout(messages.CloudHeader), Layout(messages.GridHeader)
-CURVES, CURVE = Layout(messages.CurvesHeader), Layout(messages.CurveRecord)
-SHAPES, IMAGE = Layout(messages.ShapesHeader), Layout(messages.ImageHeader)
+FRAMES, ENTRY = Layout(binary_messages.FramesHeader), Layout(binary_messages.EntryRecord)
+CLOUD, GRID = Layout(binary_messages.CloudHeader), Layout(binary_messages.GridHeader)
+CURVES, CURVE = Layout(binary_messages.CurvesHeader), Layout(binary_messages.CurveRecord)
+SHAPES, IMAGE = Layout(binary_messages.ShapesHeader), Layout(binary_messages.ImageHeader)
 
 
 def decode(data):
     """Return the kind and the content of a binary message."""
     (kind,) = struct.unpack_from("<I", data)
-    if kind == messages.BinaryKind.FRAMES:
+    if kind == binary_messages.BinaryKind.FRAMES:
         return "frames", decode_frames(data)
-    if kind == messages.BinaryKind.CURVES:
+    if kind == binary_messages.BinaryKind.CURVES:
         return "curves", decode_curves(data)
     display, sequence = struct.unpack_from("<II", data, 4)
     content = SimpleNamespace(display=display, sequence=sequence, size=len(data))
-    if kind == messages.BinaryKind.CLOUD:
+    if kind == binary_messages.BinaryKind.CLOUD:
         head = CLOUD.unpack(data)
         content.stamp, content.range, content.step = head.stamp, list(head.range), head.flags >> 8
         content.points = np.frombuffer(data, "<f4", head.points * 3, CLOUD.size).reshape(-1, 3)
         at = CLOUD.size + content.points.nbytes
-        has_scalars, has_colors = head.flags & messages.CloudFlag.SCALARS, head.flags & messages.CloudFlag.COLORS
+        has_scalars, has_colors = (
+            head.flags & binary_messages.CloudFlag.SCALARS,
+            head.flags & binary_messages.CloudFlag.COLORS,
+        )
         content.scalars = np.frombuffer(data, "<f4", head.points, at) if has_scalars else None
         content.colours = np.frombuffer(data, np.uint8, head.points * 4, at).reshape(-1, 4) if has_colors else None
         return "cloud", content
-    if kind == messages.BinaryKind.GRID:
+    if kind == binary_messages.BinaryKind.GRID:
         head = GRID.unpack(data)
         content.resolution, content.corner = head.resolution, list(head.corner)
         cells = np.frombuffer(data, np.int8, head.width * head.height, GRID.size)
         content.cells = cells.reshape(head.height, head.width)
         return "grid", content
-    if kind == messages.BinaryKind.IMAGE:
+    if kind == binary_messages.BinaryKind.IMAGE:
         head = IMAGE.unpack(data)
         content.width, content.height, content.stamp = head.width, head.height, head.stamp
         content.format, content.step = head.format & 255, head.format >> 8
         content.data = np.frombuffer(data, np.uint8, offset=IMAGE.size)
         return "image", content
-    assert kind == messages.BinaryKind.SHAPES
+    assert kind == binary_messages.BinaryKind.SHAPES
     length = SHAPES.unpack(data).length
     content.head = json.loads(data[SHAPES.size : SHAPES.size + length])
     SHAPES_BY_KIND[content.head["kind"]].check(content.head, "shapes")

@@ -10,7 +10,7 @@ from typing import get_args
 
 import pytest
 
-from coframe.viewer.protocol import messages
+from coframe.viewer.protocol import binary_messages, client_messages, server_messages
 from coframe.viewer.protocol.layout import Layout
 from coframe.viewer.protocol.requests import BadRequestError, parse_request
 from coframe.viewer.protocol.schema import record
@@ -39,9 +39,9 @@ def test_the_built_page_has_the_same_version():
 
 
 def test_a_field_that_only_one_side_has_makes_the_check_fail(generator, monkeypatch, capsys):
-    fields = record(messages.Saved).fields
+    fields = record(server_messages.Saved).fields
     extra = dataclasses.replace(fields[-1], attribute="path", name="path")
-    monkeypatch.setattr(record(messages.Saved), "_fields", (*fields, extra))
+    monkeypatch.setattr(record(server_messages.Saved), "_fields", (*fields, extra))
     monkeypatch.setattr("sys.argv", ["generate_protocol.py", "--check"])
     assert generator.main() == 1
     printed = capsys.readouterr().out
@@ -50,15 +50,15 @@ def test_a_field_that_only_one_side_has_makes_the_check_fail(generator, monkeypa
 
 
 def test_the_version_changes_with_types_but_not_with_comments(generator, monkeypatch):
-    monkeypatch.setattr(messages.Saved, "__doc__", "Another comment.")
+    monkeypatch.setattr(server_messages.Saved, "__doc__", "Another comment.")
     assert generator.protocol_version() == PROTOCOL_VERSION
-    monkeypatch.setattr(record(messages.Saved), "_fields", record(messages.Saved).fields[:1])
+    monkeypatch.setattr(record(server_messages.Saved), "_fields", record(server_messages.Saved).fields[:1])
     assert generator.protocol_version() != PROTOCOL_VERSION
 
 
 def test_headers_have_no_gaps_in_typescript(generator):
     text = generator.typescript("x")
-    for one in messages.BINARY_RECORDS:
+    for one in binary_messages.BINARY_RECORDS:
         (body,) = re.findall(rf"function read{one.__name__}.*?return {{(.*?)}};", text, re.DOTALL)
         sizes = {"u32": 4, "f32": 4, "f64": 8}
         size = sum(sizes[name] for name in re.findall(r"reader\.(\w32|f64)\(\)", body))
@@ -68,12 +68,12 @@ def test_headers_have_no_gaps_in_typescript(generator):
 
 def test_valid_requests_become_instances_of_their_class():
     request = parse_request('{"type":"subscribe","id":3,"topic":"/scan","options":{"decay":1e9,"keep":0},"unknown":1}')
-    options = messages.DisplayOptions(decay=3600.0, keep=1)
-    assert request == messages.Subscribe(id=3, topic="/scan", options=options)
+    options = client_messages.DisplayOptions(decay=3600.0, keep=1)
+    assert request == client_messages.Subscribe(id=3, topic="/scan", options=options)
     request = parse_request('{"type":"timeline","from":-5,"to":1.0,"bins":10.0}')
-    assert request == messages.RequestTimeline(from_=-5.0, to=1.0, bins=10)
+    assert request == client_messages.RequestTimeline(from_=-5.0, to=1.0, bins=10)
     assert parse_request('{"type":"time","mode":"at","at":1,"speed":1e6}').speed == 100.0
-    assert parse_request('{"type":"ready"}') == messages.Ready()
+    assert parse_request('{"type":"ready"}') == client_messages.Ready()
     view = {"class": "Orbit", "options": {"Distance": 4}}
     request = parse_request(json.dumps({"type": "save_rviz", "displays": [], "global": {"a": 1}, "view": view}))
     assert (request.global_, request.view) == ({"a": 1}, view)
@@ -117,5 +117,5 @@ def test_every_request_has_a_handler():
     pytest.importorskip("websockets", reason="the viewer needs websockets")
     from coframe.viewer.clients import requests
 
-    answered = {*requests._HANDLERS, messages.Ready}
-    assert answered == set(get_args(messages.ClientMessage))
+    answered = {*requests._HANDLERS, client_messages.Ready}
+    assert answered == set(get_args(client_messages.ClientMessage))

@@ -13,13 +13,13 @@ from contextlib import closing
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from coframe.errors import RecordingError, ViewerError, WireError
-from coframe.viewer.protocol.messages import Finding
+from coframe.viewer.protocol.server_messages import Finding
 
 if TYPE_CHECKING:
     from collections.abc import Generator
 
     from coframe.doctor import Report
-    from coframe.viewer.protocol.messages import FindingsState
+    from coframe.viewer.protocol.common import FindingsState
     from coframe.viewer.sources.source import Source
 
 __all__ = ["FindingsReport", "FindingsWatcher", "finding_rows"]

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping
 
     from coframe.robots import Robot
-    from coframe.viewer.protocol.messages import Topic
+    from coframe.viewer.protocol.server_messages import Topic
     from coframe.viewer.rviz.config import RvizConfig
     from coframe.viewer.sources.source import Source
     from coframe.viewer.sources.topic_messages import TopicMessages

@@ -18,14 +18,16 @@ from typing import TYPE_CHECKING, Protocol
 from coframe.viewer.clients.feeds import FRAMES, HELLO, TOPICS, make_feeds
 from coframe.viewer.clients.requests import handle
 from coframe.viewer.clients.state import ClientState
+from coframe.viewer.protocol.client_messages import Ready
 from coframe.viewer.protocol.encoding import encode
-from coframe.viewer.protocol.messages import Problem, Ready
 from coframe.viewer.protocol.requests import BadRequestError, parse_request
+from coframe.viewer.protocol.server_messages import Problem
 
 if TYPE_CHECKING:
     from collections.abc import Hashable
 
-    from coframe.viewer.protocol.messages import ClientMessage, ServerMessage
+    from coframe.viewer.protocol.client_messages import ClientMessage
+    from coframe.viewer.protocol.server_messages import ServerMessage
     from coframe.viewer.state import ViewerState
 
 __all__ = ["Client", "Socket"]

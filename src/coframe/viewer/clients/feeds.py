@@ -18,7 +18,7 @@ from coframe.viewer.clients.update import Feed, Update
 from coframe.viewer.displays.display import Status
 from coframe.viewer.findings import finding_rows
 from coframe.viewer.protocol.encoding import encode, encode_frames
-from coframe.viewer.protocol.messages import (
+from coframe.viewer.protocol.server_messages import (
     DisplayStatus,
     Findings,
     Hello,

@@ -6,39 +6,39 @@ from __future__ import annotations
 import asyncio
 from typing import TYPE_CHECKING, Any
 
-from coframe.viewer.protocol import messages
-from coframe.viewer.protocol.messages import Completions
+from coframe.viewer.protocol import client_messages
 from coframe.viewer.protocol.requests import BadRequestError
+from coframe.viewer.protocol.server_messages import Completions
 
 if TYPE_CHECKING:
     from collections.abc import Awaitable, Callable
 
     from coframe.viewer.clients.state import ClientState
-    from coframe.viewer.protocol.messages import ServerMessage
+    from coframe.viewer.protocol.server_messages import ServerMessage
 
 __all__ = ["PANEL_HANDLERS"]
 
 
-async def _set_curves(client: ClientState, request: messages.SetCurves) -> None:
+async def _set_curves(client: ClientState, request: client_messages.SetCurves) -> None:
     from coframe.viewer.panels.curve import CurveSpan  # noqa: PLC0415 - only curves need it
 
     first, last = (None, None) if request.span is None else (round(at) + client.origin for at in request.span)
     client.panels.set_curves(request.curves, CurveSpan(first, last, request.points))
 
 
-async def _inspect(client: ClientState, request: messages.Inspect) -> None:
+async def _inspect(client: ClientState, request: client_messages.Inspect) -> None:
     client.panels.inspect(request.topic)
 
 
-async def _show_log(client: ClientState, request: messages.ShowLog) -> None:
+async def _show_log(client: ClientState, request: client_messages.ShowLog) -> None:
     client.panels.show_log(shown=request.shown)
 
 
-async def _show_graph(client: ClientState, request: messages.ShowGraph) -> None:
+async def _show_graph(client: ClientState, request: client_messages.ShowGraph) -> None:
     client.panels.show_graph(shown=request.shown)
 
 
-async def _complete(client: ClientState, request: messages.Complete) -> Completions:
+async def _complete(client: ClientState, request: client_messages.Complete) -> Completions:
     from coframe.viewer.panels.completion import (  # noqa: PLC0415 - see above
         MAX_TEXT,
         complete_expression,
@@ -55,9 +55,9 @@ async def _complete(client: ClientState, request: messages.Complete) -> Completi
 
 
 PANEL_HANDLERS: dict[type, Callable[[ClientState, Any], Awaitable[ServerMessage | None]]] = {
-    messages.Complete: _complete,
-    messages.Inspect: _inspect,
-    messages.SetCurves: _set_curves,
-    messages.ShowGraph: _show_graph,
-    messages.ShowLog: _show_log,
+    client_messages.Complete: _complete,
+    client_messages.Inspect: _inspect,
+    client_messages.SetCurves: _set_curves,
+    client_messages.ShowGraph: _show_graph,
+    client_messages.ShowLog: _show_log,
 }

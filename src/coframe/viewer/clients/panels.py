@@ -11,7 +11,7 @@ from coframe.viewer.protocol.requests import BadRequestError
 
 if TYPE_CHECKING:
     from coframe.viewer.panels.curve import Curve, CurveSpan
-    from coframe.viewer.protocol.messages import CurveRequest
+    from coframe.viewer.protocol.client_messages import CurveRequest
     from coframe.viewer.sources.topic_messages import TopicMessages
     from coframe.viewer.state import ViewerState
 

@@ -10,10 +10,10 @@ from coframe.doctor.codes import codes, page
 from coframe.errors import ViewerError, WireError
 from coframe.viewer.clients.panel_requests import PANEL_HANDLERS
 from coframe.viewer.displays import Options
-from coframe.viewer.protocol import messages
-from coframe.viewer.protocol.messages import CodePage, Published, ReplayPrepared, Rviz, Saved, Timeline
+from coframe.viewer.protocol import client_messages
 from coframe.viewer.protocol.requests import BadRequestError
 from coframe.viewer.protocol.schema import shorten
+from coframe.viewer.protocol.server_messages import CodePage, Published, ReplayPrepared, Rviz, Saved, Timeline
 from coframe.viewer.replay.displays import ReplayDisplay
 from coframe.viewer.replay.page import MAX_DISPLAYS, ReplaySettings
 from coframe.viewer.rviz.config import RvizConfig
@@ -24,7 +24,8 @@ if TYPE_CHECKING:
     from collections.abc import Awaitable, Callable
 
     from coframe.viewer.clients.state import ClientState
-    from coframe.viewer.protocol.messages import ClientMessage, Relation, ServerMessage
+    from coframe.viewer.protocol.client_messages import ClientMessage
+    from coframe.viewer.protocol.server_messages import Relation, ServerMessage
     from coframe.viewer.tools.publisher import ToolPublisher
 
 __all__ = ["handle"]
@@ -41,11 +42,11 @@ async def handle(client: ClientState, request: ClientMessage) -> ServerMessage |
     return await _HANDLERS[type(request)](client, request)
 
 
-async def _set_fixed_frame(client: ClientState, request: messages.SetFixedFrame) -> None:
+async def _set_fixed_frame(client: ClientState, request: client_messages.SetFixedFrame) -> None:
     client.requested_fixed = request.frame
 
 
-async def _set_time(client: ClientState, request: messages.SetTime) -> None:
+async def _set_time(client: ClientState, request: client_messages.SetTime) -> None:
     if request.mode == "live":
         client.clock.go_live()
         return
@@ -56,23 +57,23 @@ async def _set_time(client: ClientState, request: messages.SetTime) -> None:
     client.clock.move(round(request.at) + origin, playing=request.playing, speed=request.speed, loop=loop)
 
 
-async def _set_frame_timeout(client: ClientState, request: messages.SetFrameTimeout) -> None:
+async def _set_frame_timeout(client: ClientState, request: client_messages.SetFrameTimeout) -> None:
     client.frame_timeout = request.seconds
 
 
-async def _set_frame_rate(client: ClientState, request: messages.SetFrameRate) -> None:
+async def _set_frame_rate(client: ClientState, request: client_messages.SetFrameRate) -> None:
     client.requested_rate = request.hertz
 
 
-async def _subscribe(client: ClientState, request: messages.Subscribe) -> None:
+async def _subscribe(client: ClientState, request: client_messages.Subscribe) -> None:
     client.subscribe(request.id, request.topic, Options.from_message(request.options, client.origin))
 
 
-async def _unsubscribe(client: ClientState, request: messages.Unsubscribe) -> None:
+async def _unsubscribe(client: ClientState, request: client_messages.Unsubscribe) -> None:
     client.unsubscribe(request.id)
 
 
-async def _step(client: ClientState, request: messages.Step) -> None:
+async def _step(client: ClientState, request: client_messages.Step) -> None:
     viewer = client.viewer
     span = viewer.span
     at = client.at or (span[1] if span is not None else 0)
@@ -82,12 +83,12 @@ async def _step(client: ClientState, request: messages.Step) -> None:
     client.clock.move(at if found is None else found)
 
 
-async def _relate(client: ClientState, request: messages.Relate) -> Relation:
+async def _relate(client: ClientState, request: client_messages.Relate) -> Relation:
     buffer = client.viewer.source.buffer
     return relate(buffer, request.target, request.source, client.at, client.origin, request.id)
 
 
-async def _timeline(client: ClientState, request: messages.RequestTimeline) -> Timeline:
+async def _timeline(client: ClientState, request: client_messages.RequestTimeline) -> Timeline:
     viewer, origin, bins = client.viewer, client.origin, request.bins
     first, last = round(request.from_) + origin, round(request.to) + origin
     if last <= first:
@@ -107,7 +108,7 @@ async def _timeline(client: ClientState, request: messages.RequestTimeline) -> T
     )
 
 
-async def _set_joints(client: ClientState, request: messages.SetJoints) -> None:
+async def _set_joints(client: ClientState, request: client_messages.SetJoints) -> None:
     if not request.publish:
         client.stop_joints(request.robot)
         return
@@ -119,14 +120,14 @@ async def _set_joints(client: ClientState, request: messages.SetJoints) -> None:
         raise BadRequestError(f"joint states cannot be published: {error}") from None
 
 
-async def _publish_point(client: ClientState, request: messages.PublishPoint) -> Published:
+async def _publish_point(client: ClientState, request: client_messages.PublishPoint) -> Published:
     _check_fixed_frame(client, request.frame)
     return await _publish(
         client, request.topic, lambda tools: tools.publish_point(request.topic, request.frame, request.point)
     )
 
 
-async def _publish_pose(client: ClientState, request: messages.PublishPose) -> Published:
+async def _publish_pose(client: ClientState, request: client_messages.PublishPose) -> Published:
     _check_fixed_frame(client, request.frame)
     return await _publish(
         client,
@@ -137,7 +138,7 @@ async def _publish_pose(client: ClientState, request: messages.PublishPose) -> P
     )
 
 
-async def _publish_static(client: ClientState, request: messages.PublishStatic) -> Published:
+async def _publish_static(client: ClientState, request: client_messages.PublishStatic) -> Published:
     known = client.viewer.scene.structure
     child = known.indices.get(request.child, -1)
     parent = known.parents[child] if child >= 0 else -1
@@ -170,7 +171,7 @@ async def _publish(client: ClientState, topic: str, publish: Callable[[ToolPubli
     return Published(type="published", topic=topic or client.viewer.static_topic, subscribers=subscribers)
 
 
-async def _explain(_client: ClientState, request: messages.Explain) -> CodePage:
+async def _explain(_client: ClientState, request: client_messages.Explain) -> CodePage:
     try:
         found = page(request.code)
     except KeyError:
@@ -179,7 +180,7 @@ async def _explain(_client: ClientState, request: messages.Explain) -> CodePage:
     return CodePage(type="page", code=found.code, title=found.title, text=found.text)
 
 
-async def _load_rviz(client: ClientState, request: messages.LoadRviz) -> Rviz:
+async def _load_rviz(client: ClientState, request: client_messages.LoadRviz) -> Rviz:
     try:
         config = await _in_background(client, RvizConfig.parse, request.text)
     except ViewerError as error:
@@ -190,7 +191,7 @@ async def _load_rviz(client: ClientState, request: messages.LoadRviz) -> Rviz:
     return Rviz({"type": "rviz", **config.description()})
 
 
-async def _save_rviz(client: ClientState, request: messages.SaveRviz) -> Saved:
+async def _save_rviz(client: ClientState, request: client_messages.SaveRviz) -> Saved:
     config = client.rviz or RvizConfig()
     options = request.global_
     if client.requested_rate is not None:
@@ -205,7 +206,7 @@ async def _save_rviz(client: ClientState, request: messages.SaveRviz) -> Saved:
     return Saved(type="saved", text=text)
 
 
-async def _prepare_replay(client: ClientState, request: messages.PrepareReplay) -> ReplayPrepared:
+async def _prepare_replay(client: ClientState, request: client_messages.PrepareReplay) -> ReplayPrepared:
     if len(request.displays) > MAX_DISPLAYS:
         raise BadRequestError(f"a replay has at most {MAX_DISPLAYS} displays", "Hide some displays.")
     displays = [
@@ -222,22 +223,22 @@ async def _in_background(client: ClientState, function: Callable[..., T], *args:
 
 
 _HANDLERS: dict[type, Callable[[ClientState, Any], Awaitable[ServerMessage | None]]] = {
-    messages.Explain: _explain,
-    messages.LoadRviz: _load_rviz,
-    messages.PrepareReplay: _prepare_replay,
-    messages.PublishPoint: _publish_point,
-    messages.PublishPose: _publish_pose,
-    messages.PublishStatic: _publish_static,
-    messages.Relate: _relate,
-    messages.RequestTimeline: _timeline,
-    messages.SaveRviz: _save_rviz,
-    messages.SetFixedFrame: _set_fixed_frame,
-    messages.SetFrameRate: _set_frame_rate,
-    messages.SetFrameTimeout: _set_frame_timeout,
-    messages.SetJoints: _set_joints,
-    messages.SetTime: _set_time,
-    messages.Step: _step,
-    messages.Subscribe: _subscribe,
-    messages.Unsubscribe: _unsubscribe,
+    client_messages.Explain: _explain,
+    client_messages.LoadRviz: _load_rviz,
+    client_messages.PrepareReplay: _prepare_replay,
+    client_messages.PublishPoint: _publish_point,
+    client_messages.PublishPose: _publish_pose,
+    client_messages.PublishStatic: _publish_static,
+    client_messages.Relate: _relate,
+    client_messages.RequestTimeline: _timeline,
+    client_messages.SaveRviz: _save_rviz,
+    client_messages.SetFixedFrame: _set_fixed_frame,
+    client_messages.SetFrameRate: _set_frame_rate,
+    client_messages.SetFrameTimeout: _set_frame_timeout,
+    client_messages.SetJoints: _set_joints,
+    client_messages.SetTime: _set_time,
+    client_messages.Step: _step,
+    client_messages.Subscribe: _subscribe,
+    client_messages.Unsubscribe: _unsubscribe,
     **PANEL_HANDLERS,
 }

@@ -8,10 +8,12 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from coframe.errors import CoframeError
-from coframe.viewer.protocol.messages import MAX_POINTS, ColorBy, DisplayOptions
+from coframe.viewer.protocol.client_messages import MAX_POINTS, DisplayOptions
 
 if TYPE_CHECKING:
     from typing_extensions import Self
+
+    from coframe.viewer.protocol.common import ColorBy
 
 __all__ = ["CannotDrawError", "Drawing", "Options", "finite", "pose_row", "rgba_of"]
 

@@ -11,8 +11,8 @@ import numpy as np
 
 from coframe.time import stamp_ns
 from coframe.viewer.displays.drawing import CannotDrawError, Drawing, Options
+from coframe.viewer.protocol.binary_messages import ImageFormat
 from coframe.viewer.protocol.encoding import encode_image
-from coframe.viewer.protocol.messages import ImageFormat
 
 __all__ = ["MAX_PIXELS", "draw_compressed_image", "draw_image"]
 

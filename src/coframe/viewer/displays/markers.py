@@ -10,7 +10,7 @@ import numpy as np
 from coframe.time import SECOND, stamp_ns
 from coframe.viewer.displays.drawing import CannotDrawError, Drawing, Options, finite, pose_row, rgba_of
 from coframe.viewer.protocol.encoding import encode_shapes
-from coframe.viewer.protocol.messages import MarkerItem, MarkersShape
+from coframe.viewer.protocol.shapes import MarkerItem, MarkersShape
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence

@@ -11,8 +11,8 @@ from coframe.sensors import project_scan
 from coframe.sensors.layout import field_of, grid_of
 from coframe.time import stamp_ns
 from coframe.viewer.displays.drawing import CannotDrawError, Drawing, Options
+from coframe.viewer.protocol.client_messages import MAX_POINTS
 from coframe.viewer.protocol.encoding import encode_cloud
-from coframe.viewer.protocol.messages import MAX_POINTS
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -10,14 +10,14 @@ import numpy as np
 from coframe.time import stamp_ns
 from coframe.viewer.displays.drawing import Drawing, Options, finite, pose_row
 from coframe.viewer.protocol.encoding import encode_shapes
-from coframe.viewer.protocol.messages import CameraShape, OdometryShape, PathShape, PosesShape, RangeShape
+from coframe.viewer.protocol.shapes import CameraShape, OdometryShape, PathShape, PosesShape, RangeShape
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
     from numpy.typing import NDArray
 
-    from coframe.viewer.protocol.messages import ShapesDescription
+    from coframe.viewer.protocol.shapes import ShapesDescription
 
 __all__ = ["draw_camera", "draw_odometry", "draw_path", "draw_pose", "draw_pose_array", "draw_range"]
 

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from coframe.bags import Recording
     from coframe.plotting import Series
     from coframe.plotting.expressions import Expression
-    from coframe.viewer.protocol.messages import DisplayState
+    from coframe.viewer.protocol.common import DisplayState
 
 __all__ = ["Curve", "CurveSpan", "CurveStatus", "FailedCurve", "RecordedCurve", "failure"]
 

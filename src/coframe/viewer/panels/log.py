@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
     from coframe.bags import Recording
     from coframe.connection import Connection
-    from coframe.viewer.protocol.messages import LogLevel
+    from coframe.viewer.protocol.common import LogLevel
     from coframe.viewer.sources.source import Source
     from coframe.wire.endpoints import Subscription
     from coframe.wire.qos import QoS

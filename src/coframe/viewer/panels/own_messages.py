@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from coframe.time import SECOND
 
 if TYPE_CHECKING:
-    from coframe.viewer.protocol.messages import LogLevel
+    from coframe.viewer.protocol.common import LogLevel
 
 __all__ = ["LEVELS", "MAX_LINES", "MAX_TEXT", "LogLine", "OwnMessages"]
 

@@ -1,8 +1,20 @@
 # SPDX-License-Identifier: Apache-2.0
 """The protocol between the viewer's server and its page.
 
+One WebSocket carries all messages. Text messages are JSON objects with a ``type``; binary messages begin with their
+kind. Both are defined once, by the classes of this package: ``scripts/generate_protocol.py`` generates the TypeScript
+types and the checks of the page from them, and a version that changes with them.
+
+Conventions:
+    Times are nanoseconds relative to ``Hello.origin``, which is the decimal text of an int64. This keeps them exact in
+    a float64. Poses are x, y, z in metres followed by a quaternion x, y, z, w; NaN means that there is no pose. Frame
+    names, topics and robot descriptions are data and must never be interpreted as HTML.
+
 Modules:
-    messages: All messages; the single source from which the page's types and checks are generated.
+    server_messages, binary_messages, shapes: What the server sends.
+    client_messages: What the page sends.
+    replay_block: What a replay file contains.
+    common: The types of fields that several of them use.
     requests: Checks of what clients send.
     encoding: Encoders of what the server sends.
     schema, limits, layout: The types of fields that the other modules derive from the messages.

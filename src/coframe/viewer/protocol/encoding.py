@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from coframe.viewer.protocol.layout import Layout
-from coframe.viewer.protocol.messages import (
+from coframe.viewer.protocol.binary_messages import (
     NO_FRAME,
     BinaryKind,
     CloudFlag,
@@ -24,13 +23,15 @@ from coframe.viewer.protocol.messages import (
     ImageHeader,
     ShapesHeader,
 )
+from coframe.viewer.protocol.layout import Layout
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
     from numpy.typing import NDArray
 
-    from coframe.viewer.protocol.messages import ServerMessage, ShapesDescription
+    from coframe.viewer.protocol.server_messages import ServerMessage
+    from coframe.viewer.protocol.shapes import ShapesDescription
 
 __all__ = [
     "CurvePoints",

@@ -8,12 +8,12 @@ import math
 from typing import Any, cast, get_args
 
 from coframe.errors import CoframeError
-from coframe.viewer.protocol import messages
+from coframe.viewer.protocol import client_messages
 from coframe.viewer.protocol.schema import InvalidFieldError, record, shorten
 
 __all__ = ["BadRequestError", "parse_request"]
 
-_RECORDS = {message_type.type: record(message_type) for message_type in get_args(messages.ClientMessage)}
+_RECORDS = {message_type.type: record(message_type) for message_type in get_args(client_messages.ClientMessage)}
 
 
 class BadRequestError(CoframeError, ValueError):
@@ -28,7 +28,7 @@ class BadRequestError(CoframeError, ValueError):
         self._hint = hint
 
 
-def parse_request(message: str | bytes) -> messages.ClientMessage:
+def parse_request(message: str | bytes) -> client_messages.ClientMessage:
     """Return a client's message as an instance of its class.
 
     Raises:
@@ -49,7 +49,7 @@ def parse_request(message: str | bytes) -> messages.ClientMessage:
         known = ", ".join(sorted(_RECORDS))
         raise BadRequestError(f"unknown message type {shorten(kind)}. Known types: {known}.", "Reload the page.")
     try:
-        return cast("messages.ClientMessage", found.build(fields))
+        return cast("client_messages.ClientMessage", found.build(fields))
     except InvalidFieldError as error:
         value = shorten(error.value)
         raise BadRequestError(f"{error.path} of a message {kind!r} must be {error.expected}, not {value}") from None

@@ -13,7 +13,7 @@ import numpy as np
 
 from coframe.viewer.displays.display import Display
 from coframe.viewer.protocol.encoding import relative_to
-from coframe.viewer.protocol.messages import ReplayDisplayBlock
+from coframe.viewer.protocol.replay_block import ReplayDisplayBlock
 from coframe.viewer.sources.display_types import DISPLAY_OF_TYPE
 
 if TYPE_CHECKING:
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
     from coframe import Buffer
     from coframe.viewer.displays import Options
-    from coframe.viewer.protocol.messages import DisplayState
+    from coframe.viewer.protocol.common import DisplayState
     from coframe.viewer.sources.topic_messages import TopicMessages
 
     P = ParamSpec("P")

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from coframe.time import SECOND
 from coframe.viewer.displays import Options
-from coframe.viewer.protocol.messages import DisplayOptions, ReplayRviz, RvizDisplay
+from coframe.viewer.protocol.client_messages import DisplayOptions, ReplayRviz
 from coframe.viewer.protocol.schema import record
 from coframe.viewer.replay.displays import ImmediateExecutor, ReplayDisplay
 from coframe.viewer.replay.page import (
@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from collections.abc import Collection, Sequence
 
     from coframe.robots import Robot
+    from coframe.viewer.protocol.common import RvizDisplay
     from coframe.viewer.replay.displays import Progress
     from coframe.viewer.robots.meshes import MeshTable
     from coframe.viewer.rviz.config import RvizConfig

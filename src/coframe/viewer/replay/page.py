@@ -12,7 +12,8 @@ import numpy as np
 from coframe.errors import ViewerError
 from coframe.time import SECOND
 from coframe.viewer.protocol.encoding import relative_to
-from coframe.viewer.protocol.messages import ReplayBlock, Robot, TreeFrame
+from coframe.viewer.protocol.replay_block import ReplayBlock
+from coframe.viewer.protocol.server_messages import Robot, TreeFrame
 from coframe.viewer.replay.displays import ReplayTimes, no_progress, packed, record_displays
 from coframe.viewer.robots.meshes import MESH_TYPES, MeshError
 from coframe.viewer.scene.scene import LocalOrigin, Scene
@@ -26,7 +27,8 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from coframe import Buffer
-    from coframe.viewer.protocol.messages import ReplayRviz, Vector
+    from coframe.viewer.protocol.client_messages import ReplayRviz
+    from coframe.viewer.protocol.common import Vector
     from coframe.viewer.replay.displays import Progress, ReplayDisplay
     from coframe.viewer.robots.descriptions import Description
     from coframe.viewer.robots.meshes import MeshTable

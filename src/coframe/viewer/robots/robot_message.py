@@ -6,8 +6,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from coframe.robots import Mesh, PackageError, Packages
-from coframe.viewer.protocol.messages import Robot as RobotMessage
-from coframe.viewer.protocol.messages import RobotJoint
+from coframe.viewer.protocol.server_messages import Robot as RobotMessage
+from coframe.viewer.protocol.server_messages import RobotJoint
 from coframe.viewer.robots.meshes import MeshError, MeshTable
 
 if TYPE_CHECKING:

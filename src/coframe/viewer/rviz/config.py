@@ -8,13 +8,7 @@ import re
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from coframe.errors import ViewerError
-from coframe.viewer.protocol.messages import (
-    RvizConfiguration,
-    RvizDisplay,
-    RvizGlobalOptions,
-    RvizView,
-    UnknownRvizPart,
-)
+from coframe.viewer.protocol.server_messages import RvizConfiguration, RvizGlobalOptions, UnknownRvizPart
 from coframe.viewer.rviz.reading import read_yaml, yaml_module
 from coframe.viewer.rviz.tools import merge_tools, read_tools
 from coframe.viewer.rviz.values import OWN_KEYS, is_number, plain, plain_class, set_topic, topic_of, update
@@ -23,7 +17,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
     from pathlib import Path
 
-    from coframe.viewer.protocol.messages import RvizTool
+    from coframe.viewer.protocol.common import RvizDisplay, RvizTool, RvizView
 
 __all__ = ["DISPLAY_CLASSES", "RvizConfig"]
 

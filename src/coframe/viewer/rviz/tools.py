@@ -10,7 +10,7 @@ from coframe.viewer.rviz.values import plain, plain_class, set_topic, topic_of, 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from coframe.viewer.protocol.messages import RvizTool
+    from coframe.viewer.protocol.common import RvizTool
 
 __all__ = ["TOOL_CLASSES", "merge_tools", "read_tools"]
 

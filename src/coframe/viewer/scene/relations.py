@@ -10,7 +10,7 @@ import numpy as np
 from coframe.analysis.static_command import static_command
 from coframe.analysis.tree import FrameTrees
 from coframe.errors import TransformException
-from coframe.viewer.protocol.messages import Relation
+from coframe.viewer.protocol.server_messages import Relation
 
 if TYPE_CHECKING:
     from coframe import Buffer

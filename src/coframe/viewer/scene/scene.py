@@ -12,7 +12,7 @@ from coframe import _core
 from coframe.analysis.liveness import LivenessTracker
 from coframe.analysis.tree import FrameTrees
 from coframe.time import SECOND
-from coframe.viewer.protocol.messages import FrameState
+from coframe.viewer.protocol.binary_messages import FrameState
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -6,10 +6,11 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from coframe.time import SECOND
-from coframe.viewer.protocol.messages import FrameState, FrameStats
+from coframe.viewer.protocol.binary_messages import FrameState
+from coframe.viewer.protocol.server_messages import FrameStats
 
 if TYPE_CHECKING:
-    from coframe.viewer.protocol.messages import FrameActivity
+    from coframe.viewer.protocol.common import FrameActivity
     from coframe.viewer.scene.scene import Scene
 
 __all__ = ["frame_rows"]

@@ -11,7 +11,7 @@ import numpy as np
 from coframe.analysis.liveness import usual_gap, usual_period
 from coframe.errors import TransformException
 from coframe.time import SECOND
-from coframe.viewer.protocol.messages import TimelineEdge
+from coframe.viewer.protocol.server_messages import TimelineEdge
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from coframe import Buffer, FrameInfo
-    from coframe.viewer.protocol.messages import Span
+    from coframe.viewer.protocol.common import Span
     from coframe.viewer.sources.topic_messages import TopicMessages
 
 __all__ = ["edge_rows", "next_stamp"]

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Literal, Protocol
 
-from coframe.viewer.protocol.messages import Topic
+from coframe.viewer.protocol.server_messages import Topic
 
 if TYPE_CHECKING:
     from collections.abc import Generator

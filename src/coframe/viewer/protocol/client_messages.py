@@ -1,0 +1,323 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Messages from the page to the server: frozen dataclasses; fields with a default may be omitted.
+
+A field whose name is a Python keyword has a trailing underscore here and none in the message.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Annotated, ClassVar, Literal, TypeAlias, TypedDict
+
+from coframe.viewer.protocol.common import (
+    AxisName,
+    ColorBy,
+    CompletionKind,
+    Id,
+    JsonObject,
+    Nanoseconds,
+    Position,
+    Radians,
+    RvizDisplay,
+    RvizTool,
+    RvizView,
+    Unit,
+    Variances,
+)
+from coframe.viewer.protocol.limits import Clamp, Range
+
+MAX_BINS = 2000
+MAX_KEPT_MESSAGES = 1000
+MAX_POINTS = 4_000_000
+MAX_DECAY = 3600.0
+"""Seconds."""
+MAX_CURVE_POINTS = 20_000
+
+
+@dataclass(frozen=True)
+class DisplayOptions:
+    """How the server prepares a display; numbers beyond the limits are set to the limit.
+
+    Attributes:
+        color_by: The value that a point's colour shows; None selects the best one that the message contains.
+        axis: The coordinate for ``color_by="axis"``.
+        decay: How long messages stay visible, in seconds.
+        keep: How many poses the trail of an Odometry display has.
+        most_points: The largest number of points of a cloud; larger clouds are thinned.
+    """
+
+    color_by: ColorBy | None = None
+    axis: AxisName = "z"
+    decay: Annotated[float, Clamp(0.0, MAX_DECAY)] = 0.0
+    keep: Annotated[int, Clamp(1, MAX_KEPT_MESSAGES)] = 1
+    most_points: Annotated[int, Clamp(1, MAX_POINTS)] = MAX_POINTS
+
+
+@dataclass(frozen=True)
+class SetFixedFrame:
+    """Expresses everything in another frame; "" selects the root of the largest tree."""
+
+    type: ClassVar[str] = "fixed"
+    frame: str
+
+
+@dataclass(frozen=True)
+class SetTime:
+    """Shows the newest data (mode "live"), or the time ``at``, from which playback may start."""
+
+    type: ClassVar[str] = "time"
+    mode: Literal["live", "at"]
+    at: Nanoseconds | None = None
+    playing: bool = False
+    speed: Annotated[float, Clamp(0.01, 100.0)] = 1.0
+    loop: tuple[Nanoseconds, Nanoseconds] | None = None
+
+
+@dataclass(frozen=True)
+class Step:
+    """Moves to the next or previous stamp of a transform or a displayed message."""
+
+    type: ClassVar[str] = "step"
+    direction: Literal[-1, 1]
+
+
+@dataclass(frozen=True)
+class Subscribe:
+    """Displays a topic under an id of the page's choice; replaces the display that has the id."""
+
+    type: ClassVar[str] = "subscribe"
+    id: Id
+    topic: str
+    options: DisplayOptions = field(default_factory=DisplayOptions)
+
+
+@dataclass(frozen=True)
+class Unsubscribe:
+    """Removes a display, if it exists."""
+
+    type: ClassVar[str] = "unsubscribe"
+    id: Id
+
+
+@dataclass(frozen=True)
+class Relate:
+    """Requests the pose of ``source`` relative to ``target`` at the displayed time."""
+
+    type: ClassVar[str] = "relate"
+    id: Id
+    target: str
+    source: str
+
+
+@dataclass(frozen=True)
+class RequestTimeline:
+    """Requests the number of samples of each edge over time."""
+
+    type: ClassVar[str] = "timeline"
+    from_: Nanoseconds
+    to: Nanoseconds
+    bins: Annotated[int, Range(1, MAX_BINS)]
+
+
+@dataclass(frozen=True)
+class SetJoints:
+    """Starts or stops publishing joint positions of a robot, in radians or metres."""
+
+    type: ClassVar[str] = "joints"
+    robot: Id
+    positions: dict[str, float] = field(default_factory=dict)
+    publish: bool = False
+
+
+@dataclass(frozen=True)
+class PublishPoint:
+    """Publishes a PointStamped with the current time of the graph; ``frame`` must be the fixed frame."""
+
+    type: ClassVar[str] = "publish_point"
+    topic: str
+    frame: str
+    point: Position
+
+
+@dataclass(frozen=True)
+class PublishPose:
+    """Publishes a pose with the current time of the graph; ``frame`` must be the fixed frame.
+
+    It is a PoseWithCovarianceStamped if ``covariance`` has the variances of x, y and yaw, otherwise a PoseStamped.
+    ``yaw`` is in radians.
+    """
+
+    type: ClassVar[str] = "publish_pose"
+    topic: str
+    frame: str
+    position: Position
+    yaw: Radians
+    covariance: Variances | None = None
+
+
+@dataclass(frozen=True)
+class PublishStatic:
+    """Publishes another pose for an existing static transform; the quaternion x, y, z, w must be normalized."""
+
+    type: ClassVar[str] = "publish_static"
+    parent: str
+    child: str
+    translation: Position
+    quaternion: tuple[Unit, Unit, Unit, Unit]
+
+
+@dataclass(frozen=True)
+class LoadRviz:
+    """Reads an .rviz file."""
+
+    type: ClassVar[str] = "load_rviz"
+    text: str
+
+
+@dataclass(frozen=True)
+class SaveRviz:
+    """Requests an .rviz file of what the page shows; other parts of the loaded configuration are preserved."""
+
+    type: ClassVar[str] = "save_rviz"
+    displays: list[RvizDisplay]
+    global_: JsonObject = field(default_factory=dict)
+    view: JsonObject = field(default_factory=dict)
+    tools: list[RvizTool] = field(default_factory=list)
+
+
+@dataclass(frozen=True)
+class ReplayDisplayRequest:
+    """A display to be recorded in a replay."""
+
+    topic: str
+    options: DisplayOptions = field(default_factory=DisplayOptions)
+
+
+ReplayRviz = TypedDict("ReplayRviz", {"displays": list[RvizDisplay], "global": JsonObject, "view": RvizView | None})
+"""How a replay looks when it is opened."""
+
+
+@dataclass(frozen=True)
+class PrepareReplay:
+    """Defines which displays a replay contains and how it looks."""
+
+    type: ClassVar[str] = "replay"
+    displays: list[ReplayDisplayRequest]
+    rviz: ReplayRviz | None = None
+
+
+@dataclass(frozen=True)
+class SetFrameTimeout:
+    """Sets how many seconds a frame stays visible after its last sample."""
+
+    type: ClassVar[str] = "frame_timeout"
+    seconds: Annotated[float, Clamp(0.0, 1e6)]
+
+
+@dataclass(frozen=True)
+class SetFrameRate:
+    """Sets the number of frame updates per second, as "Frame Rate" of an .rviz file; the server sends at most 60."""
+
+    type: ClassVar[str] = "frame_rate"
+    hertz: Annotated[float, Clamp(1.0, 1e6)]
+
+
+@dataclass(frozen=True)
+class Explain:
+    """Requests the page of a doctor code."""
+
+    type: ClassVar[str] = "explain"
+    code: str
+
+
+@dataclass(frozen=True)
+class CurveRequest:
+    """A curve under an id of the page's choice; the expression is one of ``coframe plot``."""
+
+    id: Id
+    expression: str
+
+
+@dataclass(frozen=True)
+class SetCurves:
+    """Sets the curves that the page shows; curves that are not listed any more are removed.
+
+    Attributes:
+        curves: The curves.
+        span: The part of a recording that the page shows; None for all of it.
+        points: The largest number of points of a curve; the smallest and largest values of longer curves are kept.
+    """
+
+    type: ClassVar[str] = "curves"
+    curves: list[CurveRequest]
+    span: tuple[Nanoseconds, Nanoseconds] | None = None
+    points: Annotated[int, Clamp(100, MAX_CURVE_POINTS)] = 4000
+
+
+@dataclass(frozen=True)
+class Inspect:
+    """Inspects the messages of a topic instead of those of the previous one; "" ends it."""
+
+    type: ClassVar[str] = "inspect"
+    topic: str
+
+
+@dataclass(frozen=True)
+class ShowLog:
+    """Requests the log messages and all further ones, or ends this."""
+
+    type: ClassVar[str] = "log"
+    shown: bool
+
+
+@dataclass(frozen=True)
+class ShowGraph:
+    """Requests the graph of nodes and topics and its changes, or ends this."""
+
+    type: ClassVar[str] = "graph"
+    shown: bool
+
+
+@dataclass(frozen=True)
+class Complete:
+    """Requests texts with which the beginning of an expression or of a topic's name can continue."""
+
+    type: ClassVar[str] = "complete"
+    id: Id
+    subject: CompletionKind
+    text: str
+
+
+@dataclass(frozen=True)
+class Ready:
+    """Confirms that the last frame update was drawn, so that the next one may follow; ``drawn`` is its time."""
+
+    type: ClassVar[str] = "ready"
+    drawn: Nanoseconds | None = None
+
+
+ClientMessage: TypeAlias = (
+    SetFixedFrame
+    | SetTime
+    | Step
+    | Subscribe
+    | Unsubscribe
+    | Relate
+    | RequestTimeline
+    | SetJoints
+    | PublishPoint
+    | PublishPose
+    | PublishStatic
+    | LoadRviz
+    | SaveRviz
+    | PrepareReplay
+    | SetFrameTimeout
+    | SetFrameRate
+    | Explain
+    | SetCurves
+    | Inspect
+    | ShowLog
+    | ShowGraph
+    | Complete
+    | Ready
+)

@@ -1,0 +1,44 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Types of the fields that several messages have."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal, TypeAlias, TypedDict
+
+from coframe.viewer.protocol.limits import Range
+
+JsonObject: TypeAlias = dict[str, Any]
+Vector: TypeAlias = tuple[float, float, float]
+Quaternion: TypeAlias = tuple[float, float, float, float]
+Span: TypeAlias = tuple[float, float]
+
+Id: TypeAlias = Annotated[int, Range(0, 2**32 - 1)]
+Metres: TypeAlias = Annotated[float, Range(-1e9, 1e9)]
+Radians: TypeAlias = Annotated[float, Range(-100.0, 100.0)]
+Unit: TypeAlias = Annotated[float, Range(-1.01, 1.01)]
+Variance: TypeAlias = Annotated[float, Range(0.0, 1e18)]
+Position: TypeAlias = tuple[Metres, Metres, Metres]
+Variances: TypeAlias = tuple[Variance, Variance, Variance]
+Nanoseconds: TypeAlias = Annotated[float, Range(-(2.0**62), 2.0**62)]
+
+ViewerMode: TypeAlias = Literal["live", "recording", "buffer", "replay"]
+FrameActivity: TypeAlias = Literal["static", "fresh", "stale", "gone"]
+DisplayState: TypeAlias = Literal["ok", "waiting", "error"]
+Severity: TypeAlias = Literal["error", "warning", "note"]
+FindingsState: TypeAlias = Literal["none", "waiting", "ready", "failed"]
+LogLevel: TypeAlias = Literal["debug", "info", "warning", "error", "fatal"]
+CompletionKind: TypeAlias = Literal["expression", "topic"]
+ColorBy: TypeAlias = Literal["axis", "intensity", "rgb", "distance", "flat"]
+AxisName: TypeAlias = Literal["x", "y", "z"]
+
+RvizDisplay = TypedDict(
+    "RvizDisplay",
+    {"class": str, "name": str, "enabled": bool, "topic": str | None, "options": JsonObject},
+)
+"""A display of an RViz configuration; ``class`` has no package prefix."""
+
+RvizView = TypedDict("RvizView", {"class": str, "options": JsonObject})
+"""The current view of an RViz configuration."""
+
+RvizTool = TypedDict("RvizTool", {"class": str, "topic": str | None, "options": JsonObject})
+"""A tool of an RViz configuration that publishes; ``class`` has no package prefix."""

@@ -1,0 +1,438 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Text messages from the server to the page: TypedDicts, so that building one costs no more than a dict."""
+
+from __future__ import annotations
+
+from typing import Literal, TypeAlias, TypedDict
+
+from coframe.viewer.protocol.common import (
+    DisplayState,
+    FindingsState,
+    FrameActivity,
+    LogLevel,
+    Quaternion,
+    RvizDisplay,
+    RvizTool,
+    RvizView,
+    Severity,
+    Span,
+    Vector,
+    ViewerMode,
+)
+
+
+class Topic(TypedDict):
+    """A topic that can be displayed."""
+
+    topic: str
+    type: str
+    display: str
+
+
+class RvizGlobalOptions(TypedDict):
+    """Global options of an RViz configuration; None for those that are not set."""
+
+    fixed_frame: str | None
+    background: list[int] | None
+    frame_rate: float | None
+
+
+UnknownRvizPart = TypedDict("UnknownRvizPart", {"path": str, "class": str, "name": str})
+"""A part of an RViz configuration that the viewer cannot show."""
+
+RvizConfiguration = TypedDict(
+    "RvizConfiguration",
+    {
+        "displays": list[RvizDisplay],
+        "global": RvizGlobalOptions,
+        "view": RvizView | None,
+        "tools": list[RvizTool],
+        "unknown": list[UnknownRvizPart],
+    },
+)
+"""What the viewer understands of an RViz configuration."""
+
+
+class Hello(TypedDict):
+    """The first message. Sent again when the source or the origin changes: the page then starts from scratch.
+
+    The page compares ``version`` with its own. ``mode`` is "replay" only inside replay files. ``fixed_is_given`` is
+    true if an option or the .rviz file names the fixed frame, so that the page does not use that of its last session.
+    """
+
+    type: Literal["hello"]
+    version: str
+    mode: ViewerMode
+    title: str
+    origin: str
+    span: Span | None
+    fixed: str
+    fixed_is_given: bool
+    rviz: RvizConfiguration | None
+    topics: list[Topic]
+    can_publish: bool
+
+
+class TreeFrame(TypedDict):
+    """A frame; ``parent`` is an index into the frames, -1 for a root, and ``component`` the index of its tree."""
+
+    name: str
+    parent: int
+    static: bool
+    component: int
+
+
+class TreeComponent(TypedDict):
+    """A connected tree of frames."""
+
+    root: str
+    size: int
+
+
+class Tree(TypedDict):
+    """The tree structure; sent when it or the fixed frame changes.
+
+    Frame updates and statistics list the frames in this order and carry the same revision.
+    """
+
+    type: Literal["tree"]
+    revision: int
+    fixed: str
+    frames: list[TreeFrame]
+    components: list[TreeComponent]
+
+
+class FrameStats(TypedDict):
+    """Statistics of one frame; None for values that do not apply.
+
+    ``rate`` is in Hz, ``age`` and ``longest_gap`` in seconds. The state of a root is "static".
+    """
+
+    rate: float | None
+    age: float | None
+    last: float | None
+    publisher: str | None
+    samples: int
+    longest_gap: float | None
+    state: FrameActivity
+
+
+class Stats(TypedDict):
+    """Statistics of all frames; sent once per second, less often for large trees."""
+
+    type: Literal["stats"]
+    revision: int
+    span: Span | None
+    frames: list[FrameStats]
+
+
+class Topics(TypedDict):
+    """The topics that can be displayed; sent when they change."""
+
+    type: Literal["topics"]
+    topics: list[Topic]
+
+
+class RobotJoint(TypedDict):
+    """A joint that a slider can move, in radians or metres."""
+
+    name: str
+    type: str
+    lower: float | None
+    upper: float | None
+    value: float
+
+
+class Robot(TypedDict):
+    """A robot description.
+
+    ``meshes`` maps each mesh reference of the URDF to its URL, ``problems`` lists what cannot be drawn, and
+    ``warnings`` what is unusual about the description. ``description_topic`` is None for a robot from a file.
+    """
+
+    type: Literal["robot"]
+    id: int
+    name: str
+    source: str
+    urdf: str
+    meshes: dict[str, str]
+    problems: list[str]
+    warnings: list[str]
+    joints: list[RobotJoint]
+    description_topic: str | None
+
+
+class _DisplayStatus(TypedDict):
+    type: Literal["display"]
+    id: int
+    state: DisplayState
+    text: str
+
+
+class DisplayStatus(_DisplayStatus, total=False):
+    """The status of a subscribed display; ``note`` exists only in replays and describes what was omitted."""
+
+    note: str
+
+
+Rviz = TypedDict(
+    "Rviz",
+    {
+        "type": Literal["rviz"],
+        "displays": list[RvizDisplay],
+        "global": RvizGlobalOptions,
+        "view": RvizView | None,
+        "tools": list[RvizTool],
+        "unknown": list[UnknownRvizPart],
+    },
+)
+"""The answer to ``load_rviz``."""
+
+
+class Relation(TypedDict):
+    """The answer to ``relate``: the pose of ``source`` relative to ``target``, or the reason why there is none.
+
+    ``matrix`` has 16 numbers in row-major order. ``chain`` lists the frames from the source to the target; if the
+    lookup failed, ``broken_at`` is the frame where the chain ends.
+    """
+
+    type: Literal["relation"]
+    id: int
+    ok: bool
+    target: str
+    source: str
+    stamp: float | None
+    translation: Vector | None
+    quaternion: Quaternion | None
+    rpy_deg: Vector | None
+    matrix: list[float] | None
+    static_command: str | None
+    chain: list[str]
+    error: str | None
+    hint: str | None
+    broken_at: str | None
+
+
+class TimelineEdge(TypedDict):
+    """The samples of one edge: ``counts`` is base64 text of one uint16 per bin, ``gaps`` the spans without samples."""
+
+    frame: int
+    counts: str
+    gaps: list[Span]
+
+
+Timeline = TypedDict(
+    "Timeline",
+    {
+        "type": Literal["timeline"],
+        "revision": int,
+        "bins": int,
+        "from": float,
+        "to": float,
+        "edges": list[TimelineEdge],
+    },
+)
+"""The answer to ``timeline``: the number of samples of each dynamic edge over time."""
+
+
+class Finding(TypedDict):
+    """A finding of the doctor.
+
+    ``frames`` are the frames whose rows are marked, ``first`` is the time of the first occurrence, and ``explains``
+    lists the findings that this one causes.
+    """
+
+    code: str
+    severity: Severity
+    title: str
+    subject: str
+    frames: list[str]
+    text: str
+    why: str
+    fix: str
+    publishers: list[str]
+    first: float | None
+    namespace: str
+    explains: list[Finding]
+
+
+class Findings(TypedDict):
+    """The findings of the doctor; sent when they change. ``text`` gives the reason if there can be none."""
+
+    type: Literal["findings"]
+    state: FindingsState
+    text: str
+    findings: list[Finding]
+
+
+class CodePage(TypedDict):
+    """The answer to ``explain``: the page of a code, as Markdown."""
+
+    type: Literal["page"]
+    code: str
+    title: str
+    text: str
+
+
+class CurveStatus(TypedDict):
+    """The status of a curve. ``axis`` is the title of its axis: curves with the same title share a plot.
+
+    ``points`` is the number of points that exist; fewer are sent if they are thinned.
+    """
+
+    type: Literal["curve"]
+    id: int
+    state: DisplayState
+    text: str
+    hint: str
+    axis: str
+    points: int
+
+
+class InspectedField(TypedDict):
+    """A field of an inspected message, in the order in which it is shown.
+
+    ``path`` begins with the topic; it is an expression for a curve if ``is_number``. ``depth`` is 0 for the fields of
+    the message itself.
+    """
+
+    path: str
+    depth: int
+    name: str
+    type: str
+    text: str
+    is_number: bool
+
+
+class Inspection(TypedDict):
+    """The newest message of the inspected topic at the displayed time; sent when it changes.
+
+    ``rate`` is in Hz. ``publishers`` are the names of their nodes, which recordings do not contain.
+    """
+
+    type: Literal["inspection"]
+    topic: str
+    message_type: str
+    state: DisplayState
+    text: str
+    stamp: float | None
+    rate: float | None
+    publishers: list[str]
+    fields: list[InspectedField]
+
+
+class LogEntry(TypedDict):
+    """A log message; ``place`` is the file, the function and the line that logged it."""
+
+    stamp: float
+    level: LogLevel
+    node: str
+    text: str
+    place: str
+
+
+class LogEntries(TypedDict):
+    """New log messages. ``reset`` discards earlier ones; ``omitted`` counts those that were not sent."""
+
+    type: Literal["log"]
+    reset: bool
+    text: str
+    omitted: int
+    entries: list[LogEntry]
+
+
+class GraphNode(TypedDict):
+    """A node; ``infrastructure`` nodes are hidden by default."""
+
+    name: str
+    infrastructure: bool
+
+
+class GraphTopic(TypedDict):
+    """A topic and its message types; ``infrastructure`` topics are hidden by default."""
+
+    topic: str
+    types: list[str]
+    infrastructure: bool
+
+
+class GraphLink(TypedDict):
+    """A publisher or a subscription: indices into the nodes and the topics, and why it does not match others, or ""."""
+
+    node: int
+    topic: int
+    publishes: bool
+    qos: str
+    problem: str
+
+
+class NodeGraph(TypedDict):
+    """The nodes and topics; sent when they change. ``text`` gives the reason if there are none."""
+
+    type: Literal["graph"]
+    text: str
+    nodes: list[GraphNode]
+    topics: list[GraphTopic]
+    links: list[GraphLink]
+
+
+class Completions(TypedDict):
+    """The answer to ``complete``: texts with which the text can continue."""
+
+    type: Literal["completions"]
+    id: int
+    items: list[str]
+
+
+class Saved(TypedDict):
+    """The answer to ``save_rviz``: the text of the .rviz file."""
+
+    type: Literal["saved"]
+    text: str
+
+
+class ReplayPrepared(TypedDict):
+    """The answer to ``replay``: ``/replay?settings=TOKEN&from=&to=&rate=&fixed=`` returns the file."""
+
+    type: Literal["replay"]
+    settings: str
+
+
+class Published(TypedDict):
+    """The answer to requests that publish a message; ``subscribers`` is the number of matched subscriptions."""
+
+    type: Literal["published"]
+    topic: str
+    subscribers: int
+
+
+class Problem(TypedDict):
+    """A request that failed, or a problem with the source."""
+
+    type: Literal["problem"]
+    text: str
+    hint: str
+
+
+ServerMessage: TypeAlias = (
+    Hello
+    | Tree
+    | Stats
+    | Topics
+    | Robot
+    | DisplayStatus
+    | Rviz
+    | Relation
+    | Timeline
+    | Findings
+    | CodePage
+    | CurveStatus
+    | Inspection
+    | LogEntries
+    | NodeGraph
+    | Completions
+    | Saved
+    | ReplayPrepared
+    | Published
+    | Problem
+)
