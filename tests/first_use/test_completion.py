@@ -107,8 +107,6 @@ def terminal(request, tmp_path):
     installed = subprocess.run(install, env=environment, capture_output=True, text=True, check=True)
     assert f"{shell} completion installed" in installed.stdout
     opened = Terminal([shell, "-i"], tmp_path, environment)
-    if shell == "zsh":  # the first TAB only loads the function that typer has installed
-        opened.press(b"coframe --version \t\r", coframe.__version__.encode())
     yield opened
     opened.close()
 

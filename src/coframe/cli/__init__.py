@@ -51,6 +51,11 @@ def run(words: list[str], *, program: str = "coframe", shown: Collection[str] | 
         sys.exit(_what_to_install(error))
     except KeyboardInterrupt:  # Ctrl-C during the imports.
         sys.exit(_INTERRUPTED)
+    finally:
+        if "--install-completion" in words:
+            from coframe.cli.zsh_completion import complete_at_first_tab  # noqa: PLC0415 - rarely needed
+
+            complete_at_first_tab(program)
 
 
 def _command_name(words: list[str]) -> str:
