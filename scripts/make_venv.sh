@@ -78,7 +78,7 @@ recent_cmake() {
         cmake --version | awk 'NR == 1 { split($3, v, "."); exit !(v[1] > 3 || (v[1] == 3 && v[2] >= 18)) }'
 }
 
-tools="scikit-build-core>=0.10,<2 nanobind>=2.4,<4 setuptools-scm>=8.1,<11 ninja>=1.11"
+tools="scikit-build-core>=0.10,<2 nanobind>=2.4,<4 setuptools-scm>=8.1,<11 hatch-fancy-pypi-readme>=25.1,<26 ninja>=1.11"
 recent_cmake || tools="$tools cmake>=3.24"
 case $purpose in
     demo) extras="dds,viewer,robots,cli" ;;

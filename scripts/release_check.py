@@ -9,6 +9,7 @@ Prints every problem and exits with 1 if there is one. `make wheels` fills dist/
 from __future__ import annotations
 
 import argparse
+import gzip
 import json
 import os
 import re
@@ -18,6 +19,7 @@ import tarfile
 import tempfile
 import venv
 import zipfile
+from collections import Counter
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -27,10 +29,12 @@ if TYPE_CHECKING:
 ROOT = Path(__file__).resolve().parents[1]
 MEGABYTE = 1_000_000
 MAX_WHEEL = 5 * MEGABYTE  # the download; NumPy is the only other one
-MAX_UNPACKED = 10 * MEGABYTE
+MAX_UNPACKED = 7.5 * MEGABYTE  # without Cyclone DDS, which the wheels of some platforms contain
 MAX_SDIST = 10 * MEGABYTE
 PAGE = "coframe/viewer/static/assets/"
 BUNDLED = "coframe/_bundled/"
+# Wheels for which the package cyclonedds has none: Python 3.14, without the GIL, musl, ARM.
+WITHOUT_CYCLONEDDS = re.compile(r"-cp3(1[4-9]|[2-9]\d)-|-cp\d+t-|-musllinux_|-[a-z0-9_]*linux_[0-9_]*aarch64")
 
 
 def check_files(dist: Path) -> Iterator[str]:
@@ -58,16 +62,22 @@ def check_wheel(path: Path) -> Iterator[str]:
     """Check sizes, and that every bundled part comes with its licence."""
     with zipfile.ZipFile(path) as wheel:
         names = wheel.namelist()
-        unpacked = sum(info.file_size for info in wheel.infolist())
-        scripts = "".join(wheel.read(name).decode() for name in names if name.startswith(PAGE) and name.endswith(".js"))
-    print(f"{path.name}: {path.stat().st_size / MEGABYTE:.1f} MB, unpacked {unpacked / MEGABYTE:.1f} MB")
+        unpacked = unpacked_size(wheel)
+        parts = ", ".join(f"{kind} {size / MEGABYTE:.1f}" for kind, size in largest_parts(wheel))
+        scripts = page_scripts(wheel)
+        (metadata,) = (wheel.read(name).decode() for name in names if re.fullmatch(r"[^/]*\.dist-info/METADATA", name))
+    print(f"{path.name}: {path.stat().st_size / MEGABYTE:.1f} MB, unpacked {unpacked / MEGABYTE:.1f} MB ({parts}, ...)")
     if path.stat().st_size > MAX_WHEEL or unpacked > MAX_UNPACKED:
-        yield f"{path.name} is larger than {MAX_WHEEL // MEGABYTE} MB, or {MAX_UNPACKED // MEGABYTE} MB unpacked"
+        yield f"{path.name} is larger than {MAX_WHEEL / MEGABYTE:g} MB, or {MAX_UNPACKED / MEGABYTE:g} MB unpacked"
     if not any(re.fullmatch(r"coframe-[^/]*\.dist-info/licenses/LICENSE", name) for name in names):
         yield f"{path.name} has no LICENSE"
     if "coframe_ros.pth" not in names:
         yield f"{path.name} has no coframe_ros.pth: `import rclpy` would fail"
+    if link := re.search(r"\]\((?!https?:|#)[^)]*\)", metadata):
+        yield f"{path.name}: the description has the link {link[0][2:-1]}, which the package index does not have"
     bundled = [name for name in names if name.startswith(BUNDLED)]
+    if WITHOUT_CYCLONEDDS.search(path.name) and not bundled:
+        yield f"{path.name} has no DDS library, and no package has one: set COFRAME_BUNDLE (docs/releasing.md)"
     if bundled and not any("licen" in name.lower() or "notice" in name.lower() for name in bundled):
         yield f"{path.name} contains {', '.join(bundled)} without a licence"
     packages = json.loads((ROOT / "viewer/package.json").read_text(encoding="utf-8"))["dependencies"]
@@ -75,6 +85,27 @@ def check_wheel(path: Path) -> Iterator[str]:
         short = package.rpartition("/")[2]
         if not re.search(rf"^{short}(\.js)?,", scripts, re.MULTILINE | re.IGNORECASE):
             yield f"{path.name}: the notice in the viewer's page does not name {package}"
+
+
+def unpacked_size(wheel: zipfile.ZipFile) -> int:
+    """Return the bytes of the installed files, without a bundled Cyclone DDS."""
+    return sum(info.file_size for info in wheel.infolist() if not info.filename.startswith(BUNDLED))
+
+
+def largest_parts(wheel: zipfile.ZipFile, count: int = 5) -> list[tuple[str, int]]:
+    """Return the kinds of files that take most of the installed bytes, and these bytes."""
+    sizes: Counter[str] = Counter()
+    for info in wheel.infolist():
+        if not info.filename.startswith(BUNDLED):
+            sizes[Path(info.filename).suffix or "other"] += info.file_size
+    return sizes.most_common(count)
+
+
+def page_scripts(wheel: zipfile.ZipFile) -> str:
+    """Return the JavaScript of the viewer's page."""
+    names = [name for name in wheel.namelist() if name.startswith(PAGE) and name.endswith((".js", ".js.gz"))]
+    files = [gzip.decompress(wheel.read(name)) if name.endswith(".gz") else wheel.read(name) for name in names]
+    return b"".join(files).decode()
 
 
 def check_sdist(path: Path) -> Iterator[str]:

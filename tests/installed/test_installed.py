@@ -4,6 +4,7 @@
 import importlib
 import importlib.metadata
 import os
+import platform
 import re
 import subprocess
 import sys
@@ -114,8 +115,22 @@ def test_the_versions_agree():
 def test_the_page_is_served():
     pytest.importorskip("websockets", reason="needs coframe[viewer]")
     viewer = coframe.show(coframe.Buffer(), port=0)
-    with viewer, urllib.request.urlopen(viewer.url) as page:
-        assert b"viewer.js" in page.read()
+    with viewer:
+        for file, content in (("", b"viewer.js"), ("assets/page.js", b"three.js"), ("replay.html", b'id="replay"')):
+            with urllib.request.urlopen(f"{viewer.url.rstrip('/')}/{file}") as answer:
+                assert content in answer.read()
+
+
+@needs_dds
+def test_the_report_about_this_system():
+    pytest.importorskip("typer", reason="needs coframe[cli]")
+    here = {**os.environ, "ROS_DOMAIN_ID": "93", "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
+    command = [script("coframe"), "doctor", "--system"]
+    shown = subprocess.run(command, capture_output=True, text=True, check=False, env=here, timeout=100).stdout
+    assert f"coframe {coframe.__version__}, numpy {np.__version__}" in shown
+    assert f"Python {platform.python_version()} (CPython" in shown
+    assert "not found" not in shown.partition("DDS library\n")[2].partition("\n")[0]
+    assert "a message through the library in this process: received" in shown
 
 
 def test_a_recording_is_written_and_read(tmp_path):
@@ -126,6 +141,26 @@ def test_a_recording_is_written_and_read(tmp_path):
     with bags.Writer(tmp_path / "bag") as writer:
         writer.write(writer.add_topic("/tf", "tf2_msgs/msg/TFMessage"), messages.serialize(TFMessage()), SECOND)
     assert list(coframe.open_bag(tmp_path / "bag").topics) == ["/tf"]
+
+
+def test_a_replay_is_written(tmp_path):
+    for module in ("typer", "mcap", "websockets"):
+        pytest.importorskip(module, reason="needs coframe[cli,bags,viewer]")
+    from coframe import bags, messages
+    from geometry_msgs.msg import TransformStamped
+    from tf2_msgs.msg import TFMessage
+
+    transform = TransformStamped(child_frame_id="lidar")
+    transform.header.frame_id = "base"
+    transform.transform.rotation.w = 1.0
+    with bags.Writer(tmp_path / "bag") as writer:
+        topic = writer.add_topic("/tf", "tf2_msgs/msg/TFMessage")
+        for second in (1, 2):
+            transform.header.stamp.sec = second
+            writer.write(topic, messages.serialize(TFMessage(transforms=[transform])), second * SECOND)
+    command = [script("coframe"), "view", tmp_path / "bag", "-o", tmp_path / "replay.html"]
+    subprocess.run(command, check=True, capture_output=True, timeout=100)
+    assert b'"format":"coframe-replay"' in (tmp_path / "replay.html").read_bytes()
 
 
 @needs_dds

@@ -15,8 +15,8 @@ import pytest
 import coframe
 from coframe.messages import find
 from coframe.viewer.displays import Options
+from coframe.viewer.page_files import STATIC
 from coframe.viewer.replay.displays import ReplayDisplay, ReplayTimes, record_displays
-from coframe.viewer.server.http import STATIC
 from coframe.viewer.sources.topic_messages import StampedMessage
 
 SECOND = 1_000_000_000

@@ -2,6 +2,7 @@
 """The server: access, invalid and stuck clients, start and end."""
 
 import contextlib
+import gzip
 import http.client
 import json
 import socket
@@ -54,6 +55,7 @@ def page(tmp_path):
     (folder / "assets").mkdir(parents=True)
     (folder / "index.html").write_text("<title>page</title>")
     (folder / "assets" / "viewer.js").write_text("1")
+    (folder / "assets" / "packed.js.gz").write_bytes(gzip.compress(b"large"))
     (folder / "assets" / "link.js").symlink_to(tmp_path / "secret.js")
     (tmp_path / "secret.js").write_text("secret")
     with ViewerServer(ViewerState(BufferSource(small_buffer())), port=0, static=folder) as server:
@@ -71,6 +73,17 @@ def test_the_page_has_security_headers(page):
     status, headers, body = get(page, "/assets/viewer.js")
     assert (status, headers["Content-Type"], body) == (200, "text/javascript; charset=utf-8", b"1")
     assert get(page, "/assets/viewer.js", If_None_Match=headers["ETag"])[0] == 304
+
+
+def test_a_file_that_is_stored_compressed(page):
+    status, headers, body = get(page, "/assets/packed.js", Accept_Encoding="gzip, deflate, br")
+    assert (status, headers["Content-Type"]) == (200, "text/javascript; charset=utf-8")
+    assert (headers["Content-Encoding"], gzip.decompress(body)) == ("gzip", b"large")
+    tag = headers["ETag"]
+    assert get(page, "/assets/packed.js", Accept_Encoding="gzip", If_None_Match=tag)[0] == 304
+    for encodings in ("identity", "br, gzip;q=0"):
+        status, headers, body = get(page, "/assets/packed.js", Accept_Encoding=encodings, If_None_Match=tag)
+        assert (status, body, headers["Content-Encoding"]) == (200, b"large", None)
 
 
 @pytest.mark.parametrize(

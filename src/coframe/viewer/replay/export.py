@@ -4,11 +4,11 @@
 from __future__ import annotations
 
 import time
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from coframe.time import SECOND
 from coframe.viewer.displays import Options
+from coframe.viewer.page_files import STATIC
 from coframe.viewer.protocol.client_messages import DisplayOptions, ReplayRviz
 from coframe.viewer.protocol.schema import record
 from coframe.viewer.replay.displays import ImmediateExecutor, ReplayDisplay
@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 
 __all__ = ["export_replay"]
 
-TEMPLATE = Path(__file__).parents[1] / "static" / "replay.html"
+TEMPLATE = STATIC / "replay.html"
 _DEFAULT_RATE, _LOWEST_RATE = 30.0, 1.0
 # As in the page: how many topics are displayed without a configuration, and those that are too large for this.
 _MAX_AUTOMATIC = 12

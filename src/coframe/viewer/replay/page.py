@@ -11,6 +11,7 @@ import numpy as np
 
 from coframe.errors import ViewerError
 from coframe.time import SECOND
+from coframe.viewer import page_files
 from coframe.viewer.protocol.encoding import relative_to
 from coframe.viewer.protocol.replay_block import ReplayBlock
 from coframe.viewer.protocol.server_messages import Robot, TreeFrame
@@ -128,7 +129,7 @@ def replay_page(
         ViewerError: The span is empty or too large, or the template does not exist.
     """
     try:
-        page = template.read_text(encoding="utf-8")
+        page = page_files.read(template).decode()
     except OSError:
         raise ViewerError("the page for replays is missing from this installation: build it in viewer/") from None
     before, block_start, after = page.partition(_OPENING + _EMPTY)

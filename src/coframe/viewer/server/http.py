@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import contextlib
+import gzip
 import hashlib
 import hmac
 import ipaddress
@@ -11,18 +12,18 @@ import secrets
 import socket
 from http import HTTPStatus
 from http.cookies import CookieError, SimpleCookie
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from websockets.datastructures import Headers
 from websockets.http11 import Response
 
+from coframe.viewer.page_files import find
+
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
+    from pathlib import Path
 
-__all__ = ["STATIC", "AccessPolicy", "file_response", "page_file", "response", "text_response"]
-
-STATIC = Path(__file__).resolve().parents[1] / "static"
+__all__ = ["AccessPolicy", "file_response", "page_file", "response", "text_response"]
 
 _TYPES = {
     ".html": "text/html; charset=utf-8",
@@ -160,20 +161,34 @@ def text_response(status: HTTPStatus, text: str, policy: str) -> Response:
 
 
 def page_file(path: str, folder: Path) -> Path | None:
-    """Return the file of the page for a URL path; None if it does not exist or is outside the folder."""
+    """Return the file of the page for a URL path, or its compressed form; None if it does not exist or is outside."""
     root = folder.resolve()
     try:
         file = (root / path.lstrip("/")).resolve()
-        return file if file.is_relative_to(root) and file.is_file() else None
+        return find(file) if root in file.parents else None
     except (OSError, ValueError):  # A NUL, or a name that is too long.
         return None
 
 
-def file_response(file: Path, policy: str, known_tag: str | None) -> Response:
-    """Return a file of the page, or "not modified" if the browser has the file with this ETag."""
-    kind = _TYPES.get(file.suffix.lower(), "application/octet-stream")
-    body = file.read_bytes()
-    tag = f'"{hashlib.sha256(body).hexdigest()[:32]}"'
-    if tag == known_tag:
-        return response(HTTPStatus.NOT_MODIFIED, b"", kind, policy, {"ETag": tag})
-    return response(HTTPStatus.OK, body, kind, policy, {"ETag": tag})
+def file_response(file: Path, policy: str, known_tag: str | None, encodings: str = "") -> Response:
+    """Return a file of the page, or "not modified" if the browser has the file with this ETag.
+
+    Args:
+        file: The file; one whose name ends with .gz is compressed.
+        policy: The Content-Security-Policy.
+        known_tag: The If-None-Match header.
+        encodings: The Accept-Encoding header.
+    """
+    body, headers = file.read_bytes(), {}
+    name = file
+    if file.suffix == ".gz":
+        name, headers["Vary"] = file.with_suffix(""), "Accept-Encoding"
+        if "gzip" in {encoding.strip() for encoding in encodings.split(",")}:
+            headers["Content-Encoding"] = "gzip"
+        else:
+            body = gzip.decompress(body)
+    kind = _TYPES.get(name.suffix.lower(), "application/octet-stream")
+    headers["ETag"] = f'"{hashlib.sha256(body).hexdigest()[:32]}"'
+    if headers["ETag"] == known_tag:
+        return response(HTTPStatus.NOT_MODIFIED, b"", kind, policy, headers)
+    return response(HTTPStatus.OK, body, kind, policy, headers)

@@ -15,10 +15,11 @@ from typing import TYPE_CHECKING, Any
 from urllib.parse import parse_qsl, unquote, urlencode, urlsplit
 
 from coframe.errors import PlotError, ViewerError
+from coframe.viewer.page_files import STATIC
 from coframe.viewer.replay.page import ReplayContent, replay_page
 from coframe.viewer.robots.meshes import MESH_TYPES, MeshError
 from coframe.viewer.server.connections import Connections
-from coframe.viewer.server.http import STATIC, AccessPolicy, file_response, page_file, response, text_response
+from coframe.viewer.server.http import AccessPolicy, file_response, page_file, response, text_response
 from coframe.viewer.server.scheduler import ClientScheduler
 from coframe.viewer.server.websocket import WebSocket
 
@@ -186,7 +187,7 @@ class ViewerServer:
             return self._answer_rviz()
         if path in {"/replay", "/curves.csv"}:
             return await (self._answer_replay if path == "/replay" else self._answer_curves)(parts.query)
-        return self._answer_page(path, request.headers.get("If-None-Match"))
+        return self._answer_page(path, request.headers.get("If-None-Match"), request.headers.get_all("Accept-Encoding"))
 
     def _refusal(self, request: Request) -> Response | None:
         """Return the response to a request that is not allowed or not valid; None for others."""
@@ -272,10 +273,10 @@ class ViewerServer:
         attachment = {"Content-Disposition": 'attachment; filename="coframe-curves.csv"'}
         return response(HTTPStatus.OK, text.encode(), "text/csv; charset=utf-8", policy, attachment)
 
-    def _answer_page(self, path: str, known_tag: str | None) -> Response:
+    def _answer_page(self, path: str, known_tag: str | None, encodings: list[str]) -> Response:
         file = page_file("index.html" if path == "/" else path, self._static)
         if file is not None:
-            return file_response(file, self._access.content_security, known_tag)
+            return file_response(file, self._access.content_security, known_tag, ",".join(encodings))
         if path == "/":
             text = "The viewer's page is missing. Build it in viewer/ with `npm ci && npm run build`."
             return text_response(HTTPStatus.SERVICE_UNAVAILABLE, text, self._access.content_security)
