@@ -149,7 +149,7 @@ $(VENV)/.bench: pyproject.toml | $(STAMP)
 bench: $(VENV)/.bench ## compare coframe with its peers in one table; fail when a target is missed
 	@$(BIN)/python -E -m benchmarks $(ARGS)
 
-.PHONY: wheels sdist test-root release-check
+.PHONY: wheels sdist test-root test-free-threaded release-check
 wheels: ## build, repair and test wheels into dist/: PYTHONS="python3.12 /path/to/python"; default: all found
 	$(ANY_PYTHON) scripts/wheels.py $(PYTHONS)
 
@@ -158,6 +158,9 @@ sdist: ## build the source distribution into dist/
 
 test-root: ## install dist/ in an empty Debian root and run the installed-package tests there: ARGS="--sdist --suite sid" (needs root)
 	VENV=$(VENV) sh scripts/test_in_root.sh $(ARGS) $(PYTHONS)
+
+test-free-threaded: ## build CPython without the GIL, run tests of coframe with it and measure two threads: PYTHONS=/path/to/python3.14t skips the first
+	scripts/free_threaded.sh $(PYTHONS)
 
 release-check: ## check what is in dist/: metadata, sizes, licences of bundled parts, links, changelog
 	$(ANY_PYTHON) scripts/release_check.py

@@ -11,8 +11,8 @@
 # installed as well, and the nodes of the lab run in the root and find those of this checkout, and the reverse. --bundle is
 # a folder made by scripts/build_cyclonedds.sh: the wheel then contains this library, and both libraries are tested.
 #
-# Needs root rights, debootstrap and unshare. Prints the seconds of each compilation and of `pip install coframe[all]`, and
-# the megabytes of everything that it installed. Fill dist/ first: make wheels sdist
+# Needs root rights, debootstrap and unshare. Prints the seconds of each compilation, and the seconds and megabytes of
+# `pip install` for NumPy, coframe and coframe[all], whose size has a limit. Fill dist/ first: make wheels sdist
 set -eu
 cd "$(dirname "$0")/.."
 project=$PWD
@@ -62,7 +62,7 @@ download() { # VERSION FOLDER PACKAGE...: packages for that version of Python, o
 needed() { # VERSION WHEEL: what the tests in the root install
     case $1 in
         # pip evaluates markers for the Python that it runs on; this is `all` for 3.14.
-        3.14) echo "$2[zenoh,bags,viewer,robots,cli,params,pdf,plot]" ;;
+        3.14) echo "$2[bags,viewer,robots,cli,params,pdf,plot]" ;;
         *) echo "$2[all]" ;;
     esac
     echo "pytest>=8,<10" "pytest-timeout>=2.3,<3"
@@ -102,14 +102,21 @@ python=$1
 rm -rf /tmp/environment
 "$python" -m venv /tmp/environment
 cd /tmp
-before=$(du -sk /tmp/environment | cut -f1)
-start=$(date +%s)
-environment/bin/python -m pip install --quiet "coframe[all]"
-seconds=$(($(date +%s) - start))
-after=$(du -sk /tmp/environment | cut -f1)
-environment/bin/python -c "import rclpy, tf2_ros"
+size() { du -sb environment | cut -f1; }
+time_install() { start=$(date +%s); environment/bin/python -m pip install --quiet "$1"; seconds=$(($(date +%s) - start)); }
 version=$(environment/bin/python -c "import platform; print(platform.python_version())")
-echo "CPython $version: pip install coframe[all] took $seconds s, $(((after - before) / 1000)) MB"
+before=$(size)
+time_install numpy
+numpy=$(($(size) - before))
+echo "CPython $version: pip install numpy: $seconds s, $((numpy / 1000000)) MB"
+time_install coframe
+core=$(($(size) - before - numpy))
+echo "CPython $version: pip install coframe: $seconds s, $((core / 1000)) kB more"
+time_install "coframe[all]"
+all=$(($(size) - before - numpy))
+echo "CPython $version: pip install coframe[all]: $seconds s more, $((all / 1000000)) MB more than NumPy"
+[ "$all" -lt 200000000 ] || { echo "test-root: the limit for coframe[all] without NumPy is 200 MB" >&2; exit 1; }
+environment/bin/python -c "import rclpy, tf2_ros"
 environment/bin/python -m pip install --quiet pytest pytest-timeout
 environment/bin/python -m pytest -q -rs -p no:cacheprovider -c /project/pyproject.toml /project/tests/installed
 '

@@ -18,7 +18,9 @@ SECOND = 1_000_000_000
 
 def run(code):
     """Run a program and return its exit code and its stderr."""
-    command = [sys.executable, "-c", "import coframe\n" + textwrap.dedent(code)]
+    # Python 3.12 and newer warn when a process with threads calls fork().
+    command = [sys.executable, "-W", "ignore:This process:DeprecationWarning", "-c"]
+    command.append("import coframe\n" + textwrap.dedent(code))
     ended = subprocess.run(command, capture_output=True, text=True, timeout=60, check=False)
     return ended.returncode, ended.stderr
 
