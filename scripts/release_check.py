@@ -75,16 +75,24 @@ def check_wheel(path: Path) -> Iterator[str]:
         yield f"{path.name} has no coframe_ros.pth: `import rclpy` would fail"
     if link := re.search(r"\]\((?!https?:|#)[^)]*\)", metadata):
         yield f"{path.name}: the description has the link {link[0][2:-1]}, which the package index does not have"
-    bundled = [name for name in names if name.startswith(BUNDLED)]
-    if WITHOUT_CYCLONEDDS.search(path.name) and not bundled:
+    if WITHOUT_CYCLONEDDS.search(path.name) and not any(name.startswith(BUNDLED) for name in names):
         yield f"{path.name} has no DDS library, and no package has one: set COFRAME_BUNDLE (docs/releasing.md)"
+    yield from (f"{path.name}: {problem}" for problem in missing_licences(names, scripts))
+
+
+def missing_licences(names: list[str], scripts: str) -> Iterator[str]:
+    """Check that the parts by others come with their licences: Cyclone DDS, JavaScript libraries, the viewer's page."""
+    bundled = [name for name in names if name.startswith(BUNDLED)]
     if bundled and not any("licen" in name.lower() or "notice" in name.lower() for name in bundled):
-        yield f"{path.name} contains {', '.join(bundled)} without a licence"
+        yield f"it contains {', '.join(bundled)} without a licence"
+    for name in names:
+        if name.endswith(".min.js") and f"{name.removesuffix('.min.js')}.LICENSE" not in names:
+            yield f"it contains {name} without a licence"
     packages = json.loads((ROOT / "viewer/package.json").read_text(encoding="utf-8"))["dependencies"]
     for package in packages:
         short = package.rpartition("/")[2]
         if not re.search(rf"^{short}(\.js)?,", scripts, re.MULTILINE | re.IGNORECASE):
-            yield f"{path.name}: the notice in the viewer's page does not name {package}"
+            yield f"the notice in the viewer's page does not name {package}"
 
 
 def unpacked_size(wheel: zipfile.ZipFile) -> int:
