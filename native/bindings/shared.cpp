@@ -40,6 +40,8 @@ void define_shared(nb::module_& module) {
           },
           arg("timeout_ns"), "Wait until there may be no writer, an interrupt, or the timeout (negative: no limit).")
       .def("interrupt", &Segment::interrupt, "End the wait of another thread.")
+      .def_prop_ro("outdated", &Segment::outdated,
+                   "Whether the tree contains static transforms that are no longer published.")
       .def_prop_ro("used", &Segment::used, "Bytes in use.")
       .def("close", &Segment::close, ReleaseGil(), "Stop writing, and no longer keep the tree.");
 }

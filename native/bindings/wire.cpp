@@ -253,6 +253,13 @@ void define_store_properties(Class& cls, Of of) {
           "forget_writer", [of](Reader& self, TransformStore::Writer writer) { of(self).forget_writer(writer); },
           nb::arg("writer"), ReleaseGil(), "Forget the writer with this handle.")
       .def(
+          "writer_left", [of](Reader& self, TransformStore::Writer writer) { of(self).writer_left(writer); },
+          nb::arg("writer"), ReleaseGil(),
+          "Note that the writer with this handle no longer exists, so its static transforms are not published.")
+      .def(
+          "settle_statics", [of](Reader& self) { of(self).settle_statics(); }, ReleaseGil(),
+          "Note that static transforms that shared data contained before are published only if they were received.")
+      .def(
           "writers", [of](const Reader& self) { return writers_of(of(self)); }, "Return the statistics of each writer.")
       .def_prop_ro(
           "stored_at", [of](const Reader& self) { return of(self).stored_at(); },

@@ -310,7 +310,7 @@ bool Buffer::remove_frame(std::string_view name) {
 
 std::shared_ptr<Buffer> Buffer::snapshot() const {
   const std::lock_guard lock(writing_);
-  return consistent([this] { return std::shared_ptr<Buffer>(new Buffer(tree_)); });
+  return std::shared_ptr<Buffer>(new Buffer(tree_));
 }
 
 bool Buffer::follow(SharedTreeData shared) {
@@ -334,6 +334,16 @@ void Buffer::stop_following() {
     refusal_.store(0);
   }
   notify_of_other_data();
+}
+
+std::vector<FrameId> Buffer::static_frames() const {
+  return consistent([this] {
+    std::vector<FrameId> frames;
+    for (FrameId id = 1; id < tree_.frame_count(); ++id) {
+      if (tree_.history(id).is_static()) frames.push_back(id);
+    }
+    return frames;
+  });
 }
 
 void Buffer::notify_of_other_data() {

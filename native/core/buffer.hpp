@@ -137,6 +137,16 @@ class Buffer {
   void stop_following();
   // Whether the buffer reads shared data, and refuses insertions.
   bool following() const { return refusal_.load() == kShared; }
+  // Whether the buffer writes shared data.
+  bool shares() const { return woken_ != nullptr; }
+  // Whether shared data contain static transforms that are no longer published; their writer decides.
+  bool outdated() const { return tree_.outdated(); }
+  void set_outdated(bool outdated) {
+    const std::lock_guard lock(writing_);
+    tree_.set_outdated(outdated);
+  }
+  // The frames that have a static transform.
+  std::vector<FrameId> static_frames() const;
   // Waits until the shared data have changed since `seen`, or `timeout_ns` has passed. May return earlier.
   void wait_for_change(std::uint64_t seen, std::int64_t timeout_ns) const {
     if (SharedAccess* access = tree_.access()) access->wait_for_change(seen, timeout_ns);

@@ -270,12 +270,13 @@ std::uint64_t History::chunk_count() const {
 
 void History::drop_oldest_chunk(ChunkPool& pool) { drop_before(pool, (begin_ / Chunk::kSize + 1) * Chunk::kSize); }
 
-void History::copy(const HistoryContext& context, const History& other) {
+void History::copy(const HistoryContext& context, const History& other, std::size_t most) {
   const View samples = other.view();
   kind_ = samples.kind_;
   if (samples.empty()) return;
   if (samples.is_static()) return set_fixed(samples.sample(0));
-  for (std::size_t i = 0; i < samples.size(); ++i) append(context, samples.time(i), samples.sample(i));
+  const std::size_t size = samples.size();
+  for (std::size_t i = size - std::min(size, most); i < size; ++i) append(context, samples.time(i), samples.sample(i));
   one_parent_ = other.one_parent_.get();
 }
 

@@ -290,9 +290,9 @@ class History {
   void clear(const HistoryContext& context);
   // Copies the current state of `other`. The samples are shared.
   void share(const HistoryStorage& storage, const History& other);
-  // Copies the current state of `other` with its samples. Requires that `other` does not change meanwhile, or that the
-  // caller discards the copy then.
-  void copy(const HistoryContext& context, const History& other);
+  // Copies the current state of `other` with its newest samples, at most `most`. Requires that `other` does not change
+  // meanwhile, or that the caller discards the copy then.
+  void copy(const HistoryContext& context, const History& other, std::size_t most);
   // Uses samples that are owned elsewhere and never change: contiguous chunks, all full except the last.
   void map(const HistoryStorage& storage, const Chunk* chunks, std::uint64_t samples, bool one_parent,
            const Span& span);

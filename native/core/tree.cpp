@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/tree.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 
 #include "core/error.hpp"
@@ -153,24 +155,31 @@ Tree::~Tree() {
 void Tree::become(SharedTreeData shared) { use(shared_storage(std::move(shared))); }
 
 void Tree::become_private() {
+  Tree copy(*this);
+  use(std::move(copy.storages_.back()));
+  copy.storages_.clear();
+}
+
+// The writer is another process, which cannot be locked out, and which may change the tree faster than all samples of a
+// frame can be copied. Then the oldest ones are left out.
+void Tree::copy_shared(History& history, const Tree& other, FrameId id) {
+  constexpr int kComplete = 20;  // attempts
+  std::size_t most = SIZE_MAX;
   for (int attempt = 0;; ++attempt) {
-    const std::uint64_t revision = start_reading();
-    Tree copy(*this);
-    if (unchanged(revision)) {
-      use(std::move(copy.storages_.back()));
-      copy.storages_.clear();
-      return;
-    }
-    Revision::step_back(attempt);
+    const std::uint64_t revision = other.start_reading();
+    if (attempt >= kComplete) most = std::max<std::size_t>(std::min(most, other.history(id).size()) / 2, 1);
+    history.copy(context(), other.frame(id).history, most);
+    if (other.unchanged(revision)) return;
+    history.reset(context(), HistoryKind::none);
   }
 }
 
 void Tree::copy_from(const Tree& other, bool with_samples) {
   TreeData& tree = data();
   Memory& memory = *storage().memory;
-  const auto copy = [&](Frame& frame, const Frame& theirs) {
+  const auto copy = [&](Frame& frame, const Frame& theirs, FrameId id) {
     if (with_samples) {
-      frame.history.copy(context(), theirs.history);
+      copy_shared(frame.history, other, id);
     } else {
       frame.history.share(storage().histories(), theirs.history);
     }
@@ -178,13 +187,13 @@ void Tree::copy_from(const Tree& other, bool with_samples) {
     frame.known = theirs.known.get();
     frame.counts.copy(theirs.counts);
   };
-  const std::size_t frames = other.frame_count();
-  copy(tree.frames[0], other.frame(0));
-  for (FrameId id = 1; id < frames; ++id) {
+  copy(tree.frames[0], other.frame(0), 0);
+  // Samples that were copied can have frames that are added meanwhile.
+  for (FrameId id = 1; id < other.frame_count(); ++id) {
     const Frame& theirs = other.frame(id);
     tree.frames.append(memory, [&](Frame& frame) {
       frame.name.set(memory, theirs.name);
-      copy(frame, theirs);
+      copy(frame, theirs, id);
     });
     tree.frame_numbers.add(memory, theirs.name, id);
   }

@@ -40,7 +40,7 @@ class Tree {
  public:
   explicit Tree(Stamp cache_length);
   explicit Tree(SharedTreeData shared);
-  // Copies the current state of `other`. The samples are shared, those of shared data copied.
+  // Copies the current state of `other`. The samples are shared, those of shared data copied, frame by frame.
   Tree(const Tree& other);
   Tree& operator=(const Tree&) = delete;
   ~Tree();
@@ -76,6 +76,7 @@ class Tree {
   // Whether the data are those of another writer, which cannot be locked out.
   bool read_only() const { return !storage().memory; }
   bool shared() const { return storage().shared; }
+  bool outdated() const { return data().outdated.load(std::memory_order_acquire) != 0; }
 
   // nullptr for data that are not shared.
   SharedAccess* access() const { return storage().access.get(); }
@@ -99,6 +100,7 @@ class Tree {
     Atomic<std::uint64_t>& changes = data().changes;
     changes.store(changes.load(std::memory_order_relaxed) + 1, std::memory_order_release);
   }
+  void set_outdated(bool outdated) { data().outdated.store(outdated, std::memory_order_release); }
   // Keeps `memory` alive as long as the samples.
   void keep(std::shared_ptr<const void> memory) { storage().kept = std::move(memory); }
   std::size_t authority_count() const { return data().authorities.size(); }
@@ -151,6 +153,7 @@ class Tree {
 
   std::uint64_t wait_for_writer() const;
   void copy_from(const Tree& other, bool with_samples);
+  void copy_shared(History& history, const Tree& other, FrameId id);
   FrameId add_frame(std::string_view name);
   FrameId find_or_add(std::string_view name, bool& is_new);
   std::uint32_t find_number(std::string_view name) const;

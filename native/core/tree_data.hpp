@@ -65,6 +65,7 @@ struct TreeData {
   Atomic<std::uint64_t> changes{0};  // incremented after every change; see Buffer
   TreeCounts counts;
   // Of shared data:
+  Atomic<std::uint64_t> outdated{0};  // 1: contains static transforms that are no longer published
   Interrupted interrupted;
   ChunkList chunks;
   RelativePointer<Chunk> nothing;

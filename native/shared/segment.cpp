@@ -267,6 +267,8 @@ class LinuxSegment final : public Segment {
     (void)!write(interrupt_.number(), &one, sizeof one);
   }
 
+  bool outdated() const override { return mapping_->header().tree.outdated.load() != 0; }
+
   std::size_t used() const override { return mapping_->header().used.load(); }
 
   void close() override {

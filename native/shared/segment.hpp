@@ -49,6 +49,9 @@ class Segment : public std::enable_shared_from_this<Segment> {
   // Waits until there may be no writer, until a call of interrupt(), or until `timeout_ns` has passed.
   virtual void wait_for_vacancy(std::int64_t timeout_ns) = 0;
   virtual void interrupt() = 0;
+  // Whether the tree contains static transforms that are no longer published: a new subscription would not receive
+  // them.
+  virtual bool outdated() const = 0;
   // Bytes of the tree in use.
   virtual std::size_t used() const = 0;
   // Gives up writing, and no longer counts as a process that has the tree open. Readers may continue to read.

@@ -23,7 +23,9 @@ TransformStore::TransformStore(std::shared_ptr<Buffer> buffer, bool is_static, c
       is_static_(is_static),
       authority_(authority),
       renaming_(std::move(renaming)),
-      event_(std::move(event)) {}
+      event_(std::move(event)) {
+  if (is_static_ && buffer_->shares()) published_.emplace(buffer_);
+}
 
 void TransformStore::name_writer(Writer writer, const std::string& authority) {
   const std::lock_guard lock(mutex_);
@@ -35,6 +37,16 @@ void TransformStore::name_writer(Writer writer, const std::string& authority) {
 void TransformStore::forget_writer(Writer writer) {
   const std::lock_guard lock(mutex_);
   sources_.erase(writer);
+}
+
+void TransformStore::writer_left(Writer writer) {
+  const std::lock_guard lock(mutex_);
+  if (published_) published_->leave(writer);
+}
+
+void TransformStore::settle_statics() {
+  const std::lock_guard lock(mutex_);
+  if (published_) published_->settle();
 }
 
 std::vector<TransformStore::WriterStatistics> TransformStore::writers() const {
@@ -64,7 +76,9 @@ TransformStore::Ingest::~Ingest() {
 void TransformStore::Ingest::add(Writer writer, std::span<const std::uint8_t> message) {
   std::size_t stored = 0;
   Source& source = store_.source_of(writer);
-  store_.buffer_->ingest_without_notify(source.stream, message.data(), message.size(), stored);
+  const DecodeFailure failure =
+      store_.buffer_->ingest_without_notify(source.stream, message.data(), message.size(), stored);
+  if (store_.published_ && !failure.reason) store_.published_->receive(writer, source.stream.inserted);
   source.received_at = now<std::chrono::steady_clock>();
   source.period.add(source.received_at);
   if (stored > 0) store_.stored_at_.store(source.received_at, std::memory_order_release);

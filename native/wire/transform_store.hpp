@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <span>
 #include <string>
 #include <unordered_map>
@@ -16,6 +17,7 @@
 #include "core/buffer.hpp"
 #include "core/stamp_delay.hpp"
 #include "wire/event.hpp"
+#include "wire/published_statics.hpp"
 
 namespace coframe {
 
@@ -58,6 +60,10 @@ class TransformStore {
   void name_writer(Writer writer, const std::string& authority);
   // Forgets a writer that has disappeared.
   void forget_writer(Writer writer);
+  // Static transforms of a writer that no longer exists are not published any more, unless another one publishes them.
+  void writer_left(Writer writer);
+  // Those that the buffer contained before, and that have not been received, are not published any more.
+  void settle_statics();
 
   // Returns the statistics of all writers.
   std::vector<WriterStatistics> writers() const;
@@ -86,8 +92,9 @@ class TransformStore {
   const bool is_static_;
   const std::string authority_;
   const std::shared_ptr<const Renaming> renaming_;
-  mutable std::mutex mutex_;                    // protects the sources
+  mutable std::mutex mutex_;                    // protects the sources and what is published
   std::unordered_map<Writer, Source> sources_;  // by writer
+  std::optional<PublishedStatics> published_;   // for static transforms in shared data
   std::atomic<std::int64_t> stored_at_ = 0;
   std::atomic<std::uint64_t> received_ = 0;
   std::atomic<bool> armed_ = false;

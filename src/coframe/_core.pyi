@@ -377,6 +377,10 @@ class Segment:
         """End the wait of another thread."""
 
     @property
+    def outdated(self) -> bool:
+        """Whether the tree contains static transforms that are no longer published."""
+
+    @property
     def used(self) -> int:
         """Bytes in use."""
 
@@ -941,6 +945,12 @@ class TfReader:
     def forget_writer(self, writer: int) -> None:
         """Forget the writer with this handle."""
 
+    def writer_left(self, writer: int) -> None:
+        """Note that the writer with this handle no longer exists, so its static transforms are not published."""
+
+    def settle_statics(self) -> None:
+        """Note that static transforms that shared data contained before are published only if they were received."""
+
     def name_writer(self, writer: int, authority: str) -> None:
         """Store `authority` as the source of this writer's past and future transforms."""
 
@@ -999,6 +1009,12 @@ class TransformStore:
 
     def forget_writer(self, writer: int) -> None:
         """Forget the writer with this handle."""
+
+    def writer_left(self, writer: int) -> None:
+        """Note that the writer with this handle no longer exists, so its static transforms are not published."""
+
+    def settle_statics(self) -> None:
+        """Note that static transforms that shared data contained before are published only if they were received."""
 
     def name_writer(self, writer: int, authority: str) -> None:
         """Store `authority` as the source of this writer's past and future transforms."""

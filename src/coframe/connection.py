@@ -442,7 +442,7 @@ def connect(
         shared: Whether to read the transforms from memory that all processes of this user on this machine share. The
             first of them receives the transforms for all; if it ends, another one takes over. A buffer that the program
             changes (`set`, `clear`, ...) becomes one of its own. Linux only: elsewhere, a warning is logged and this
-            process receives the transforms itself. See docs/how-to/shared_transforms.md.
+            process receives the transforms itself. See docs/how-to/shared-transforms.md.
 
     Raises:
         ValueError: The prefix begins with a slash.

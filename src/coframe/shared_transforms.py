@@ -17,6 +17,7 @@ from coframe.frame_names import kept, renaming
 from coframe.time import MILLISECOND, SECOND
 from coframe.wire import selection
 from coframe.wire.participant import Participant
+from coframe.wire.tf_reader import STATICS_TIMEOUT
 
 if TYPE_CHECKING:
     from coframe.wire import TfReader
@@ -27,8 +28,9 @@ __all__ = ["SharedTransforms", "Source"]
 _logger = logging.getLogger("coframe.wire")
 
 _FOLDER = "/dev/shm/coframe-{user}"  # noqa: S108 - memory of this user only; the native code checks its owner
-_VACANCY_TIMEOUT = 1 * SECOND  # in case that the end of a writer was not noticed
+_VACANCY_TIMEOUT = 10 * SECOND  # the end of a writer is noticed at once; each turn costs every process some time
 _RETRY_PAUSE = 10 * MILLISECOND / SECOND
+GENERATIONS = 8  # of the memory of one source
 _EXIT_TIMEOUT = 1.0  # seconds
 
 
@@ -51,8 +53,11 @@ class Source(NamedTuple):
     prefix: str = ""
     keep: tuple[str, ...] = ()
 
-    def open(self) -> _core.Segment:
+    def open(self, generation: int = 0) -> _core.Segment:
         """Open the memory of the transforms.
+
+        Args:
+            generation: The number of the memory; see `SharedTransforms`.
 
         Raises:
             SegmentError: This system cannot share transforms.
@@ -60,7 +65,7 @@ class Source(NamedTuple):
         if not hasattr(os, "getuid"):
             raise _core.SegmentError("sharing transforms between processes is supported on Linux only")
         # The name differs for every source, network namespace and configuration of the middleware.
-        text = repr((*self[:-1], sorted(kept(self.keep)), selection.network(), _network()))
+        text = repr((*self[:-1], sorted(kept(self.keep)), selection.network(), _network(), generation))
         name = f"{self.domain}-{hashlib.sha256(text.encode()).hexdigest()[:16]}"
         return _core.Segment.open(_FOLDER.format(user=os.getuid()), name, self.cache)
 
@@ -69,24 +74,29 @@ class SharedTransforms:
     """The shared transforms of one source, as this process uses them. Created by `join`.
 
     The first process becomes the writer: it receives the transforms. If it ends, another one takes over.
+
+    The memory keeps static transforms that are no longer published, like every buffer, but a listener that starts later
+    does not receive these. So once there are such transforms, later listeners share another memory with the next
+    generation number.
     """
 
-    _instances: ClassVar[dict[Source, SharedTransforms]] = {}
+    _instances: ClassVar[dict[tuple[Source, int], SharedTransforms]] = {}
     _lock: ClassVar[threading.RLock] = threading.RLock()
 
-    def __init__(self, source: Source) -> None:
+    def __init__(self, source: Source, generation: int, segment: _core.Segment) -> None:
         self.source = source
+        self._key = (source, generation)
         self._users = 0
         self._closed = threading.Event()
         self._hub: _Hub | None = None
-        self._segment = source.open()
+        self._segment = segment
         try:
             if self._segment.try_to_write():
                 self._hub = _Hub(self._segment, source)
         except BaseException:
             self._segment.close()
             raise
-        self._thread = threading.Thread(target=self._take_over, name="coframe shared transforms", daemon=True)
+        self._thread = threading.Thread(target=self._run, name="coframe shared transforms", daemon=True)
         self._thread.start()
 
     @classmethod
@@ -98,11 +108,22 @@ class SharedTransforms:
             WireError: This process is the first one, and DDS cannot join the graph.
         """
         with cls._lock:
-            shared = cls._instances.get(source)
-            if shared is None:
-                shared = cls._instances[source] = cls(source)
-            shared._users += 1
-            return shared
+            for generation in range(GENERATIONS):
+                shared = cls._instances.get((source, generation)) or cls._open(source, generation)
+                if shared is not None and not shared.outdated:
+                    shared._users += 1  # noqa: SLF001 - of this class
+                    return shared
+        raise _core.SegmentError(f"static transforms were withdrawn in all {GENERATIONS} generations of the memory")
+
+    @classmethod
+    def _open(cls, source: Source, generation: int) -> SharedTransforms | None:
+        """Return shared transforms that this process has not joined before; None if they are outdated."""
+        segment = source.open(generation)
+        if segment.outdated:
+            segment.close()
+            return None
+        shared = cls._instances[source, generation] = cls(source, generation, segment)
+        return shared
 
     @classmethod
     def forget_all(cls) -> None:
@@ -120,14 +141,19 @@ class SharedTransforms:
         """Stop using the transforms. The last call in this process also stops receiving them."""
         with self._lock:
             self._users -= 1
-            if self._users > 0 or self._instances.get(self.source) is not self:
+            if self._users > 0 or self._instances.get(self._key) is not self:
                 return
-            del self._instances[self.source]
+            del self._instances[self._key]
         self.close()
 
     def follow(self, buffer: Buffer) -> bool:
         """Let an empty buffer read the shared transforms; return False if the buffer is not empty."""
         return self._segment.follow(buffer)
+
+    @property
+    def outdated(self) -> bool:
+        """Whether they contain static transforms that are no longer published."""
+        return self._segment.outdated
 
     @property
     def writes(self) -> bool:
@@ -138,6 +164,11 @@ class SharedTransforms:
     def writer_process(self) -> int:
         """The ID of the process that receives the transforms."""
         return self._segment.writer_process
+
+    @property
+    def writer_is_suspended(self) -> bool:
+        """Whether the process that receives the transforms is suspended (Ctrl-Z, debugger): nothing is stored."""
+        return is_suspended(self.writer_process)
 
     @property
     def used(self) -> int:
@@ -156,8 +187,16 @@ class SharedTransforms:
         hub = self._hub
         return None if hub is None else hub.participant
 
+    def _run(self) -> None:
+        self._take_over()
+        # The publishers of the static transforms that an earlier writer has received deliver them again.
+        if not self._closed.wait(STATICS_TIMEOUT):
+            for reader in self.readers:
+                reader.settle_statics()
+
     def _take_over(self) -> None:
         """Wait until this process is the writer."""
+        warned = False
         while not self._closed.is_set() and self._hub is None:
             try:
                 if self._segment.try_to_write():
@@ -172,6 +211,9 @@ class SharedTransforms:
                 self._segment.close()
                 return
             self._segment.wait_for_vacancy(_VACANCY_TIMEOUT)
+            if self.writer_is_suspended and not warned:
+                _logger.warning(suspension(self.writer_process))
+            warned = self.writer_is_suspended
             self._closed.wait(_RETRY_PAUSE)
 
     def close(self) -> None:
@@ -214,6 +256,23 @@ class _Hub:
         self._node.close()
         self._buffer.freeze()  # before another process writes
         self.participant.close()
+
+
+def is_suspended(process: int) -> bool:
+    """Return whether a process is stopped by a signal or a debugger; False if that is unknown."""
+    try:
+        status = Path(f"/proc/{process}/stat").read_text(encoding="utf-8", errors="replace")
+    except OSError:
+        return False
+    return status.rpartition(")")[2].split()[:1] in (["T"], ["t"])
+
+
+def suspension(process: int) -> str:
+    """Return a sentence about a suspended process that receives the shared transforms."""
+    return (
+        f"Process {process}, which receives the shared transforms, is suspended: no new transforms are stored until it "
+        f"continues (kill -CONT {process}) or ends."
+    )
 
 
 def _network() -> int:

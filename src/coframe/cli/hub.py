@@ -23,7 +23,7 @@ from coframe.cli.options import (
 )
 from coframe.cli.output import fail, log
 from coframe.frame_names import kept
-from coframe.shared_transforms import SharedTransforms, Source
+from coframe.shared_transforms import GENERATIONS, SharedTransforms, Source, is_suspended, suspension
 from coframe.wire.domains import domain_id
 
 __all__ = ["hub"]
@@ -45,6 +45,9 @@ def hub(
     prefix: PrefixOption = "",
     keep: KeepOption = "",
     domain: DomainOption = None,
+    status: Annotated[
+        bool, typer.Option("--status", help="Print which process receives the transforms, and exit.")
+    ] = False,
 ) -> None:
     """Receive the transforms once for all programs that share them, until Ctrl-C.
 
@@ -53,34 +56,73 @@ def hub(
 
     Example: coframe hub --domain 5
     """
+    joined = domain_id() if domain is None else domain
+    source = Source(joined, tf_topic, tf_static_topic, int(cache), prefix, tuple(sorted(kept(keep))))
     with run_until_interrupted():
-        joined = domain_id() if domain is None else domain
-        shared_frames = tuple(sorted(kept(keep)))
-        source = Source(joined, tf_topic, tf_static_topic, int(cache), prefix, shared_frames)
         try:
-            shared = SharedTransforms.join(source)
+            _print_status(source) if status else _receive(source)
         except _core.SegmentError as error:
             fail(str(error), "Use coframe.connect() without shared=True.")
-        try:
-            _report(shared, source)
-        finally:
+
+
+def _topics(source: Source) -> str:
+    return f"{source.tf_topic} and {source.tf_static_topic} in domain {source.domain}"
+
+
+def _print_status(source: Source) -> None:
+    """Print which process receives the transforms. Exit with 1 if there is none, or if it is suspended."""
+    segment = source.open()
+    try:
+        if segment.try_to_write():
+            print(f"No process receives {_topics(source)} for others.")
+            raise typer.Exit(1)
+        buffer = coframe.Buffer(source.cache)
+        segment.follow(buffer)
+        process = segment.writer_process
+        size = f"{len(buffer.frame_names())} frames in {segment.used / 1e6:.1f} MB of shared memory"
+        print(f"Process {process} receives {_topics(source)} for all programs that share transforms: {size}.")
+        if segment.outdated:
+            print("Static transforms were withdrawn: programs that start now share another memory, without them.")
+        if is_suspended(process):
+            print(suspension(process))
+            raise typer.Exit(1)
+    finally:
+        segment.close()
+
+
+def _receive(source: Source) -> None:
+    generations = [SharedTransforms.join(source)]
+    try:
+        _report(source, generations)
+    finally:
+        for shared in generations:
             shared.leave()
 
 
-def _report(shared: SharedTransforms, source: Source) -> None:
-    buffer = coframe.Buffer(source.cache)
-    shared.follow(buffer)
-    topics = f"{source.tf_topic} and {source.tf_static_topic} in domain {source.domain}"
-    if not shared.writes:
-        log("INFO", NODE, f"Process {shared.writer_process} receives {topics}. This one takes over when it ends.")
+def _report(source: Source, generations: list[SharedTransforms]) -> None:
+    """Log what happens. Programs that start after a static transform was withdrawn share a further generation."""
+    if not generations[0].writes:
+        process = generations[0].writer_process
+        log("INFO", NODE, f"Process {process} receives {_topics(source)}. This one takes over when it ends.")
     frames = -1
     received = False
     pause = threading.Event()
+    buffer = _follow(source, generations[0])
     while True:
-        if shared.writes and not received:
+        if generations[-1].writes and not received:
             received = True
-            log("INFO", NODE, f"Receiving {topics} for all programs that share transforms. Ctrl-C stops.")
+            log("INFO", NODE, f"Receiving {_topics(source)} for all programs that share transforms. Ctrl-C stops.")
         if len(buffer.frame_names()) != frames:
             frames = len(buffer.frame_names())
-            log("INFO", NODE, f"{frames} frames in {shared.used / 1e6:.1f} MB of shared memory")
+            log("INFO", NODE, f"{frames} frames in {generations[-1].used / 1e6:.1f} MB of shared memory")
         pause.wait(REFRESH)
+        if generations[-1].outdated and len(generations) < GENERATIONS:
+            generations.append(SharedTransforms.join(source))
+            buffer = _follow(source, generations[-1])
+            log("INFO", NODE, "Static transforms were withdrawn. Programs that start now share another memory.")
+
+
+def _follow(source: Source, shared: SharedTransforms) -> coframe.Buffer:
+    buffer = coframe.Buffer(source.cache)
+    shared.follow(buffer)
+    return buffer

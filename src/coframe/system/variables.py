@@ -12,6 +12,8 @@ if TYPE_CHECKING:
 _EFFECTS: Final = {
     "AMENT_PREFIX_PATH": "folders of a sourced ROS 2: its packages, interfaces and DDS library are found there",
     "COFRAME_DDS_LIBRARY": "the file of the DDS library; no other place is searched",
+    "COFRAME_ROS2_WIRE": "how coframe.ros2 receives transforms in a sourced ROS 2: native or rclpy",
+    "COFRAME_SHARED": "1: listeners of tf2_ros share the transforms with the other processes of this user",
     "COFRAME_WIRE": "the middleware: dds or zenoh",
     "COFRAME_PACKAGE_PATH": "folders with the sources of ROS packages",
     "CYCLONEDDS_HOME": "an installation of Cyclone DDS, where the DDS library is searched with those of the system",

@@ -96,6 +96,8 @@ class BackendTfReader(BackendEndpoint, Protocol):
     def writers(self) -> list[tuple[int, int, int, int, int | None, str, str, str]]: ...  # noqa: D102
     def name_writer(self, writer: int, authority: str) -> None: ...  # noqa: D102
     def forget_writer(self, writer: int) -> None: ...  # noqa: D102
+    def writer_left(self, writer: int) -> None: ...  # noqa: D102
+    def settle_statics(self) -> None: ...  # noqa: D102
 
 
 class Session(Protocol):

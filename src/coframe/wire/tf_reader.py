@@ -71,6 +71,7 @@ class TfReader(LocalEndpoint):
         self._reader = native
         self._node_names: dict[int, str] | None = {} if name_writers else None
         self._departed: deque[int] = deque()
+        self._discovered: set[int] = set()
         self._naming = threading.Lock()
         super().__init__(native, node, endpoint, qos)
 
@@ -105,12 +106,20 @@ class TfReader(LocalEndpoint):
         """Return the handles of the matched writers that no message was received from."""
         return self.matched_handles() - {known.writer for known in self.writer_statistics() if known.messages}
 
+    def settle_statics(self) -> None:
+        """Note that static transforms that shared data contained before are published only if they were received."""
+        if not self._closed:
+            self._reader.settle_statics()
+
     def name_writers(self, graph: Graph) -> None:
         """Set the names of the publishing nodes in the buffer, as far as they are known from the graph."""
         if self._node_names is None or self._closed:
             return
         with self._naming:
             writers = graph.writers(self.topic)
+            for handle in self._discovered - writers.keys():
+                self._reader.writer_left(handle)
+            self._discovered = set(writers)
             for handle in self._node_names.keys() - writers.keys():
                 self._departed.append(handle)
                 del self._node_names[handle]

@@ -619,6 +619,10 @@ class Node(NodeParameters, NodeGraph):
         """Add a publisher or subscription that tf2_ros created, so that the node lists and destroys it."""
         return self.__add(entity)
 
+    @property
+    def _Coframe__is_destroyed(self) -> bool:
+        return self.__is_destroyed
+
     def _Coframe__waitables(self) -> tuple[ExecutorEntity, ...]:
         """Return the entities that an executor waits for."""
         return self.__waitables

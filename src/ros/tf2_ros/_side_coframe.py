@@ -12,7 +12,8 @@ from rclpy.publisher import Publisher
 from rclpy.qos import QoSProfile, as_qos_profile
 from rclpy.subscription import Subscription
 from tf2_msgs.msg import TFMessage
-from tf2_ros._shared_subscriptions import shared_subscriptions
+from tf2_ros._shared_subscriptions import SharedSubscriptions
+from tf2_ros._sharing import share
 from tf2_ros._subscriptions import AUTHORITY, Request, Subscriptions, Topic
 
 if TYPE_CHECKING:
@@ -31,7 +32,9 @@ def open_subscriptions(request: Request) -> Subscriptions:
     def receive_alone() -> Subscriptions:
         return _NativeSubscriptions(request)
 
-    return shared_subscriptions(request, receive_alone) or receive_alone()
+    domain = request.node._Coframe__participant.domain_id
+    sharing = share(request, domain, lambda qos: qos._Coframe__to_wire())
+    return receive_alone() if sharing is None else SharedSubscriptions(request, sharing, receive_alone)
 
 
 def static_publisher(node: Node, topic: str, qos: QoSProfile) -> Any:

@@ -7,13 +7,17 @@ import contextlib
 import os
 import threading
 import weakref
+from dataclasses import replace
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from coframe.wire import Participant, QoS
+from coframe.errors import WireError
+from coframe.wire import Participant, QoS, selection
 from coframe.wire.qos import INFINITE
 from rclpy.qos import QoSProfile
 from rclpy.utilities import get_rmw_implementation_identifier
 from tf2_msgs.msg import TFMessage
+from tf2_ros._sharing import SharedReader, share
 from tf2_ros._subscriptions import AUTHORITY, CallbackSubscriptions, Request, Subscriptions, Topic
 
 if TYPE_CHECKING:
@@ -22,8 +26,10 @@ if TYPE_CHECKING:
     from coframe.wire import GraphNode, TfReader
     from rclpy.node import Node
     from rclpy.task import Future
+    from tf2_ros._sharing import Sharing
 
 _WIRES = ("native", "rclpy")
+_logged: set[str] = set()
 
 # A node's guard condition wakes the executor that spins the node.
 _guard_conditions: weakref.WeakKeyDictionary[Node, Any] = weakref.WeakKeyDictionary()
@@ -37,17 +43,19 @@ def profile(qos: QoSProfile | int) -> QoSProfile:
 def open_subscriptions(request: Request) -> Subscriptions:
     """Subscribe natively or with raw subscriptions of the node, depending on `COFRAME_ROS2_WIRE`.
 
-    By default, the subscriptions are native if the middleware is based on DDS.
+    By default, the subscriptions are native if coframe can use the middleware of this ROS. With COFRAME_SHARED=1,
+    native subscriptions are shared with the other processes of this user.
 
     Raises:
         ValueError: The environment variable has another value.
     """
     _add_guard_condition(request.node)
-    wire = os.environ.get("COFRAME_ROS2_WIRE") or ("rclpy" if _is_zenoh() else "native")
+    wire = os.environ.get("COFRAME_ROS2_WIRE") or _default_wire(request.node)
     if wire not in _WIRES:
         raise ValueError(f"COFRAME_ROS2_WIRE is {wire!r}. Valid values: {', '.join(_WIRES)}.")
     if wire == "native":
-        return _NativeSubscriptions(request)
+        sharing = share(request, request.node.context.get_domain_id(), _to_wire)
+        return _NativeSubscriptions(request) if sharing is None else _SharedSubscriptions(request, sharing)
     # Only the native wire renames frames.
     return _RawSubscriptions(request) if request.renaming is None else CallbackSubscriptions(request)
 
@@ -77,8 +85,31 @@ def wake_executors() -> None:
             guard_condition.trigger()
 
 
-def _is_zenoh() -> bool:
-    return "zenoh" in get_rmw_implementation_identifier()
+def _default_wire(node: Node) -> str:
+    problem = _native_problem()
+    if problem is None:
+        return "native"
+    if problem not in _logged:
+        _logged.add(problem)
+        node.get_logger().info(f"Transforms are received through the ROS node (wire rclpy): {problem}")
+    return "rclpy"
+
+
+def _native_problem() -> str | None:
+    """Return why coframe cannot receive what the nodes of this ROS publish; None if it can."""
+    middleware = get_rmw_implementation_identifier()
+    needed = "zenoh" if "zenoh" in middleware else "dds"
+    if needed == "zenoh" and os.environ.get("ROS_DISTRO") == "humble":
+        return "the messages of Humble on Zenoh have no type hash, which coframe needs."
+    try:
+        if selection.select().wire != needed:
+            if os.environ.get(selection.VARIABLE):
+                return f"{selection.VARIABLE} selects another middleware than {middleware}."
+            os.environ[selection.VARIABLE] = needed
+        selection.check()
+    except WireError as error:
+        return f"{error} {error.hint}".strip()
+    return None
 
 
 def _add_guard_condition(node: Node) -> None:
@@ -138,6 +169,41 @@ def _to_wire(qos: QoSProfile) -> QoS:
         lifespan=qos.lifespan.nanoseconds or INFINITE,
         lease=qos.liveliness_lease_duration.nanoseconds or INFINITE,
     )
+
+
+class _SharedSubscriptions:
+    """The buffer reads the shared transforms, until the node ends or the program changes the buffer."""
+
+    def __init__(self, request: Request, sharing: Sharing) -> None:
+        # No reference to the node is kept, because it could never be garbage-collected.
+        self._own: _NativeSubscriptions | None = None
+        self._leave = weakref.finalize(request.node, sharing.leave)
+        self.dynamic = self.static = SharedReader(self.close)
+        self._node = weakref.ref(request.node)
+        assert request.dynamic is not None
+        self._request = partial(
+            Request,
+            buffer=request.buffer,
+            group=request.group,
+            renaming=request.renaming,
+            dynamic=replace(request.dynamic, callback=_ignore),
+            static=replace(request.static, callback=_ignore),
+        )
+        sharing.on_local_change(self._receive_alone)
+
+    def close(self) -> None:
+        self._leave()
+        if self._own is not None:
+            self._own.close()
+
+    def _receive_alone(self) -> None:
+        node = self._node()
+        if node is not None:
+            self._own = _NativeSubscriptions(self._request(node=node))
+
+
+def _ignore(message: TFMessage) -> None:
+    del message
 
 
 class _RawSubscriptions:

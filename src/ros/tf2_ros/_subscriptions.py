@@ -46,6 +46,7 @@ class Request:
         renaming: How frames are renamed; None if they are not.
         dynamic: The topic of dynamic transforms; None to subscribe to static transforms only.
         static: The topic of static transforms.
+        shared: Whether the buffer may read shared transforms.
     """
 
     node: Node
@@ -54,6 +55,7 @@ class Request:
     renaming: Renaming | None
     dynamic: Topic | None
     static: Topic
+    shared: bool = True
 
 
 class Subscriptions(Protocol):

@@ -99,7 +99,8 @@ class TransformListener:
         if self.__is_listening:
             previous = self.__subscriptions
             # The new subscriptions are created first, so that no message is lost in between.
-            self.__subscribe()
+            # A program replaces a buffer to forget transforms, so the new one must not contain those received before.
+            self.__subscribe(shared=False)
             previous.close()
 
     def unregister(self) -> None:
@@ -122,7 +123,7 @@ class TransformListener:
         for transform in renamed(data.transforms, self.__renaming):
             self.buffer.set_transform_static(transform, AUTHORITY)
 
-    def __subscribe(self) -> None:
+    def __subscribe(self, *, shared: bool = True) -> None:
         self.__is_listening = True
         qos = self.__qos
         request = Request(
@@ -132,6 +133,7 @@ class TransformListener:
             self.__renaming,
             None if self.__dynamic_topic is None else Topic(self.__dynamic_topic, qos[False], self.callback),
             Topic(self.__static_topic, qos[True], self.static_callback),
+            shared,
         )
         self.__subscriptions = open_subscriptions(request) if self.__is_plain() else CallbackSubscriptions(request)
         self.tf_sub, self.tf_static_sub = self.__subscriptions.dynamic, self.__subscriptions.static

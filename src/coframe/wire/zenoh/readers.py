@@ -160,6 +160,8 @@ class ZenohTfReader(_Subscription):
         self.writers = store.writers
         self.name_writer = store.name_writer
         self.forget_writer = store.forget_writer
+        self.writer_left = store.writer_left
+        self.settle_statics = store.settle_statics
         self._start(place, qos)
 
     def add(self, message: Received) -> None:

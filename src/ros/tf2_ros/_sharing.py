@@ -1,0 +1,117 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The shared transforms of a listener with COFRAME_SHARED=1: its buffer reads what one process receives for all."""
+
+# ruff: noqa: SLF001 - Sharing requires private members of tf2's buffers.
+
+from __future__ import annotations
+
+import logging
+import os
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
+
+from coframe._core import SegmentError
+from coframe.shared_transforms import SharedTransforms, Source
+from coframe.wire.qos import TF, TF_STATIC_READER
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from coframe.wire import QoS, Sample
+    from rclpy.qos import QoSProfile
+    from tf2_ros._subscriptions import Request
+
+_logger = logging.getLogger("coframe.wire")
+_logged: set[str] = set()
+
+
+def share(request: Request, domain: int, to_wire: Callable[[QoSProfile], QoS]) -> Sharing | None:
+    """Let the buffer of a listener read the shared transforms, and return its share.
+
+    Args:
+        request: What the listener subscribes to.
+        domain: The domain of its node.
+        to_wire: Converts the QoS profiles of the node's rclpy.
+
+    Returns:
+        None if sharing is not enabled, not possible here, or does not suit this listener.
+    """
+    if os.environ.get("COFRAME_SHARED") != "1" or not _is_usual(request, to_wire):
+        return None
+    assert request.dynamic is not None
+    dynamic, static = (request.node.resolve_topic_name(topic.name) for topic in (request.dynamic, request.static))
+    buffer = request.buffer._Coframe__buffer
+    try:
+        shared = SharedTransforms.join(Source(domain, dynamic, static, cache=buffer.cache_ns))
+    except SegmentError as error:
+        text = f"The transforms are not shared with other processes: {error}"
+        if text not in _logged:
+            _logged.add(text)
+            _logger.warning(text)
+        return None
+    if not shared.follow(buffer):
+        shared.leave()
+        return None
+    return Sharing(buffer, shared, (dynamic, static))
+
+
+def _is_usual(request: Request, to_wire: Callable[[QoSProfile], QoS]) -> bool:
+    """Return whether the listener subscribes like all others: to both topics, with the usual QoS, names and clock."""
+    clock: Any = request.node.get_clock()
+    if not request.shared or request.dynamic is None or request.renaming is not None or clock.ros_time_is_active:
+        return False
+    qos = [to_wire(topic.qos) for topic in (request.dynamic, request.static)]
+    return [replace(one, depth=100) for one in qos] == [replace(usual, depth=100) for usual in (TF, TF_STATIC_READER)]
+
+
+class Sharing:
+    """The share of one listener in the shared transforms.
+
+    Attributes:
+        buffer: The buffer of coframe that reads them.
+        topics: The names of the topics of dynamic and static transforms.
+    """
+
+    def __init__(self, buffer: Any, shared: SharedTransforms, topics: tuple[str, str]) -> None:
+        self.buffer = buffer
+        self.topics = topics
+        self._shared: SharedTransforms | None = shared
+        self._receive_alone: Callable[[], object] = lambda: None
+
+    def on_local_change(self, receive_alone: Callable[[], object]) -> None:
+        """Call a function when the program changes the buffer, which then is one of its own."""
+        self._receive_alone = receive_alone
+        self.buffer._on_local_change(self.end)
+
+    def end(self) -> None:
+        """Stop sharing and receive alone. A second call has no effect."""
+        if self._shared is not None:
+            self.buffer._stop_following()
+            self._receive_alone()
+            self.leave()
+
+    def leave(self) -> None:
+        """Stop sharing. The buffer keeps its transforms. A second call has no effect."""
+        shared, self._shared = self._shared, None
+        if shared is not None:
+            self.buffer._on_local_change(None)
+            self.buffer._stop_following()
+            shared.leave()
+
+
+class SharedReader:
+    """What a node or a listener closes instead of a reader of its own."""
+
+    matched = 0
+
+    def __init__(self, close: Callable[[], None]) -> None:
+        self.close = close
+
+    def pending(self) -> bool:
+        """Return False: it never queues messages."""
+        return False
+
+    def take(self, limit: int = 100) -> list[Sample]:
+        """Return no messages: it never queues them."""
+        del limit
+        return []
