@@ -12,7 +12,7 @@ ANY_PYTHON = $(if $(wildcard $(BIN)/python),$(BIN)/python,python3)
 BUILD_TOOLS = $(shell sed -n 's/^requires = \[\(.*\)\]/\1/p' pyproject.toml | sed 's/", "/" "/g')
 
 .DEFAULT_GOAL := help
-.PHONY: help setup build build-split demo test test-zenoh test-slow test-long test-ros test-ros-wheels sanitize sanitize-suite fuzz faults soak docs lint licences audit typecheck format conformance bench generate page page-check clean
+.PHONY: help setup build build-split demo test test-zenoh test-shared test-slow test-long test-ros test-ros-wheels sanitize sanitize-suite fuzz faults soak docs lint licences audit typecheck format conformance bench generate page page-check clean
 
 help: ## list the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  make %-12s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -51,6 +51,10 @@ test-zenoh: $(STAMP) ## run the tests of the running graph over Zenoh instead of
 	COFRAME_WIRE=zenoh $(BIN)/python -m pytest --numprocesses 2 --dist loadfile --no-loadscope-reorder \
 		--ignore tests/wire/test_router.py --ignore tests/wire/test_wan.py \
 		tests/wire tests/rclpy tests/tf2 tests/recorder tests/lab tests/viewer $(ARGS)
+
+test-shared: $(STAMP) ## run the tests of programs that use tf2_ros with transforms that processes share (Linux)
+	COFRAME_SHARED=1 $(BIN)/python -m pytest --numprocesses 2 --dist loadfile --no-loadscope-reorder \
+		tests/tf2 tests/rclpy tests/packages tests/lab tests/doctor tests/process $(ARGS)
 
 $(VENV)/.oracle: pyproject.toml | $(STAMP)
 	@$(BIN)/python -m pip install --quiet "pip>=25.1" && $(BIN)/python -m pip install --quiet --group oracle && touch $@ || \

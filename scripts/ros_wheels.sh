@@ -1,11 +1,13 @@
 #!/bin/sh
 # SPDX-License-Identifier: Apache-2.0
-# Grade the solution of the lab on ROS 2 Kilted from wheels: its own rclpy, message classes and Fast DDS, without an installation of ROS.
+# Test coframe on ROS 2 Kilted from wheels: its own rclpy, message classes and Fast DDS, without an installation of ROS. Grades the
+# solution of the lab, and verifies coframe.ros2 with real nodes and messages.
 #
 #   ros_wheels.sh [FOLDER]   FOLDER (default: build/ros_wheels) keeps the virtual environment for the next time
 #
 # Requires Linux on x86-64, Python 3.10 to 3.13 with its headers, and a C compiler. There are no wheels of tf2: tf2_msgs is
-# generated here from its definition, by ROS's own generators, and tf2_ros is tests/course/tf2_on_rclpy.
+# generated here from its definitions, by ROS's own generators, tf2_ros is tests/course/tf2_on_rclpy, and for coframe.ros2 the
+# tf2_geometry_msgs of that ROS is a copy of coframe's.
 # On a machine with a complete ROS 2, `make test-ros` checks the same with all its packages.
 set -eu
 folder=${1:-build/ros_wheels}
@@ -34,15 +36,21 @@ if [ ! -e "$folder/.ros" ]; then
     grep -rlE "/opt/python" "$venv"/share/*/cmake | xargs -r sed -i -E \
         "s#/opt/python/[^;\" ]*numpy/_?core/include#$numpy#g; s#/opt/python/cp[0-9]+-cp[0-9]+/include/python3\.[0-9]+#$headers#g"
 
-    mkdir -p "$folder/tf2_msgs/msg"
-    cp "$checkout/interfaces/tf2_msgs/msg/TFMessage.msg" "$folder/tf2_msgs/msg/"
+    touch "$folder/.ros"
+fi
+
+if [ ! -e "$folder/.tf2_msgs" ]; then
+    rm -rf "$folder/tf2_msgs" "$folder/build"
+    cp -r "$checkout/interfaces/tf2_msgs" "$folder/tf2_msgs"
     cat > "$folder/tf2_msgs/CMakeLists.txt" <<'CMAKE'
 cmake_minimum_required(VERSION 3.20)
 project(tf2_msgs)
 find_package(ament_cmake REQUIRED)
+find_package(action_msgs REQUIRED)
 find_package(geometry_msgs REQUIRED)
 find_package(rosidl_default_generators REQUIRED)
-rosidl_generate_interfaces(${PROJECT_NAME} "msg/TFMessage.msg" DEPENDENCIES geometry_msgs)
+rosidl_generate_interfaces(${PROJECT_NAME} "msg/TFMessage.msg" "msg/TF2Error.msg" "srv/FrameGraph.srv"
+  "action/LookupTransform.action" DEPENDENCIES action_msgs builtin_interfaces geometry_msgs)
 ament_package()
 CMAKE
     cat > "$folder/tf2_msgs/package.xml" <<'XML'
@@ -51,7 +59,7 @@ CMAKE
   <name>tf2_msgs</name><version>0.0.0</version><description>Messages of tf2</description>
   <maintainer email="tf2@example.org">tf2</maintainer><license>BSD</license>
   <buildtool_depend>ament_cmake</buildtool_depend><buildtool_depend>rosidl_default_generators</buildtool_depend>
-  <depend>geometry_msgs</depend><exec_depend>rosidl_default_runtime</exec_depend>
+  <depend>action_msgs</depend><depend>geometry_msgs</depend><exec_depend>rosidl_default_runtime</exec_depend>
   <member_of_group>rosidl_interface_packages</member_of_group>
   <export><build_type>ament_cmake</build_type></export>
 </package>
@@ -61,8 +69,13 @@ XML
         -DPython3_EXECUTABLE="$bin/python" > "$folder/log" || { cat "$folder/log"; exit 1; }
     cmake --build "$folder/build" > "$folder/log" || { cat "$folder/log"; exit 1; }
     cmake --install "$folder/build" > "$folder/log"
-    touch "$folder/.ros"
+    touch "$folder/.tf2_msgs"
 fi
+
+rm -rf "$folder/packages"
+mkdir -p "$folder/packages"
+cp -r "$checkout/src/ros/tf2_geometry_msgs" "$folder/packages/"
+sed -i -E '/^from coframe import ros_side$|^ros_side\.check/d' "$folder/packages/tf2_geometry_msgs/__init__.py"
 
 "$bin/python" -m pip install --quiet --force-reinstall --no-deps "$checkout"
 "$bin/python" -m pip install --quiet "coframe[all]"
@@ -70,3 +83,5 @@ cd "$checkout"
 "$bin/python" -c 'import rclpy; print("rclpy:", rclpy.__file__, rclpy.get_rmw_implementation_identifier())'
 COFRAME_TEST_ROS=1 PYTHONPATH="$checkout/tests/course/tf2_on_rclpy" AMENT_PREFIX_PATH="$venv" \
     "$bin/python" -m pytest tests/course/test_sourced_ros.py -v -p no:cacheprovider
+PYTHONPATH="$folder/packages" AMENT_PREFIX_PATH="$venv" LD_LIBRARY_PATH="$venv/lib" \
+    "$bin/python" tests/process/inside_ros2/verify.py

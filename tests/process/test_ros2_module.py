@@ -43,6 +43,15 @@ def test_nodes_of_that_side_get_coframes_buffer(sourced, wire, as_import):
     assert result.stdout == "passed\n", result.stderr
 
 
+@pytest.mark.usefixtures("domain_id")
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="transforms are shared on Linux only")
+def test_nodes_of_that_side_share_transforms(sourced):
+    pytest.importorskip("cyclonedds", reason="the stand-in speaks DDS")
+    environment = {**ros_stand_in.environment(sourced), "COFRAME_SHARED": "1"}
+    result = verify.listen(environment, "native", as_import=True)
+    assert result.stdout == "passed\n", result.stderr
+
+
 def test_importing_after_tf2_is_refused(sourced):
     code = "import tf2_ros\nimport coframe.ros2"
     result = run(ros_stand_in.environment(sourced), sys.executable, "-c", code)

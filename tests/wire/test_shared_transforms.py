@@ -15,8 +15,9 @@ import numpy as np
 import pytest
 
 import coframe
-from coframe import _core
+from coframe import _core, shared_transforms
 from coframe.messages import find
+from coframe.messages.codec import serialize
 from coframe.shared_transforms import SharedTransforms
 
 pytestmark = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="transforms are shared on Linux only")
@@ -75,6 +76,21 @@ class Reader:
     def end(self):
         self.process.communicate(timeout=30)
         assert self.process.returncode == 0
+
+
+@pytest.fixture
+def start_reader(domain_id):
+    """Starts processes that share transforms, and ends them after the test."""
+    readers = []
+
+    def start():
+        readers.append(Reader(domain_id))
+        return readers[-1]
+
+    yield start
+    for reader in readers:
+        if reader.process.poll() is None:
+            reader.end()
 
 
 @pytest.fixture
@@ -181,6 +197,89 @@ def test_a_hub_receives_for_the_others(domain_id, eventually):
         hub.communicate(timeout=30)
         assert hub.returncode == 0
         eventually(lambda: ros._shared.writes)
+
+
+def publish_statics(broadcaster, *children):
+    broadcaster.write(serialize(MESSAGE(transforms=[transform("base", child, 0) for child in children])))
+
+
+@pytest.fixture
+def statics(receiver):
+    """A broadcaster of static transforms of another process, as far as the subscriptions can tell."""
+    node = receiver.participant.add_node("/", "statics")
+    yield receiver.participant.static_broadcaster(node)
+    node.close()
+
+
+def test_a_late_listener_does_not_see_withdrawn_statics(receiver, statics, start_reader):
+    publish_statics(statics, "lidar", "camera")
+    receiver.buffer.wait("base", "camera", timeout="30s")
+    same = start_reader()
+    assert same("ros._shared.writer_process") == os.getpid()
+    publish_statics(statics, "lidar")
+    receiver.buffer.wait("map", "base", receiver.buffer.lookup("map", "base").stamp + 1, timeout="30s")
+    late, later = start_reader(), start_reader()
+    for reader in (late, later):
+        assert reader("ros.buffer.wait('base', 'lidar', timeout='30s').x") == 1.0
+        assert reader("'camera' in ros.buffer.frame_names()") is False
+        assert reader("ros._shared.writer_process") == late.process.pid, "late listeners share with each other"
+    assert same("'camera' in ros.buffer.frame_names()") is True
+    publish_statics(statics, "lidar", "camera")
+    receiver.buffer.wait("map", "base", receiver.buffer.lookup("map", "base").stamp + 1, timeout="30s")
+    assert start_reader()("ros._shared.writer_process") == os.getpid(), "all of the first memory is published again"
+
+
+def test_statics_of_a_publisher_that_has_ended_are_withdrawn(receiver, eventually):
+    node = receiver.participant.add_node("/", "statics")
+    publish_statics(receiver.participant.static_broadcaster(node), "lidar")
+    assert receiver.buffer.wait("base", "lidar", timeout="30s").x == 1.0
+    assert not receiver._shared.outdated
+    node.close()
+    eventually(lambda: receiver._shared.outdated)
+    assert receiver.buffer.lookup("base", "lidar").x == 1.0
+
+
+def test_statics_stay_published_when_another_process_takes_over(domain_id, start_reader):
+    with broadcasting(domain_id) as ros:
+        publish_statics(ros.participant.static_broadcaster(ros.node), "lidar")
+        writer, reader = start_reader(), start_reader()
+        assert reader("ros.buffer.wait('base', 'lidar', timeout='30s').x") == 1.0
+        os.kill(writer.process.pid, signal.SIGKILL)
+        writer.process.communicate()
+        assert reader("ros.buffer.wait('map', 'base', time.time_ns() + 100_000_000, timeout='30s').x") == 3.0
+        assert reader("ros._shared.writes and not ros._shared.outdated")
+        assert reader("ros.wait_for_statics('30s')")
+        assert reader("[one.settle_statics() for one in ros._shared.readers]") == [None, None]
+        assert reader("ros._shared.outdated") is False
+
+
+def hub_status(domain, *, code):
+    words = [sys.executable, "-m", "coframe.cli", "hub", "--status", "--domain", str(domain)]
+    status = subprocess.run(words, capture_output=True, text=True, timeout=60, check=False)
+    assert (status.returncode, status.stderr) == (code, "")
+    return status.stdout
+
+
+def test_status_of_the_receiving_process(domain_id, start_reader, caplog, monkeypatch, eventually):
+    topics = f"/tf and /tf_static in domain {domain_id}"
+    assert hub_status(domain_id, code=1) == f"No process receives {topics} for others.\n"
+    with broadcasting(domain_id):
+        receiver = start_reader()
+        process = receiver.process.pid
+        assert f"Process {process} receives {topics} for all programs that share transforms: 2 frames in" in hub_status(
+            domain_id, code=0
+        )
+        monkeypatch.setattr(shared_transforms, "_VACANCY_TIMEOUT", 10_000_000)
+        with coframe.connect("reader", domain=domain_id, shared=True) as ros:
+            os.kill(process, signal.SIGSTOP)
+            try:
+                eventually(lambda: ros._shared.writer_is_suspended)
+                sentence = f"Process {process}, which receives the shared transforms, is suspended: no new transforms"
+                assert sentence in hub_status(domain_id, code=1)
+                eventually(lambda: sentence in caplog.text)
+                assert ros.buffer.lookup("map", "base").x == 3.0
+            finally:
+                os.kill(process, signal.SIGCONT)
 
 
 def test_nothing_is_left_when_the_last_one_leaves(domain_id):

@@ -45,14 +45,18 @@ with contextlib.suppress(tf2_py.LookupException):
     sys.exit("the lookup of an unknown frame succeeded")
 
 
-async def wait():
+def wait_for(frame, time):
     """Wait in a coroutine of the executor, which has nothing else to do."""
-    return await buffer.wait_for_transform_async("odom", "lidar", Time())
+
+    async def wait():
+        return await buffer.wait_for_transform_async("odom", frame, time)
+
+    task = executor.create_task(wait())
+    executor.spin_until_future_complete(task, timeout_sec=20)
+    return task.result()
 
 
-task = executor.create_task(wait())
-executor.spin_until_future_complete(task, timeout_sec=20)
-result = task.result()
+result = wait_for("lidar", Time())
 assert result.transform.translation.x == 3.0, result
 # coframe's classes are in geometry_msgs.msg.
 assert type(result).__module__.startswith("geometry_msgs.msg._"), type(result).__module__
@@ -64,8 +68,25 @@ assert moved.point.x == 3.0, moved
 assert type(moved) is PointStamped
 assert type(buffer.get_latest_common_time("odom", "base")) is Time
 
-names = [name for name, _ in node.get_node_names_and_namespaces()]
-assert ("_listener_coframe_tf" in names) is (sys.argv[1] == "native"), names
+native = sys.argv[1] == "native"
+shared = native and os.environ.get("COFRAME_SHARED") == "1"
+
+
+def hidden():
+    """Return whether there is a node of this listener's own."""
+    return "_listener_coframe_tf" in [name for name, _ in node.get_node_names_and_namespaces()]
+
+
+assert hidden() is (native and not shared)
+assert buffer._Coframe__buffer._following is shared
+# A change by the program ends the sharing, and the listener continues to receive.
+result.child_frame_id = "own"
+buffer.set_transform(result, "program")
+assert not buffer._Coframe__buffer._following
+assert buffer.can_transform("odom", "own", Time())
+now = node.get_clock().now()
+assert Time.from_msg(wait_for("base", now).header.stamp) == now
+assert not native or hidden()
 listener.unregister()
 buffer.clear()
 assert not buffer.can_transform("odom", "base", Time(), Duration(seconds=0.2))

@@ -5,13 +5,15 @@
     python3 tests/process/inside_ros2/verify.py
 
 coframe must be installed for the Python of that ROS. The script runs talker.py and listener.py with each installed
-middleware, with remapped topics, natively and through rclpy, as an import and as ``python -m coframe.ros2``. It prints
-one line for each and fails if one of them fails.
+middleware, with remapped topics, natively, with shared transforms and through rclpy, as an import and as
+``python -m coframe.ros2``. It prints one line for each and fails if one of them fails. With rmw_zenoh_cpp, start its
+router before; native subscriptions then need coframe[zenoh].
 """
 
 import os
 import subprocess
 import sys
+from importlib.util import find_spec
 from pathlib import Path
 
 FOLDER = Path(__file__).parent
@@ -44,15 +46,17 @@ def main() -> int:
         if not any((Path(prefix) / "share" / middleware).is_dir() for prefix in prefixes):
             print(f"{middleware}: not installed")
             continue
-        wires = ("rclpy",) if middleware == "rmw_zenoh_cpp" else ("native", "rclpy")
-        for wire in wires:
+        is_native = middleware != "rmw_zenoh_cpp" or find_spec("zenoh") is not None
+        ways = [("native", "0"), ("native", "1"), ("rclpy", "0")] if is_native else [("rclpy", "0")]
+        for wire, shared in ways:
             for as_import in (True, False):
-                environment = {**os.environ, "RMW_IMPLEMENTATION": middleware}
+                environment = {**os.environ, "RMW_IMPLEMENTATION": middleware, "COFRAME_SHARED": shared}
                 result = listen(environment, wire, as_import=as_import)
                 failed = result.stdout != "passed\n"
                 failures += failed
                 how = "import" if as_import else "python -m coframe.ros2"
-                print(f"{middleware}, {wire}, {how}: {result.stderr if failed else 'passed'}")
+                how = f"shared, {how}" if shared == "1" else how
+                print(f"{middleware}, {wire}, {how}: {result.stderr if failed else 'passed'}", flush=True)
     return failures
 
 
