@@ -15,10 +15,15 @@ Values = NDArray[np.float64]
 def filled(depth: int, samples: int = motion.SAMPLES) -> coframe.Buffer:
     """Return a buffer with unlimited history that contains a chain of this depth."""
     buffer = coframe.Buffer(None)
+    fill(buffer, depth, samples)
+    return buffer
+
+
+def fill(buffer: coframe.Buffer, depth: int, samples: int = motion.SAMPLES) -> None:
+    """Store the chain in a buffer."""
     for edge in range(depth):
         for index in range(samples):
             store(buffer, edge, motion.stamp(edge, index), motion.values(edge, index))
-    return buffer
 
 
 def store(

@@ -15,6 +15,7 @@ from benchmarks.rows import (
     robots,
     router,
     sensors,
+    shared,
     single,
     startup,
     viewer,
@@ -22,6 +23,7 @@ from benchmarks.rows import (
 
 ROWS = {
     "single": single.ROWS,
+    "shared": shared.ROWS,
     "insertion": insertion.ROWS,
     "batch": batch.ROWS,
     "sensors": sensors.ROWS,

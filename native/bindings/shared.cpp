@@ -6,6 +6,8 @@
 #include <nanobind/stl/string.h>
 
 #include <memory>
+#include <string>
+#include <utility>
 
 #include "bindings/bindings.hpp"
 #include "bindings/buffer.hpp"
@@ -25,8 +27,15 @@ void define_shared(nb::module_& module) {
           arg("folder"), arg("name"), arg("cache_ns"), ReleaseGil(),
           "Open a tree, or create it; raise SegmentError if sharing is not possible here.")
       .def(
-          "follow", [](Segment& self, BufferObject& buffer) { return buffer.core->follow(self.reader()); },
-          arg("buffer"), "Let an empty buffer read the tree from now on; return False if it is not empty.")
+          "follow",
+          [](Segment& self, BufferObject& buffer, const std::string& authority) {
+            SharedTreeData tree = self.reader();
+            tree.authority = authority;
+            return buffer.core->follow(std::move(tree));
+          },
+          arg("buffer"), arg("authority") = "",
+          "Let an empty buffer read the tree from now on; return False if it is not empty. With an authority, that is "
+          "the source of all transforms.")
       .def("try_to_write", &Segment::try_to_write, "Become the writer if there is none; return whether it is.")
       .def(
           "write", [](Segment& self, BufferObject& buffer) { buffer.core = std::make_shared<Buffer>(self.writer()); },

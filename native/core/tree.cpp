@@ -119,6 +119,7 @@ std::unique_ptr<Tree::Storage> Tree::shared_storage(SharedTreeData shared) {
   storage->data = shared.data;
   storage->shared = true;
   storage->access = std::move(shared.access);
+  storage->authority = std::move(shared.authority);
   if (!storage->memory) return storage;
   storage->pool = std::make_shared<ChunkPool>(*storage->memory, storage->data->chunks);
   if (!storage->data->nothing.load()) storage->data->nothing.store(storage->memory->make<Chunk>());

@@ -59,7 +59,10 @@ class Tree {
   }
   Frame& frame(FrameId id) { return const_cast<Frame&>(std::as_const(*this).frame(id)); }
 
-  std::string authority_name(AuthorityId id) const { return std::string(data().authorities[id].view()); }
+  std::string authority_name(AuthorityId id) const {
+    const std::string& all = storage().authority;
+    return all.empty() ? std::string(data().authorities[id].view()) : all;
+  }
   Stamp cache_length() const { return data().cache_length; }
   const TreeCounts& counts() const { return data().counts; }
   // Changes whenever a known path may have changed.
@@ -138,6 +141,7 @@ class Tree {
     TreeData* data;
     bool shared;
     std::shared_ptr<SharedAccess> access;
+    std::string authority;  // of all transforms; empty: the recorded ones
     std::shared_ptr<const void> kept;
     std::optional<HistoryStorage> parts;  // of a writer
 

@@ -357,8 +357,11 @@ class Segment:
     def open(folder: str, name: str, cache_ns: int) -> Segment:
         """Open a tree, or create it; raise SegmentError if sharing is not possible here."""
 
-    def follow(self, buffer: Buffer) -> bool:
-        """Let an empty buffer read the tree from now on; return False if it is not empty."""
+    def follow(self, buffer: Buffer, authority: str = "") -> bool:
+        """Let an empty buffer read the tree from now on; return False if it is not empty.
+
+        With an authority, that is the source of all transforms.
+        """
 
     def try_to_write(self) -> bool:
         """Become the writer if there is none; return whether it is."""

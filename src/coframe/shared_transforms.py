@@ -146,9 +146,17 @@ class SharedTransforms:
             del self._instances[self._key]
         self.close()
 
-    def follow(self, buffer: Buffer) -> bool:
-        """Let an empty buffer read the shared transforms; return False if the buffer is not empty."""
-        return self._segment.follow(buffer)
+    def follow(self, buffer: Buffer, authority: str = "") -> bool:
+        """Let an empty buffer read the shared transforms.
+
+        Args:
+            buffer: The buffer.
+            authority: The source of all transforms, as the buffer reports it. Empty: the publishing nodes.
+
+        Returns:
+            False if the buffer is not empty.
+        """
+        return self._segment.follow(buffer, authority)
 
     @property
     def outdated(self) -> bool:

@@ -6,8 +6,9 @@ use them, such as tf2_geometry_msgs, work with the same classes. All other packa
 sourced ROS, the classes are those of coframe's tf2_ros.
 
 A listener receives transforms in native code, without the interpreter lock and without an executor, through a hidden
-node of coframe in the domain and namespace of the ROS node. This works with every middleware that is based on DDS. With
-``COFRAME_ROS2_WIRE=rclpy``, it subscribes through the ROS node instead, which works with every middleware.
+node of coframe in the domain and namespace of the ROS node. This works with every middleware that is based on DDS, and
+with rmw_zenoh if coframe[zenoh] is installed. With ``COFRAME_ROS2_WIRE=rclpy``, it subscribes through the ROS node
+instead, which works with every middleware.
 
 ``python -m coframe.ros2 node.py`` runs an unchanged program in the same way.
 

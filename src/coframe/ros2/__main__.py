@@ -22,8 +22,8 @@ def main() -> None:
     parser.add_argument(
         "--wire",
         choices=("native", "rclpy"),
-        help="How listeners receive transforms: by coframe over DDS (native), or through the ROS node (rclpy). "
-        "Default: COFRAME_ROS2_WIRE, or native.",
+        help="How listeners receive transforms: by coframe (native), or through the ROS node (rclpy). "
+        "Default: COFRAME_ROS2_WIRE, or native where coframe can use the middleware.",
     )
     parser.add_argument("-m", dest="module", action="store_true", help="PROGRAM is the name of a module.")
     parser.add_argument("program", metavar="PROGRAM", help="The program's file, or with -m its module.")

@@ -71,7 +71,6 @@ class TfReader(LocalEndpoint):
         self._reader = native
         self._node_names: dict[int, str] | None = {} if name_writers else None
         self._departed: deque[int] = deque()
-        self._discovered: set[int] = set()
         self._naming = threading.Lock()
         super().__init__(native, node, endpoint, qos)
 
@@ -116,10 +115,10 @@ class TfReader(LocalEndpoint):
         if self._node_names is None or self._closed:
             return
         with self._naming:
-            writers = graph.writers(self.topic)
-            for handle in self._discovered - writers.keys():
+            received = [known[0] for known in self._reader.writers()] if self.static else []
+            writers = graph.writers(self.topic)  # after that, so that it contains all of these that still exist
+            for handle in set(received) - writers.keys():
                 self._reader.writer_left(handle)
-            self._discovered = set(writers)
             for handle in self._node_names.keys() - writers.keys():
                 self._departed.append(handle)
                 del self._node_names[handle]

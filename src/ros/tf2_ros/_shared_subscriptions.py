@@ -68,7 +68,7 @@ class SharedSubscriptions:
             self._own.close()
 
     def _stand_in(self, topic: Topic, name: str, destroyed: Callable[[], None]) -> Subscription:
-        reader: Any = SharedReader(destroyed)
+        reader: Any = SharedReader(destroyed, lambda: self._sharing.count_publishers(self._request.node, name))
         subscription = Subscription(
             reader, TFMessage, name, name, topic.callback, self._request.group, topic.qos, raw=False
         )

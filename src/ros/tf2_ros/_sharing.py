@@ -13,11 +13,13 @@ from typing import TYPE_CHECKING, Any
 from coframe._core import SegmentError
 from coframe.shared_transforms import SharedTransforms, Source
 from coframe.wire.qos import TF, TF_STATIC_READER
+from tf2_ros._subscriptions import AUTHORITY
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from coframe.wire import QoS, Sample
+    from rclpy.node import Node
     from rclpy.qos import QoSProfile
     from tf2_ros._subscriptions import Request
 
@@ -49,7 +51,7 @@ def share(request: Request, domain: int, to_wire: Callable[[QoSProfile], QoS]) -
             _logged.add(text)
             _logger.warning(text)
         return None
-    if not shared.follow(buffer):
+    if not shared.follow(buffer, AUTHORITY):
         shared.leave()
         return None
     return Sharing(buffer, shared, (dynamic, static))
@@ -78,6 +80,11 @@ class Sharing:
         self._shared: SharedTransforms | None = shared
         self._receive_alone: Callable[[], object] = lambda: None
 
+    def count_publishers(self, node: Node, topic: str) -> int:
+        """Return how many publishers of a topic the receiving process has found, as far as this process can know."""
+        readers = [] if self._shared is None else self._shared.readers
+        return readers[self.topics.index(topic)].matched if readers else node.count_publishers(topic)
+
     def on_local_change(self, receive_alone: Callable[[], object]) -> None:
         """Call a function when the program changes the buffer, which then is one of its own."""
         self._receive_alone = receive_alone
@@ -102,10 +109,14 @@ class Sharing:
 class SharedReader:
     """What a node or a listener closes instead of a reader of its own."""
 
-    matched = 0
-
-    def __init__(self, close: Callable[[], None]) -> None:
+    def __init__(self, close: Callable[[], None], count_publishers: Callable[[], int]) -> None:
         self.close = close
+        self._count_publishers = count_publishers
+
+    @property
+    def matched(self) -> int:
+        """The number of publishers on the topic."""
+        return self._count_publishers()
 
     def pending(self) -> bool:
         """Return False: it never queues messages."""

@@ -120,7 +120,7 @@ def _add_guard_condition(node: Node) -> None:
 class _NativeSubscriptions:
     """Subscriptions of a hidden node of coframe with the name, namespace and domain of the ROS node.
 
-    They work with every middleware that is based on DDS, and end with the node at the latest.
+    They work with every middleware that coframe can use, and end with the node at the latest.
     """
 
     def __init__(self, request: Request) -> None:
@@ -176,10 +176,11 @@ class _SharedSubscriptions:
 
     def __init__(self, request: Request, sharing: Sharing) -> None:
         # No reference to the node is kept, because it could never be garbage-collected.
+        self._sharing = sharing
         self._own: _NativeSubscriptions | None = None
         self._leave = weakref.finalize(request.node, sharing.leave)
-        self.dynamic = self.static = SharedReader(self.close)
         self._node = weakref.ref(request.node)
+        self.dynamic, self.static = (SharedReader(self.close, partial(self._count, topic)) for topic in sharing.topics)
         assert request.dynamic is not None
         self._request = partial(
             Request,
@@ -190,6 +191,10 @@ class _SharedSubscriptions:
             static=replace(request.static, callback=_ignore),
         )
         sharing.on_local_change(self._receive_alone)
+
+    def _count(self, topic: str) -> int:
+        node = self._node()
+        return 0 if node is None else self._sharing.count_publishers(node, topic)
 
     def close(self) -> None:
         self._leave()
