@@ -13,6 +13,7 @@ from benchmarks.rows import ROWS  # noqa: E402
 
 _TITLES = {
     "single": "One lookup",
+    "shared": "Transforms that processes share",
     "insertion": "Insertion of transforms",
     "batch": "Many lookups in one call",
     "sensors": "Point clouds and deskewing",

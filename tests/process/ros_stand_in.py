@@ -4,8 +4,9 @@
 They are a copy of coframe's packages in which every module for messages and DDS and every private member has another
 name, so that no class is shared with coframe and nothing private can be used. Where ROS 2 Humble differs in a way that
 matters to coframe's own packages, so does the copy: message classes name private modules such as sensor_msgs.msg._imu,
-`rclpy.init()` returns None, `RCLError` is only in `rclpy._rclpy_pybind11`, the Python package joint_state_publisher has
-no names, and tf2_sensor_msgs, tf2_nav_msgs, tf_transformations and robot_state_publisher cannot be imported.
+`rclpy.init()` returns None, RMW_IMPLEMENTATION names the middleware, `RCLError` is only in `rclpy._rclpy_pybind11`, the
+Python package joint_state_publisher has no names, and tf2_sensor_msgs, tf2_nav_msgs, tf_transformations and
+robot_state_publisher cannot be imported.
 """
 
 import os
@@ -46,6 +47,12 @@ def make(folder: Path) -> None:
     _append(
         folder / "rclpy" / "__init__.py",
         "_init = init\ndef init(**options):\n    _init(**options)\n",
+    )
+    _append(
+        folder / "rclpy" / "utilities.py",
+        "import os\n"
+        "def get_rmw_implementation_identifier():\n"
+        "    return os.environ.get('RMW_IMPLEMENTATION', 'rmw_cyclonedds_cpp')\n",
     )
     (folder / "joint_state_publisher").mkdir()
     (folder / "joint_state_publisher" / "__init__.py").touch()

@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 import ros_stand_in
 from inside_ros2 import verify
+from zenoh_router import Router
 
 from coframe import ros_folders
 
@@ -49,6 +50,39 @@ def test_nodes_of_that_side_share_transforms(sourced):
     pytest.importorskip("cyclonedds", reason="the stand-in speaks DDS")
     environment = {**ros_stand_in.environment(sourced), "COFRAME_SHARED": "1"}
     result = verify.listen(environment, "native", as_import=True)
+    assert result.stdout == "passed\n", result.stderr
+
+
+@pytest.mark.parametrize(
+    ("variables", "problem"),
+    [
+        ({"RMW_IMPLEMENTATION": "rmw_fastrtps_cpp"}, "None"),
+        ({"RMW_IMPLEMENTATION": "rmw_zenoh_cpp", "ROS_DISTRO": "jazzy"}, "None"),
+        ({"RMW_IMPLEMENTATION": "rmw_zenoh_cpp"}, "the messages of Humble on Zenoh have no type hash"),
+        (
+            {"RMW_IMPLEMENTATION": "rmw_fastrtps_cpp", "COFRAME_WIRE": "zenoh"},
+            "COFRAME_WIRE selects another middleware than rmw_fastrtps_cpp.",
+        ),
+    ],
+)
+def test_whether_listeners_are_native_by_default(sourced, variables, problem):
+    pytest.importorskip("cyclonedds", reason="native listeners need a DDS library")
+    pytest.importorskip("zenoh", reason="native listeners need coframe[zenoh]")
+    environment = ros_stand_in.environment(sourced)
+    environment.pop("COFRAME_WIRE", None)
+    code = "import coframe.ros2\nfrom tf2_ros import _side_sourced\nprint(_side_sourced._native_problem())"
+    assert run(environment | variables, sys.executable, "-c", code).stdout.startswith(problem)
+
+
+@pytest.mark.usefixtures("domain_id")
+def test_native_listeners_over_zenoh(sourced):
+    pytest.importorskip("zenoh", reason="the nodes use Zenoh")
+    router = Router()
+    zenoh = router.environment() | {"RMW_IMPLEMENTATION": "rmw_zenoh_cpp", "ROS_DISTRO": "jazzy"}
+    try:
+        result = verify.listen(ros_stand_in.environment(sourced) | zenoh, "native", as_import=True)
+    finally:
+        router.close()
     assert result.stdout == "passed\n", result.stderr
 
 
