@@ -3,10 +3,11 @@
 
     python -m benchmarks.shared [READERS] [KILLS]
 
-A broadcaster publishes 10 transforms at 1 kHz. READERS processes (50) look one up at 10 Hz. Then KILLS times (20) the
-process that receives is killed. The load is in per cent of one core. The programs themselves, without a listener, are
-measured first: READERS processes that look up at 10 Hz in a buffer that they have filled. The rest is the cost of
-listening. The memory is what a reader has of its own (USS) beyond such a program.
+A broadcaster publishes 10 transforms at 1 kHz. READERS processes (50) look one up at 10 Hz in shared transforms, one
+process in those of a listener of its own, and READERS further processes in a buffer that they have filled: the programs
+themselves. What the others use more is the cost of listening, in per cent of one core. All run at the same time, so
+that the ratio does not depend on what else the machine does. The memory is what a reader has of its own (USS) beyond
+such a program. Then KILLS times (20) the process that receives is killed.
 """
 
 from __future__ import annotations
@@ -28,7 +29,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
 DOMAIN = 97
-SECONDS = 10.0
+SECONDS = 20.0
 FRAMES, RATE, LOOKUPS = 10, 1000, 10
 
 BROADCASTER = f"""
@@ -98,19 +99,16 @@ def _start(*program: str) -> subprocess.Popen[str]:
 
 
 def _processor_time(processes: list[subprocess.Popen[str]]) -> float:
-    """Return the processor time of processes in seconds."""
-    ticks = 0
-    for process in processes:
-        fields = Path(f"/proc/{process.pid}/stat").read_text(encoding="ascii").rpartition(")")[2].split()
-        ticks += int(fields[11]) + int(fields[12])
-    return ticks / 100
+    """Return the processor time of the threads of processes in seconds."""
+    files = [file for process in processes for file in Path(f"/proc/{process.pid}/task").glob("*/schedstat")]
+    return sum(int(file.read_text(encoding="ascii").split()[0]) for file in files) / SECOND
 
 
-def _load(processes: list[subprocess.Popen[str]]) -> float:
-    """Return the processor time of processes, in per cent of one core."""
-    before = _processor_time(processes)
+def _loads(*groups: list[subprocess.Popen[str]]) -> list[float]:
+    """Return the processor time of groups of processes, in per cent of one core."""
+    before = [_processor_time(group) for group in groups]
     time.sleep(SECONDS)
-    return 100 * (_processor_time(processes) - before) / SECONDS
+    return [100 * (_processor_time(group) - start) / SECONDS for group, start in zip(groups, before, strict=True)]
 
 
 def _own_memory(process: subprocess.Popen[str]) -> int:
@@ -149,17 +147,19 @@ def main() -> None:
     kills = int(sys.argv[2]) if len(sys.argv) > 2 else 20
     with _running(1, BROADCASTER):
         time.sleep(1)
-        with _running(readers, PROGRAM) as processes:
-            programs = _load(processes)
-            program_memory = statistics.median(_own_memory(process) for process in processes)
-        print(f"{readers} programs without a listener              {programs:8.1f} % of one core", flush=True)
-        with _running(1, READER, "alone") as processes:
-            alone = _load(processes) - programs / readers
-        print(f"one listener of its own                     {alone:8.1f} % more", flush=True)
-        with _running(readers, READER, "shared") as processes:
-            shared = _load(processes) - programs
-            memory = statistics.median(_own_memory(process) for process in processes[1:]) - program_memory
+        with (
+            _running(readers, PROGRAM) as without,
+            _running(1, READER, "alone") as one,
+            _running(readers, READER, "shared") as sharing,
+        ):
+            time.sleep(10)  # until the buffers contain the seconds that they keep
+            programs, alone, shared = _loads(without, one, sharing)
+            memory = statistics.median(map(_own_memory, sharing[1:])) - statistics.median(map(_own_memory, without))
+        alone -= programs / readers
+        shared -= programs
         ratio = f"{shared / alone:.2f} times one listener"
+        print(f"{readers} programs without a listener              {programs:8.1f} % of one core", flush=True)
+        print(f"one listener of its own                     {alone:8.1f} % more", flush=True)
         print(f"{readers} programs that share transforms           {shared:8.1f} % more, {ratio}", flush=True)
         print(f"memory of a further program                 {memory / 1e6:8.2f} MB more", flush=True)
         gaps = _takeovers(kills)

@@ -192,6 +192,8 @@ TARGETS = [
     ("failing lookup, caught, D=5", "Debian's tf2", TimesAsFast(10)),
     ("tf2_py: set_transform(message)", "Debian's tf2", TimesAsFast(3)),
     ("set, from numbers", "Debian's tf2", TimesAsFast(8)),
+    ("lookup, newest, in shared transforms, D=5", "coframe, own memory", GrowsAtMost(1.3)),
+    ("lookup at a time in shared transforms, D=5", "coframe, own memory", GrowsAtMost(1.3)),
     ("ingest a TFMessage of 10, per transform", "floor: copying the bytes", AtMost(60)),
     ("ingest a TFMessage of 10, per transform", "rosbags, decoding only", TimesAsFast(50)),
     ("lookup_many, N=1e5, sorted, D=5, into an array", "tf_tree, Plan", TimesAsFast(5)),

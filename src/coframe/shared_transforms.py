@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import atexit
+import contextlib
 import hashlib
 import logging
 import os
@@ -244,6 +245,7 @@ class _Hub:
     """The subscriptions that store transforms in the shared memory."""
 
     def __init__(self, segment: _core.Segment, source: Source) -> None:
+        _remove_abandoned(Path(_FOLDER.format(user=os.getuid())))
         self._buffer = Buffer(source.cache if source.cache >= 0 else None)
         segment.write(self._buffer)
         self.participant = Participant.get(source.domain)
@@ -264,6 +266,18 @@ class _Hub:
         self._node.close()
         self._buffer.freeze()  # before another process writes
         self.participant.close()
+
+
+def _remove_abandoned(folder: Path) -> None:
+    """Remove the memory of processes that were all killed. Every process locks the memory that it uses."""
+    import fcntl  # noqa: PLC0415 - not on Windows, where there is no shared memory
+
+    for path in folder.iterdir():
+        if path.suffix:  # locks of writers, and memory that is being created
+            continue
+        with contextlib.suppress(OSError), path.open("rb") as file:
+            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            path.unlink()
 
 
 def is_suspended(process: int) -> bool:

@@ -282,32 +282,51 @@ def test_status_of_the_receiving_process(domain_id, start_reader, caplog, monkey
                 os.kill(process, signal.SIGCONT)
 
 
+def memory_of(domain, folder=None):
+    files = (folder or Path(f"/dev/shm/coframe-{os.getuid()}")).glob(f"{domain}-*")
+    return {file for file in files if file.suffix != ".lock"}
+
+
 def test_nothing_is_left_when_the_last_one_leaves(domain_id):
-    folder = Path(f"/dev/shm/coframe-{os.getuid()}")
+    before = memory_of(domain_id)  # of processes in other networks
     with coframe.connect("one", domain=domain_id, shared=True):
-        assert any(file.suffix != ".lock" for file in folder.glob(f"{domain_id}-*"))
-    assert all(file.suffix == ".lock" for file in folder.glob(f"{domain_id}-*"))
+        assert memory_of(domain_id) - before
+    assert not memory_of(domain_id) - before
 
 
-def test_transforms_of_programs_that_have_ended_are_not_used(tmp_path):
-    program = """
+ENDING = """
 import os, sys
 from coframe import _core
-segment = _core.Segment.open(sys.argv[1], "one", 10**10)
+segment = _core.Segment.open(sys.argv[1], "1-one", 10**10)
 assert segment.try_to_write()
 buffer = _core.Buffer(10**10)
 segment.write(buffer)
 buffer._set_values("map", "base", 10**9, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, False, "me")
 os._exit(0)
 """
-    folder = str(tmp_path / "shared")
-    subprocess.run([sys.executable, "-c", program, folder], check=True)
-    assert len(list(Path(folder).iterdir())) == 2
-    segment = _core.Segment.open(folder, "one", 10**10)
+
+
+def test_transforms_of_programs_that_have_ended_are_not_used(tmp_path):
+    folder = tmp_path / "shared"
+    subprocess.run([sys.executable, "-c", ENDING, folder], check=True)
+    assert len(memory_of(1, folder)) == 1
+    segment = _core.Segment.open(str(folder), "1-one", 10**10)
     buffer = coframe.Buffer()
     assert segment.follow(buffer)
     assert buffer.frame_names() == []
     segment.close()
+
+
+def test_memory_of_programs_that_have_ended_is_removed(tmp_path, domain_id, monkeypatch):
+    folder = tmp_path / "shared"
+    monkeypatch.setattr(shared_transforms, "_FOLDER", str(folder))
+    subprocess.run([sys.executable, "-c", ENDING, folder], check=True)
+    used = _core.Segment.open(str(folder), "1-used", 10**10)
+    assert len(memory_of(1, folder)) == 2
+    with coframe.connect("one", domain=domain_id, shared=True) as ros:
+        assert ros._shared.writes
+        assert [file.name.startswith("1-used") for file in memory_of(1, folder)] == [True]
+    used.close()
 
 
 def test_a_folder_of_others_is_refused(tmp_path):
