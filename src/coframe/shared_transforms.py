@@ -21,8 +21,13 @@ from coframe.wire.participant import Participant
 from coframe.wire.tf_reader import STATICS_TIMEOUT
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from coframe.wire import TfReader
     from coframe.wire.endpoints import GraphNode
+
+    Mismatch = Callable[[str, str], object]
+    Mismatches = tuple[Mismatch | None, Mismatch | None]  # of the subscriptions to dynamic and static transforms
 
 __all__ = ["SharedTransforms", "Source"]
 
@@ -84,8 +89,9 @@ class SharedTransforms:
     _instances: ClassVar[dict[tuple[Source, int], SharedTransforms]] = {}
     _lock: ClassVar[threading.RLock] = threading.RLock()
 
-    def __init__(self, source: Source, generation: int, segment: _core.Segment) -> None:
+    def __init__(self, source: Source, generation: int, segment: _core.Segment, on_mismatch: Mismatches) -> None:
         self.source = source
+        self._on_mismatch = on_mismatch
         self._key = (source, generation)
         self._users = 0
         self._closed = threading.Event()
@@ -93,7 +99,7 @@ class SharedTransforms:
         self._segment = segment
         try:
             if self._segment.try_to_write():
-                self._hub = _Hub(self._segment, source)
+                self._hub = _Hub(self._segment, source, on_mismatch)
         except BaseException:
             self._segment.close()
             raise
@@ -101,8 +107,13 @@ class SharedTransforms:
         self._thread.start()
 
     @classmethod
-    def join(cls, source: Source) -> SharedTransforms:
+    def join(cls, source: Source, on_mismatch: Mismatches = (None, None)) -> SharedTransforms:
         """Return the shared transforms of a source. Each call needs one call of `leave`.
+
+        Args:
+            source: What is received.
+            on_mismatch: The attributes of the subscriptions to dynamic and static transforms, if this process has not
+                joined before; see `LocalEndpoint`.
 
         Raises:
             SegmentError: This system cannot share transforms.
@@ -110,20 +121,20 @@ class SharedTransforms:
         """
         with cls._lock:
             for generation in range(GENERATIONS):
-                shared = cls._instances.get((source, generation)) or cls._open(source, generation)
+                shared = cls._instances.get((source, generation)) or cls._open(source, generation, on_mismatch)
                 if shared is not None and not shared.outdated:
                     shared._users += 1  # noqa: SLF001 - of this class
                     return shared
         raise _core.SegmentError(f"static transforms were withdrawn in all {GENERATIONS} generations of the memory")
 
     @classmethod
-    def _open(cls, source: Source, generation: int) -> SharedTransforms | None:
+    def _open(cls, source: Source, generation: int, on_mismatch: Mismatches) -> SharedTransforms | None:
         """Return shared transforms that this process has not joined before; None if they are outdated."""
         segment = source.open(generation)
         if segment.outdated:
             segment.close()
             return None
-        shared = cls._instances[source, generation] = cls(source, generation, segment)
+        shared = cls._instances[source, generation] = cls(source, generation, segment, on_mismatch)
         return shared
 
     @classmethod
@@ -209,7 +220,7 @@ class SharedTransforms:
         while not self._closed.is_set() and self._hub is None:
             try:
                 if self._segment.try_to_write():
-                    hub = _Hub(self._segment, self.source)
+                    hub = _Hub(self._segment, self.source, self._on_mismatch)
                     with self._lock:
                         self._hub = hub
                     if self._closed.is_set():
@@ -244,7 +255,7 @@ class SharedTransforms:
 class _Hub:
     """The subscriptions that store transforms in the shared memory."""
 
-    def __init__(self, segment: _core.Segment, source: Source) -> None:
+    def __init__(self, segment: _core.Segment, source: Source, on_mismatch: Mismatches) -> None:
         _remove_abandoned(Path(_FOLDER.format(user=os.getuid())))
         self._buffer = Buffer(source.cache if source.cache >= 0 else None)
         segment.write(self._buffer)
@@ -254,9 +265,15 @@ class _Hub:
             names = renaming(source.prefix, source.keep)
             self.readers = [
                 self.participant.tf_reader(
-                    self._node, topic, self._buffer, static=static, authority=None, renaming=names
+                    self._node,
+                    topic,
+                    self._buffer,
+                    static=static,
+                    authority=None,
+                    renaming=names,
+                    on_mismatch=report,
                 )
-                for topic, static in ((source.tf_topic, False), (source.tf_static_topic, True))
+                for topic, static, report in zip(source[1:3], (False, True), on_mismatch, strict=True)
             ]
         except BaseException:
             self.participant.close()

@@ -21,19 +21,24 @@ if TYPE_CHECKING:
     from coframe.wire import QoS, Sample
     from rclpy.node import Node
     from rclpy.qos import QoSProfile
-    from tf2_ros._subscriptions import Request
+    from tf2_ros._subscriptions import Request, Topic
+
+    Mismatch = Callable[[str, str], object]
 
 _logger = logging.getLogger("coframe.wire")
 _logged: set[str] = set()
 
 
-def share(request: Request, domain: int, to_wire: Callable[[QoSProfile], QoS]) -> Sharing | None:
+def share(
+    request: Request, domain: int, to_wire: Callable[[QoSProfile], QoS], reporter: Callable[[Topic], Mismatch]
+) -> Sharing | None:
     """Let the buffer of a listener read the shared transforms, and return its share.
 
     Args:
         request: What the listener subscribes to.
         domain: The domain of its node.
         to_wire: Converts the QoS profiles of the node's rclpy.
+        reporter: Returns a function that reports publishers of a topic with another QoS, for `TfReader.on_mismatch`.
 
     Returns:
         None if sharing is not enabled, not possible here, or does not suit this listener.
@@ -44,7 +49,8 @@ def share(request: Request, domain: int, to_wire: Callable[[QoSProfile], QoS]) -
     dynamic, static = (request.node.resolve_topic_name(topic.name) for topic in (request.dynamic, request.static))
     buffer = request.buffer._Coframe__buffer
     try:
-        shared = SharedTransforms.join(Source(domain, dynamic, static, cache=buffer.cache_ns))
+        source = Source(domain, dynamic, static, cache=buffer.cache_ns)
+        shared = SharedTransforms.join(source, (reporter(request.dynamic), reporter(request.static)))
     except SegmentError as error:
         text = f"The transforms are not shared with other processes: {error}"
         if text not in _logged:

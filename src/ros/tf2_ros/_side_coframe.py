@@ -33,7 +33,7 @@ def open_subscriptions(request: Request) -> Subscriptions:
         return _NativeSubscriptions(request)
 
     domain = request.node._Coframe__participant.domain_id
-    sharing = share(request, domain, lambda qos: qos._Coframe__to_wire())
+    sharing = share(request, domain, lambda qos: qos._Coframe__to_wire(), lambda topic: _reporter(request.node, topic))
     return receive_alone() if sharing is None else SharedSubscriptions(request, sharing, receive_alone)
 
 
@@ -58,6 +58,10 @@ def wake_executors() -> None:
     """Do nothing: a future of coframe's rclpy wakes the executor of a coroutine that awaits it."""
 
 
+def _reporter(node: Node, topic: Topic) -> MismatchReporter:
+    return MismatchReporter(SubscriptionEventCallbacks(), node.get_logger(), topic.name)
+
+
 class _NativeSubscriptions:
     def __init__(self, request: Request) -> None:
         self._node = request.node
@@ -79,7 +83,7 @@ class _NativeSubscriptions:
             authority=AUTHORITY,
             renaming=request.renaming,
             on_data=node.context._Coframe__wakeup.event,
-            on_mismatch=MismatchReporter(SubscriptionEventCallbacks(), node.get_logger(), topic.name),
+            on_mismatch=_reporter(node, topic),
         )
         self._readers.append(reader)
         return node._Coframe__add_entity(

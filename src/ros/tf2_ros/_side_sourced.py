@@ -54,7 +54,8 @@ def open_subscriptions(request: Request) -> Subscriptions:
     if wire not in _WIRES:
         raise ValueError(f"COFRAME_ROS2_WIRE is {wire!r}. Valid values: {', '.join(_WIRES)}.")
     if wire == "native":
-        sharing = share(request, request.node.context.get_domain_id(), _to_wire)
+        report = _reporter(request.node)
+        sharing = share(request, request.node.context.get_domain_id(), _to_wire, lambda _: report)
         return _NativeSubscriptions(request) if sharing is None else _SharedSubscriptions(request, sharing)
     # Only the native wire renames frames.
     return _RawSubscriptions(request) if request.renaming is None else CallbackSubscriptions(request)
@@ -145,7 +146,6 @@ def _leave(participant: Participant, hidden: GraphNode) -> None:
 
 
 def _read(request: Request, topic: Topic, participant: Participant, hidden: GraphNode, *, static: bool) -> TfReader:
-    logger = request.node.get_logger()
     return participant.tf_reader(
         hidden,
         request.node.resolve_topic_name(topic.name),
@@ -154,8 +154,13 @@ def _read(request: Request, topic: Topic, participant: Participant, hidden: Grap
         qos=_to_wire(topic.qos),
         authority=AUTHORITY,
         renaming=request.renaming,
-        on_mismatch=lambda _, text: logger.warning(text),
+        on_mismatch=_reporter(request.node),
     )
+
+
+def _reporter(node: Node) -> Callable[[str, str], object]:
+    logger = node.get_logger()  # not the node, which could never be garbage-collected
+    return lambda _, text: logger.warning(text)
 
 
 def _to_wire(qos: QoSProfile) -> QoS:
