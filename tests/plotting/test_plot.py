@@ -3,10 +3,10 @@
 
 import json
 import re
-import shutil
 
 import numpy as np
 import pytest
+from chromium import chromium
 from runs import MS, SECOND, START, Run
 from typer.testing import CliRunner
 
@@ -191,13 +191,8 @@ def test_colours_are_readable_in_light_and_dark(background):
 
 
 def test_a_browser_shows_the_page_without_a_network(bag, tmp_path):
-    sync_api = pytest.importorskip("playwright.sync_api")
-    chromium = shutil.which("chromium") or shutil.which("chromium-browser")
-    if chromium is None:
-        pytest.skip("Chromium is not installed")
     run(bag, *EXPRESSIONS, "-o", tmp_path / "a.html")
-    with sync_api.sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=chromium, args=["--no-sandbox"])
+    with chromium() as browser:
         page = browser.new_context(offline=True, color_scheme="dark").new_page()
         errors = []
         page.on("pageerror", lambda error: errors.append(str(error)))

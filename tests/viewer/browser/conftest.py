@@ -3,7 +3,6 @@
 
 import json
 import os
-import shutil
 import signal
 import subprocess
 import sys
@@ -14,12 +13,10 @@ from urllib.parse import urlsplit
 
 import numpy as np
 import pytest
+from chromium import chromium
 
 import coframe
 
-sync_api = pytest.importorskip(
-    "playwright.sync_api", reason="the browser tests need playwright: pip install playwright"
-)
 websockets = pytest.importorskip("websockets.sync.client", reason="the viewer needs websockets")
 
 SETTLING_TIMEOUT = 5.0  # seconds
@@ -27,32 +24,13 @@ TIMEOUT = 20.0  # seconds; the machine may be busy
 START_TIMEOUT = 60.0  # seconds; the process starts at the same time as a browser
 SECOND = 1_000_000_000
 LAB_FRAMES = 11
-BROWSERS = ("chromium", "chromium-browser", "google-chrome")
-# Root cannot use the sandbox. The browser renders in software and resolves no host names.
-ARGUMENTS = [
-    "--no-sandbox",
-    "--disable-quic",
-    "--no-first-run",
-    "--disable-background-networking",
-    "--disable-component-update",
-    "--disable-sync",
-    "--use-gl=angle",
-    "--use-angle=swiftshader",
-    "--enable-unsafe-swiftshader",
-    "--host-resolver-rules=MAP * ~NOTFOUND, EXCLUDE 127.0.0.1",
-]
 
 
 @pytest.fixture(scope="session")
 def browser():
-    """Start one Chromium for all tests."""
-    program = next(filter(None, map(shutil.which, BROWSERS)), None)
-    if program is None:
-        pytest.skip("no browser: apt-get install chromium")
-    with sync_api.sync_playwright() as playwright:
-        chromium = playwright.chromium.launch(executable_path=program, args=ARGUMENTS)
-        yield chromium
-        chromium.close()
+    """Start one Chromium for all tests of this folder."""
+    with chromium() as started:
+        yield started
 
 
 class Page:
