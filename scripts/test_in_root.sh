@@ -62,7 +62,7 @@ download() { # VERSION FOLDER PACKAGE...: packages for that version of Python, o
 needed() { # VERSION WHEEL: what the tests in the root install
     case $1 in
         # pip evaluates markers for the Python that it runs on; this is `all` for 3.14.
-        3.14) echo "$2[bags,viewer,robots,cli,params,pdf,plot]" ;;
+        3.14) echo "$2[bags,viewer,robots,cli,params,pdf]" ;;
         *) echo "$2[all]" ;;
     esac
     echo "pytest>=8,<10" "pytest-timeout>=2.3,<3"

@@ -107,7 +107,7 @@ def build(interpreter: Interpreter, work: Path, out: Path) -> Path:
     raw = work / "raw"
     shutil.rmtree(raw, ignore_errors=True)
     builder = environment(interpreter.path, work / "build-env")
-    folder = work / "build"  # kept: an unchanged core is not compiled again
+    folder = work / "build"
     run(*pip(builder), "wheel", "--no-deps", "--wheel-dir", raw, f"-Cbuild-dir={folder}", ROOT)
     (wheel,) = raw.glob("*.whl")
     for old in out.glob(f"coframe-*-{'-'.join(wheel.name.split('-')[2:4])}-*.whl"):

@@ -139,8 +139,9 @@ def test_an_editable_installation(tmp_path):
     """`pip install -e .`, with a ROS in site-packages; uninstalling leaves that ROS only."""
     python, packages = virtual(tmp_path / "env")
     scripts = python.parent
+    pip(python, "install", "numpy")
     before = files_below(packages), files_below(scripts)
-    pip(python, "install", "--no-deps", "numpy", f"-Cbuild-dir={tmp_path / 'build'}", "--editable", ROOT)
+    pip(python, "install", "--no-deps", f"-Cbuild-dir={tmp_path / 'build'}", "--editable", ROOT)
     assert run(python, "-c", "import importlib.util as i; print(i.find_spec('coframe').origin)").startswith(
         f"{ROOT}/src/"
     )
