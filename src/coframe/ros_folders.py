@@ -7,6 +7,8 @@ import functools
 from pathlib import Path
 from typing import Final
 
+from coframe.existence import is_file
+
 # The packages that share message classes and nodes. Packages that only use them, such as tf2_sensor_msgs, are not here:
 # they work with the side that provides these.
 PACKAGES: Final = (
@@ -52,6 +54,6 @@ def foreign_packages(path: tuple[str, ...]) -> dict[str, str]:
         if folder.resolve() == home:
             break
         for package in PACKAGES:
-            if (folder / package / "__init__.py").is_file():
+            if is_file(folder / package / "__init__.py"):
                 found.setdefault(package, str(folder))
     return found

@@ -7,6 +7,9 @@ import os
 import sys
 from typing import TYPE_CHECKING
 
+from coframe.cli.streams import accept_any_encoding, discard_output, flush_output
+from coframe.cli.system_errors import description
+
 if TYPE_CHECKING:
     from collections.abc import Collection
 
@@ -45,12 +48,22 @@ def run(words: list[str], *, program: str = "coframe", shown: Collection[str] | 
         program: The name of the program in its help.
         shown: The commands that exist. None: all.
     """
+    accept_any_encoding()
     try:
-        _app(_command_name(words), program, shown)(words, prog_name=program)
+        try:
+            _app(_command_name(words), program, shown)(words, prog_name=program)
+        finally:
+            flush_output()
     except ModuleNotFoundError as error:
         sys.exit(_what_to_install(error))
     except KeyboardInterrupt:  # Ctrl-C during the imports.
         sys.exit(_INTERRUPTED)
+    except BrokenPipeError:  # The reader of a pipe, such as `head`, has closed it.
+        discard_output()
+        sys.exit(1)
+    except OSError as error:
+        discard_output()
+        sys.exit(description(error))
     finally:
         if "--install-completion" in words:
             from coframe.cli.zsh_completion import complete_at_first_tab  # noqa: PLC0415 - rarely needed

@@ -19,7 +19,7 @@ from coframe.cli.options import (
     RecordedTfStaticTopicOption,
     RecordedTfTopicOption,
 )
-from coframe.cli.output import fail, printable, warn
+from coframe.cli.output import fail, fail_to_write, printable, warn
 from coframe.cli.progress import item_progress
 from coframe.cli.recordings import open_recording, parse_time
 from coframe.formatting import count
@@ -123,8 +123,7 @@ def cloud(
                 raise
             fail(str(error), "Choose the fields to keep with --fields." if "fields" in str(error) else "", code=2)
         except OSError as error:
-            hint = "Check that the folder exists and is writable."
-            fail(f"{output} cannot be written: {error.strerror or error}", hint)
+            fail_to_write(output, error)
         _print_notes(clouds)
         amounts = f"{count(points, 'point')} of {count(clouds.messages, 'message')}"
         print(printable(f"{output}: {amounts}, in frame {frame!r}"))

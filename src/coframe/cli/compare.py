@@ -22,7 +22,7 @@ from coframe.cli.options import (
     RecordedTfStaticTopicOption,
     RecordedTfTopicOption,
 )
-from coframe.cli.output import fail, printable
+from coframe.cli.output import fail, fail_to_write, printable
 from coframe.cli.plot import check_figure_package, save_figure
 from coframe.cli.recordings import open_recording
 from coframe.formatting import count
@@ -178,7 +178,7 @@ def _write(path: Path, result: Comparison, title: str) -> None:
     try:
         path.write_text(text, encoding="utf-8")
     except OSError as error:
-        fail(f"{path} cannot be written: {error.strerror}", "Check that the folder exists and is writable.")
+        fail_to_write(path, error)
 
 
 def _csv(result: Comparison) -> str:

@@ -28,7 +28,7 @@ from coframe.cli.options import (
     recorded_tf_topics,
     reject_namespace_of_live_graph,
 )
-from coframe.cli.output import fail, printable, report_console, warn
+from coframe.cli.output import fail, fail_to_write, printable, report_console, warn
 from coframe.cli.progress import reading_progress
 from coframe.cli.ros_arguments import node_identity
 from coframe.doctor import observe_recording
@@ -185,7 +185,7 @@ def _write(path: Path, forest: Forest, title: str) -> None:
     try:
         path.write_bytes(content if isinstance(content, bytes) else content.encode(errors="backslashreplace"))
     except OSError as error:
-        fail(f"{path} cannot be written: {error.strerror}", "Check that the folder exists and is writable.")
+        fail_to_write(path, error)
     typer.echo(f"{path}: {summary(forest)}", err=True)
     if path.suffix.lower() in {".mmd", ".md"} and len(forest.frames) > MOST_EDGES:
         warn(f"Mermaid draws at most {MOST_EDGES} edges, unless its option maxEdges is increased")

@@ -11,15 +11,19 @@ from typing import IO, TYPE_CHECKING, Any, NoReturn, cast
 import typer
 
 from coframe.bounded_lines import print_bounded
+from coframe.cli.system_errors import advice_for_writing
 from coframe.escaping import printable
 from coframe.time import SECOND
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from rich.console import Console
 
 __all__ = [
     "awaited_statics_text",
     "fail",
+    "fail_to_write",
     "log",
     "print_bounded",
     "printable",
@@ -36,6 +40,12 @@ def fail(text: str, hint: str = "", *, code: int = 1) -> NoReturn:
     advice = f"\n  {printable(with_doctor_command(hint))}" if hint else ""
     typer.echo(f"coframe: {printable(text)}{advice}", err=True)
     raise typer.Exit(code)
+
+
+def fail_to_write(path: Path | None, error: OSError) -> NoReturn:
+    """End the command because a file, or without a path standard output, could not be written."""
+    name = "standard output" if path is None else path
+    fail(f"{name} cannot be written: {error.strerror or error}", advice_for_writing(error))
 
 
 def with_doctor_command(hint: str) -> str:

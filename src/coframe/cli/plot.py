@@ -17,7 +17,7 @@ from coframe.cli.options import (
     RecordedTfStaticTopicOption,
     RecordedTfTopicOption,
 )
-from coframe.cli.output import fail, printable, warn
+from coframe.cli.output import fail, fail_to_write, printable, warn
 from coframe.cli.progress import task_progress
 from coframe.cli.recordings import open_recording, parse_time
 from coframe.errors import PlotError
@@ -102,7 +102,7 @@ def save_figure(figure: Figure, path: Path) -> None:
     try:
         figure.save(path)
     except OSError as error:
-        fail(f"{path} cannot be written: {error.strerror}", "Check that the folder exists and is writable.")
+        fail_to_write(path, error)
 
 
 def _summary(curves: list[Series]) -> str:

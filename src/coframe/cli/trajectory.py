@@ -20,7 +20,7 @@ from coframe.cli.options import (
     RecordedTfStaticTopicOption,
     RecordedTfTopicOption,
 )
-from coframe.cli.output import fail, warn
+from coframe.cli.output import fail, fail_to_write, warn
 from coframe.cli.progress import item_progress
 from coframe.cli.recordings import open_recording, parse_time
 from coframe.formatting import count, seconds
@@ -103,10 +103,7 @@ def trajectory(
         except OSError as error:
             if isinstance(error, BrokenPipeError):
                 raise
-            fail(
-                f"{output} cannot be written: {error.strerror or error}",
-                "Check that the folder exists and is writable.",
-            )
+            fail_to_write(output, error)
         if missing:
             warn(f"no transform at {missing} of {count(len(stamps), 'time')}; those are omitted")
         if output is not None:

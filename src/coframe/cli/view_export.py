@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import typer
 
 from coframe.cli.lifecycle import run_to_completion
-from coframe.cli.output import fail
+from coframe.cli.output import fail_to_write
 from coframe.cli.progress import task_progress
 from coframe.cli.recordings import check_has_transforms, open_recording, parse_time
 from coframe.robots import load
@@ -71,7 +71,7 @@ def _write(output: Path, page: bytes) -> None:
         part.write_bytes(page)
         part.replace(output)
     except OSError as error:
-        fail(f"{output} cannot be written: {error.strerror}", "Check that the folder exists and is writable.")
+        fail_to_write(output, error)
     finally:
         with suppress(OSError):  # On a read-only disk, this is an error even if there is no such file.
             part.unlink()

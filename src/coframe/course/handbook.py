@@ -97,7 +97,9 @@ def write_pages(folder: Path) -> Path:
         (folder / _NOTEBOOKS).mkdir(exist_ok=True)
         _copy((source / _NOTEBOOKS).glob("*.ipynb"), folder / _NOTEBOOKS)
     except OSError as error:
-        raise CourseError(f"Cannot write {error.filename}: {error.strerror}.", hint="Choose another folder.") from None
+        raise CourseError(
+            f"Cannot write {error.filename or folder}: {error.strerror}.", hint="Choose another folder."
+        ) from None
     return _target(folder, source / _CONTENTS)
 
 

@@ -9,6 +9,8 @@ from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
+from coframe.existence import exists
+
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
@@ -39,7 +41,7 @@ def _shared_paths() -> frozenset[str]:
     """Return what the programs of all students may read, without the folders that contain others' files."""
     found = {os.path.realpath(path) for path in _candidates() if path.is_absolute()}
     kept_private = {os.path.realpath(path) for path in ("/", "/home", "/root", "/tmp", Path.home())}  # noqa: S108
-    return frozenset(path for path in found - kept_private if Path(path).exists())
+    return frozenset(path for path in found - kept_private if exists(Path(path)))
 
 
 def _candidates() -> Iterator[Path]:

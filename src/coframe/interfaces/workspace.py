@@ -9,6 +9,8 @@ import sys
 from itertools import islice
 from pathlib import Path
 
+from coframe.existence import exists, is_file
+
 __all__ = ["start_folders", "workspace_root"]
 
 _MOST_LEVELS = 12
@@ -42,7 +44,7 @@ def workspace_root(start: Path) -> Path | None:
             src = folder
         elif _has_packages(folder / "src"):
             src = folder / "src"
-        elif (folder / "package.xml").is_file() or (folder / ".git").exists():
+        elif is_file(folder / "package.xml") or exists(folder / ".git"):
             project = folder
     return src or project
 
@@ -51,9 +53,9 @@ def _has_packages(folder: Path) -> bool:
     """Return whether one of the first entries of a folder, or of a folder in it, is a package."""
     children = _first_folders(folder)
     return any(
-        (path / "package.xml").is_file()
+        is_file(path / "package.xml")
         for child in children
-        for path in (child, *(_first_folders(child) if not (child / "package.xml").is_file() else ()))
+        for path in (child, *(_first_folders(child) if not is_file(child / "package.xml") else ()))
     )
 
 

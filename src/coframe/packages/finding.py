@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 from coframe.errors import PackageError
+from coframe.existence import is_dir, is_file
 from coframe.formatting import did_you_mean
 from coframe.packages import builtin
 from coframe.packages.folders import crawl, listed, named, package_around, package_name
@@ -67,11 +68,11 @@ def find_package(name: str) -> Package:
 def candidates(name: str) -> Iterator[Package]:
     """Yield all packages with this name in search order: an installed package hides its source, which may have more."""
     for prefix in listed("AMENT_PREFIX_PATH"):
-        if (prefix / _INDEX / name).is_file() or (prefix / "share" / name / "package.xml").is_file():
+        if is_file(prefix / _INDEX / name) or is_file(prefix / "share" / name / "package.xml"):
             yield Package(name, prefix / "share" / name, prefix, "installed")
     for folder in _all_source_folders():
         source = _below(folder).get(name)
-        if source is None and folder in listed(_SOURCES) and (folder / name).is_dir():
+        if source is None and folder in listed(_SOURCES) and is_dir(folder / name):
             source = folder / name  # A folder that the user has named may contain packages without a manifest.
         if source is not None:
             yield Package(name, source, source.parent, "source")
@@ -84,7 +85,7 @@ def package_names() -> list[str]:
     found = set(builtin.EXECUTABLES)
     for prefix in listed("AMENT_PREFIX_PATH"):
         index = prefix / _INDEX
-        found |= {marker.name for marker in index.iterdir()} if index.is_dir() else set()
+        found |= {marker.name for marker in index.iterdir()} if is_dir(index) else set()
     for folder in _all_source_folders():
         found |= {package_name(package) for package in crawl(folder, _MAX_DEPTH)}
     return sorted(found)
@@ -98,7 +99,7 @@ def source_folders(path: Path) -> list[Path]:
     if sources:
         return [sources[-1]]
     found = [] if package is None else [package.parent]
-    if package is None and (path / "src").is_dir():
+    if package is None and is_dir(path / "src"):
         found.append(path / "src")
     elif package is None and any(True for _ in crawl(path, 1)):
         found.append(path)

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from coframe.bounded_xml import read_xml
+from coframe.existence import is_dir, is_file
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -21,17 +22,17 @@ _NOT_SEARCHED = {"build", "install", "log", "node_modules", "__pycache__"}
 def listed(variable: str) -> Iterator[Path]:
     """Return the existing folders in an environment variable."""
     entries = os.environ.get(variable, "").split(os.pathsep)
-    return (Path(entry) for entry in entries if entry and Path(entry).is_dir())
+    return (Path(entry) for entry in entries if entry and is_dir(Path(entry)))
 
 
 def package_around(path: Path) -> Path | None:
     """Return the innermost package that contains a file or folder, or is the folder; None if there is none."""
-    return next((folder for folder in [path, *path.parents] if (folder / MANIFEST).is_file()), None)
+    return next((folder for folder in [path, *path.parents] if is_file(folder / MANIFEST)), None)
 
 
 def crawl(folder: Path, max_depth: int) -> Iterator[Path]:
     """Yield the packages at or below a folder. Packages inside packages are not searched."""
-    if (folder / MANIFEST).is_file():
+    if is_file(folder / MANIFEST):
         yield folder
         return
     if max_depth == 0:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from urllib.parse import unquote
 
 from coframe.errors import PackageError
+from coframe.existence import is_dir
 from coframe.packages.folders import crawl, listed, named, package_around
 
 if TYPE_CHECKING:
@@ -114,10 +115,10 @@ class Packages:
                 return self._below(folder, _NEIGHBOR_DEPTH)[name]
         for folder in [*self.folders, *listed("COFRAME_PACKAGE_PATH")]:
             found = self._below(folder, _MAX_DEPTH).get(name) or folder / name
-            if found.is_dir():
+            if is_dir(found):
                 return found
         for prefix in listed("AMENT_PREFIX_PATH"):
-            if (prefix / "share" / name).is_dir():
+            if is_dir(prefix / "share" / name):
                 return prefix / "share" / name
         for folder in listed("ROS_PACKAGE_PATH"):
             if name in self._below(folder, _MAX_DEPTH):

@@ -19,6 +19,7 @@ from typing import TYPE_CHECKING, Final
 
 from coframe import _core
 from coframe.errors import WireError
+from coframe.existence import is_dir, is_file
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -106,7 +107,7 @@ def places(environment: Mapping[str, str] = os.environ) -> Iterator[Place]:
     if named := environment.get(VARIABLE, "").strip():
         path = Path(named)
         yield (
-            _in_folders(VARIABLE, [path]) if path.is_dir() else Place(VARIABLE, named, path if path.is_file() else None)
+            _in_folders(VARIABLE, [path]) if is_dir(path) else Place(VARIABLE, named, path if is_file(path) else None)
         )
         return
     yield _of_package()
@@ -233,9 +234,9 @@ def _in_folders(source: str, folders: list[Path]) -> Place:
     """Return the library in the first of the folders that has one; of several versions, the newest."""
     folders = list(dict.fromkeys(folders))
     searched = os.pathsep.join(map(str, folders))
-    for folder in folders:
+    for folder in filter(is_dir, folders):
         found = [file for name in _NAMES.get(sys.platform, ["libddsc*.so*"]) for file in folder.glob(name)]
-        if files := [file for file in found if file.is_file()]:
+        if files := [file for file in found if is_file(file)]:
             return Place(source, searched, max(files, key=_version_key))
     return Place(source, searched, None)
 

@@ -1,0 +1,55 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Standard output and standard error: encodings with few characters, closed pipes and full disks."""
+
+from __future__ import annotations
+
+import codecs
+import io
+import os
+import sys
+
+__all__ = ["accept_any_encoding", "discard_output", "flush_output"]
+
+_HANDLER = "coframe.plain"
+# What trees and texts contain, as far as one character can replace it, so that columns stay aligned.
+_PLAIN = {"─": "-", "│": "|", "├": "+", "└": "`", "…": ".", "×": "x", "–": "-", "—": "-", "·": "."}  # noqa: RUF001
+
+
+def accept_any_encoding() -> None:
+    """Let standard output and standard error replace the characters that their encoding does not have.
+
+    Branches of trees are then drawn with ASCII characters; other characters are escaped. Windows uses such encodings
+    for redirected output, other systems where a locale or PYTHONIOENCODING says so.
+    """
+    codecs.register_error(_HANDLER, _replacement)
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper) and not stream.encoding.lower().startswith("utf"):
+            stream.reconfigure(errors=_HANDLER)
+
+
+def flush_output() -> None:
+    """Write what standard output has buffered; Python reports an error at its exit as a traceback.
+
+    Raises:
+        OSError: The disk is full, or the reader of a pipe, such as ``head``, has closed it.
+    """
+    if sys.stdout is not None and not sys.stdout.closed:
+        sys.stdout.flush()
+
+
+def discard_output() -> None:
+    """Discard what standard output has buffered and could not write, so that Python does not try again at its exit."""
+    null = os.open(os.devnull, os.O_WRONLY)
+    try:
+        os.dup2(null, sys.stdout.fileno())
+    except (OSError, ValueError):  # It is not a file, or it is closed.
+        pass
+    finally:
+        os.close(null)
+
+
+def _replacement(error: UnicodeError) -> tuple[str | bytes, int]:
+    if not isinstance(error, UnicodeEncodeError):
+        raise error
+    missing = error.object[error.start : error.end]
+    return "".join(_PLAIN.get(each) or each.encode("ascii", "backslashreplace").decode() for each in missing), error.end

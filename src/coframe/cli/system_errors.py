@@ -1,0 +1,31 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What to do about errors of the operating system."""
+
+from __future__ import annotations
+
+import errno
+
+__all__ = ["advice_for_writing", "description"]
+
+_FULL = {errno.ENOSPC, getattr(errno, "EDQUOT", errno.ENOSPC)}
+_ADVICE = {
+    errno.EACCES: "Check the permissions.",
+    errno.EPERM: "Check the permissions.",
+    errno.EROFS: "Choose a folder that is writable.",
+    errno.EMFILE: "Close files or raise the limit of open files: ulimit -n 4096.",
+    **dict.fromkeys(_FULL, "Free some space, or write to another disk."),
+}
+
+
+def advice_for_writing(error: OSError) -> str:
+    """Return what to do if a file could not be written."""
+    return _ADVICE[errno.ENOSPC] if error.errno in _FULL else "Check that the folder exists and is writable."
+
+
+def description(error: OSError) -> str:
+    """Return a sentence about an error that no command expects and, where there is advice, a second line with it."""
+    file = f"{error.filename}: " if error.filename else ""
+    advice = _ADVICE.get(error.errno or 0, "")
+    if "temporary directory" in str(error):  # the text of tempfile, and of packages that use it
+        advice = "Set TMPDIR to a folder with write permission."
+    return f"coframe: {file}{error.strerror or error}" + (f"\n  {advice}" if advice else "")

@@ -1,0 +1,78 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Commands whose output cannot be written as usual: other encodings, closed pipes, full disks, no temporary folder."""
+
+import os
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+import pytest
+import recordings
+
+from coframe.cli import run
+from coframe.course.readable import _shared_paths
+from coframe.packages.folders import listed
+from coframe.wire.dds.library import places
+
+FULL_DISK = Path("/dev/full")
+UNREADABLE = "/" + 300 * "x"  # Looking it up is an error, as with a folder that the user may not read.
+
+
+@pytest.fixture(scope="module")
+def bag(tmp_path_factory):
+    return recordings.write_mcap(tmp_path_factory.mktemp("bag") / "run.mcap")
+
+
+def command(*words, **options):
+    return [sys.executable, "-m", "coframe.cli", *map(str, words)], {"stderr": subprocess.PIPE, "text": True, **options}
+
+
+def test_trees_are_drawn_in_any_encoding(bag):
+    words, options = command("frames", bag, env={**os.environ, "PYTHONIOENCODING": "ascii"})
+    done = subprocess.run(words, stdout=subprocess.PIPE, check=False, **options)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert "`- " in done.stdout
+
+
+@pytest.mark.skipif(not FULL_DISK.exists(), reason="needs a device that is always full")
+@pytest.mark.parametrize("words", [["--help"], ["trajectory", "odom", "base"]])
+def test_a_full_disk_is_reported_in_one_sentence(bag, words):
+    words, options = command(*words[:1], *([] if words == ["--help"] else [bag]), *words[1:])
+    with FULL_DISK.open("w") as output:
+        done = subprocess.run(words, stdout=output, check=False, **options)
+    assert done.returncode == 1
+    assert done.stderr.startswith("coframe: ")
+    assert done.stderr.endswith("No space left on device\n  Free some space, or write to another disk.\n")
+    assert done.stderr.count("\n") == 2
+
+
+@pytest.mark.skipif(os.name != "posix", reason="Windows reports a closed pipe as an invalid argument")
+@pytest.mark.parametrize("name", ["--help", "frames"])
+def test_a_closed_pipe_is_not_an_error(bag, name):
+    words, options = command(name, *([bag] if name == "frames" else []))
+    process = subprocess.Popen(words, stdout=subprocess.PIPE, **options)
+    process.stdout.close()
+    assert process.stderr.read() == ""
+    process.stderr.close()
+    process.wait(60)
+
+
+def test_a_missing_temporary_folder_is_reported(tmp_path, monkeypatch):
+    monkeypatch.setattr(tempfile, "tempdir", None)
+    monkeypatch.setattr(tempfile, "_candidate_tempdir_list", lambda: [str(tmp_path / "absent")])
+    (tmp_path / "lab").mkdir()
+    with pytest.raises(SystemExit) as end:
+        run(["lab", "check", str(tmp_path / "lab")])
+    assert "No usable temporary directory" in end.value.code
+    assert end.value.code.endswith("\n  Set TMPDIR to a folder with write permission.")
+
+
+def test_unreadable_folders_on_search_paths_are_skipped(monkeypatch):
+    for name in ("PATH", "PYTHONPATH", "AMENT_PREFIX_PATH", "COFRAME_PACKAGE_PATH"):
+        monkeypatch.setenv(name, os.pathsep.join([UNREADABLE, os.environ.get(name, "")]))
+    words, options = command("--version")
+    assert subprocess.run(words, stdout=subprocess.PIPE, check=False, **options).stderr == ""
+    assert UNREADABLE not in _shared_paths.__wrapped__()
+    assert Path(UNREADABLE) not in set(listed("AMENT_PREFIX_PATH"))
+    assert list(places({"LD_LIBRARY_PATH": UNREADABLE, "AMENT_PREFIX_PATH": UNREADABLE}))
