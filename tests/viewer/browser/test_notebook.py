@@ -11,7 +11,7 @@ import sys
 import threading
 import time
 import warnings
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from types import SimpleNamespace
 
 import numpy as np
@@ -25,6 +25,7 @@ from coframe.viewer.notebook import suitable_inline
 
 nbformat = pytest.importorskip("nbformat", reason="the notebook tests need nbclient and nbconvert")
 nbclient = pytest.importorskip("nbclient", reason="the notebook tests need nbclient")
+sync_api = pytest.importorskip("playwright.sync_api", reason="the browser tests need playwright")
 nbconvert = pytest.importorskip("nbconvert", reason="the notebook tests need nbconvert")
 
 TIMEOUT = 60.0  # seconds
@@ -157,14 +158,23 @@ buffer.show(inline='viewer')""",
     with jupyterlab(tmp_path) as url:
         page = open_page(url, expected_errors=("",))  # JupyterLab's own
         page.raw.wait_for_selector(".jp-Notebook-ExecutionIndicator[data-status=idle]", timeout=TIMEOUT * 1000)
-        page.raw.click(".jp-Notebook .cm-content >> nth=0")
-        page.key("Shift+Enter")
-        frame = page.raw.wait_for_selector("iframe[title='coframe viewer']", timeout=TIMEOUT * 1000).content_frame()
+        frame = run_first_cell(page).content_frame()
         frame.wait_for_function("() => window.coframe?.frames.base", timeout=TIMEOUT * 1000)
         assert frame.evaluate("coframe.frames.base.position") == pytest.approx([1.0, 0.0, 0.0])
         page.raw.click(".jp-Notebook .cm-content >> nth=1")
         page.key("Shift+Enter")
         frame.wait_for_function("() => coframe.frames.base.position[0] === 2", timeout=TIMEOUT * 1000)
+
+
+def run_first_cell(page):
+    """Run the first cell until its output is there: JupyterLab ignores keys while it is being drawn."""
+    deadline = time.monotonic() + TIMEOUT
+    while True:
+        page.raw.click(".jp-Notebook .cm-content >> nth=0")
+        page.key("Shift+Enter")
+        with suppress(sync_api.TimeoutError):
+            return page.raw.wait_for_selector("iframe[title='coframe viewer']", timeout=10_000)
+        assert time.monotonic() < deadline, page.text(".jp-Notebook")
 
 
 @contextmanager
