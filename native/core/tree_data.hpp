@@ -92,7 +92,7 @@ struct SharedTreeData {
   TreeData* data = nullptr;
   std::shared_ptr<Memory> memory;  // of the writer; nullptr: read only
   std::shared_ptr<SharedAccess> access;
-  std::string authority;  // of a reader: the source of all transforms; empty: the recorded ones
+  std::string authority = {};  // of a reader: the source of all transforms; empty: the recorded ones
 };
 
 }  // namespace coframe

@@ -77,6 +77,19 @@ def test_transforms_are_received_without_spinning(make_node, stamped):
     assert "broadcaster: 'default_authority'" in buffer.all_frames_as_yaml()
 
 
+def test_listener_through_the_node(make_node, executor, stamped):
+    """With wire="rclpy", the node's executor inserts the transforms, as in tf2_ros."""
+    node = make_node("listener")
+    buffer = tf2_ros.Buffer()
+    tf2_ros.TransformListener(buffer, node, wire="rclpy")
+    tf2_ros.StaticTransformBroadcaster(make_node("talker")).sendTransform(stamped("a", "b"))
+    assert not buffer.can_transform("a", "b", Time(), Duration(seconds=0.2))
+    executor.add_node(node)
+    assert spin_until(executor, lambda: buffer.can_transform("a", "b", Time()))
+    with pytest.raises(ValueError, match=r"wire is 'dds'\. Valid values: native, rclpy"):
+        tf2_ros.TransformListener(buffer, node, wire="dds")
+
+
 def test_lookup_with_timeout_inside_a_callback_of_a_single_threaded_executor(make_node, executor, stamped):
     """With upstream's listener, the transform would not be received there."""
     node = make_node("listener")

@@ -329,6 +329,39 @@ def test_memory_of_programs_that_have_ended_is_removed(tmp_path, domain_id, monk
     used.close()
 
 
+RESTLESS = """
+import sys
+from coframe import _core
+segment = _core.Segment.open(sys.argv[1], "one", 10**13)
+assert segment.try_to_write()
+buffer = _core.Buffer(10**13)
+segment.write(buffer)
+store = lambda stamp: buffer._set_values("map", "base", stamp, 3.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, False, "me")
+for i in range(20_000):
+    store(10**13 + i)
+print("ready", flush=True)
+for i in range(10**9):
+    store(10**13 - i)  # before all others, which are moved
+"""
+
+
+def test_copying_ends_beside_a_writer_that_never_rests(tmp_path):
+    folder = str(tmp_path / "shared")
+    writer = subprocess.Popen([sys.executable, "-c", RESTLESS, folder], stdout=subprocess.PIPE, text=True)
+    try:
+        assert writer.stdout.readline() == "ready\n"
+        segment = _core.Segment.open(folder, "one", 10**13)
+        buffer = coframe.Buffer()
+        assert segment.follow(buffer)
+        assert buffer.snapshot().frame_names() == ["base", "map"]
+        buffer._stop_following()
+        assert buffer.set("map", "own", coframe.Transform([1, 0, 0]), 10**9)
+        segment.close()
+    finally:
+        writer.kill()
+        writer.communicate()
+
+
 def test_a_folder_of_others_is_refused(tmp_path):
     folder = tmp_path / "open"
     folder.mkdir(mode=0o755)

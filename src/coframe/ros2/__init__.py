@@ -7,8 +7,8 @@ sourced ROS, the classes are those of coframe's tf2_ros.
 
 A listener receives transforms in native code, without the interpreter lock and without an executor, through a hidden
 node of coframe in the domain and namespace of the ROS node. This works with every middleware that is based on DDS, and
-with rmw_zenoh if coframe[zenoh] is installed. With ``COFRAME_ROS2_WIRE=rclpy``, it subscribes through the ROS node
-instead, which works with every middleware.
+with rmw_zenoh if coframe[zenoh] is installed. With ``TransformListener(..., wire="rclpy")`` or
+``COFRAME_ROS2_WIRE=rclpy``, it subscribes through the ROS node instead, which works with every middleware.
 
 ``python -m coframe.ros2 node.py`` runs an unchanged program in the same way.
 

@@ -14,7 +14,7 @@ from rclpy.subscription import Subscription
 from tf2_msgs.msg import TFMessage
 from tf2_ros._shared_subscriptions import SharedSubscriptions
 from tf2_ros._sharing import share
-from tf2_ros._subscriptions import AUTHORITY, Request, Subscriptions, Topic
+from tf2_ros._subscriptions import AUTHORITY, CallbackSubscriptions, Request, Subscriptions, Topic
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -27,7 +27,9 @@ profile = as_qos_profile
 
 
 def open_subscriptions(request: Request) -> Subscriptions:
-    """Subscribe, and insert transforms into the buffer without Python code."""
+    """Subscribe, and insert transforms into the buffer without Python code unless the request says otherwise."""
+    if request.wire == "rclpy":
+        return CallbackSubscriptions(request)
 
     def receive_alone() -> Subscriptions:
         return _NativeSubscriptions(request)

@@ -18,7 +18,7 @@ from rclpy.qos import QoSProfile
 from rclpy.utilities import get_rmw_implementation_identifier
 from tf2_msgs.msg import TFMessage
 from tf2_ros._sharing import SharedReader, share
-from tf2_ros._subscriptions import AUTHORITY, CallbackSubscriptions, Request, Subscriptions, Topic
+from tf2_ros._subscriptions import AUTHORITY, WIRES, CallbackSubscriptions, Request, Subscriptions, Topic
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -28,7 +28,6 @@ if TYPE_CHECKING:
     from rclpy.task import Future
     from tf2_ros._sharing import Sharing
 
-_WIRES = ("native", "rclpy")
 _logged: set[str] = set()
 
 # A node's guard condition wakes the executor that spins the node.
@@ -41,7 +40,7 @@ def profile(qos: QoSProfile | int) -> QoSProfile:
 
 
 def open_subscriptions(request: Request) -> Subscriptions:
-    """Subscribe natively or with raw subscriptions of the node, depending on `COFRAME_ROS2_WIRE`.
+    """Subscribe natively or with raw subscriptions of the node, as the request or `COFRAME_ROS2_WIRE` says.
 
     By default, the subscriptions are native if coframe can use the middleware of this ROS. With COFRAME_SHARED=1,
     native subscriptions are shared with the other processes of this user.
@@ -50,9 +49,9 @@ def open_subscriptions(request: Request) -> Subscriptions:
         ValueError: The environment variable has another value.
     """
     _add_guard_condition(request.node)
-    wire = os.environ.get("COFRAME_ROS2_WIRE") or _default_wire(request.node)
-    if wire not in _WIRES:
-        raise ValueError(f"COFRAME_ROS2_WIRE is {wire!r}. Valid values: {', '.join(_WIRES)}.")
+    wire = request.wire or os.environ.get("COFRAME_ROS2_WIRE") or _default_wire(request.node)
+    if wire not in WIRES:
+        raise ValueError(f"COFRAME_ROS2_WIRE is {wire!r}. Valid values: {', '.join(WIRES)}.")
     if wire == "native":
         report = _reporter(request.node)
         sharing = share(request, request.node.context.get_domain_id(), _to_wire, lambda _: report)

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from rclpy.qos import QoSProfile
 
 AUTHORITY = "default_authority"
+WIRES = ("native", "rclpy")
 
 
 @dataclass(frozen=True)
@@ -47,6 +48,7 @@ class Request:
         dynamic: The topic of dynamic transforms; None to subscribe to static transforms only.
         static: The topic of static transforms.
         shared: Whether the buffer may read shared transforms.
+        wire: How the transforms are received, "native" or "rclpy"; None: as the environment says.
     """
 
     node: Node
@@ -56,6 +58,7 @@ class Request:
     dynamic: Topic | None
     static: Topic
     shared: bool = True
+    wire: str | None = None
 
 
 class Subscriptions(Protocol):

@@ -15,7 +15,7 @@ from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile
 from tf2_msgs.msg import TFMessage
 from tf2_ros._rclpy_side import open_subscriptions, profile
 from tf2_ros._renaming import renamed
-from tf2_ros._subscriptions import AUTHORITY, CallbackSubscriptions, Request, Topic
+from tf2_ros._subscriptions import AUTHORITY, WIRES, CallbackSubscriptions, Request, Topic
 from tf2_ros.buffer import Buffer, clear_on_time_jump
 from tf2_ros.static_transform_broadcaster import DEFAULT_STATIC_TF_TOPIC
 from tf2_ros.transform_broadcaster import DEFAULT_TF_TOPIC
@@ -52,6 +52,7 @@ class TransformListener:
         static_only: bool = False,
         prefix: str = "",
         keep: Iterable[str] = (),
+        wire: str | None = None,
     ) -> None:
         """Create the subscriptions.
 
@@ -67,7 +68,15 @@ class TransformListener:
             static_only: Whether to subscribe to static transforms only.
             prefix: Prefix of the frame names in the buffer, such as `robot1/`. No separator is added.
             keep: Frames without prefix, such as `["map"]`.
+            wire: How transforms are received: "native", without an executor, or "rclpy", by subscriptions of the node,
+                which must then be spun. Default: "native"; in a sourced ROS 2, see `coframe.ros2`.
+
+        Raises:
+            ValueError: `wire` has another value.
         """
+        if wire not in {None, *WIRES}:
+            raise ValueError(f"wire is {wire!r}. Valid values: {', '.join(WIRES)}.")
+        self.__wire = wire
         self.__renaming = renaming(prefix, keep)
         self.node = node if node is not None else _create_internal_node(self)
         self.group = ReentrantCallbackGroup()
@@ -134,6 +143,7 @@ class TransformListener:
             None if self.__dynamic_topic is None else Topic(self.__dynamic_topic, qos[False], self.callback),
             Topic(self.__static_topic, qos[True], self.static_callback),
             shared,
+            self.__wire,
         )
         self.__subscriptions = open_subscriptions(request) if self.__is_plain() else CallbackSubscriptions(request)
         self.tf_sub, self.tf_static_sub = self.__subscriptions.dynamic, self.__subscriptions.static
