@@ -474,3 +474,18 @@ def test_a_module_with_code_wins(tmp_path: Path, monkeypatch: pytest.MonkeyPatch
     write(tmp_path / "other_msgs", {"msg/Num.msg": "uint8 n\n"})
     monkeypatch.syspath_prepend(str(tmp_path / "code"))
     assert importlib.import_module("other_msgs.msg").whose == "theirs"
+
+
+def test_the_finders_find_nothing_where_coframe_cannot_be_imported():
+    """As in isolated builds of pip: Python runs the .pth files of the environment, but cannot import its packages."""
+    code = """
+import sys
+from importlib.util import find_spec
+base = sys.base_prefix, sys.base_exec_prefix
+sys.path[:] = [folder for folder in sys.path if folder.startswith(base) and "site-packages" not in folder]
+sys.meta_path[:] = [finder for finder in sys.meta_path if "ScikitBuild" not in type(finder).__name__]
+assert any(type(finder).__name__ == "CoframeInterfaces" for finder in sys.meta_path)
+print(find_spec("coframe"), find_spec("no_such_package"))
+"""
+    ended = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    assert ended.stdout == "None None\n", ended.stderr
