@@ -5,10 +5,14 @@
     python -m benchmarks.publishing receive rclpy cloud 2   processor time of the receiver: nanoseconds per message
 
 The messages are `tf`, one transform, sent by `sendTransform`; `joints`, a JointState of 30 joints with velocities and
-efforts; and `cloud`, a PointCloud2 of 1 MB. The contenders are `rclpy`, which is coframe's in coframe's Python and that
-of a sourced ROS 2 in its own; `cyclonedds`, the package of that name with its own classes; and `socket`, bare UDP
-sockets that send and receive the serialized bytes, in datagrams of up to 64 kB. The sockets are the floor. The receiver
-is another process, and messages are sent with pauses, as a robot does.
+efforts; and `cloud`, a PointCloud2 of 1 MB. The receiver is another process on another processor, and messages are sent
+with pauses, as a robot does. The contenders are:
+
+- `rclpy`: coframe's in coframe's Python, and that of a sourced ROS 2 in its own.
+- `bytes`: coframe's publisher of serialized bytes, which passes them to Cyclone DDS.
+- `cyclonedds`: the package of that name, with its own classes.
+- `socket`: bare UDP sockets that send and receive the serialized bytes, in datagrams of up to 64 kB.
+- `copying`: the same with a copy of the bytes, because DDS keeps messages until they are acknowledged.
 """
 
 import contextlib
@@ -23,11 +27,15 @@ from array import array
 from collections.abc import Callable, Iterator
 from typing import Any, Protocol
 
+from benchmarks.processor import leave_processor, take_processor
+
 PAUSE_S = {"tf": 0.001, "joints": 0.001, "cloud": 0.01}
 """The pause between two messages."""
 TOPICS = {"tf": "/tf", "joints": "/joint_states", "cloud": "/points"}
 CLOUD_SIZE = 1_000_000
 DATAGRAM = 64_000
+KEPT = 10
+"""The depth of the publishers of joints and clouds."""
 PATIENCE = 30.0
 CYCLONE_ON_LOOPBACK = (
     '<CycloneDDS><Domain id="any"><General><Interfaces><NetworkInterface address="127.0.0.1" multicast="true"/>'
@@ -159,6 +167,25 @@ def socket_sender(kind: str, address: str) -> Iterator[Callable[[], object]]:
         yield send_all
 
 
+@contextlib.contextmanager
+def copying_sender(kind: str, address: str) -> Iterator[Callable[[], object]]:
+    data = serialized(kind)
+    kept = [memoryview(bytearray(data)) for _ in range(KEPT)]
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sender:
+        sender.connect(("127.0.0.1", int(address)))
+        send = sender.send
+
+        def send_all() -> None:
+            copy = kept[0]
+            kept.append(kept.pop(0))
+            copy[:] = data
+            with contextlib.suppress(ConnectionRefusedError):  # The receiver has ended.
+                for begin in range(0, len(copy), DATAGRAM):
+                    send(copy[begin : begin + DATAGRAM])
+
+        yield send_all
+
+
 class CycloneReceiver:
     """A reader of the cyclonedds package, which waits in a thread."""
 
@@ -197,16 +224,39 @@ def cyclone_sender(kind: str, _: str) -> Iterator[Callable[[], object]]:
     yield lambda: writer.write(content)
 
 
+@contextlib.contextmanager
+def bytes_sender(kind: str, _: str) -> Iterator[Callable[[], object]]:
+    from coframe.wire import Participant, QoS
+    from coframe.wire.qos import TF
+
+    participant = Participant.get()
+    qos = TF if kind == "tf" else QoS(depth=KEPT)
+    publisher = participant.publisher(participant.add_node("/", "sender"), TOPICS[kind], _ros_type(kind), qos)
+    while not publisher.matched:
+        time.sleep(0.01)
+    data = serialized(kind)
+    yield lambda: publisher.write(data)
+
+
 RECEIVERS: dict[str, Callable[[str], Receiver]] = {
     "rclpy": RclpyReceiver,
+    "bytes": RclpyReceiver,
     "socket": SocketReceiver,
+    "copying": SocketReceiver,
     "cyclonedds": CycloneReceiver,
 }
-SENDERS = {"rclpy": rclpy_sender, "socket": socket_sender, "cyclonedds": cyclone_sender}
+SENDERS = {
+    "rclpy": rclpy_sender,
+    "bytes": bytes_sender,
+    "socket": socket_sender,
+    "copying": copying_sender,
+    "cyclonedds": cyclone_sender,
+}
 
 
-def send_messages(contender: str, kind: str, seconds: float, address: str) -> None:
+def send_messages(contender: str, kind: str, seconds: float, address: str, processor: str) -> None:
     """Send messages for a time, and print the median time of a call in nanoseconds."""
+    take_processor(processor)
     took = []
     with SENDERS[contender](kind, address) as send:
         end = time.monotonic() + seconds
@@ -220,8 +270,9 @@ def send_messages(contender: str, kind: str, seconds: float, address: str) -> No
 
 
 def measure(quantity: str, contender: str, kind: str, seconds: float) -> float:
+    processor = leave_processor()
     receiver = RECEIVERS[contender](kind)
-    command = ["-m", "benchmarks.publishing", "send", contender, kind, str(seconds + 1), receiver.address]
+    command = ["-m", "benchmarks.publishing", "send", contender, kind, str(seconds + 1), receiver.address, processor]
     with subprocess.Popen([*_python(), *command], stdout=subprocess.PIPE, text=True) as sender:
         print("the first message", file=sys.stderr, flush=True)
         end = time.monotonic() + PATIENCE
@@ -245,9 +296,9 @@ def _python() -> list[str]:
     return [sys.executable, *(["-E"] if sys.flags.ignore_environment else [])]
 
 
-def main(quantity: str, contender: str, kind: str, seconds: str, address: str = "") -> None:
+def main(quantity: str, contender: str, kind: str, seconds: str, address: str = "", processor: str = "") -> None:
     if quantity == "send":
-        send_messages(contender, kind, float(seconds), address)
+        send_messages(contender, kind, float(seconds), address, processor)
     # Use only the loopback interface, and a domain of its own.
     os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "LOCALHOST"
     os.environ.setdefault("ROS_DOMAIN_ID", str(100 + os.getpid() % 100))

@@ -8,6 +8,8 @@ right before it is sent: its latency is measured.
     python -m benchmarks.wire_latency latency coframe 5     until it is stored: nanoseconds, median and 99th percentile
     python -m benchmarks.wire_latency awake coframe 5       until a waiting Python thread is awake: the same
 
+The talker and the listener run on separate processors.
+
 A transform is stored when a lookup returns it; the reader records the time on the thread that stores it. The listeners
 are `coframe`, the native reader of a buffer; `zenoh`, the reader over Zenoh; `tf2`, the TransformListener of the
 installed tf2_ros; and `udp`, a bare socket that receives the same bytes. The socket is the floor, and its two latencies
@@ -24,6 +26,8 @@ import sys
 import time
 from collections.abc import Callable, Iterable, Iterator
 from typing import Protocol
+
+from benchmarks.processor import leave_processor, take_processor
 
 RATE_HZ = 1000
 TRANSFORMS = 10
@@ -68,6 +72,11 @@ class Coframe:
         if self._buffer.can_transform(TARGET, SOURCE):
             self._last = self._buffer.lookup(TARGET, SOURCE).stamp or 0
         return self._last > 0
+
+    @property
+    def received(self) -> int:
+        """The number of received messages."""
+        return self._reader.received
 
     def listen(self, seconds: float) -> None:
         time.sleep(seconds)
@@ -190,7 +199,8 @@ def stamp(data: bytearray, offset: int) -> None:
     struct.pack_into("<II", data, offset, now // NS, now % NS)
 
 
-def talk(address: str, seconds: float) -> None:
+def talk(address: str, seconds: float, processor: str) -> None:
+    take_processor(processor)
     data = message()
     offsets = stamps_at(data)
     with sender_to(address) as send:
@@ -206,9 +216,10 @@ def talk(address: str, seconds: float) -> None:
 
 
 @contextlib.contextmanager
-def talker(python: str, listener: Listener, seconds: float) -> Iterator[None]:
-    """Run a talker process, from the receipt of its first message."""
-    command = [python, "-E", "-m", "benchmarks.wire_latency", "talk", listener.address, str(seconds + PATIENCE)]
+def talker(python: str, listener: Listener, seconds: float, processor: str) -> Iterator[None]:
+    """Run a talker process on a processor, from the receipt of its first message."""
+    arguments = ["talk", listener.address, str(seconds + PATIENCE), processor]
+    command = [python, "-E", "-m", "benchmarks.wire_latency", *arguments]
     process = subprocess.Popen(command)
     try:
         print("the first message of the talker", file=sys.stderr, flush=True)
@@ -253,15 +264,16 @@ def awake(listener: Listener, seconds: float) -> tuple[float, ...]:
 QUANTITIES: dict[str, Callable[[Listener, float], tuple[float, ...]]] = {"cpu": cpu, "latency": latency, "awake": awake}
 
 
-def main(quantity: str, name: str, seconds: str, talkers_python: str = sys.executable) -> None:
+def main(quantity: str, name: str, seconds: str, argument: str = "") -> None:
     if quantity == "talk":
-        talk(name, float(seconds))
+        talk(name, float(seconds), argument)
         return
     # Use only the loopback interface, and a domain of its own.
     os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "LOCALHOST"
     os.environ.setdefault("ROS_DOMAIN_ID", str(100 + os.getpid() % 100))
+    processor = leave_processor()
     listener = LISTENERS[name]()
-    with talker(talkers_python, listener, float(seconds)):
+    with talker(argument or sys.executable, listener, float(seconds), processor):
         print("the measurement", file=sys.stderr, flush=True)
         print(*QUANTITIES[quantity](listener, float(seconds)), flush=True)
     if name == "tf2":

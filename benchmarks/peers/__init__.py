@@ -34,11 +34,16 @@ def _debian(*also: str) -> Python:
     return DEBIAN_PYTHON
 
 
-def _ros2(*also: str) -> Python:
+def sourced(*modules: str) -> Python:
+    """Return the Python of the sourced ROS 2 if it has rclpy and these modules."""
     python = (shutil.which("python3") or "python3",)
-    if "ROS_DISTRO" not in os.environ or not can_import(python, "rclpy", "tf2_py", *also):
+    if "ROS_DISTRO" not in os.environ or not can_import(python, "rclpy", *modules):
         raise MissingPeerError("source a ROS 2 with tf2-ros and tf2-sensor-msgs")
     return python
+
+
+def _ros2(*also: str) -> Python:
+    return sourced("tf2_py", *also)
 
 
 DEBIAN = Tf2("Debian's tf2", _debian)

@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstring>
+#include <span>
 #include <vector>
 
 namespace coframe::bindings {
@@ -48,6 +49,11 @@ class Output {
   }
 
   std::size_t size() const { return bytes_.size() + in_arrays_; }
+
+  // Returns the message if it is in one part; otherwise nothing.
+  std::span<const char> whole() const {
+    return arrays_.empty() ? std::span<const char>(bytes_) : std::span<const char>();
+  }
 
   // Calls `use(data, size)` for each part of the message, in order.
   template <class Use>

@@ -150,6 +150,14 @@ bool MessageCodec::put_message(PyObject* message, Output& out) const {
   return true;
 }
 
+bool MessageCodec::put_items(PyObject* items, Output& out) const {
+  if (std::endian::native != std::endian::little || fields_.size() != 1) return false;
+  const Field& field = fields_[0];
+  if (field.container != kSequence || !field.message) return false;
+  if (Py_TYPE(items) != field.message->type_) return put_field(field, items, out);
+  return put_length(1, out) && field.message->put_message(items, out);
+}
+
 bool MessageCodec::put_field(const Field& field, PyObject* value, Output& out) {
   if (field.container == kSingle) return put_value(field, value, out);
   const bool is_array = field.container == kArray;

@@ -30,6 +30,8 @@ class MessageCodec {
 
   // Writes a message. Returns false if Python code has to serialise it.
   bool put_message(PyObject* message, Output& out) const;
+  // The same for a message whose only field is a sequence of messages, which are in a list or tuple, or is one message.
+  bool put_items(PyObject* items, Output& out) const;
 
  private:
   enum Container : char { kSingle, kArray, kSequence };

@@ -12,6 +12,7 @@
 #include "bindings/arguments.hpp"
 #include "bindings/bindings.hpp"
 #include "bindings/buffer.hpp"
+#include "bindings/direct_writer.hpp"
 #include "bindings/message_codec.hpp"
 #include "bindings/relay.hpp"
 #include "core/cdr.hpp"
@@ -75,17 +76,6 @@ void write_bytes(const PyWriter& writer, nb::bytes message) {
   const std::size_t size = message.size();
   WithoutGil release;
   (writer.*write)(data, size);
-}
-
-// Serialises and sends a message. Returns false if Python code has to serialise it.
-bool publish_message(const PyWriter& writer, const MessageCodec& codec, nb::handle message) {
-  Output out;
-  if (!codec.put_message(message.ptr(), out)) return false;
-  std::vector<dds::IoVector> parts;
-  out.each_part([&](const void* data, std::size_t size) { parts.push_back(dds::io_vector(data, size)); });
-  WithoutGil release;
-  writer.write(parts, out.size());
-  return true;
 }
 
 nb::tuple to_tuple(const QosProfile& qos) {
@@ -189,8 +179,25 @@ void define_writer(nb::module_& wire) {
            nb::arg("participant"), nb::arg("topic"), nb::arg("qos"), nb::arg("user_data"),
            nb::arg("checks_transforms") = false, nb::arg("on_change") = nb::none(), ReleaseGil())
       .def("write", &write_bytes<&Writer::write>, nb::arg("message"), "Send one serialised message without the GIL.")
-      .def("publish", &publish_message, nb::arg("codec"), nb::arg("message"),
-           "Serialize and send a message; return False if Python code has to serialize it.")
+      .def(
+          "publish",
+          [](const PyWriter& self, const MessageCodec& codec, nb::handle message) {
+            return publish_message(self, codec, message);
+          },
+          nb::arg("codec"), nb::arg("message"),
+          "Serialize and send a message; return False if Python code has to serialize it.")
+      .def(
+          "direct",
+          [](nb::handle self, std::shared_ptr<const MessageCodec> codec, std::shared_ptr<Event> closed,
+             nb::object failure, bool of_items) {
+            return direct_function(self, nb::cast<const PyWriter&>(self), std::move(codec), std::move(closed),
+                                   std::move(failure), of_items);
+          },
+          nb::arg("codec"), nb::arg("closed"), nb::arg("failure"), nb::arg("of_items"),
+          "Return a function that serializes and sends a message, and returns whether it did; False leaves it to "
+          "Python "
+          "code, as always once `closed` is set or the writer is closed. `failure` returns the exception for an error "
+          "text. With `of_items`, the function takes the items of the message's only field, or a single item.")
       .def("forward", &write_bytes<&Writer::forward>, nb::arg("message"),
            "Send a message without a check of its bytes.")
       .def("assert_liveliness", &PyWriter::assert_liveliness, ReleaseGil(),

@@ -37,9 +37,16 @@ Entity create_unchecked_topic(Entity participant, const std::string& name, const
                "create the topic");
 }
 
-Code write(Entity writer, std::span<const IoVector> parts, std::size_t size) {
+const Sertype* type_of(Entity entity) {
   const Functions& f = functions();
-  if (f.dds_get_entity_sertype == nullptr) {
+  const Sertype* type = nullptr;
+  if (f.dds_get_entity_sertype != nullptr) check(f.dds_get_entity_sertype(entity, &type), "read the type");
+  return type;
+}
+
+Code write(Entity writer, const Sertype* type, std::span<const IoVector> parts, std::size_t size) {
+  const Functions& f = functions();
+  if (type == nullptr) {
     if (parts.size() == 1) return RawSample(parts[0].data, size).write(writer);
     std::vector<char> whole;
     whole.reserve(size);
@@ -49,8 +56,6 @@ Code write(Entity writer, std::span<const IoVector> parts, std::size_t size) {
     }
     return RawSample(whole.data(), size).write(writer);
   }
-  const Sertype* type;
-  if (const Code code = f.dds_get_entity_sertype(writer, &type); code < 0) return code;
   Serdata* sample = f.ddsi_serdata_from_ser_iov(type, kData, parts.size(), parts.data(), size);  // copies the bytes
   return sample ? f.dds_writecdr(writer, sample) : kBadParameter;                                // releases the sample
 }

@@ -251,9 +251,12 @@ inline IoVector io_vector(const void* data, std::size_t size) {
   return vector;
 }
 
+// Returns the type of an entity's samples; null with Cyclone DDS 0.10. It lives as long as the entity.
+const Sertype* type_of(Entity entity);
+
 // Sends serialised bytes: 4 bytes of encapsulation, all in the first part, then CDR. `size` is that of all parts. They
-// are copied.
-Code write(Entity writer, std::span<const IoVector> parts, std::size_t size);
+// are copied. `type` is that of the writer.
+Code write(Entity writer, const Sertype* type, std::span<const IoVector> parts, std::size_t size);
 
 // Deletes a topic once its reader or writer was created, which keeps what it needs of it. Built-in topics stay.
 void release_topic(Entity topic);

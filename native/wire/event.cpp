@@ -24,6 +24,8 @@ void Event::set() {
 
 void Event::clear() { set_ = 0; }
 
+bool Event::is_set() { return set_.load(std::memory_order_acquire) != 0; }
+
 bool Event::wait(std::int64_t timeout_ns) {
   using clock = std::chrono::steady_clock;
   constexpr std::int64_t kSecond = 1'000'000'000;
@@ -54,6 +56,11 @@ void Event::set() {
 void Event::clear() {
   std::lock_guard lock(mutex_);
   set_ = false;
+}
+
+bool Event::is_set() {
+  std::lock_guard lock(mutex_);
+  return set_;
 }
 
 bool Event::wait(std::int64_t timeout_ns) {

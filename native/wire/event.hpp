@@ -24,6 +24,7 @@ class Event {
 
   void set();
   void clear();
+  bool is_set();
   // Waits until the event is set or `timeout_ns` has passed (negative: no limit). If it was set, clears it and returns
   // true. Returns false after the timeout or a signal.
   bool wait(std::int64_t timeout_ns);

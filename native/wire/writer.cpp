@@ -31,6 +31,12 @@ Writer::Writer(dds::Entity participant, dds::Entity topic, const QosProfile& pro
   if (on_change) events_.add_to_writer(listener.get());
   entity_ = dds::check(f.dds_create_writer(participant, topic, qos.get(), listener.get()), "create a writer");
   dds::release_topic(topic);
+  try {
+    type_ = dds::type_of(entity_);
+  } catch (...) {
+    close();
+    throw;
+  }
 }
 
 void Writer::write(const void* data, std::size_t size) const {
@@ -53,7 +59,8 @@ void Writer::forward(const void* data, std::size_t size) const {
 
 dds::Code Writer::pass_on(std::span<const dds::IoVector> parts, std::size_t size) const {
   const std::lock_guard lock(closing_);
-  return dds::write(entity_, parts, size);
+  const dds::Entity entity = entity_;
+  return entity > 0 ? dds::write(entity, type_, parts, size) : dds::kBadParameter;
 }
 
 void Writer::close() noexcept {

@@ -31,6 +31,7 @@ class Writer {
   // Sends one message without checking its bytes.
   void forward(const void* data, std::size_t size) const;
   void close() noexcept;
+  bool closed() const { return entity_ == 0; }
 
   dds::Guid guid() const;
   std::uint32_t matched() const;
@@ -47,8 +48,9 @@ class Writer {
 
   const bool checks_transforms_;
   StatusEvents events_;
-  mutable std::mutex closing_;  // held while the type of the topic is used, because close() deletes it
+  mutable std::mutex closing_;  // held while the type is used, because close() deletes it
   std::atomic<dds::Entity> entity_ = 0;
+  const dds::Sertype* type_ = nullptr;
 };
 
 }  // namespace coframe

@@ -814,6 +814,16 @@ class Writer:
     def publish(self, codec: MessageCodec, message: Any) -> bool:
         """Serialize and send a message; return False if Python code has to serialize it."""
 
+    def direct(
+        self, codec: MessageCodec, closed: Event, failure: Callable[[str], BaseException], of_items: bool
+    ) -> Callable[[Any], bool]:
+        """Return a function that serializes and sends a message, and returns whether it did.
+
+        False leaves the message to Python code, as always once `closed` is set or the writer is closed. `failure`
+        returns the exception for an error text. With `of_items`, the function takes the items of the message's only
+        field, or a single item.
+        """
+
     def forward(self, message: bytes) -> None:
         """Send a message without a check of its bytes."""
 

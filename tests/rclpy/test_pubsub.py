@@ -10,6 +10,7 @@ import pytest
 import rclpy.serialization
 from rcl_interfaces.msg import Log
 from rclpy.context import Context
+from rclpy.exceptions import InvalidHandle
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.qos import DurabilityPolicy, QoSProfile, qos_profile_sensor_data
 from rclpy.wait_for_message import wait_for_message
@@ -95,19 +96,51 @@ def test_large_arrays_and_fields_that_only_python_code_serializes(node, spin):
     cloud.data.append(7)  # Publishing has released the memory of the array.
 
 
-def test_wrong_types_are_rejected(node):
+@pytest.mark.parametrize("published", [0, 1, 2])
+def test_wrong_types_are_rejected(node, published):
     publisher = node.create_publisher(String, "a", 10)
+    for _ in range(published):
+        publisher.publish(String())
     with pytest.raises(TypeError, match="Expected"):
         publisher.publish(Int32())
     with pytest.raises(RuntimeError, match="callable with one argument"):
         node.create_subscription(String, "a", lambda: None, 10)
 
 
-def test_publishing_after_the_shutdown_raises(node):
+@pytest.mark.parametrize("published", [0, 1, 2])
+def test_publishing_after_the_shutdown_raises(node, published):
     publisher = node.create_publisher(String, "a", 10)
+    for _ in range(published):
+        publisher.publish(String())
     node.context.shutdown()
     with pytest.raises(RuntimeError, match="publisher's context is invalid"):
         publisher.publish(String())
+
+
+@pytest.mark.parametrize("published", [0, 1, 2])
+def test_publishing_after_destruction_raises(node, published):
+    publisher = node.create_publisher(String, "a", 10)
+    for _ in range(published):
+        publisher.publish(String())
+    node.destroy_publisher(publisher)
+    with pytest.raises(InvalidHandle, match="destruction was requested"):
+        publisher.publish(String())
+
+
+def test_first_and_later_messages_of_all_forms_arrive(node, spin):
+    class Derived(String):
+        pass
+
+    got = []
+    node.create_subscription(String, "a", lambda message: got.append(message.data), 10)
+    publisher = node.create_publisher(String, "a", 10)
+    spin(lambda: publisher.get_subscription_count() == 1)
+    for _ in range(2):
+        publisher.publish(String(data="message"))
+        publisher.publish(Derived(data="derived"))
+        publisher.publish(rclpy.serialization.serialize_message(String(data="bytes")))
+    spin(lambda: len(got) == 6)
+    assert got == ["message", "derived", "bytes"] * 2
 
 
 def test_remapped_topics_match(make_node, wait_until):

@@ -7,6 +7,7 @@ import pytest
 from coframe import WireError
 from coframe._core import Event
 from coframe.messages import codec, find
+from coframe.messages.native_codec import native_codec
 from coframe.wire import QoS
 
 STRING = find("std_msgs/msg/String")
@@ -47,6 +48,38 @@ def test_messages_are_exchanged_between_processes(participant, node, child, even
     assert participant.writer_node(received[0].writer) == "/echo", (
         "the name is kept for some time after the node has left"
     )
+
+
+@pytest.mark.parametrize("of_items", [False, True])
+def test_publishing_directly(participant, node, eventually, of_items):
+    publisher = participant.publisher(node, "/tf", TF_MESSAGE, QoS())
+    subscription = participant.subscription(node, "/tf", TF_MESSAGE, QoS(), on_data=None)
+    closed = Event()
+    publish = publisher.direct(native_codec(TF_MESSAGE), closed, lambda error: error, of_items=of_items)
+    transforms = [find("geometry_msgs/msg/TransformStamped")(child_frame_id=name) for name in "ab"]
+    message = TF_MESSAGE(transforms=transforms)
+    assert publish(transforms if of_items else message) is True
+    assert publish(transforms[0] if of_items else TF_MESSAGE()) is True
+    for other in (message if of_items else transforms, iter(transforms), "text", None, STRING()):
+        assert publish(other) is False
+    taken = []
+    eventually(lambda: taken.extend(subscription.take()) or len(taken) == 2)
+    children = [[t.child_frame_id for t in codec.deserialize(s.data, TF_MESSAGE).transforms] for s in taken]
+    assert children == [["a", "b"], ["a"] if of_items else []]
+    closed.set()
+    assert publish(transforms if of_items else message) is False
+    closed.clear()
+    publisher.close()
+    assert publish(transforms if of_items else message) is False
+
+
+def test_errors_of_publishing_directly(participant, node):
+    """The text of DDS becomes a WireError, and the caller chooses the exception."""
+    publisher = participant.publisher(node, "/tf", TF_MESSAGE, QoS())
+    publish = publisher.direct(native_codec(STRING), Event(), KeyError)  # Transforms are checked before they are sent.
+    with pytest.raises(KeyError, match="Publishing on /tf failed: could not write: Bad Parameter") as info:
+        publish(STRING(data="not transforms"))
+    assert isinstance(info.value.args[0], WireError)
 
 
 def test_pending_and_limit(participant, node, eventually):

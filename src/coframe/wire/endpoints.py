@@ -189,7 +189,7 @@ class Publisher(LocalEndpoint):
     ) -> None:
         self._writer = native
         # Writers of DDS can send a message in parts.
-        self._publish: Callable[[_core.MessageCodec, object], bool] | None = getattr(native, "publish", None)
+        self._direct_writer = native if isinstance(native, _core.Writer) else None
         self.on_mismatch = on_mismatch
         super().__init__(native, node, endpoint, qos)
 
@@ -203,7 +203,7 @@ class Publisher(LocalEndpoint):
         try:
             self._send(cdr)
         except _core.EndpointError as error:
-            raise self._write_error(error) from error
+            raise self._write_error(str(error)) from error
 
     def publish(self, codec: _core.MessageCodec, message: object) -> bool:
         """Serialize and publish a message, without the copies of large arrays that `write` needs.
@@ -215,9 +215,29 @@ class Publisher(LocalEndpoint):
             WireError: As for `write`.
         """
         try:
-            return self._publish is not None and self._publish(codec, message)
+            return self._direct_writer is not None and self._direct_writer.publish(codec, message)
         except _core.EndpointError as error:
-            raise self._write_error(error) from error
+            raise self._write_error(str(error)) from error
+
+    def direct(
+        self,
+        codec: _core.MessageCodec,
+        closed: _core.Event,
+        failure: Callable[[WireError], BaseException],
+        *,
+        of_items: bool = False,
+    ) -> Callable[[object], bool] | None:
+        """Return a native function that does what `publish` does, or None if the middleware has no such function.
+
+        Args:
+            codec: The codec of the message class.
+            closed: When this is set, the function publishes nothing and returns False, as it does after `close`.
+            failure: Returns the exception to raise in place of an error of `publish`.
+            of_items: Whether to pass the items of the message's only field, or a single item, in place of a message.
+        """
+        if self._direct_writer is None:
+            return None
+        return self._direct_writer.direct(codec, closed, lambda text: failure(self._write_error(text)), of_items)
 
     def assert_liveliness(self) -> None:
         """Show the subscriptions that this publisher is alive."""
@@ -231,11 +251,11 @@ class Publisher(LocalEndpoint):
     def _send(self, cdr: bytes) -> None:
         self._writer.write(cdr)
 
-    def _write_error(self, error: _core.EndpointError) -> WireError:
+    def _write_error(self, error: str) -> WireError:
         topic = names.any_ros_name(self.topic)
         if self._closed:
             return WireError(f"The publisher on {topic} is closed.", hint="Publish before you close the node.")
-        if error.args[0].endswith("Timeout"):
+        if error.endswith("Timeout"):
             return WireError(
                 f"Publishing on {topic} failed: a reliable subscription has not kept up for 1 s.",
                 hint="Publish less often, publish with best-effort reliability (qos_profile_sensor_data), "

@@ -154,6 +154,9 @@ class StaticBroadcaster:
         self._shared.send(self, message.transforms, replace_all=True)
         return True
 
+    def direct(self, *_: object, of_items: bool = False) -> None:
+        """Return None: there is no native function that does what `publish` does."""
+
     def close(self) -> None:
         """Close this broadcaster. Its transforms stay available until the last broadcaster of the topic is closed."""
         self._shared.leave(self)

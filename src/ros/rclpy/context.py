@@ -14,6 +14,7 @@ import weakref
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
+from coframe._core import Event
 from rclpy import _arguments
 from rclpy import logging as ros_logging
 from rclpy._absent import Handle
@@ -26,7 +27,6 @@ if TYPE_CHECKING:
 
     from typing_extensions import Self
 
-    from coframe._core import Event
     from coframe.wire import Participant
 
 # A plain list, so that a signal handler can iterate over it at any time.
@@ -48,6 +48,8 @@ class Context:
         self.__shutdown_callbacks: list[Callable[[], Callable[[], object] | None]] = []
         self.__events: set[Event] = set()
         self._Coframe__wakeup = Wakeup()
+        # Set when publishers must not publish anymore, for native code.
+        self._Coframe__closed = Event()
 
     def init(
         self,
@@ -142,6 +144,9 @@ class Context:
                 return False
             self.__is_ok = False
             self._Coframe__was_shut_down_by_signal = by_signal
+            # After a signal, a program may still publish final messages, for example to stop the robot.
+            if not by_signal:
+                self._Coframe__closed.set()
             _running.remove(self)
         self._Coframe__wakeup.set()
         for event in tuple(self.__events):

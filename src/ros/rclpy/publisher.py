@@ -17,6 +17,9 @@ from rclpy.duration import Duration, Infinite
 from rclpy.exceptions import RCLError
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from coframe._core import MessageCodec
     from coframe.wire import Publisher as WirePublisher
     from coframe.wire import StaticBroadcaster
     from rclpy.context import Context
@@ -42,6 +45,7 @@ class Publisher:
     ) -> None:
         self.__wire: WirePublisher | StaticBroadcaster | None = wire
         self.__context = context
+        self.__direct: Callable[[Any], bool] = _leave
         self.msg_type = msg_type
         self.topic = topic
         self.__topic_name = topic_name
@@ -64,9 +68,13 @@ class Publisher:
             RCLError: The context was shut down, or the bytes are not a message of the publisher's type.
             InvalidHandle: The publisher was destroyed.
         """
+        if not self.__direct(msg):
+            self.__publish(msg)
+
+    def __publish(self, msg: Any) -> None:
+        """Publish a message that native code does not publish, or report why it cannot be published."""
         if not isinstance(msg, (self.msg_type, bytes)):
             raise TypeError(f"Expected {self.msg_type}, got {type(msg)}")
-        # After a signal, a program may still publish final messages, for example to stop the robot.
         if not self.__context.ok() and not self.__context._Coframe__was_shut_down_by_signal:
             raise RCLError("Failed to publish: publisher's context is invalid")
         wire = self.__require_wire()
@@ -74,8 +82,20 @@ class Publisher:
             native = None if isinstance(msg, bytes) else native_codec(type(msg))
             if native is None or not wire.publish(native, msg):
                 wire.write(msg if isinstance(msg, bytes) else codec.serialize(msg))
+            elif type(msg) is self.msg_type:  # The next one is published by a single call.
+                self.__direct = self.__direct_function(native)
         except WireError as error:
-            raise RCLError(f"Failed to publish: {error}") from error
+            raise _failure(error) from error
+
+    def __direct_function(self, native: MessageCodec, *, of_items: bool = False) -> Callable[[Any], bool]:
+        """Return a function that publishes a message and returns True, or returns False if `__publish` must do it."""
+        wire, closed = self.__require_wire(), self.__context._Coframe__closed
+        return wire.direct(native, closed, _failure, of_items=of_items) or _leave
+
+    def _Coframe__publish_items(self) -> Callable[[Any], bool]:
+        """Return the same function for the items of a message with one field, or for a single item."""
+        native = native_codec(self.msg_type)
+        return _leave if native is None else self.__direct_function(native, of_items=True)
 
     def get_subscription_count(self) -> int:
         """Return the number of matched subscriptions."""
@@ -102,6 +122,7 @@ class Publisher:
         if self.__wire is not None:
             for handler in self.event_handlers:
                 handler.destroy()
+            self.__direct = _leave
             self.__wire.close()
             self.__wire = None
 
@@ -109,3 +130,14 @@ class Publisher:
         if self.__wire is None:
             raise destroyed(f"The publisher of '{self.topic_name}'")
         return self.__wire
+
+
+def _leave(_: Any) -> bool:
+    """Leave a message to `Publisher.__publish`."""
+    return False
+
+
+def _failure(error: WireError) -> RCLError:
+    failure = RCLError(f"Failed to publish: {error}")
+    failure.__cause__ = error
+    return failure

@@ -4,8 +4,32 @@
 from coframe.ros_side import tf2_is_replaced
 
 if tf2_is_replaced():
-    from tf2_ros._side_sourced import on_cancel, open_subscriptions, profile, static_publisher, wait_for, wake_executors
+    from tf2_ros._side_sourced import (
+        direct_sender,
+        on_cancel,
+        open_subscriptions,
+        profile,
+        static_publisher,
+        wait_for,
+        wake_executors,
+    )
 else:
-    from tf2_ros._side_coframe import on_cancel, open_subscriptions, profile, static_publisher, wait_for, wake_executors
+    from tf2_ros._side_coframe import (
+        direct_sender,
+        on_cancel,
+        open_subscriptions,
+        profile,
+        static_publisher,
+        wait_for,
+        wake_executors,
+    )
 
-__all__ = ["on_cancel", "open_subscriptions", "profile", "static_publisher", "wait_for", "wake_executors"]
+__all__ = [
+    "direct_sender",
+    "on_cancel",
+    "open_subscriptions",
+    "profile",
+    "static_publisher",
+    "wait_for",
+    "wake_executors",
+]

@@ -25,6 +25,8 @@ if TYPE_CHECKING:
 
 profile = as_qos_profile
 
+_PUBLISH = Publisher.publish
+
 
 def open_subscriptions(request: Request) -> Subscriptions:
     """Subscribe, and insert transforms into the buffer without Python code unless the request says otherwise."""
@@ -44,6 +46,17 @@ def static_publisher(node: Node, topic: str, qos: QoSProfile) -> Any:
     name = node.resolve_topic_name(topic)
     writer = node._Coframe__participant.static_broadcaster(node._Coframe__graph_node, name)
     return node._Coframe__add_entity(Publisher(writer, TFMessage, topic, name, qos, node.context))
+
+
+def direct_sender(publisher: Any) -> tuple[Callable[[Any], bool], object]:
+    """Return a function that publishes transforms without a message object, and what `publisher.publish` must equal.
+
+    The function accepts a TransformStamped or a list of them. It returns False if it has published nothing, in which
+    case a message must be published. Programs may replace `publish` in order to receive messages.
+    """
+    if type(publisher).publish is _PUBLISH:
+        return publisher._Coframe__publish_items(), publisher.publish
+    return (lambda _: False), None
 
 
 def wait_for(action_client: Any, future: Future[Any], timeout: float) -> None:

@@ -65,6 +65,12 @@ def static_publisher(node: Node, topic: str, qos: QoSProfile) -> Any:
     return node.create_publisher(TFMessage, topic, qos)
 
 
+def direct_sender(publisher: Any) -> tuple[Callable[[Any], bool], object]:
+    """Return a function that publishes nothing and returns False: rclpy publishes messages only."""
+    del publisher
+    return (lambda _: False), None
+
+
 def wait_for(action_client: Any, future: Future[Any], timeout: float) -> None:
     """Wait until an executor has completed a future of an action client, up to a timeout in seconds."""
     del action_client

@@ -9,6 +9,7 @@ from geometry_msgs.msg import TransformStamped
 from rclpy.node import Node
 from rclpy.qos import QoSProfile
 from tf2_msgs.msg import TFMessage
+from tf2_ros._rclpy_side import direct_sender
 from tf2_ros._renaming import renamed
 
 DEFAULT_TF_TOPIC = "/tf"
@@ -43,9 +44,12 @@ class TransformBroadcaster:
         if qos is None:
             qos = QoSProfile(depth=100)
         self.pub_tf = node.create_publisher(TFMessage, tf_topic, qos)
+        self.__send, self.__publish = direct_sender(self.pub_tf)
 
     def sendTransform(self, transform: TransformStamped | Iterable[TransformStamped]) -> None:
         """Publish one or several transforms in one message."""
+        if self.__renaming is None and self.pub_tf.publish == self.__publish and self.__send(transform):
+            return
         message = TFMessage()
         message.transforms = renamed(as_list(transform), self.__renaming)
         self.pub_tf.publish(message)

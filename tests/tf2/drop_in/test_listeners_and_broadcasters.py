@@ -13,7 +13,9 @@ import pytest
 import rclpy
 import tf2_ros
 from rclpy.clock import ClockType
+from rclpy.context import Context
 from rclpy.duration import Duration
+from rclpy.exceptions import InvalidHandle, RCLError
 from rclpy.executors import MultiThreadedExecutor, SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.publisher import Publisher
@@ -259,6 +261,41 @@ def test_send_one_or_several_transforms(buffer, node, broadcaster, stamped):
         broadcaster.sendTransform(transforms)
         rclpy.spin_once(node)
     assert {"one", "two", "three", "four", "five", "six"} <= set(buffer._getFrameStrings())
+
+
+@pytest.mark.parametrize("owner", ["instance", "class"])
+def test_a_replacement_of_publish_receives_messages(broadcaster, stamped, monkeypatch, owner):
+    broadcaster.sendTransform(stamped("foo", "before"))
+    got = []
+    if owner == "instance":
+        monkeypatch.setattr(broadcaster.pub_tf, "publish", got.append)
+    else:
+        monkeypatch.setattr(Publisher, "publish", lambda _, message: got.append(message))
+    broadcaster.sendTransform(stamped("foo", "one"))
+    broadcaster.sendTransform([stamped("foo", "two"), stamped("foo", "three")])
+    assert [type(message) for message in got] == [TFMessage, TFMessage]
+    assert [[t.child_frame_id for t in message.transforms] for message in got] == [["one"], ["two", "three"]]
+
+
+def test_errors_of_send_transform(node, broadcaster, stamped):
+    broadcaster.sendTransform(stamped("foo", "bar"))
+    for wrong in (String(), [String()], None):
+        with pytest.raises(AssertionError, match="transforms"):
+            broadcaster.sendTransform(wrong)
+    node.destroy_publisher(broadcaster.pub_tf)
+    with pytest.raises(InvalidHandle, match="destruction was requested"):
+        broadcaster.sendTransform(stamped("foo", "bar"))
+
+
+def test_send_transform_after_the_shutdown(stamped):
+    with Context() as context:
+        node = rclpy.create_node("tester", context=context)
+        broadcaster = tf2_ros.TransformBroadcaster(node)
+        broadcaster.sendTransform(stamped("foo", "bar"))
+        context.shutdown()
+        with pytest.raises(RCLError, match="publisher's context is invalid"):
+            broadcaster.sendTransform(stamped("foo", "bar"))
+        node.destroy_node()
 
 
 def frames_of_a_late_listener(node):
