@@ -2,6 +2,7 @@
 """Count the processor instructions of a message by layer: Python, coframe, Cyclone DDS, and the C library.
 
     python -m benchmarks.layers listener 5     the thread that receives messages of ten transforms
+    python -m benchmarks.layers socket 5       a thread that receives the same bytes from a bare socket
     python -m benchmarks.layers publisher 5    the thread that calls sendTransform with one transform
 
 The numbers are instructions outside the kernel per message, counted for some seconds by Valgrind
@@ -27,7 +28,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
-LISTENER, PUBLISHER = "listener", "publisher"
+LISTENER, SOCKET, PUBLISHER = "listener", "socket", "publisher"
 FUNCTIONS = 20
 TIME_LIMIT_S = 300
 PAUSE_S = 0.001
@@ -96,6 +97,23 @@ def listening() -> Iterator[Callable[[], int]]:
 
 
 @contextlib.contextmanager
+def receiving() -> Iterator[Callable[[], int]]:
+    from benchmarks.wire_latency import Udp, talker
+
+    listener, received = Udp(), 0
+
+    def run() -> None:
+        nonlocal received
+        while True:
+            listener.next_message()
+            received += 1
+
+    with talker(sys.executable, listener, TIME_LIMIT_S, ""):
+        threading.Thread(target=run, daemon=True).start()
+        yield lambda: received
+
+
+@contextlib.contextmanager
 def publishing() -> Iterator[Callable[[], int]]:
     from benchmarks.publishing import rclpy_sender
 
@@ -113,7 +131,7 @@ def publishing() -> Iterator[Callable[[], int]]:
         yield lambda: sent
 
 
-SUBJECTS = {LISTENER: listening, PUBLISHER: publishing}
+SUBJECTS = {LISTENER: listening, SOCKET: receiving, PUBLISHER: publishing}
 
 
 def run(subject: str, seconds: float) -> None:

@@ -50,6 +50,7 @@ def test_messages_are_exchanged_between_processes(participant, node, child, even
     )
 
 
+@pytest.mark.dds_only("only writers of DDS are native")
 @pytest.mark.parametrize("of_items", [False, True])
 def test_publishing_directly(participant, node, eventually, of_items):
     publisher = participant.publisher(node, "/tf", TF_MESSAGE, QoS())
@@ -73,6 +74,7 @@ def test_publishing_directly(participant, node, eventually, of_items):
     assert publish(transforms if of_items else message) is False
 
 
+@pytest.mark.dds_only("only writers of DDS are native")
 def test_errors_of_publishing_directly(participant, node):
     """The text of DDS becomes a WireError, and the caller chooses the exception."""
     publisher = participant.publisher(node, "/tf", TF_MESSAGE, QoS())
