@@ -83,5 +83,5 @@ cd "$checkout"
 "$bin/python" -c 'import rclpy; print("rclpy:", rclpy.__file__, rclpy.get_rmw_implementation_identifier())'
 COFRAME_TEST_ROS=1 PYTHONPATH="$checkout/tests/course/tf2_on_rclpy" AMENT_PREFIX_PATH="$venv" \
     "$bin/python" -m pytest tests/course/test_sourced_ros.py -v -p no:cacheprovider
-PYTHONPATH="$folder/packages" AMENT_PREFIX_PATH="$venv" LD_LIBRARY_PATH="$venv/lib" \
+PYTHONPATH="$folder/packages:$checkout/tests/course/tf2_on_rclpy" AMENT_PREFIX_PATH="$venv" LD_LIBRARY_PATH="$venv/lib" \
     "$bin/python" tests/process/inside_ros2/verify.py
