@@ -21,8 +21,10 @@ from coframe.cli.app import app
 from coframe.course import formats
 from coframe.course.assignment import assignment_of, read_assignment
 from coframe.course.checking import check_folder, submissions
+from coframe.course.criteria.static import _pose_cause
 from coframe.course.folders import create_folder
 from coframe.errors import CourseError
+from geometry_msgs.msg import TransformStamped
 
 pytestmark = pytest.mark.timeout(300)  # nine programs run one after the other, on a machine that may be busy
 
@@ -266,3 +268,23 @@ def test_the_handbook_is_printed_and_written_as_web_pages(tmp_path):
     missing = CliRunner().invoke(app, ["lab", "handbook", "11"])
     assert missing.exit_code == 2
     assert "Chapters: 1 to 10." in missing.output
+
+
+@pytest.mark.slow
+def test_an_error_of_a_program_names_its_line_and_is_the_cause_of_all_lost_points(folder, grade):
+    path = folder / "static_tf_broadcaster.py"
+    text = path.read_text().replace("q.x, q.y, q.z, q.w = rotation", "q.x = 0")  # fails inside the class of the message
+    path.write_text(text)
+    number = next(number for number, line in enumerate(text.splitlines(), 1) if "q.x = 0" in line)
+    (found,) = grade("static").values()
+    assert f"in line {number} of static_tf_broadcaster.py: AssertionError: The 'x' field must be" in found["problem"]
+    assert {fact["cause"] for fact in lost(found).values()} == {"the program ended before it published anything"}
+
+
+def test_a_missing_rotation_is_named():
+    mount = assignment_of(None).mounts[0]
+    message = TransformStamped()
+    message.transform.rotation.w = 1.0
+    moved = message.transform.translation
+    moved.x, moved.y, moved.z = map(float, mount.translation)
+    assert _pose_cause([message], mount).startswith("the rotation is missing")

@@ -170,6 +170,11 @@ class TestSuggestions:
         assert code == 1
         assert f"Did you mean '{tmp_path / 'walk.mcap'}'?" in error
 
+    def test_an_absent_file(self, tmp_path):
+        recordings.write_mcap(tmp_path / "walk.mcap")
+        assert f"Recordings in '{tmp_path}': walk.mcap." in run("bag", "info", tmp_path / "q")[2]
+        assert f"There is no folder '{tmp_path / 'absent'}'." in run("bag", "info", tmp_path / "absent" / "q")[2]
+
     def test_a_misspelled_topic(self, tmp_path):
         recording = coframe.open_bag(recordings.write_mcap(tmp_path / "a.mcap"))
         with pytest.raises(coframe.RecordingError) as caught:

@@ -18,6 +18,7 @@ from coframe.bags.compressed_messages import UnpackedMessages
 from coframe.bags.storage import Channel, unpacked_budget
 from coframe.bounded_yaml import read_yaml
 from coframe.errors import RecordingError
+from coframe.existence import is_file
 from coframe.formatting import listed
 from coframe.temporary_folders import temporary_folder
 
@@ -70,7 +71,7 @@ def open_files(path: Path, problems: Problems, closing: ExitStack) -> OpenedFile
     except OSError as error:
         raise RecordingError(
             f"{path} cannot be read: {error.strerror or error}",
-            hint=_similar_path(path) or "Check the path and the permission to read it.",
+            hint=_existing_instead(path) or "Check the path and the permission to read it.",
         ) from None
     if not found:
         reasons = problems.sentences()
@@ -94,14 +95,20 @@ def recording_stem(file: Path) -> str:
     return _ROS1_DATE.sub("", bare) if numbered and number.isdigit() else stem
 
 
-def _similar_path(path: Path) -> str:
-    """Return a hint that names a file or folder with a similar name; "" if there is none, or if the path exists."""
+def _existing_instead(path: Path) -> str:
+    """Return a hint that names what is there instead of an absent path; "" if there is nothing, or if it exists."""
     try:
-        names = [] if path.exists() else [each.name for each in path.parent.iterdir()]
+        entries = [] if path.exists() else sorted(path.parent.iterdir())
+    except FileNotFoundError:
+        return f"There is no folder {str(path.parent)!r}."
     except OSError:
         return ""
+    names = [each.name for each in entries]
     near = difflib.get_close_matches(path.name, names, n=1) or [name for name in names if Path(name).stem == path.name]
-    return f"Did you mean {str(path.with_name(near[0]))!r}?" if near else ""
+    if near:
+        return f"Did you mean {str(path.with_name(near[0]))!r}?"
+    recordings = [each.name for each in entries if each.suffix in _SUFFIXES or is_file(each / _METADATA)]
+    return f"Recordings in {str(path.parent.absolute())!r}: {listed(recordings)}." if recordings else ""
 
 
 def _inner_recordings(folder: Path) -> str:

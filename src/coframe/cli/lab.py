@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""``coframe lab``: the lab as a course: a folder for a student, its nodes beside a simulated robot, and its grade."""
+"""``coframe lab``: the lab as a course: a folder for a student, its nodes next to a simulated robot, and its grade."""
 
 from __future__ import annotations
 
@@ -79,7 +79,7 @@ def new(
         print(f"Next: read {printable(str(folder / 'README.md'))}, then run: coframe lab run {printable(str(folder))}")
 
 
-@lab.command(cls=PlainCommand, short_help="Run the nodes of a folder beside a simulated robot.")
+@lab.command(cls=PlainCommand, short_help="Run the nodes of a folder next to a simulated robot.")
 def run(
     folder: FolderArgument = None,
     complete: Annotated[
@@ -100,7 +100,7 @@ def run(
     with run_until_interrupted():
         programs = [*programs_of(_folder(folder), COMPLETE_TREE if complete else STEPS), *simulation]
         print(
-            "Your nodes run beside a simulated robot. Stop them with Ctrl-C. They are shown in the viewer:", flush=True
+            "Your nodes run next to a simulated robot. Stop them with Ctrl-C. They are shown in the viewer:", flush=True
         )
         _run(programs, seconds, browser=browser, port=port, names_silent=True)
 

@@ -41,7 +41,7 @@ CRITERIA = (
 def grade(
     folder: Path, assignment: Assignment, scratch: Path, only: tuple[str, ...], done: Callable[[str], None]
 ) -> Report:
-    """Run a student's nodes beside a simulated robot, and return the grade.
+    """Run a student's nodes next to a simulated robot, and return the grade.
 
     Args:
         folder: The student's folder.

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import contextlib
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -28,6 +29,7 @@ _TOO_MUCH_OUTPUT = f"The program printed more than {MAX_OUTPUT >> 20} MB and was
 MAX_CPU = 120  # seconds of processor time
 _STOP_PATIENCE = 3.0  # seconds between SIGINT and SIGKILL
 _LAST_LINES = 8
+_TRACEBACK_LINE = re.compile(r'^  File "([^"\n]{1,1000})", line (\d{1,7})', re.MULTILINE)
 _LIMITS = Path(__file__).with_name("limits.py")
 _KILL_ROUNDS = 50
 _BLOCK = 512  # bytes of a block, in which the system counts the size of a file
@@ -138,19 +140,32 @@ class Program:
         error = next((line for line in reversed(last) if line.strip()), "")
         if code < 0:
             return f"The program was ended by signal {-code}."
+        line = self._failed_line()
+        place = f" in line {line} of {self.file.name}" if line else ""
         return (
-            f"The program ended with an error: {error[:200]}" if error else f"The program ended with exit code {code}."
+            f"The program ended with an error{place}: {error[:200]}"
+            if error
+            else f"The program ended with exit code {code}."
         )
 
     def last_lines(self) -> list[str]:
         """Return the last lines of its output."""
+        return self._end_of_output(4000).splitlines()[-_LAST_LINES:]
+
+    def _failed_line(self) -> int | None:
+        """Return the innermost line of the program in the last traceback: its end may be in other files."""
+        _, found, traceback = self._end_of_output(40_000).rpartition("Traceback (most recent call last):")
+        lines = _TRACEBACK_LINE.findall(traceback) if found else []
+        return next((int(line) for name, line in reversed(lines) if Path(name).name == self.file.name), None)
+
+    def _end_of_output(self, size: int) -> str:
         try:
             with self._log.open("rb") as log:
                 log.seek(0, os.SEEK_END)
-                log.seek(max(0, log.tell() - 4000))
-                return log.read().decode(errors="replace").splitlines()[-_LAST_LINES:]
+                log.seek(max(0, log.tell() - size))
+                return log.read().decode(errors="replace")
         except OSError:
-            return []
+            return ""
 
     def _exceeded(self) -> str:
         assert self._process is not None

@@ -102,6 +102,12 @@ class Sheet:
         for fact in self.facts[first:]:
             fact.earned, fact.observed, fact.cause = 0.0, observed, ""
 
+    def blame(self, first: int, cause: str) -> None:
+        """Name the cause of all points that were lost from fact number `first` on, counted from 0."""
+        for fact in self.facts[first:]:
+            if fact.earned < fact.points:
+                fact.cause = cause
+
     @property
     def points(self) -> float:
         """The points of all facts."""

@@ -77,6 +77,8 @@ def run_program(task: Task, sheet: Sheet, *, wrong_topic: str = "") -> Iterator[
         sheet.withdraw(0, intruder)
     elif silence and not problem:
         sheet.withdraw(first, silence)
+    elif silence:
+        sheet.blame(first, "the program ended before it published anything")
 
 
 def _silence(file: str, world: World, wrong_topic: str) -> str:

@@ -103,6 +103,8 @@ def _pose_cause(messages: list[Any], mount: Mount) -> str:
     if not messages:
         return "the transform is not sent"
     pose = edge_of(messages[-1])
+    if not differs(pose, Transform(mount.translation)):
+        return "the rotation is missing: the quaternion is that of no rotation"
     x, y, z, w = pose.quaternion.tolist()
     for quaternion, cause in (
         ((y, z, w, x), "the quaternion is in the order w, x, y, z; ROS has x, y, z, w"),
