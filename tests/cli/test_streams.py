@@ -4,13 +4,11 @@
 import os
 import subprocess
 import sys
-import tempfile
 from pathlib import Path
 
 import pytest
 import recordings
 
-from coframe.cli import run
 from coframe.course.readable import _shared_paths
 from coframe.packages.folders import listed
 from coframe.wire.dds.library import places
@@ -58,14 +56,13 @@ def test_a_closed_pipe_is_not_an_error(bag, name):
     process.wait(60)
 
 
-def test_a_missing_temporary_folder_is_reported(tmp_path, monkeypatch):
-    monkeypatch.setattr(tempfile, "tempdir", None)
-    monkeypatch.setattr(tempfile, "_candidate_tempdir_list", lambda: [str(tmp_path / "absent")])
-    (tmp_path / "lab").mkdir()
-    with pytest.raises(SystemExit) as end:
-        run(["lab", "check", str(tmp_path / "lab")])
-    assert "No usable temporary directory" in end.value.code
-    assert end.value.code.endswith("\n  Set TMPDIR to a folder with write permission.")
+def test_a_missing_temporary_folder_is_reported(tmp_path):
+    script = "import tempfile; tempfile._candidate_tempdir_list = lambda: ['/absent']\n"
+    script += f"from coframe.cli import run; run(['lab', 'check', {str(tmp_path)!r}])"
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=False)
+    assert done.returncode == 1
+    assert done.stderr.startswith("coframe: No usable temporary directory found in ")
+    assert done.stderr.endswith("\n  Set TMPDIR to a folder with write permission.\n")
 
 
 def test_unreadable_folders_on_search_paths_are_skipped(monkeypatch):
