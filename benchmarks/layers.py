@@ -7,7 +7,8 @@
 
 The numbers are instructions outside the kernel per message, counted for some seconds by Valgrind
 (``apt-get install valgrind``) at 1 kHz, or as fast as the emulated processor can. A busy machine does not change them.
-The functions with the most instructions of their own follow. The other side is a process that is not counted.
+The functions with the most instructions follow: first their own, then with those of the functions that they call. The
+other side is a process that is not counted.
 """
 
 from __future__ import annotations
@@ -23,13 +24,13 @@ import threading
 import time
 from collections import Counter
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
 LISTENER, SOCKET, PUBLISHER = "listener", "socket", "publisher"
-FUNCTIONS = 20
+FUNCTIONS = 40
 TIME_LIMIT_S = 300
 PAUSE_S = 0.001
 WARM_UP_S = 12.0
@@ -56,16 +57,29 @@ def layer_of(path: str) -> str:
     return next((layer for part, layer in LAYERS.items() if part in name), "other")
 
 
-def costs(profile: str) -> tuple[Counter[str], Counter[tuple[str, str]]]:
-    """Return the instructions in a file of Callgrind: of each layer, and of each function of a layer by itself."""
+class Costs(NamedTuple):
+    """Instructions.
+
+    Attributes:
+        layers: Of each layer.
+        own: Of each function, a pair of layer and name.
+        total: The same with the functions that it calls.
+    """
+
+    layers: Counter[str]
+    own: Counter[tuple[str, str]]
+    total: Counter[tuple[str, str]]
+
+
+def costs(profile: str) -> Costs:
+    """Return the instructions in a file of Callgrind."""
     names: dict[str, str] = {}  # the file contains each name once, with a number for the next time
 
     def name_of(value: str) -> str:
         number, _, name = value.partition(" ")
         return names.setdefault(number, name)
 
-    layers: Counter[str] = Counter()
-    functions: Counter[tuple[str, str]] = Counter()
+    result = Costs(Counter(), Counter(), Counter())
     layer = function = ""
     is_called = False
     for line in profile.splitlines():
@@ -79,12 +93,13 @@ def costs(profile: str) -> tuple[Counter[str], Counter[tuple[str, str]]]:
         elif key == "calls":
             is_called = True  # The next line has the cost of the called function.
         elif re.match(r"[+\-*\d]", line):
+            count = int(line.split()[1])
+            result.total[layer, function] += count
             if not is_called:
-                count = int(line.split()[1])
-                layers[layer] += count
-                functions[layer, function] += count
+                result.layers[layer] += count
+                result.own[layer, function] += count
             is_called = False
-    return layers, functions
+    return result
 
 
 @contextlib.contextmanager
@@ -170,13 +185,14 @@ def main(subject: str, seconds: str) -> None:
     os.environ.setdefault("ROS_DOMAIN_ID", str(100 + os.getpid() % 100))
     os.environ["COFRAME_CPU_LEVEL"] = "plain"  # Valgrind does not know all processors.
     messages, profiles = profile(subject, seconds)
-    layers, functions = max((costs(text) for text in profiles), key=lambda result: result[0].total())
+    layers, own, total = max((costs(text) for text in profiles), key=lambda result: result.layers.total())
     print(f"{subject}: {layers.total() / messages:.0f} instructions per message, {messages} messages")
     for layer, count in layers.most_common():
         print(f"{count / messages:8.0f}  {count / layers.total():4.0%}  {layer}")
-    print()
-    for (layer, function), count in functions.most_common(FUNCTIONS):
-        print(f"{count / messages:8.0f}  {layer:12}  {function[:90]}")
+    for title, functions in ("Functions alone", own), ("Functions with those that they call", total):
+        print(f"\n{title}:")
+        for (layer, function), count in functions.most_common(FUNCTIONS):
+            print(f"{count / messages:8.0f}  {layer:12}  {function[:90]}")
 
 
 if __name__ == "__main__":
