@@ -189,10 +189,19 @@ def test_a_hub_receives_for_the_others(domain_id, eventually):
     hub = subprocess.Popen([sys.executable, "-m", "coframe.cli", *words], stderr=subprocess.PIPE, text=True)
     assert f"Receiving /tf and /tf_static in domain {domain_id} for all programs" in hub.stderr.readline()
     options = {"domain": domain_id, "prefix": "robot1/", "keep": "map", "shared": True}
-    with broadcasting(domain_id), coframe.connect("reader", **options) as ros:
+    with broadcasting(domain_id) as publisher, coframe.connect("reader", **options) as ros:
         assert ros.buffer.wait("map", "robot1/base", timeout="30s").x == 3.0
         assert ros._shared.writer_process == hub.pid
         assert any("2 frames in" in line for line in iter(hub.stderr.readline, ""))
+        statics = publisher.participant.static_broadcaster(publisher.node)
+        publish_statics(statics, "lidar", "camera")
+        ros.buffer.wait("robot1/base", "robot1/camera", timeout="30s")
+        publish_statics(statics, "lidar")
+        assert any("Static transforms were withdrawn" in line for line in iter(hub.stderr.readline, ""))
+        with coframe.connect("late", **options) as late:
+            assert late.buffer.wait("robot1/base", "robot1/lidar", timeout="30s").x == 1.0
+            assert "robot1/camera" not in late.buffer
+            assert late._shared.writer_process == hub.pid
         hub.send_signal(signal.SIGINT)
         hub.communicate(timeout=30)
         assert hub.returncode == 0
