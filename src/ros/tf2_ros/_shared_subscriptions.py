@@ -135,5 +135,5 @@ class _SharedArrivals:
         self._event.set()
 
     def _count(self) -> int:
-        messages: int = self._buffer.statistics["messages"]
-        return messages
+        changes: int = self._buffer._changes  # the messages whose transforms are stored completely
+        return changes
