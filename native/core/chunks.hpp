@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The storage of samples: chunks of a fixed size that are not returned to the system while their pool exists. A reader
+// The storage of samples: chunks of two sizes that are not returned to the system while their pool exists. A reader
 // that is too late reads old or wrong numbers, which it detects by the revision, but never foreign memory.
 #pragma once
 
@@ -76,21 +76,48 @@ static_assert(sizeof(SharedSample) == 64);
 
 // The layout in memory is also the layout in a frozen file.
 struct Chunk {
-  // Large enough that insertions rarely allocate, small enough for a tree of a thousand frames.
+  // Large enough that insertions rarely allocate.
   static constexpr std::size_t kSize = 256;
+  // A short chunk ends after so many samples: large trees have many frames that move slowly or for a short time.
+  static constexpr std::size_t kShortSize = 32;
 
   std::array<RelaxedAtomic<Stamp>, kSize> stamps;
   std::array<SharedSample, kSize> samples;
 };
 static_assert(sizeof(Chunk) == Chunk::kSize * (sizeof(Stamp) + sizeof(SharedSample)));
 
-struct PooledChunk : Chunk {
-  Atomic<std::uint32_t> holders{0};       // the history that contains the chunk and its snapshots
-  RelativePointer<PooledChunk> previous;  // in a ChunkList
+// The numbers of samples that a chunk may have room for.
+enum class ChunkLength : std::uint32_t { shorter = Chunk::kShortSize, full = Chunk::kSize };
+
+// What precedes a chunk that belongs to a pool. After it, a short chunk has the beginning of the memory of a chunk.
+struct alignas(64) ChunkHeader {
+  explicit ChunkHeader(ChunkLength length) : length(length) {}
+
+  Atomic<std::uint32_t> holders{0};  // the history that contains the chunk and its snapshots
+  const ChunkLength length;
+  RelativePointer<ChunkHeader> previous;  // in a ChunkList
+
+  std::size_t size() const { return static_cast<std::size_t>(length); }
+  Chunk* chunk() { return reinterpret_cast<Chunk*>(this + 1); }
+  static ChunkHeader* of(Chunk* chunk) { return reinterpret_cast<ChunkHeader*>(chunk) - 1; }
+  static constexpr std::size_t bytes(ChunkLength length) {
+    return sizeof(ChunkHeader) + offsetof(Chunk, samples) + static_cast<std::size_t>(length) * sizeof(SharedSample);
+  }
+  // Creates a chunk with its header in `bytes(length)` bytes of memory.
+  static ChunkHeader* create(void* memory, ChunkLength length) {
+    auto* header = new (memory) ChunkHeader(length);
+    auto* stamps = reinterpret_cast<RelaxedAtomic<Stamp>*>(header + 1);
+    std::uninitialized_value_construct_n(stamps, static_cast<std::size_t>(length));
+    auto* samples = reinterpret_cast<SharedSample*>(stamps + Chunk::kSize);
+    std::uninitialized_value_construct_n(samples, static_cast<std::size_t>(length));
+    return header;
+  }
 };
+static_assert(ChunkHeader::bytes(ChunkLength::full) == sizeof(ChunkHeader) + sizeof(Chunk));
+static_assert(std::is_trivially_destructible_v<ChunkHeader> && std::is_trivially_destructible_v<Chunk>);
 
 // All chunks of a shared tree, so that the next writer finds those that no history contains.
-using ChunkList = RelativePointer<PooledChunk>;
+using ChunkList = RelativePointer<ChunkHeader>;
 
 class ChunkPool {
  public:
@@ -99,71 +126,83 @@ class ChunkPool {
   ChunkPool(Memory& memory, ChunkList& all) : memory_(&memory), all_(&all) {}
 
   // Returns whether take() will return a chunk.
-  bool has_room() {
+  bool has_room(ChunkLength length) {
     if (!memory_) return true;
     const std::lock_guard lock(mutex_);
-    return !free_.empty() || memory_->has_room(kReserve + sizeof(PooledChunk));
+    return !supply(length).free.empty() || memory_->has_room(kReserve + ChunkHeader::bytes(length));
   }
 
   // Returns a chunk with one holder. The caller must announce the change to readers (Revision::Change), which may still
   // be reading the chunk as part of another history. Throws std::bad_alloc if there is no room.
-  PooledChunk* take() {
+  Chunk* take(ChunkLength length) {
     const std::lock_guard lock(mutex_);
-    PooledChunk* chunk = free_.empty() ? fresh() : free_.back();
-    if (!free_.empty()) free_.pop_back();
-    chunk->holders.store(1, std::memory_order_relaxed);
-    return chunk;
+    auto& free = supply(length).free;
+    ChunkHeader* header = free.empty() ? fresh(length) : free.back();
+    if (!free.empty()) free.pop_back();
+    header->holders.store(1, std::memory_order_relaxed);
+    return header->chunk();
   }
 
-  void release(PooledChunk* chunk) {
-    if (chunk->holders.fetch_sub(1, std::memory_order_acq_rel) != 1) return;
+  void release(Chunk* chunk) {
+    ChunkHeader* header = ChunkHeader::of(chunk);
+    if (header->holders.fetch_sub(1, std::memory_order_acq_rel) != 1) return;
     const std::lock_guard lock(mutex_);
-    free_.push_back(chunk);
+    supply(header->length).free.push_back(header);
   }
 
   // For a pool with a list: sets which chunks are free, after `mark` has counted the holders of all others.
   template <class Mark>
   void rebuild(Mark&& mark) {
     const std::lock_guard lock(mutex_);
-    free_.clear();
-    for (PooledChunk* chunk = all_->load(); chunk; chunk = chunk->previous.load()) chunk->holders.store(0);
+    short_.free.clear();
+    full_.free.clear();
+    for (ChunkHeader* chunk = all_->load(); chunk; chunk = chunk->previous.load()) chunk->holders.store(0);
     mark();
-    for (PooledChunk* chunk = all_->load(); chunk; chunk = chunk->previous.load()) {
-      if (chunk->holders.load() == 0) free_.push_back(chunk);
+    for (ChunkHeader* chunk = all_->load(); chunk; chunk = chunk->previous.load()) {
+      if (chunk->holders.load() == 0) supply(chunk->length).free.push_back(chunk);
     }
   }
 
  private:
+  // The chunks of one length.
+  struct Supply {
+    std::vector<ChunkHeader*> free;
+    std::vector<std::unique_ptr<Arena>> arenas;
+    std::size_t count = 0;                // number of chunks
+    std::size_t used = 0, last_size = 0;  // of the last arena
+  };
+
   // Small buffers take little memory; large ones use large pages.
-  static constexpr std::size_t kFew = 16, kMany = Arena::kLarge / sizeof(PooledChunk);
+  static constexpr std::size_t kFew = 16;
   // Chunks leave this much of a limited memory for the names and the directories of new frames.
   static constexpr std::size_t kReserve = 4 << 20;
 
-  PooledChunk* fresh() {
+  Supply& supply(ChunkLength length) { return length == ChunkLength::full ? full_ : short_; }
+
+  ChunkHeader* fresh(ChunkLength length) {
+    const std::size_t bytes = ChunkHeader::bytes(length);
     if (memory_) {
-      auto* chunk = memory_->make<PooledChunk>();
+      auto* chunk = ChunkHeader::create(memory_->take(bytes, alignof(ChunkHeader)), length);
       chunk->previous.store(all_->load());
       all_->store(chunk);
       return chunk;
     }
-    if (used_ == last_size_) {
-      const std::size_t size = count_ < kFew ? std::max<std::size_t>(3 * count_, 1) : kMany;
-      arenas_.push_back(std::make_unique<Arena>(size == kMany ? Arena::kLarge : size * sizeof(PooledChunk)));
-      last_size_ = size;
-      used_ = 0;
+    Supply& chunks = supply(length);
+    if (chunks.used == chunks.last_size) {
+      const std::size_t many = Arena::kLarge / bytes;
+      const std::size_t size = chunks.count < kFew ? std::max<std::size_t>(3 * chunks.count, 1) : many;
+      chunks.arenas.push_back(std::make_unique<Arena>(size == many ? Arena::kLarge : size * bytes));
+      chunks.last_size = size;
+      chunks.used = 0;
     }
-    ++count_;
-    return new (arenas_.back()->data() + used_++ * sizeof(PooledChunk)) PooledChunk;
+    ++chunks.count;
+    return ChunkHeader::create(chunks.arenas.back()->data() + chunks.used++ * bytes, length);
   }
 
   Memory* memory_ = nullptr;  // if set, the chunks are in it and in this list
   ChunkList* all_ = nullptr;
   std::mutex mutex_;  // snapshots may be destroyed in any thread
-  std::vector<std::unique_ptr<Arena>> arenas_;
-  std::size_t count_ = 0;                 // number of chunks
-  std::size_t used_ = 0, last_size_ = 0;  // of the last arena
-  std::vector<PooledChunk*> free_;
+  Supply short_, full_;
 };
-static_assert(std::is_trivially_destructible_v<PooledChunk>);
 
 }  // namespace coframe

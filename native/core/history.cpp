@@ -32,6 +32,13 @@ bool repeats(const History::View& samples, std::size_t end, Stamp stamp, const S
   return false;
 }
 
+void copy_samples(const Chunk& from, Chunk& to, std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i) {
+    to.stamps[i] = from.stamps[i].get();
+    to.samples[i].store(from.samples[i].load());
+  }
+}
+
 // The scope of a change that a successor can complete. Of a tree that is not shared there is no successor.
 class RedoScope {
  public:
@@ -213,7 +220,7 @@ void History::reset(const HistoryContext& context, HistoryKind kind) {
   const Revision::Change change(context.revision);
   const RedoScope redo(context.storage.interrupted, *this, Interrupted::Kind::reset,
                        [&](Interrupted& entry) { entry.new_kind = kind; });
-  drop_all(context.storage.pool);
+  drop_all(context.storage);
   kind_ = kind;
 }
 
@@ -230,7 +237,7 @@ void History::complete(const HistoryContext& context, Interrupted& change) {
       break;
     case Interrupted::Kind::set_fixed: set_fixed(change.sample.load()); break;
     case Interrupted::Kind::reset:
-      drop_all(context.storage.pool);
+      drop_all(context.storage);
       kind_ = change.new_kind.get();
       break;
   }
@@ -238,6 +245,7 @@ void History::complete(const HistoryContext& context, Interrupted& change) {
 
 void History::repair() {
   const View samples = view();
+  room_end_ = room_end();
   if (kind_ != HistoryKind::dynamic) return;
   first_.store(samples.empty() ? kLastStamp : samples.time(0));
   last_.store(samples.empty() ? kFirstStamp : samples.newest());
@@ -251,13 +259,13 @@ void History::hold_chunks() const {
   const View samples = view();
   if (samples.empty() || samples.is_static()) return;
   for (std::uint64_t n = samples.begin_ / Chunk::kSize; n <= (samples.end_ - 1) / Chunk::kSize; ++n) {
-    pooled_chunk_at(n * Chunk::kSize)->holders.store(1);
+    ChunkHeader::of(chunk_at(n * Chunk::kSize))->holders.store(1);
   }
 }
 
 bool History::has_room(const HistoryStorage& storage) const {
-  if (kind_ == HistoryKind::dynamic && end_ % Chunk::kSize != 0) return true;
-  if (!storage.pool.has_room()) return false;
+  if (kind_ == HistoryKind::dynamic && end_ != room_end_) return true;
+  if (!storage.pool.has_room(next_length())) return false;
   const std::uint64_t size = directory_.load() ? 2 * (directory_.known()->mask + 1) : kFirstDirectory;
   return !must_grow() || storage.memory.has_room(Directory::bytes(size) + Memory::kAlignment);
 }
@@ -295,7 +303,7 @@ void History::share(const HistoryStorage& storage, const History& other) {
   Directory* copy = Directory::create(storage, samples.directory_->mask + 1);
   for (std::uint64_t n = samples.begin_ / Chunk::kSize; n <= (samples.end_ - 1) / Chunk::kSize; ++n) {
     Chunk* chunk = other.chunk_at(n * Chunk::kSize);
-    if (!mapped_) static_cast<PooledChunk*>(chunk)->holders.fetch_add(1, std::memory_order_relaxed);
+    if (!mapped_) ChunkHeader::of(chunk)->holders.fetch_add(1, std::memory_order_relaxed);
     copy->chunk(n).store(chunk, std::memory_order_relaxed);
   }
   directory_.store(copy);
@@ -318,11 +326,11 @@ void History::map(const HistoryStorage& storage, const Chunk* chunks, std::uint6
   parent_ = span.parent;
 }
 
-void History::release(ChunkPool& pool) { drop_all(pool); }
+void History::release(const HistoryStorage& storage) { drop_all(storage); }
 
 void History::append(const HistoryContext& context, Stamp stamp, const Sample& sample) {
   const std::uint64_t index = end_;
-  if (index % Chunk::kSize == 0) add_chunk(context);
+  if (index == room_end_) extend(context);
   put(index, stamp, sample);
   parent_ = sample.parent;
   if (index == begin_) first_.store(stamp, std::memory_order_release);
@@ -337,9 +345,9 @@ std::size_t History::append_run(const HistoryContext& context, const Stamp* stam
   std::size_t stored = 0;
   while (stored < count && stamps[stored] > newest) {
     const std::uint64_t start = end_;
-    if (start % Chunk::kSize == 0) add_chunk(context);
+    if (start == room_end_) extend(context);
     Chunk& chunk = *chunk_at(start);
-    const std::size_t first = start % Chunk::kSize, most = std::min(count - stored, Chunk::kSize - first);
+    const std::size_t first = start % Chunk::kSize, most = std::min<std::size_t>(count - stored, room_end_ - start);
     std::size_t run = 0;
     Stamp before = newest;
     do {
@@ -360,7 +368,7 @@ std::size_t History::append_run(const HistoryContext& context, const Stamp* stam
 // All samples from the position on move by one; this is rare and usually affects few.
 void History::put_at(const HistoryContext& context, std::size_t position, Stamp stamp, const Sample& sample) {
   const std::uint64_t first = begin_ + position, end = end_;
-  if (end % Chunk::kSize == 0) add_chunk(context);
+  if (end == room_end_) extend(context);
   const Revision::Change change(context.revision);
   own_chunks(context.storage.pool, first, end + 1);
   Interrupted* progress = context.storage.interrupted;
@@ -394,22 +402,35 @@ bool History::must_grow() const {
   return !directory || end_ / Chunk::kSize - begin_ / Chunk::kSize > directory->mask;
 }
 
-void History::add_chunk(const HistoryContext& context) {
+// The first chunk of a frame is short. Later ones are not: a reader that is too late never sees the short one where it
+// expects a full one.
+ChunkLength History::next_length() const { return end_ == 0 ? ChunkLength::shorter : ChunkLength::full; }
+
+// Adds a chunk, or replaces a short one by a full one.
+void History::extend(const HistoryContext& context) {
   const Revision::Change change(context.revision);
   if (must_grow()) grow(context.storage);
-  directory_.known()->chunk(end_ / Chunk::kSize).store(context.storage.pool.take());
+  Chunk* chunk = context.storage.pool.take(next_length());
+  RelativePointer<Chunk>& entry = directory_.known()->chunk(end_ / Chunk::kSize);
+  if (const std::size_t count = end_ % Chunk::kSize; count != 0) {
+    Chunk* shorter = entry.known();
+    copy_samples(*shorter, *chunk, count);
+    entry.store(chunk);
+    context.storage.pool.release(shorter);
+  } else {
+    entry.store(chunk);
+  }
+  room_end_ = end_ / Chunk::kSize * Chunk::kSize + ChunkHeader::of(chunk)->size();
 }
 
 // Copies chunks that are shared with a snapshot before they change.
 void History::own_chunks(ChunkPool& pool, std::uint64_t first, std::uint64_t end) {
   for (std::uint64_t n = first / Chunk::kSize; n <= (end - 1) / Chunk::kSize; ++n) {
-    PooledChunk* shared = pooled_chunk_at(n * Chunk::kSize);
-    if (shared->holders.load(std::memory_order_acquire) == 1) continue;
-    Chunk* own = pool.take();
-    for (std::size_t i = 0; i < Chunk::kSize; ++i) {
-      own->stamps[i] = shared->stamps[i].get();
-      own->samples[i].store(shared->samples[i].load());
-    }
+    Chunk* shared = chunk_at(n * Chunk::kSize);
+    const ChunkHeader& header = *ChunkHeader::of(shared);
+    if (header.holders.load(std::memory_order_acquire) == 1) continue;
+    Chunk* own = pool.take(header.length);
+    copy_samples(*shared, *own, header.size());
     directory_.known()->chunk(n).store(own);
     pool.release(shared);
   }
@@ -427,19 +448,23 @@ void History::drop_before(ChunkPool& pool, std::uint64_t begin) {
   first_.store(chunk_at(begin)->stamps[begin % Chunk::kSize], std::memory_order_release);
   begin_.store(begin, std::memory_order_release);
   for (std::uint64_t n = first / Chunk::kSize; n < begin / Chunk::kSize; ++n) {
-    pool.release(pooled_chunk_at(n * Chunk::kSize));
+    pool.release(chunk_at(n * Chunk::kSize));
   }
 }
 
 // The next sample starts a new chunk.
-void History::drop_all(ChunkPool& pool) {
+void History::drop_all(const HistoryStorage& storage) {
   const std::uint64_t end = end_;
   if (kind_ == HistoryKind::dynamic && end > begin_ && !mapped_) {
     for (std::uint64_t n = begin_ / Chunk::kSize; n <= (end - 1) / Chunk::kSize; ++n) {
-      pool.release(pooled_chunk_at(n * Chunk::kSize));
+      Chunk* dropped = chunk_at(n * Chunk::kSize);
+      if (dropped == storage.nothing) continue;  // dropped by a writer that died
+      directory_.known()->chunk(n).store(storage.nothing);
+      storage.pool.release(dropped);
     }
   }
   const std::uint64_t next = (end + Chunk::kSize - 1) / Chunk::kSize * Chunk::kSize;
+  room_end_ = next;
   begin_.store(next, std::memory_order_release);
   end_.store(next, std::memory_order_release);
   first_.store(kLastStamp, std::memory_order_release);
@@ -447,10 +472,11 @@ void History::drop_all(ChunkPool& pool) {
   one_parent_ = true;
 }
 
-void History::put(std::uint64_t index, Stamp stamp, const Sample& sample) {
-  Chunk& chunk = *chunk_at(index);
-  chunk.stamps[index % Chunk::kSize] = stamp;
-  chunk.samples[index % Chunk::kSize].store(sample);
+// After the death of a writer.
+std::uint64_t History::room_end() const {
+  const std::uint64_t end = end_, filled = end % Chunk::kSize;
+  if (kind_ != HistoryKind::dynamic || filled == 0) return end;
+  return end - filled + ChunkHeader::of(chunk_at(end))->size();
 }
 
 void History::grow(const HistoryStorage& storage) {

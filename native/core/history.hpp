@@ -268,14 +268,11 @@ class History {
   // Returns false if nothing was done.
   bool append_newer(const HistoryContext& context, Stamp stamp, const Sample& sample) {
     const std::uint64_t end = end_.load(std::memory_order_relaxed);
-    const std::size_t i = end % Chunk::kSize;  // 0 also if there are no samples yet
-    if (kind_ != HistoryKind::dynamic || !one_parent_ || i == 0) return false;
+    if (kind_ != HistoryKind::dynamic || !one_parent_ || end == room_end_) return false;
     const Stamp newest = last_.load(std::memory_order_relaxed);
     if (stamp <= newest || parent_ != sample.parent) return false;
     prune(context, newest);
-    Chunk& chunk = *chunk_at(end);
-    chunk.stamps[i] = stamp;
-    chunk.samples[i].store(sample);
+    put(end, stamp, sample);
     end_.store(end + 1, std::memory_order_release);
     last_.store(stamp, std::memory_order_release);
     return true;
@@ -296,7 +293,7 @@ class History {
   // Uses samples that are owned elsewhere and never change: contiguous chunks, all full except the last.
   void map(const HistoryStorage& storage, const Chunk* chunks, std::uint64_t samples, bool one_parent,
            const Span& span);
-  void release(ChunkPool& pool);
+  void release(const HistoryStorage& storage);
 
   // For a tree with limited memory: returns whether one more sample can be stored.
   bool has_room(const HistoryStorage& storage) const;
@@ -317,7 +314,8 @@ class History {
   Insertion insert_fixed(const HistoryContext& context, const Sample& sample);
   void append(const HistoryContext& context, Stamp stamp, const Sample& sample);
   void put_at(const HistoryContext& context, std::size_t position, Stamp stamp, const Sample& sample);
-  void add_chunk(const HistoryContext& context);
+  void extend(const HistoryContext& context);
+  ChunkLength next_length() const;
   void own_chunks(ChunkPool& pool, std::uint64_t first, std::uint64_t end);
   // Prunes by the newest stamp before the last insertion; returns the earliest stamp that is kept.
   Stamp prune(const HistoryContext& context, Stamp newest) {
@@ -333,12 +331,16 @@ class History {
   static Stamp minus(Stamp stamp, Stamp length) { return stamp < kFirstStamp + length ? kFirstStamp : stamp - length; }
   void drop_older_than(ChunkPool& pool, Stamp stamp);
   void drop_before(ChunkPool& pool, std::uint64_t begin);
-  void drop_all(ChunkPool& pool);
-  PooledChunk* pooled_chunk_at(std::uint64_t index) const { return static_cast<PooledChunk*>(chunk_at(index)); }
+  void drop_all(const HistoryStorage& storage);
+  std::uint64_t room_end() const;
   Chunk* chunk_at(std::uint64_t index) const {
     return directory_.known()->chunk(index / Chunk::kSize).known(std::memory_order_relaxed);
   }
-  void put(std::uint64_t index, Stamp stamp, const Sample& sample);
+  void put(std::uint64_t index, Stamp stamp, const Sample& sample) {
+    Chunk& chunk = *chunk_at(index);
+    chunk.stamps[index % Chunk::kSize] = stamp;
+    chunk.samples[index % Chunk::kSize].store(sample);
+  }
   void shift_and_put(Interrupted* progress, std::uint64_t first, std::uint64_t last, std::uint64_t end, Stamp stamp,
                      const Sample& sample);
   void set_fixed(const Sample& sample);
@@ -348,6 +350,7 @@ class History {
   RelativePointer<Directory> directory_;  // set before the first sample is; readers may still use earlier ones
   Atomic<std::uint64_t> begin_{0};        // samples are numbered since the start of the history
   Atomic<std::uint64_t> end_{0};
+  std::uint64_t room_end_ = 0;  // the number of the first sample that the last chunk has no room for
   // The values of span(): of the samples from begin_ to end_, or of fewer during a change.
   Atomic<Stamp> first_{kLastStamp}, last_{kFirstStamp};
   RelaxedAtomic<FrameId> parent_{0};

@@ -149,7 +149,7 @@ Tree::~Tree() {
   for (const auto& storage : storages_) {
     if (storage->shared) continue;
     TreeData& tree = *storage->data;
-    for (FrameId id = 0; id < tree.frames.size(); ++id) tree.frames[id].history.release(*storage->pool);
+    for (FrameId id = 0; id < tree.frames.size(); ++id) tree.frames[id].history.release(storage->histories());
   }
 }
 

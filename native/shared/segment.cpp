@@ -45,10 +45,10 @@ struct Header {
 
 // Another value for every version whose processes cannot read each other's memory.
 std::uint64_t layout() {
-  constexpr std::uint64_t kVersion = 1;
+  constexpr std::uint64_t kVersion = 2;
   std::uint64_t sum = kVersion;
   for (const std::uint64_t part : {sizeof(Header), sizeof(TreeData), sizeof(Frame), sizeof(History), sizeof(Chunk),
-                                   sizeof(PooledChunk), std::size_t{NameTable::hash_of("base_link")}}) {
+                                   sizeof(ChunkHeader), std::size_t{NameTable::hash_of("base_link")}}) {
     sum = sum * 0x9e3779b97f4a7c15u + part;
   }
   return sum;

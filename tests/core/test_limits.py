@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """What other nodes can make a buffer store has limits, with counters; the program itself has none."""
 
+import platform
+import subprocess
+import sys
 import time
 
 import numpy as np
@@ -9,6 +12,20 @@ import pytest
 import coframe
 
 FRAMES, NAME_BYTES, SAMPLES = 250_000, 64 << 20, 1 << 20
+
+TREE = """
+from pathlib import Path
+import coframe
+
+def memory():
+    return int(next(line for line in Path("/proc/self/status").open() if line.startswith("RssAnon")).split()[1])
+
+buffer, pose, before = coframe.Buffer(None), coframe.Transform(), memory()
+for second in range(1, 11):
+    for number in range(5000):
+        buffer.set("map", f"frame_{number}", pose, second * 1_000_000_000)
+print((memory() - before) / 5000)
+"""
 
 
 def static(*edges):
@@ -48,6 +65,36 @@ def test_samples_of_a_frame_within_the_cache_length():
         (edge,) = buffer.edges()
         assert edge.samples == pytest.approx(kept, abs=256)
         assert buffer.lookup("odom", "base", int(stamps[-10])).x == stamps[-10]
+
+
+@pytest.mark.skipif(platform.system() != "Linux", reason="reads /proc")
+def test_a_frame_with_few_samples_takes_little_memory():
+    """So a tree of 100 000 frames takes less than 1 GB."""
+    output = subprocess.run([sys.executable, "-c", TREE], capture_output=True, text=True, check=True).stdout
+    assert 0.5 < float(output) < 8  # kB per frame
+
+
+@pytest.mark.parametrize("count", [31, 32, 33, 34, 255, 256, 257])
+def test_histories_of_any_length_keep_all_samples(count):
+    """Late samples, snapshots and cleared buffers too: the storage of a history grows with it."""
+
+    def positions(buffer):
+        return buffer.trajectory("map", "base").translation[:, 0].tolist()
+
+    def set_samples(buffer, numbers):
+        for number in numbers:
+            buffer.set("map", "base", coframe.Transform([number, 0, 0]), number)
+
+    buffer = coframe.Buffer(None)
+    set_samples(buffer, [*range(2, count + 1)])
+    snapshot = buffer.snapshot()
+    set_samples(buffer, [1, *range(count + 1, count + 40)])
+    assert positions(snapshot) == [*range(2, count + 1)]
+    assert positions(buffer) == [*range(1, count + 40)]
+    del snapshot
+    buffer.clear()
+    set_samples(buffer, range(1, count))
+    assert positions(buffer) == [*range(1, count)]
 
 
 def test_many_transforms_with_one_stamp_take_linear_time():

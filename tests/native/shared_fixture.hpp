@@ -118,6 +118,15 @@ inline std::vector<Operation> operations() {
   return {
       {"append", [](Tree& t) { fill(t, 20); }, [](Tree& t) { fill(t, 1, 20); }},
       {"first sample", [](Tree& t) { put(t, "map", "other", kStart); }, [](Tree& t) { fill(t, 1); }},
+      {"replace a short chunk", [](Tree& t) { fill(t, 32); }, [](Tree& t) { fill(t, 1, 32); }},
+      {"insert into a short chunk that is full", [](Tree& t) { fill(t, 32); },
+       [](Tree& t) { put(t, "map", "base", kStart + 30 * kTick + 1); }},
+      {"append after a short chunk was cleared",
+       [](Tree& t) {
+         fill(t, 20);
+         t.clear();
+       },
+       [](Tree& t) { fill(t, 1, 20); }},
       {"append to a new chunk", [](Tree& t) { fill(t, 256); }, [](Tree& t) { fill(t, 1, 256); }},
       {"append to a new chunk and directory", [](Tree& t) { fill(t, 512); }, [](Tree& t) { fill(t, 1, 512); }},
       {"append to a used chunk, and drop samples", [](Tree& t) { fill(t, 1280); }, [](Tree& t) { fill(t, 1, 1280); }},
