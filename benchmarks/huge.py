@@ -293,6 +293,8 @@ def commands(recording: Path) -> list[list[str]]:
 
 
 if __name__ == "__main__":
+    # Shells start background jobs with Ctrl-C ignored, and the commands would inherit that.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
     try:
         sys.exit(main())
     except KeyboardInterrupt:
