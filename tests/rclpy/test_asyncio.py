@@ -7,6 +7,7 @@ import subprocess
 import sys
 import threading
 import time
+import types
 import weakref
 
 import pytest
@@ -391,3 +392,17 @@ def test_asyncio_is_not_imported_without_need():
     """Programs that do not use asyncio start faster."""
     code = "import sys, rclpy, tf2_ros; sys.exit('asyncio' in sys.modules)"
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
+
+
+def test_callbacks_run_while_another_thread_imports_asyncio(monkeypatch):
+    monkeypatch.setitem(sys.modules, "asyncio", types.ModuleType("asyncio"))
+    task = Task(lambda: 5)
+    task()
+    assert task.result() == 5
+
+    async def handler():
+        return 6
+
+    task = Task(handler)
+    task()
+    assert task.result() == 6

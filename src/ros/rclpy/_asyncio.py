@@ -73,11 +73,12 @@ def cancelled_error() -> type[BaseException]:
 
 
 def _current_task() -> asyncio.Task[Any] | None:
-    module = sys.modules.get("asyncio")
-    if module is None:
+    # While another thread imports asyncio, the module is there without its functions, and this thread runs no loop.
+    current_task = getattr(sys.modules.get("asyncio"), "current_task", None)
+    if current_task is None:
         return None
     try:
-        task: asyncio.Task[Any] | None = module.current_task()
+        task: asyncio.Task[Any] | None = current_task()
     except RuntimeError:  # No loop is running in this thread.
         return None
     return task
