@@ -32,7 +32,6 @@ Transform exceptions carry the facts behind their text as well.
 
 from __future__ import annotations
 
-import difflib
 import sys
 import traceback
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -40,6 +39,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from coframe import _core
 from coframe.analysis.missing_edges import missing_edge
 from coframe.analysis.tree import FrameTrees
+from coframe.escaping import shown
+from coframe.formatting import LONGEST_COMPARED, listed, similar
 from coframe.lookup_hints import doctor_code, hint
 from coframe.time import SECOND
 
@@ -347,6 +348,7 @@ def _restore(kind: str | type[TransformException], text: str, facts: dict[str, o
 
 
 _MOST_GUESSES = 3
+MOST_LISTED = 50
 
 
 def _doctor_code(failure: Failure) -> str:
@@ -388,21 +390,22 @@ def _guess(failure: Failure) -> str:
     arguments = (failure.target, failure.source)
     # The other frame of the lookup cannot be meant.
     others = [frame for frame in known if failure.name not in arguments or frame not in arguments]
-    similar = _similar_names(failure.name, others)
-    if not similar:
-        return f"Known frames: {', '.join(known)}."
+    meant = _similar_names(failure.name, others)
+    frames = f"Known frames: {listed(map(shown, known), most=MOST_LISTED)}."
+    if not meant:
+        return frames
     target, source = (
         name if name in failure.parents else (_similar_names(name, others) or [name])[0] for name in arguments
     )
     line = f" In a node: lookup_transform({target!r}, {source!r}, ...)." if failure.name in arguments else ""
-    return f"Did you mean {' or '.join(map(repr, similar))}? Known frames: {', '.join(known)}.{line}"
+    return f"Did you mean {' or '.join(map(repr, meant))}? {frames}{line}"
 
 
 def _similar_names(name: str, known: list[str]) -> list[str]:
     """Return the frames that may be meant: the same name with another prefix, or a similar spelling."""
     bare = name.rpartition("/")[2]
-    same = [frame for frame in known if frame.rpartition("/")[2] == bare]
-    return same[:_MOST_GUESSES] or difflib.get_close_matches(name, known, n=1)
+    same = [frame for frame in known if frame.rpartition("/")[2] == bare and len(frame) <= LONGEST_COMPARED]
+    return same[:_MOST_GUESSES] or similar(name, known)
 
 
 def _trees(failure: Failure) -> str:
@@ -410,7 +413,8 @@ def _trees(failure: Failure) -> str:
     structure = FrameTrees.from_parents(failure.parents)
     trees = [structure.tree(root) for root in roots]
     described = " and ".join(
-        f"{root!r} with {', '.join(below)}" if below else f"{root!r} alone" for root, *below in trees
+        f"{root!r} with {listed(map(shown, below), most=MOST_LISTED)}" if below else f"{root!r} alone"
+        for root, *below in trees
     )
     target_root, source_root = roots
     edge = missing_edge(*sorted(trees, key=len, reverse=True))

@@ -3,8 +3,10 @@
 
 from __future__ import annotations
 
-__all__ = ["csv_cell", "printable"]
+__all__ = ["LONGEST_LINE", "LONGEST_NAME", "csv_cell", "one_line", "printable", "shown"]
 
+LONGEST_NAME = 60
+LONGEST_LINE = 2000
 _FORMULA = ("=", "+", "-", "@", "\t", "\r")
 
 
@@ -16,6 +18,33 @@ def printable(text: str) -> str:
         'arm\ufffd[2J'
     """
     return "".join(c if c.isprintable() or c in "\n\t" else "\N{REPLACEMENT CHARACTER}" for c in text)
+
+
+def one_line(text: str) -> str:
+    r"""Return a sentence with names from outside as one printable line; the middle of a very long one is left out.
+
+    Example:
+        >>> one_line("no frame 'two\nlines'")
+        "no frame 'two\\nlines'"
+    """
+    return printable(_shortened(text, LONGEST_LINE).replace("\n", r"\n").replace("\t", r"\t"))
+
+
+def shown(name: str) -> str:
+    r"""Return a name for a drawing or a table: printable and not too long, for any name that was received.
+
+    Example:
+        >>> shown("base_link"), shown("two\nlines"), len(shown("x" * 10_000))
+        ('base_link', 'two\\nlines', 60)
+    """
+    # A long name is shortened first, so that the rest of it costs nothing.
+    short = _shortened(name, LONGEST_NAME)
+    return _shortened("".join(c if c.isprintable() else repr(c)[1:-1] for c in short), LONGEST_NAME)
+
+
+def _shortened(text: str, longest: int) -> str:
+    half = longest // 2
+    return text if len(text) <= longest else f"{text[: half - 1]}\N{HORIZONTAL ELLIPSIS}{text[-half:]}"
 
 
 def csv_cell(value: object) -> object:

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from itertools import islice
 from typing import TYPE_CHECKING
 
 from coframe.time import DAY, HOUR, MICROSECOND, MILLISECOND, SECOND
@@ -10,10 +11,23 @@ from coframe.time import DAY, HOUR, MICROSECOND, MILLISECOND, SECOND
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-__all__ = ["count", "did_you_mean", "duration", "listed", "quoted", "seconds", "times"]
+__all__ = [
+    "LONGEST_COMPARED",
+    "MOST_COMPARED",
+    "count",
+    "did_you_mean",
+    "duration",
+    "listed",
+    "quoted",
+    "seconds",
+    "similar",
+    "times",
+]
 
 _UNITS = ((DAY, "days"), (HOUR, "h"), (SECOND, "s"), (MILLISECOND, "ms"), (MICROSECOND, "us"))
 _MOST_LISTED = 5
+LONGEST_COMPARED = 200  # characters; the time grows with the square
+MOST_COMPARED = 20_000
 
 
 def duration(nanoseconds: float) -> str:
@@ -36,16 +50,16 @@ def seconds(nanoseconds: int) -> str:
     return f"{sign}{size // SECOND}.{size % SECOND:09d}"
 
 
-def listed(names: Iterable[str]) -> str:
-    """Return names as a list; of a long list the first names and the number of the others.
+def listed(names: Iterable[str], *, most: int = _MOST_LISTED) -> str:
+    """Return names as a list; of a long list the first `most` names and the number of the others.
 
     Example:
         >>> listed("abc"), listed("abcdefg")
         ('a, b, c', 'a, b, c, d, e and 2 more')
     """
     every = list(names)
-    more = len(every) - _MOST_LISTED
-    return ", ".join(every[:_MOST_LISTED]) + (f" and {more} more" if more > 0 else "")
+    more = len(every) - most
+    return ", ".join(every[:most]) + (f" and {more} more" if more > 0 else "")
 
 
 def quoted(names: Iterable[str]) -> str:
@@ -60,10 +74,18 @@ def did_you_mean(name: str, known: Iterable[str], *, most: int = 1) -> str:
         >>> did_you_mean("lidra", ["lidar", "camera"])
         "Did you mean 'lidar'?"
     """
+    meant = similar(name, known, most=most)
+    return f"Did you mean {' or '.join(map(repr, meant))}?" if meant else ""
+
+
+def similar(name: str, known: Iterable[str], *, most: int = 1) -> list[str]:
+    """Return the names with the most similar spelling; long names, and names after the first thousands, are skipped."""
     import difflib  # noqa: PLC0415 - only errors need it
 
-    similar = difflib.get_close_matches(name, list(known), n=most)
-    return f"Did you mean {' or '.join(map(repr, similar))}?" if similar else ""
+    if len(name) > LONGEST_COMPARED:
+        return []
+    compared = islice((each for each in known if len(each) <= LONGEST_COMPARED), MOST_COMPARED)
+    return difflib.get_close_matches(name, list(compared), n=most)
 
 
 def times(number: int) -> str:

@@ -14,8 +14,9 @@ from rich.console import Console
 from runs import Run
 from typer.testing import CliRunner
 
+from coframe.cli import frames_screen
 from coframe.cli.app import app
-from coframe.cli.frames_screen import tree
+from coframe.cli.frames_screen import tree, tree_in_parts
 from coframe.doctor import observe_recording
 from coframe.tree_drawing import grow
 
@@ -172,3 +173,19 @@ def test_narrow_screen_shortens_publishers_first(tmp_path):
     assert base[1:2] + base[3:] == ["base_link", "50.0", "0.0", "1.0", "1.0", "1.0"]
     assert base[2].startswith("/a_node")
     assert lidar[-1] == "static"
+
+
+@pytest.mark.parametrize("width", [200, 60])
+def test_long_tables_are_printed_in_parts_that_look_like_one(tmp_path, monkeypatch, width):
+    run = Run()
+    for number in range(500):
+        run.tf("map", f"frame_{number * 37}", START, static=number % 3 > 0)
+    (seen,) = observe_recording(run.write(tmp_path)).values()
+    forest = grow(seen)
+    whole, parts = (Console(file=io.StringIO(), width=width) for _ in range(2))
+    whole.print(tree(forest))
+    monkeypatch.setattr(frames_screen, "_ROWS", 100)
+    for part in tree_in_parts(forest):
+        parts.print(part)
+    assert len(list(tree_in_parts(forest))) == 7
+    assert parts.file.getvalue() == whole.file.getvalue()

@@ -1,45 +1,124 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Commands print hostile names of a recording without control characters."""
+"""Commands print hostile names and texts of files and of the graph without control characters, line by line."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
 
 import pytest
-from hostile_names import NAMES
+import typer
+from cases import LIVE, OWN_TEXT_ONLY, RECORDED
+from hostile_names import NAMES, NEWLINE, problems
 from typer.testing import CliRunner
 
 import coframe
 from coframe.bags import Writer
 from coframe.cli.app import app
+from coframe.messages import find, serialize
+
+# XML cannot contain ESC, but these.
+URDF = """<robot name="{0}"><link name="{0}"/><link name="{0}tip"/><joint name="{0}turn" type="continuous">
+<parent link="{0}"/><child link="{0}tip"/><limit lower="0" upper="1"/></joint>{1}</robot>"""
+NAME_IN_XML = "esc&#x202e;&#x9b;2J&#10;two&#10;forged line"
+
+
+def commands(command, path=()):
+    """Yield the path of each command, such as "bag info"."""
+    for name, inner in getattr(command, "commands", {}).items():
+        yield from commands(inner, (*path, name))
+    if not hasattr(command, "commands"):
+        yield " ".join(path)
+
+
+def test_every_command_has_a_case():
+    every = set(commands(typer.main.get_command(app)))
+    assert every == LIVE.keys() | RECORDED.keys() | OWN_TEXT_ONLY.keys()
+    assert not OWN_TEXT_ONLY.keys() & (LIVE.keys() | RECORDED.keys())
 
 
 @pytest.fixture(scope="module")
-def bag(tmp_path_factory):
-    path = tmp_path_factory.mktemp("hostile") / "run.mcap"
-    with Writer(path) as writer:
+def files(tmp_path_factory):
+    """A recording, robot descriptions and other files with hostile names."""
+    folder = tmp_path_factory.mktemp("hostile")
+    with Writer(folder / "run.mcap") as writer:
         topic = writer.add_topic("/tf", "tf2_msgs/msg/TFMessage")
+        texts = writer.add_topic("/text", "std_msgs/msg/String")
         for second in range(1, 4):
             moment = coframe.Buffer()
             for name in NAMES:
                 moment.set("map", name, coframe.Transform(), second * 10**9)
+                writer.write(texts, serialize(find("std_msgs/msg/String")(data=name)), second * 10**9)
             writer.write(topic, moment.encode(static=False), received=second * 10**9)
-    return str(path)
+    (folder / "robot.urdf").write_text(URDF.format(NAME_IN_XML, ""))
+    (folder / "broken.urdf").write_text(URDF.format(NAME_IN_XML, f"<link name='{NAME_IN_XML}'/>"))
+    (folder / "parameters.yaml").write_text(f"/talker:\n  ros__parameters:\n    {NEWLINE!r}: 1\n    evil: x\n")
+    (folder / "hostile.launch.xml").write_text(
+        f"<launch><node pkg='{NAME_IN_XML}' exec='x'/><log message='{NAME_IN_XML}'/></launch>"
+    )
+    return {
+        "{bag}": folder / "run.mcap",
+        "{urdf}": folder / "robot.urdf",
+        "{broken_urdf}": folder / "broken.urdf",
+        "{parameters}": folder / "parameters.yaml",
+        "{launch_file}": folder / "hostile.launch.xml",
+    }
+
+
+def filled(words, files, folder):
+    words = [str(files.get(word, word)) for word in words]
+    return [word.replace("{output}", str(folder / "output")) for word in words]
+
+
+def each(table, quick=()):
+    """Return the cases as parameters; those of other than quick commands are slow."""
+    return [
+        pytest.param(case, id=f"{command}-{number}", marks=() if command in quick else pytest.mark.slow)
+        for command, cases in table.items()
+        for number, case in enumerate(cases)
+    ]
+
+
+@pytest.mark.parametrize("case", each(RECORDED, quick={"frames", "doctor", "why", "lookup", "bag info"}))
+def test_texts_of_files(files, tmp_path, case):
+    result = CliRunner().invoke(app, filled(case.words, files, tmp_path))
+    assert result.exit_code in {0, 1, 2}, result.exception
+    assert result.exception is None or isinstance(result.exception, SystemExit)
+    assert problems(result.output, is_data=case.is_data) == []
+
+
+@pytest.fixture(scope="module")
+def graph():
+    """A process with hostile nodes in a domain of its own; the environment of its neighbours."""
+    pytest.importorskip("dds_library", reason="nodes are found over DDS")
+    domain = str(100 + os.getpid() % 100)
+    program = [sys.executable, str(Path(__file__).with_name("hostile_node.py"))]
+    environment = {**os.environ, "ROS_DOMAIN_ID": domain, "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
+    with subprocess.Popen(program, env=environment, stdin=subprocess.PIPE, stdout=subprocess.PIPE) as process:
+        assert process.stdout.readline() == b"ready\n"
+        yield environment
+        process.stdin.close()
 
 
 @pytest.mark.parametrize(
-    "words",
-    [
-        ["frames"],
-        ["frames", "--json"],
-        ["doctor"],
-        ["doctor", "--json"],
-        ["doctor", "--sarif"],
-        ["bag", "info"],
-        *[["why", "{bag}", "map", name] for name in NAMES[:-1]],
-        *[["lookup", "{bag}", "map", name] for name in [*NAMES[:-1], "nothing\x1b[2J"]],
-        ["why", "{bag}", "map", "nothing\x1b[2J\u202e"],
-    ],
+    "words", [["node", "list"], ["topic", "list", "-t"], ["lookup", "map", NEWLINE, "--duration", "5s"]]
 )
-def test_no_control_characters(bag, words):
-    words = [bag if word == "{bag}" else word for word in words]
-    result = CliRunner().invoke(app, words if bag in words else [*words, bag])
-    assert result.exit_code in {0, 1, 2}, result.exception
-    assert result.exception is None or isinstance(result.exception, SystemExit)
-    assert not {c for c in result.output if not c.isprintable()} - {"\n", "\t"}
+def test_names_on_the_graph(graph, monkeypatch, words):
+    for name, value in graph.items():
+        monkeypatch.setenv(name, value)
+    result = CliRunner().invoke(app, words)
+    assert result.exit_code == 0, result.output[-1000:]
+    assert problems(result.output) == []
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows has no pseudo-terminals in Python")
+@pytest.mark.parametrize("in_terminal", [True, False], ids=["terminal", "pipe"])
+@pytest.mark.parametrize("case", each(LIVE))
+def test_texts_of_the_graph(graph, files, tmp_path, case, in_terminal):
+    from terminal import run
+
+    words = filled(case.words, files, tmp_path)
+    output, code = run(words, graph, until=case.until, in_terminal=in_terminal)
+    assert code in {0, 1, 2, 130}, (code, output[-1000:])
+    assert problems(output, is_data=case.is_data, is_text=case.is_text) == []
+    assert case.until in output

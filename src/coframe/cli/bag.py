@@ -31,11 +31,12 @@ from coframe.cli.options import (
     TfStaticTopicOption,
     TfTopicOption,
 )
-from coframe.cli.output import fail, printable, report_console, warn
+from coframe.cli.output import fail, one_line, printable, report_console, warn
 from coframe.cli.play import PlayCommand, play
 from coframe.cli.progress import task_progress
 from coframe.cli.record import record
 from coframe.cli.recordings import EARLIEST_WALL_TIME, grouped_by_topic, open_recording
+from coframe.escaping import shown
 from coframe.formatting import count, listed, seconds
 from coframe.time import MILLISECOND, SECOND
 
@@ -141,7 +142,7 @@ def fix(
             ("remaining", report.remaining),
         ):
             for sentence in sentences:
-                print(printable(f"{title}: {sentence}"))
+                print(one_line(f"{title}: {sentence}"))
         print(f"{report.path}: {count(report.messages, 'message')}")
 
 
@@ -248,13 +249,13 @@ def _print(summary: Summary) -> None:
         console.print(topics)
     _print_omitted(console, len(summary.topics), "topic")
     for tree in summary.trees[:_MAX_ROWS]:
-        console.print(_text(f"tree with root {tree.root}: {count(tree.size, 'frame')}", style="bold"))
+        console.print(_text(f"tree with root {shown(tree.root)}: {count(tree.size, 'frame')}", style="bold"))
     _print_omitted(console, len(summary.trees), "tree")
     edges = _table("parent", "child", "samples", "Hz", "longest gap", "from", "to")
     for edge in summary.edges[:_MAX_ROWS]:
         moving = (f"{edge.rate:.1f}", f"{edge.longest_gap / SECOND:.3f} s", seconds(edge.oldest), seconds(edge.newest))
         cells: tuple[Any, ...] = ("static", "", "", "") if edge.static else moving
-        edges.add_row(_text(edge.parent), _text(edge.child), str(edge.samples), *cells)
+        edges.add_row(Text(shown(edge.parent)), Text(shown(edge.child)), str(edge.samples), *cells)
     if summary.edges:
         console.print(edges)
     _print_omitted(console, len(summary.edges), "edge")
@@ -273,7 +274,7 @@ def _print_sensors(summaries: list[SensorSummary], console: Console) -> None:
     reasons: dict[str, list[tuple[str, str]]] = {}
     for sensor in summaries[:_MAX_ROWS]:
         share = f"{sensor.possible} of {sensor.messages} into {sensor.root}" if sensor.root else "none"
-        sensors.add_row(_text(sensor.topic), _text(sensor.frame), _text(share))
+        sensors.add_row(_text(sensor.topic), _text(shown(sensor.frame)), _text(share))
         if sensor.why_not:
             # The sentences about the topics of one frame differ only in the times.
             reasons.setdefault(_NUMBER.sub("", sensor.why_not), []).append((sensor.topic, sensor.why_not))
@@ -291,7 +292,7 @@ def _size(size: int) -> str:
 
 
 def _text(text: str, style: str = "") -> Text:
-    return Text(printable(text), style=style)
+    return Text(one_line(text), style=style)
 
 
 def _plain(value: Any) -> Any:

@@ -173,7 +173,7 @@ def _watch(buffer: coframe.Buffer, nodes: Launcher, start: float, duration: floa
     while duration is None or time.monotonic() - start < duration:
         failed = nodes.failed()
         if failed:
-            fail(f"node {failed.name} ended with exit code {failed.exit_code}:\n{failed.last_lines}")
+            fail(f"node {failed.name} ended with exit code {failed.exit_code}:", details=failed.last_lines)
         if time.monotonic() - start > START_TIMEOUT and not all(frame in buffer for frame in complete):
             missing = ", ".join(frame for frame in complete if frame not in buffer)
             fail(

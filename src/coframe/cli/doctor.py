@@ -29,7 +29,7 @@ from coframe.cli.options import (
     recorded_tf_topics,
     reject_namespace_of_live_graph,
 )
-from coframe.cli.output import fail, printable
+from coframe.cli.output import fail, one_line, printable
 from coframe.cli.progress import reading_progress
 from coframe.doctor import codes, diagnose, observe_recording, page
 from coframe.doctor.rendering.plain import as_data
@@ -213,8 +213,8 @@ def _print_and_exit(reports: dict[str, Report], as_json: bool, sarif: bool, bag:
 
 
 def _texts(report: Report) -> list[Text]:
-    every = [Text(printable(line), style=_STYLES[style]) for style, line in lines(report)]
-    every += [Text(f"recording: {printable(problem)}", style="dim") for problem in report.observation.unread]
+    every = [Text(one_line(line), style=_STYLES[style]) for style, line in lines(report)]
+    every += [Text(f"recording: {one_line(problem)}", style="dim") for problem in report.observation.unread]
     return every
 
 

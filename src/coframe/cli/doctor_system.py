@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import typer
 
-from coframe.cli.output import printable, report_console
+from coframe.cli.output import one_line, report_console
 from coframe.system import advise, collect
 
 if TYPE_CHECKING:
@@ -35,7 +35,7 @@ def examine_system(domain: int | None, listen: float, *, as_json: bool) -> None:
         for title, lines in _sections(report):
             console.print(title, style="bold", markup=False)
             for line in lines:
-                console.print(f"  {printable(line)}", markup=False, highlight=False)
+                console.print(f"  {one_line(line)}", markup=False, highlight=False)
         _print_advice(advice)
     raise typer.Exit(1 if any(one.severity != "note" for one in advice) else 0)
 
@@ -137,7 +137,7 @@ def _print_advice(advice: list[Advice]) -> None:
         console.print("  none")
     for one in advice:
         console.print(
-            f"  {one.severity}: {printable(one.text)}", style=_STYLES[one.severity], markup=False, highlight=False
+            f"  {one.severity}: {one_line(one.text)}", style=_STYLES[one.severity], markup=False, highlight=False
         )
         if one.action:
-            console.print(f"    {printable(one.action)}", markup=False, highlight=False)
+            console.print(f"    {one_line(one.action)}", markup=False, highlight=False)

@@ -25,9 +25,10 @@ from coframe.cli.options import (
     TfStaticTopicOption,
     TfTopicOption,
 )
-from coframe.cli.output import awaited_statics_text, fail, log, print_bounded, printable, with_doctor_command
+from coframe.cli.output import awaited_statics_text, fail, log, one_line, print_bounded, with_doctor_command
 from coframe.cli.ros_arguments import node_identity
 from coframe.errors import TransformException
+from coframe.escaping import shown
 from coframe.time import SECOND, SHORTEST_INT
 
 if TYPE_CHECKING:
@@ -179,12 +180,16 @@ def _wait_until_possible(ros: Connection, source: str, target: str, period: int)
         except TransformException as error:
             if logged_at is None or time.monotonic() - logged_at >= 1.0:
                 logged_at = time.monotonic()
-                log("INFO", NODE, f"Waiting for transform {source} ->  {target}: {buffer._why_not(source, target)}")
+                log(
+                    "INFO",
+                    NODE,
+                    one_line(f"Waiting for transform {source} ->  {target}: {buffer._why_not(source, target)}"),
+                )
                 awaited = ros.awaited_statics()
                 hint = awaited_statics_text(awaited) if awaited else error.hint
                 if hint != logged_hint:  # The reason is repeated every second, the hint only when it changes.
                     logged_hint = hint
-                    log("INFO", NODE, with_doctor_command(hint))
+                    log("INFO", NODE, one_line(with_doctor_command(hint)))
         else:
             return
 
@@ -194,8 +199,13 @@ def _print_answer(buffer: Buffer, source: str, target: str, stamp: int, write: C
     try:
         transform = buffer.lookup(source, target, stamp)
     except TransformException as error:
-        text = f"Failure at {time.time()}\nException thrown:{error}\nThe current list of frames is:\n"
-        print_bounded(printable(text + buffer.all_frames_as_string()))
+        frames = (
+            f"Frame {shown(each.name)} exists with parent {shown(each.parent)}."
+            for each in buffer.frames()
+            if each.parent
+        )
+        text = f"Failure at {time.time()}\nException thrown:{one_line(str(error))}\nThe current list of frames is:\n"
+        print_bounded(text + "\n".join(frames))
         return 0
     print_bounded(write(transform))
     return 1

@@ -12,7 +12,7 @@ import typer
 from rich.console import Console
 from rich.text import Text
 
-from coframe.cli.frames_screen import tree, watch
+from coframe.cli.frames_screen import tree_in_parts, watch
 from coframe.cli.lifecycle import run_to_completion, run_until_interrupted
 from coframe.cli.options import (
     TF_STATIC_TOPIC,
@@ -196,4 +196,5 @@ def _print(forests: dict[str, Forest]) -> None:
     for name, forest in forests.items():
         if len(forests) > 1:
             console.print(Text(printable(f"{name or '/'}:"), style="bold"))
-        console.print(tree(forest))
+        for part in tree_in_parts(forest):
+            console.print(part)

@@ -7,6 +7,7 @@ import json
 import time
 from typing import TYPE_CHECKING
 
+from rich.cells import cell_len
 from rich.console import Console, Group
 from rich.live import Live
 from rich.table import Table
@@ -24,8 +25,9 @@ if TYPE_CHECKING:
 
     from coframe.doctor.live import LiveObserver
     from coframe.tree_drawing import Change, Forest
+    from coframe.tree_drawing.text import Row
 
-__all__ = ["tree", "watch"]
+__all__ = ["tree", "tree_in_parts", "watch"]
 
 _KIND_STYLES = {"root": "bold", "moving": "cyan", "static": "", "stale": "red", "other": "red"}
 _CHANGE_STYLES = {"new": "green", "moved": "yellow", "stale": "red", "resumed": "green", "gone": "red"}
@@ -34,6 +36,7 @@ _HIGHLIGHT_TIME = 5.0  # seconds
 _MAX_CHANGES = 1000  # kept for highlighting
 _LISTED_CHANGES = 8  # below the tree
 _PERIOD = 1.0  # seconds
+_ROWS = 2000  # of a table that is printed at once
 
 
 def tree(forest: Forest, changed: dict[str, str] | None = None, most: int | None = None) -> Group:
@@ -46,23 +49,57 @@ def tree(forest: Forest, changed: dict[str, str] | None = None, most: int | None
     """
     every = list(rows(forest))
     cut = every if most is None or len(every) <= most else every[: most - 1]
-    used = [column for column in range(len(COLUMNS) - 1) if any(row.cells[column] for row in every)]
+    left = len(every) - len(cut)
+    more = [Text(f"... and {count(left, 'more row')}; `coframe frames` prints all", style="dim")] if left else []
+    return Group(_table(cut, _columns(every), changed or {}), *more, _summary(forest))
+
+
+def tree_in_parts(forest: Forest) -> Iterator[Table | Text]:
+    """Yield the same in tables of a limited size: rich needs 10 kB of memory for each row of a table."""
+    every = list(rows(forest))
+    columns = _columns(every)
+    for first in range(0, len(every), _ROWS):
+        table = _table(every[first : first + _ROWS], columns, {})
+        if len(every) > _ROWS:
+            table.show_header = first == 0
+            for column, width in zip(table.columns, columns.values(), strict=True):
+                column.min_width = width
+        yield table
+    yield _summary(forest)
+
+
+def _columns(every: list[Row]) -> dict[int, int]:
+    """Return the columns that are used, and the width of each. The first one is the frame."""
+    cells = {
+        number: [
+            COLUMNS[number],
+            *((row.branches + row.name if number == 0 else row.cells[number - 1]) for row in every),
+        ]
+        for number in range(len(COLUMNS))
+    }
+    return {number: max(map(cell_len, texts)) for number, texts in cells.items() if number == 0 or any(texts[1:])}
+
+
+def _table(shown: list[Row], columns: dict[int, int], changed: dict[str, str]) -> Table:
     table = Table(box=None, pad_edge=False, padding=(0, 1, 0, 0), header_style="dim")
-    for number in (0, *(column + 1 for column in used)):
+    for number in columns:
         # In a narrow terminal publishers are cut first: rich shrinks the columns that may wrap, although no cell does.
         wraps = number == _PUBLISHER
         table.add_column(COLUMNS[number], justify="left" if number <= _PUBLISHER else "right", no_wrap=not wraps)
-    for row in cut:
-        kind = (changed or {}).get(row.frame)
+    for row in shown:
+        kind = changed.get(row.frame)
         style = f"reverse {_CHANGE_STYLES[kind]}" if kind else _KIND_STYLES[row.kind]
         name = Text.assemble((row.branches, "dim"), (row.name, style), no_wrap=True, overflow="ellipsis")
         rest = "red" if row.kind == "stale" else ""
-        cells = (Text(row.cells[column], style=rest, no_wrap=True, overflow="ellipsis") for column in used)
+        cells = (
+            Text(row.cells[number - 1], style=rest, no_wrap=True, overflow="ellipsis") for number in columns if number
+        )
         table.add_row(name, *cells)
-    left = len(every) - len(cut)
-    more = [Text(f"... and {count(left, 'more row')}; `coframe frames` prints all", style="dim")] if left else []
-    style = "yellow" if len(forest.trees) > 1 or forest.loops else "green"
-    return Group(table, *more, Text(summary(forest), style=style))
+    return table
+
+
+def _summary(forest: Forest) -> Text:
+    return Text(summary(forest), style="yellow" if len(forest.trees) > 1 or forest.loops else "green")
 
 
 def watch(observer: LiveObserver, as_json: bool) -> None:

@@ -38,7 +38,8 @@ def run_until_interrupted() -> Iterator[None]:
     except BrokenPipeError:  # The reader of a pipe, such as `head`, has closed it.
         sys.stderr.close()
     except CoframeError as error:
-        fail(str(error), error.hint)
+        # After a loop, tf2's text lists all frames, one per line.
+        fail(str(error).partition("\nFrame ")[0], error.hint)
     finally:
         for number, handler in previous.items():
             signal.signal(number, handler)

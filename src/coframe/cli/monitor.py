@@ -24,9 +24,11 @@ from coframe.cli.options import (
     TfStaticTopicOption,
     TfTopicOption,
 )
-from coframe.cli.output import fail, printable, report_console
+from coframe.cli.output import fail, report_console
 from coframe.cli.ros_arguments import node_identity
 from coframe.doctor.figures import chain_figures, edge_figures, publisher_figures
+from coframe.escaping import shown
+from coframe.formatting import count
 from coframe.time import MILLISECOND, SECOND
 
 if TYPE_CHECKING:
@@ -41,6 +43,8 @@ if TYPE_CHECKING:
 
 __all__ = ["monitor"]
 
+_LEAST_ROWS = 5
+_OTHER_LINES = 12  # of the screen: titles, a chain, and some publishers
 _BROADCASTERS = "\nAll Broadcasters:"
 
 _WINDOW = PositiveDuration("10s")
@@ -120,39 +124,49 @@ def _report(
 
 
 def _watch(observer: LiveObserver, pair: Pair) -> NoReturn:
-    with Live(console=report_console(), auto_refresh=False) as live:
+    console = report_console()
+    with Live(console=console, auto_refresh=False) as live:
         while True:
-            live.update(_tables(observer.observe(), pair), refresh=True)
+            most = max(console.height - _OTHER_LINES, _LEAST_ROWS) if console.is_terminal else None
+            live.update(_tables(observer.observe(), pair, most), refresh=True)
             observer.listen(1.0)
 
 
-def _tables(observation: Observation, pair: Pair) -> Group:
+def _tables(observation: Observation, pair: Pair, most: int | None = None) -> Group:
+    """Return the tables of the edges, at most so many, and of the publishers."""
     if not observation.edges:
         return Group(Text("no transforms received yet: is a broadcaster running in the same ROS domain?"))
     edges = _table("edge", "publisher", "Hz", "jitter ms", "delay ms", "p99 ms", "age ms", "count")
-    for row in edge_figures(observation):
+    rows = edge_figures(observation, most)
+    for row in rows:
         figures = (row.jitter, row.delay, row.delay_p99, row.age)
         rate = "static" if row.static else "stale" if row.stale else _hertz(row.rate)
-        cells = (f"{row.parent} -> {row.child}", row.publisher or "unknown", rate, *map(_ms, figures))
+        cells = (
+            f"{shown(row.parent)} -> {shown(row.child)}",
+            shown(row.publisher) or "unknown",
+            rate,
+            *map(_ms, figures),
+        )
         edges.add_row(*_texts(*cells, str(row.transforms)), style="red" if row.stale else "")
     publishers = _table("publisher", "messages/s", "delay ms", "p99 ms")
     for node in publisher_figures(observation):
         delays = (_ms(node.delay), _ms(node.delay_p99))
-        publishers.add_row(*_texts(node.publisher or "unknown", _hertz(node.rate), *delays))
-    return Group(
-        *([Text(printable(_chain(chain_figures(observation, *pair), pair)))] if pair else []), edges, publishers
-    )
+        publishers.add_row(*_texts(shown(node.publisher) or "unknown", _hertz(node.rate), *delays))
+    chain = [Text(_chain(chain_figures(observation, *pair), pair))] if pair else []
+    left = len(observation.edges) - len({(row.parent, row.child) for row in rows})
+    more = [Text(f"... and {count(left, 'more edge')}; `coframe monitor --once` prints all", style="dim")]
+    return Group(*chain, edges, *more[: min(left, 1)], publishers)
 
 
 def _chain(figures: ChainFigures | None, pair: tuple[str, str]) -> str:
     if figures is None:
-        return f"no transforms connect {pair[0]} and {pair[1]} yet"
-    chain = f"chain: {' -> '.join(figures.frames)}"
+        return f"no transforms connect {shown(pair[0])} and {shown(pair[1])} yet"
+    chain = f"chain: {' -> '.join(map(shown, figures.frames))}"
     if figures.limit is None:
         return f"{chain}\nall edges are static, or not every edge has been received yet"
     return (
         f"{chain}\nnet delay: mean {_ms(figures.delay)} ms, p99 {_ms(figures.delay_p99)} ms; limited by "
-        f"{' -> '.join(figures.limit)} for {figures.limit_share:.0%} of the time"
+        f"{' -> '.join(map(shown, figures.limit))} for {figures.limit_share:.0%} of the time"
     )
 
 
@@ -183,20 +197,20 @@ def _classic(observation: Observation, pair: Pair) -> Iterator[str]:
     yield "\n\n"
     if pair is not None:
         chain = chain_figures(observation, *pair)
-        yield f"RESULTS: for {pair[0]} to {pair[1]}"
+        yield f"RESULTS: for {shown(pair[0])} to {shown(pair[1])}"
         if chain is not None:
-            yield f"Chain is: {' -> '.join(chain.frames)}"
+            yield f"Chain is: {' -> '.join(map(shown, chain.frames))}"
             yield f"Net delay     avg = {_g(chain.delay)}: max = {_g(chain.delay_max)}"
     else:
         yield "RESULTS: for all Frames"
     yield "\nFrames:"
     for row in edge_figures(observation):
-        name = printable(row.publisher) or "<no authority available>"
-        frame = printable(row.child)
+        name = shown(row.publisher) or "<no authority available>"
+        frame = shown(row.child)
         yield f"Frame: {frame}, published by {name}, Average Delay: {_g(row.delay)}, Max Delay: {_g(row.delay_max)}"
     yield _BROADCASTERS
     for node in publisher_figures(observation):
-        name, rate = printable(node.publisher) or "<no authority available>", node.rate or 0.0
+        name, rate = shown(node.publisher) or "<no authority available>", node.rate or 0.0
         yield f"Node: {name} {rate:g} Hz, Average Delay: {_g(node.delay)} Max Delay: {_g(node.delay_max)}"
 
 
@@ -214,7 +228,7 @@ def _hertz(rate: float | None) -> str:
 
 
 def _texts(*cells: str) -> list[Text]:
-    return [Text(printable(cell), no_wrap=True, overflow="ellipsis") for cell in cells]
+    return [Text(cell, no_wrap=True, overflow="ellipsis") for cell in cells]
 
 
 def _table(*columns: str) -> Table:

@@ -12,7 +12,7 @@ import typer
 
 from coframe.bounded_lines import print_bounded
 from coframe.cli.system_errors import advice_for_writing
-from coframe.escaping import printable
+from coframe.escaping import one_line, printable
 from coframe.time import SECOND
 
 if TYPE_CHECKING:
@@ -25,6 +25,7 @@ __all__ = [
     "fail",
     "fail_to_write",
     "log",
+    "one_line",
     "print_bounded",
     "printable",
     "report_console",
@@ -35,10 +36,13 @@ __all__ = [
 _REDIRECTED_WIDTH = 1000  # columns
 
 
-def fail(text: str, hint: str = "", *, code: int = 1) -> NoReturn:
-    """Print what failed and, below it, what to do; end the command with this exit code."""
-    advice = f"\n  {printable(with_doctor_command(hint))}" if hint else ""
-    typer.echo(f"coframe: {printable(text)}{advice}", err=True)
+def fail(text: str, hint: str = "", *, code: int = 1, details: str = "") -> NoReturn:
+    """Print what failed in one line, then lines of details, then what to do; end the command with this exit code."""
+    typer.echo(f"coframe: {one_line(text)}", err=True)
+    if details:
+        typer.echo(printable(details), err=True)
+    if hint:
+        typer.echo(f"  {one_line(with_doctor_command(hint))}", err=True)
     raise typer.Exit(code)
 
 

@@ -28,7 +28,7 @@ from coframe.cli.options import (
     TfStaticTopicOption,
     TfTopicOption,
 )
-from coframe.cli.output import fail, print_bounded, printable, warn
+from coframe.cli.output import fail, one_line, print_bounded, warn
 from coframe.formatting import count
 from coframe.freed_memory import return_freed_arrays
 from coframe.recorder import record as start_recording
@@ -143,7 +143,7 @@ def record(
 
 
 def _print_topic(topic: str, ros_type: str) -> None:
-    print_bounded(printable(f"recording {topic} [{ros_type}]"), error=True)
+    print_bounded(one_line(f"recording {topic} [{ros_type}]"), error=True)
 
 
 def _watch(recorder: Recorder, duration: float | None) -> None:
@@ -191,7 +191,7 @@ class _Progress:
         if statistics.dropped:
             line.append(f", {sum(statistics.dropped.values())} dropped", style="red")
         if statistics.missing:
-            line.append(printable(f", waiting for {', '.join(statistics.missing)}"), style="yellow")
+            line.append(one_line(f", waiting for {', '.join(statistics.missing)}"), style="yellow")
         return line
 
 

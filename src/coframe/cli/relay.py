@@ -9,7 +9,7 @@ import time
 from typing import TYPE_CHECKING, Annotated
 
 import typer
-from rich.console import Console
+from rich.console import Console, Group
 from rich.live import Live
 from rich.table import Table
 from rich.text import Text
@@ -17,7 +17,9 @@ from rich.text import Text
 import coframe
 from coframe.cli.lifecycle import run_until_interrupted
 from coframe.cli.options import TF_TOPIC, DomainOption, KeepOption, PrefixOption, checked_prefix, with_leading_slash
-from coframe.cli.output import fail, log, printable, report_console
+from coframe.cli.output import fail, log, one_line, report_console
+from coframe.escaping import shown
+from coframe.formatting import count
 
 if TYPE_CHECKING:
     from coframe.tf_relay import Relay, RelayedEdge
@@ -143,7 +145,7 @@ def _show(running: Relay) -> None:
     if console.is_terminal:
         with Live(console=console, refresh_per_second=1 / REFRESH) as live:
             while True:
-                live.update(_table(running, rates))
+                live.update(_table(running, rates, max(console.height - 3, 1)))
                 time.sleep(REFRESH)
     while not running.edges():
         time.sleep(REFRESH)
@@ -168,28 +170,27 @@ class _Rates:
         return rates
 
 
-def _table(running: Relay, rates: _Rates) -> Table:
+def _table(running: Relay, rates: _Rates, most: int | None = None) -> Group:
+    """Return a table of the edges, at most so many."""
     table = Table(box=None, pad_edge=False, header_style="dim")
     for column in ("edge", "robot", "from", "node", "to", "Hz", "age s", ""):
         table.add_column(column, justify="right" if column in {"Hz", "age s"} else "left")
     states = {robot.name: robot.state for robot in running.robots}
     edges = sorted(running.edges(), key=lambda edge: (edge.target, edge.robot, edge.parent, edge.child))
     each = rates.update(edges)
-    for edge in edges:
+    for edge in edges[:most]:
         note = f"also published by {edge.conflicting_robot}, which is ignored" if edge.conflicting_robot else ""
         if states[edge.robot] in {"gone", "stale"}:
             has_left = states[edge.robot] == "gone"
             note = f"stale: {edge.robot} {'left the ROS graph' if has_left else 'stopped publishing'}"
         hertz = each.get((edge.target, edge.parent, edge.child))
         cells = [
-            f"{edge.parent} -> {edge.child}",
-            edge.robot,
-            edge.source,
-            edge.node,
-            edge.target,
+            f"{shown(edge.parent)} -> {shown(edge.child)}",
+            *map(shown, (edge.robot, edge.source, edge.node, edge.target)),
             "static" if edge.static else "-" if hertz is None else f"{hertz:.1f}",
             "" if edge.static else f"{edge.age:.1f}",
             note,
         ]
-        table.add_row(*(Text(printable(cell), style="red" if note else "") for cell in cells))
-    return table
+        table.add_row(*(Text(one_line(cell), style="red" if note else "") for cell in cells))
+    left = len(edges) - len(table.rows)
+    return Group(table, *([Text(f"... and {count(left, 'more edge')}", style="dim")] if left else []))

@@ -237,7 +237,8 @@ def _watch(view: _View, nodes: Launcher, start: float, duration: float | None) -
     while duration is None or time.monotonic() - start < duration:
         ended = list(nodes.ended())
         if len(ended) == len(nodes.names):
-            fail(f"all robots stopped, {ended[0].name} with exit code {ended[0].exit_code}:\n{ended[0].last_lines}")
+            text = f"all robots stopped, {ended[0].name} with exit code {ended[0].exit_code}:"
+            fail(text, details=ended[0].last_lines)
         gone = {node.name for node in ended}
         if time.monotonic() - start > START_TIMEOUT and (missing := set(view.missing()) - gone):
             fail(

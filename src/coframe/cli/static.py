@@ -15,6 +15,7 @@ from coframe.cli.options import checked_prefix
 from coframe.cli.output import fail, log
 from coframe.cli.ros_arguments import NodeIdentity, node_identity
 from coframe.cli.static_arguments import ArgumentError, StaticArguments, parse
+from coframe.escaping import shown
 from coframe.frame_names import renaming
 from coframe.messages.conversions import to_transform_stamped
 from coframe.wire import Participant
@@ -74,7 +75,7 @@ def static(context: typer.Context) -> None:
     if arguments.old_style:
         log("WARN", node, "Old-style arguments are deprecated; see --help for new-style arguments")
     if arguments.frame_id == arguments.child_frame_id:
-        names = f"from '{arguments.frame_id}' to '{arguments.child_frame_id}'"
+        names = f"from '{shown(arguments.frame_id)}' to '{shown(arguments.child_frame_id)}'"
         fail(
             f"cannot publish static transform {names}, exiting",
             "A frame cannot be its own parent: give two different frames.",
@@ -106,7 +107,8 @@ def _publish_until_stopped(arguments: StaticArguments, identity: NodeIdentity) -
 
 def _announcement(arguments: StaticArguments) -> str:
     values = [f"'{value:f}'" for value in arguments.transform.values]
+    parent, child = shown(arguments.frame_id), shown(arguments.child_frame_id)
     return (
         f"Spinning until stopped - publishing transform\ntranslation: ({', '.join(values[:3])})\n"
-        f"rotation: ({', '.join(values[3:])})\nfrom '{arguments.frame_id}' to '{arguments.child_frame_id}'"
+        f"rotation: ({', '.join(values[3:])})\nfrom '{parent}' to '{child}'"
     )

@@ -13,7 +13,7 @@ from rich.text import Text
 
 from coframe.analysis.tree import FrameTrees
 from coframe.errors import TransformException
-from coframe.escaping import printable
+from coframe.escaping import shown
 from coframe.formatting import count
 from coframe.time import SECOND
 
@@ -34,7 +34,7 @@ def tree_table(buffer: Buffer, reference: str, liveness: LivenessTracker, *, mos
         most: Maximum number of rows.
         wide: Whether the terminal has at least 100 columns, enough to show millimetres.
     """
-    title = Text(f"transform tree, poses relative to {printable(reference)} (metres, degrees)")
+    title = Text(f"transform tree, poses relative to {shown(reference)} (metres, degrees)")
     table = Table(title=title, title_justify="left", box=None, padding=(0, 1, 0, 0), pad_edge=False)
     for column in ("frame", "parent"):
         table.add_column(column, no_wrap=True)
@@ -53,8 +53,8 @@ def tree_table(buffer: Buffer, reference: str, liveness: LivenessTracker, *, mos
         frame, stale = rows[trees.names[number]]
         age = (now - frame.newest) / SECOND
         table.add_row(
-            Text(" " * trees.depths[number] + printable(frame.name), style="dim" if stale else "bold"),
-            Text(printable(frame.parent)),
+            Text(" " * trees.depths[number] + shown(frame.name), style="dim" if stale else "bold"),
+            Text(shown(frame.parent)),
             Text(_rate(frame), style="dim" if frame.static else "cyan"),
             Text(_age(frame, age), style="red" if stale else ""),
             *_pose(buffer, reference, frame.name, decimals),

@@ -36,7 +36,7 @@ from coframe.cli.options import (
     recorded_tf_topics,
     reject_namespace_of_live_graph,
 )
-from coframe.cli.output import awaited_statics_text, fail, printable, with_doctor_command
+from coframe.cli.output import awaited_statics_text, fail, one_line, with_doctor_command
 from coframe.cli.recordings import check_has_transforms, open_recording, parse_lookup_time
 from coframe.doctor import Observation, diagnose
 from coframe.doctor.recorded import collecting
@@ -294,7 +294,7 @@ def _texts(answer: _Answer, console: Console) -> list[Text]:
         for finding in report.findings:
             lines += [(_STYLES[str(finding.severity)], headline(finding)), ("", f"      do:  {finding.fix}")]
     lines += [("", note) for note in answer.notes]
-    shown = [(style, printable(line)) for style, line in lines]
+    shown = [(style, one_line(line)) for style, line in lines]
     if console.options.ascii_only:
         shown = [(style, line.translate(_ASCII)) for style, line in shown]
     return [Text(line, style=style) for style, line in shown]

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from itertools import islice
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -85,13 +86,14 @@ class ChainFigures(NamedTuple):
     limit_share: float
 
 
-def edge_figures(observation: Observation) -> list[EdgeFigures]:
-    """Return one row per edge and publisher, in the order of their first transform."""
-    return [
+def edge_figures(observation: Observation, most: int | None = None) -> list[EdgeFigures]:
+    """Return one row per edge and publisher, in the order of their first transform, and at most `most` rows."""
+    every = (
         _edge(observation, edge, publisher, edge.publisher == publisher)
         for edge in observation.edges
         for publisher in dict.fromkeys(edge.publisher.tolist())
-    ]
+    )
+    return list(islice(every, most))
 
 
 def publisher_figures(observation: Observation) -> list[PublisherFigures]:

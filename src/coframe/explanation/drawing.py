@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from coframe import html_tables
 from coframe.analysis.liveness import stale_limit, usual_gap
+from coframe.escaping import one_line, shown
 from coframe.formatting import count, duration, seconds
 
 if TYPE_CHECKING:
@@ -17,6 +18,7 @@ if TYPE_CHECKING:
 __all__ = ["draw", "draw_html", "remark", "verdict"]
 
 _DEEPEST = 20  # levels of indentation; more would leave no room for the columns
+_LOOP_LINES = "\nFrame "  # after the first line of tf2's text about a loop, which lists all frames
 _TITLES = ("  frame", "oldest", "newest", "age", "rate", "publisher")
 
 
@@ -48,14 +50,14 @@ def _advice(found: Explanation) -> Iterator[str]:
         other = f"at {seconds(found.possible_at)}" if found.possible_at else "at the latest time"
         yield f"the tree has changed: there is a transform {other}"
     if found.hint:
-        yield f"do:  {found.hint}"
+        yield f"do:  {one_line(found.hint)}"
     if found.text:
-        yield f"tf2: {found.text.splitlines()[0]}"
+        yield f"tf2: {one_line(found.text.split(_LOOP_LINES)[0])}"
 
 
 def verdict(found: Explanation) -> str:
     """Return in one sentence whether there is a transform, and if not, which edge is the reason and by how much."""
-    frames = f"from {found.source} to {found.target}"
+    frames = f"from {shown(found.source)} to {shown(found.target)}"
     if found.answered is None:
         when = f" at {seconds(found.stamp)}" if found.stamp else ""
         return f"no: there is no transform {frames}{when}: {_reason(found)}"
@@ -64,7 +66,7 @@ def verdict(found: Explanation) -> str:
     if not found.answered:
         return f"yes: there is a transform {frames} at any time"
     age = f", {duration(found.now - found.answered)} old" if found.now is not None else ""
-    limit = f", limited by {' -> '.join(found.limit)}" if found.limit and len(found.edges) > 1 else ""
+    limit = f", limited by {' -> '.join(map(shown, found.limit))}" if found.limit and len(found.edges) > 1 else ""
     return f"yes: there is a transform {frames}, the latest at {seconds(found.answered)}{age}{limit}"
 
 
@@ -92,7 +94,7 @@ def _fault(found: Explanation, edge: ChainEdge) -> str:
 
 def _anomaly(found: Explanation, edge: ChainEdge) -> str:
     if edge.later:
-        return f"the parent is now {edge.later}"
+        return f"the parent is now {shown(edge.later)}"
     if edge.gap > usual_gap(edge.period):
         return f"in a gap of {duration(edge.gap)}"
     return f"stale: no transform for {duration(edge.age or 0)}" if found.stamp == 0 and edge.stale else ""
@@ -103,19 +105,25 @@ def _reason(found: Explanation) -> str:
         return _REASONS[found.code]
     if found.unknown:
         frames = "frame" if len(found.unknown) == 1 else "frames"
-        return f"no transform with the {frames} {' and '.join(map(repr, found.unknown))} was received"
+        return f"no transform with the {frames} {' and '.join(map(_quoted, found.unknown))} was received"
     reasons = []
     if found.broken:
         worst = max(found.broken, key=lambda edge: abs(edge.by))
         more = len(found.broken) - 1
         others = f"; {count(more, 'more edge')} {'has' if more == 1 else 'have'} no data for that time" if more else ""
-        reasons.append(f"{worst.name} is {remark(found, worst)}{others}")
+        reasons.append(f"{shown(worst.parent or '?')} -> {shown(worst.child)} is {remark(found, worst)}{others}")
     if found.roots is not None:
-        reasons.append(f"{found.roots[0]!r} and {found.roots[1]!r} are roots of two trees that are not connected")
+        reasons.append(
+            f"{_quoted(found.roots[0])} and {_quoted(found.roots[1])} are roots of two trees that are not connected"
+        )
     if found.missing is not None:
-        named = f"a transform such as {found.missing.parent} -> {found.missing.child} is missing"
+        named = f"a transform such as {shown(found.missing.parent)} -> {shown(found.missing.child)} is missing"
         reasons.append(named if found.missing[:2] == found.roots else found.missing.text)
     return "; ".join(reasons)
+
+
+def _quoted(name: str) -> str:
+    return f"'{shown(name)}'"
 
 
 _REASONS = {
@@ -143,16 +151,16 @@ def _rows(found: Explanation) -> Iterator[_Row]:
         role = {found.target: " (target)", found.source: " (source)"}.get(frame, "")
         edge = edges.get(frame)
         cells = ("",) * (len(_TITLES) - 1) if edge is None else _cells(edge)
-        yield _Row((f"  {indent}{frame}{role}", *cells), "" if edge is None else remark(found, edge))
+        yield _Row((f"  {indent}{shown(frame)}{role}", *cells), "" if edge is None else remark(found, edge))
 
 
 def _cells(edge: ChainEdge) -> tuple[str, ...]:
     if edge.static:
-        return "static", "", "", "", edge.publisher
+        return "static", "", "", "", shown(edge.publisher)
     if edge.state == "no_data":
-        return "", "", "", "", edge.publisher
+        return "", "", "", "", shown(edge.publisher)
     age = duration(edge.age) if edge.age is not None and edge.age >= 0 else ""
-    return seconds(edge.oldest), seconds(edge.newest), age, f"{edge.rate:.3g} Hz", edge.publisher
+    return seconds(edge.oldest), seconds(edge.newest), age, f"{edge.rate:.3g} Hz", shown(edge.publisher)
 
 
 def _tree(found: Explanation, edges: dict[str, ChainEdge]) -> Iterator[tuple[str, str]]:

@@ -6,7 +6,7 @@ import threading
 from collections.abc import Sequence
 from typing import Any
 
-from coframe.escaping import printable
+from coframe.escaping import one_line
 from coframe.nodes.program import program, spin_until_shutdown
 from coframe.robots import Robot, RobotDescriptionError, load, parse_urdf
 from coframe.robots.joint_states import JointStates
@@ -104,12 +104,12 @@ class JointStatePublisher(Node):
         try:
             robot = parse_urdf(message.data)
         except RobotDescriptionError as error:
-            self.get_logger().warning(printable(f"Invalid robot_description given, ignoring: {error}"))
+            self.get_logger().warning(one_line(f"Invalid robot_description given, ignoring: {error}"))
             return
         try:
             self.configure(robot)
         except RobotDescriptionError as error:
-            self.get_logger().error(printable(str(error)))
+            self.get_logger().error(one_line(str(error)))
             raise
 
     def _on_source(self, message: JointState) -> None:
@@ -119,7 +119,7 @@ class JointStatePublisher(Node):
             with self.lock:
                 self.states.update(message.name, message.position, message.velocity, message.effort)
         except ValueError as error:
-            text = printable(f"Ignored an invalid JointState message: {error}")
+            text = one_line(f"Ignored an invalid JointState message: {error}")
             self.get_logger().warning(text, throttle_duration_sec=5.0)
 
     def _publish(self) -> None:

@@ -4,7 +4,7 @@
 from collections.abc import Sequence
 from typing import Any
 
-from coframe.escaping import printable
+from coframe.escaping import one_line
 from coframe.frame_names import kept, prefix_advice
 from coframe.nodes.program import program, spin_until_shutdown
 from coframe.robots import Robot, RobotDescriptionError, load, parse_urdf
@@ -77,9 +77,9 @@ class RobotStatePublisher(Node):
 
     def _publish_robot(self) -> None:
         for link in self._states.robot.links:
-            self.get_logger().info(printable(f"got segment {link}"))
+            self.get_logger().info(one_line(f"got segment {link}"))
         for warning in self._states.robot.warnings:
-            self.get_logger().warning(printable(warning))
+            self.get_logger().warning(one_line(warning))
         self._description.publish(String(data=self._states.robot.text))
         now = self.get_clock().now().nanoseconds
         fixed = [self._message(transform, now) for transform in self._states.fixed()]
@@ -102,7 +102,7 @@ class RobotStatePublisher(Node):
         try:
             moving = self._states.moving(stamp, state.name, state.position)
         except ValueError as error:
-            self.get_logger().error(printable(f"Robot state publisher ignored an invalid JointState message: {error}"))
+            self.get_logger().error(one_line(f"Robot state publisher ignored an invalid JointState message: {error}"))
             return
         if moving:
             self._broadcaster.sendTransform([self._message(transform, stamp) for transform in moving])

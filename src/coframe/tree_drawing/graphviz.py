@@ -5,7 +5,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from coframe.tree_drawing.labels import alarms, edge_figures, figures, shown, summary
+from coframe.escaping import shown
+from coframe.tree_drawing.labels import alarms, edge_figures, figures, summary
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator

@@ -5,32 +5,16 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from coframe.escaping import shown
 from coframe.formatting import count, duration, listed
 
 if TYPE_CHECKING:
     from coframe.doctor.figures import EdgeFigures
     from coframe.tree_drawing.forest import Forest, Frame
 
-__all__ = ["alarms", "edge_figures", "figures", "shown", "summary"]
+__all__ = ["alarms", "edge_figures", "figures", "summary"]
 
-_LONGEST = 60
 _MOST_EDGES = 5
-
-
-def shown(name: str) -> str:
-    r"""Return a name for a drawing: printable and not too long, for any name that was received.
-
-    Example:
-        >>> shown("base_link"), shown("two\nlines"), len(shown("x" * 10_000))
-        ('base_link', 'two\\nlines', 60)
-    """
-    # A long name is shortened first, so that the rest of it costs nothing.
-    return _shortened("".join(c if c.isprintable() else repr(c)[1:-1] for c in _shortened(name)))
-
-
-def _shortened(name: str) -> str:
-    half = _LONGEST // 2
-    return name if len(name) <= _LONGEST else f"{name[: half - 1]}\N{HORIZONTAL ELLIPSIS}{name[-half:]}"
 
 
 def figures(frame: Frame) -> list[str]:

@@ -9,7 +9,8 @@ from __future__ import annotations
 import unicodedata
 from typing import TYPE_CHECKING, NamedTuple
 
-from coframe.tree_drawing.labels import alarms, figures, shown, summary
+from coframe.escaping import shown
+from coframe.tree_drawing.labels import alarms, figures, summary
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator

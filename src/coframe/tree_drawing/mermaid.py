@@ -6,7 +6,8 @@ from __future__ import annotations
 import json
 from typing import TYPE_CHECKING
 
-from coframe.tree_drawing.labels import alarms, figures, shown, summary
+from coframe.escaping import shown
+from coframe.tree_drawing.labels import alarms, figures, summary
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

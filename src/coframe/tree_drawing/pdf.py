@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import pydyf
 
-from coframe.tree_drawing.labels import shown
+from coframe.escaping import shown
 from coframe.tree_drawing.layout import Box, Line, draw
 
 if TYPE_CHECKING:

@@ -5,8 +5,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
+from coframe.escaping import shown
 from coframe.time import MILLISECOND
-from coframe.tree_drawing.labels import shown
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

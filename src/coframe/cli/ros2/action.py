@@ -9,7 +9,7 @@ import typer
 
 from coframe.cli.help_format import PlainCommand, PlainGroup
 from coframe.cli.options import with_leading_slash
-from coframe.cli.output import fail, print_bounded, printable
+from coframe.cli.output import fail, one_line, print_bounded, printable
 from coframe.cli.ros2.graph import (
     DISCOVERY,
     DaemonOption,
@@ -60,7 +60,7 @@ def info(
     )
 
     with graph_node(spin_time) as node:
-        print(f"Action: {printable(action_name)}")
+        print(f"Action: {one_line(action_name)}")
         for title, query in (
             ("Action clients", get_action_client_names_and_types_by_node),
             ("Action servers", get_action_server_names_and_types_by_node),
@@ -68,7 +68,7 @@ def info(
             found = _nodes_of(node, action_name, query)
             print(f"{title}: {len(found)}")
             for name, types in () if count else found:
-                print(printable(f"    {name} {joined(types)}" if show_types else f"    {name}"))
+                print(one_line(f"    {name} {joined(types)}" if show_types else f"    {name}"))
 
 
 @action.command("list", cls=PlainCommand, short_help="List the actions.")
@@ -91,7 +91,7 @@ def list_actions(
         print(len(actions))
         return
     for name, types in actions:
-        print(printable(f"{name} {joined(types)}" if show_types else name))
+        print(one_line(f"{name} {joined(types)}" if show_types else name))
 
 
 @action.command("send_goal", cls=PlainCommand, short_help="Send a goal to an action server.")

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from coframe.cli.help_format import PlainCommand, PlainGroup
-from coframe.cli.output import fail, printable
+from coframe.cli.output import fail, one_line
 from coframe.cli.ros2.calls import call_service
 from coframe.cli.ros2.graph import (
     AT_ONCE,
@@ -55,7 +55,7 @@ def get(
         names = [_existing(node, node_name)] if node_name else _lifecycle_nodes(node, include_hidden=include_hidden)
         for name in names:
             state = _call(node, name, "GetState", "get_state").current_state
-            print(printable(f"{'' if node_name else f'{name}: '}{state.label} [{state.id}]"))
+            print(one_line(f"{'' if node_name else f'{name}: '}{state.label} [{state.id}]"))
 
 
 @lifecycle.command("list", cls=PlainCommand, short_help="List the transitions that a node can make now.")
@@ -73,8 +73,8 @@ def list_transitions(
     service = ("GetAvailableTransitions", "get_transition_graph" if show_all else "get_available_transitions")
     with graph_node(spin_time) as node:
         for each in _call(node, _existing(node, node_name), *service).available_transitions:
-            print(printable(f"- {each.transition.label} [{each.transition.id}]"))
-            print(printable(f"\tStart: {each.start_state.label}\n\tGoal: {each.goal_state.label}"))
+            print(one_line(f"- {each.transition.label} [{each.transition.id}]"))
+            print(f"\tStart: {one_line(each.start_state.label)}\n\tGoal: {one_line(each.goal_state.label)}")
 
 
 @lifecycle.command(cls=PlainCommand, short_help="List the lifecycle nodes.")
@@ -91,7 +91,7 @@ def nodes(
     del no_daemon
     with graph_node(spin_time) as node:
         names = _lifecycle_nodes(node, include_hidden=include_hidden)
-    print(len(names) if count else "\n".join(map(printable, names)))
+    print(len(names) if count else "\n".join(map(one_line, names)))
 
 
 @lifecycle.command("set", cls=PlainCommand, short_help="Change the state of a lifecycle node.")
@@ -116,8 +116,8 @@ def set_state(
         ]
         chosen = next((each for each in available if transition in {each.label, str(each.id)}), None)
         if chosen is None:
-            labels = "".join(f"\n- {each.label} [{each.id}]" for each in available)
-            fail(f"Unknown transition requested, available ones are:{labels}")
+            labels = "\n".join(f"- {one_line(each.label)} [{each.id}]" for each in available)
+            fail("Unknown transition requested, available ones are:", details=labels)
         if not _call(node, name, "ChangeState", "change_state", transition=chosen).success:
             fail("Transitioning failed")
     print("Transitioning successful")

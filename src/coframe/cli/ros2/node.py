@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from coframe.cli.help_format import PlainCommand, PlainGroup
-from coframe.cli.output import printable
+from coframe.cli.output import one_line
 from coframe.cli.ros2.graph import (
     DISCOVERY,
     AllOption,
@@ -63,7 +63,7 @@ def list_nodes(
             file=sys.stderr,
         )
     for name in names:
-        print(printable(name))
+        print(one_line(name))
 
 
 @node.command(cls=PlainCommand, short_help="Show the topics, services and actions of a node.")
@@ -83,12 +83,12 @@ def info(
     with graph_node(spin_time) as own:
         if not wait_until(lambda: node_name in node_names(own, include_hidden=True)):
             fail_without_node(own, f"Unable to find node '{node_name}'", node_name)
-        print(printable(node_name))
+        print(one_line(node_name))
         for title, rows in _sections(own, node_name):
             print(f"  {title}:")
             for name, types in rows:
                 if include_hidden or not is_hidden(name):
-                    print(printable(f"    {name}: {', '.join(types)}"))
+                    print(one_line(f"    {name}: {', '.join(types)}"))
         print()
 
 

@@ -11,7 +11,7 @@ from typing import Annotated
 import typer
 
 from coframe.cli.help_format import PlainCommand, PlainGroup
-from coframe.cli.output import fail, printable
+from coframe.cli.output import fail, one_line, printable
 from coframe.cli.ros2.graph import (
     AT_ONCE,
     DISCOVERY,
@@ -155,11 +155,11 @@ def list_parameters(
                 continue
             names = sorted(name for name in client.names(prefixes or []) if pattern.search(name))
             if not node_name:
-                print(f"{printable(each)}:")
+                print(f"{one_line(each)}:")
             types = client.types(names) if param_type else []
             for index, name in enumerate(names):
                 suffix = f" (type: {TYPE_NAMES.get(types[index], 'unknown')})" if index < len(types) else ""
-                print(printable(f"  {name}{suffix}"))
+                print(one_line(f"  {name}{suffix}"))
 
 
 @param.command(cls=PlainCommand, short_help="Set the parameters of a node from a YAML file.")
@@ -184,7 +184,7 @@ def load(
     for name, result in zip(values, results, strict=True):
         reason = f": {result.reason}" if result.reason else ""
         outcome = f"Set parameter {name} successful" if result.successful else f"Set parameter {name} failed"
-        print(printable(outcome + reason), file=sys.stdout if result.successful else sys.stderr)
+        print(one_line(outcome + reason), file=sys.stdout if result.successful else sys.stderr)
         failed |= not result.successful
     if failed:
         raise typer.Exit(1)
@@ -210,4 +210,4 @@ def set_parameter(
     reason = f": {result.reason}" if result.reason else ""
     if not result.successful:
         fail(f"Setting parameter failed{reason}")
-    print(printable(f"Set parameter successful{reason}"))
+    print(one_line(f"Set parameter successful{reason}"))

@@ -10,7 +10,7 @@ import typer
 
 from coframe.cli.help_format import PlainCommand, PlainGroup
 from coframe.cli.options import with_leading_slash
-from coframe.cli.output import fail, printable
+from coframe.cli.output import fail, one_line
 from coframe.cli.ros2.graph import (
     AT_ONCE,
     DISCOVERY,
@@ -98,7 +98,7 @@ def find(
     del no_daemon
     with graph_node(spin_time) as node:
         names = [name for name, types in _services(node, include_hidden=include_hidden) if service_type in types]
-    print(len(names) if count else "\n".join(map(printable, names)))
+    print(len(names) if count else "\n".join(map(one_line, names)))
 
 
 @service.command("list", cls=PlainCommand, short_help="List the services.")
@@ -120,7 +120,7 @@ def list_services(
         print(len(services))
         return
     for name, types in services:
-        print(printable(f"{name} {joined(types)}" if show_types else name))
+        print(one_line(f"{name} {joined(types)}" if show_types else name))
 
 
 @service.command("type", cls=PlainCommand, short_help="Print the type of a service.")
@@ -134,7 +134,7 @@ def type_(service_name: ServiceArgument, spin_time: SpinTimeOption = AT_ONCE, no
         types = wait_until(lambda: dict(node.get_service_names_and_types()).get(service_name))
     if not types:
         raise typer.Exit(1)
-    print("\n".join(map(printable, types)))
+    print("\n".join(map(one_line, types)))
 
 
 def _services(node: Node, *, include_hidden: bool) -> list[tuple[str, list[str]]]:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from coframe.cli.help_format import PlainCommand, PlainGroup
-from coframe.cli.output import fail, printable
+from coframe.cli.output import fail, one_line, printable
 from coframe.cli.ros2.graph import (
     AT_ONCE,
     DISCOVERY,
@@ -56,7 +56,7 @@ def find(
     del no_daemon
     with graph_node(spin_time) as node:
         names = [name for name, types in _topics(node, include_hidden=include_hidden) if topic_type in types]
-    print(len(names) if count else "\n".join(map(printable, names)))
+    print(len(names) if count else "\n".join(map(one_line, names)))
 
 
 topic.command(cls=PlainCommand, short_help="Show the rate of a topic.")(hz)
@@ -81,7 +81,7 @@ def info(
         types = wait_until(lambda: dict(node.get_topic_names_and_types()).get(topic_name))
         if not types:
             fail(f"Unknown topic '{topic_name}'", "coframe topic list shows all topics.")
-        print(f"Type: {printable(types[0] if len(types) == 1 else str(types))}", end=end)
+        print(f"Type: {one_line(types[0] if len(types) == 1 else str(types))}", end=end)
         print(f"Publisher count: {node.count_publishers(topic_name)}", end=end)
         for endpoint in node.get_publishers_info_by_topic(topic_name) if verbose else ():
             print(printable(str(endpoint)), end=end)
@@ -115,7 +115,7 @@ def list_topics(
             _print_counts("Subscribed", "subscriber", [(*each, node.count_subscribers(each[0])) for each in topics])
         else:
             for name, types in topics:
-                print(printable(f"{name} {joined(types)}" if show_types else name))
+                print(one_line(f"{name} {joined(types)}" if show_types else name))
 
 
 topic.command(cls=PlainCommand, short_help="Publish messages on a topic.")(pub)
@@ -132,7 +132,7 @@ def type_(topic_name: TopicArgument, spin_time: SpinTimeOption = AT_ONCE, no_dae
         types = wait_until(lambda: dict(node.get_topic_names_and_types()).get(topic_name))
     if not types:
         raise typer.Exit(1)
-    print("\n".join(map(printable, types)))
+    print("\n".join(map(one_line, types)))
 
 
 def _topics(node: Node, *, include_hidden: bool) -> list[tuple[str, list[str]]]:
@@ -144,5 +144,5 @@ def _print_counts(title: str, noun: str, topics: list[tuple[str, list[str], int]
     print(f"{title} topics:")
     for name, types, number in topics:
         if number:
-            print(printable(f" * {name} {joined(types)} {number} {noun}{'' if number == 1 else 's'}"))
+            print(one_line(f" * {name} {joined(types)} {number} {noun}{'' if number == 1 else 's'}"))
     print()

@@ -140,7 +140,8 @@ def _writer(
         value = message if field is None else field_of(message, field)
         if csv:
             to_csv = functools.partial(message_to_csv, truncate_length=length, no_arr=no_arr, no_str=no_str)
-            return printable(to_csv(value) if has_fields(value) else str(value))
+            text = to_csv(value) if has_fields(value) else str(value)
+            return printable(text.replace("\n", r"\n"))  # one line for each message, unlike in ROS
         if not has_fields(value):
             return printable(f"{value}\n---")
         text = message_to_yaml(value, truncate_length=length, no_arr=no_arr, no_str=no_str, flow_style=flow_style)

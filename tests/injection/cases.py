@@ -1,0 +1,155 @@
+# SPDX-License-Identifier: Apache-2.0
+"""How each command is run on a hostile graph and on hostile files.
+
+A word in braces is a file that the tests create, or a name or a folder for output. A command that runs until Ctrl-C
+gets it once `until` has been printed.
+"""
+
+import shlex
+from dataclasses import dataclass
+
+from hostile_names import ESCAPE, NAMES, NEWLINE
+
+MISSING = "nothing\x1b[2J\u202e"
+
+
+@dataclass(frozen=True)
+class Case:
+    """The words of a command line, and what it prints when it has shown a hostile text, if it runs until Ctrl-C."""
+
+    words: tuple[str, ...]
+    until: str = ""
+
+    @property
+    def is_data(self):
+        """Whether the output is for programs: its strings are escaped, but long lines are correct."""
+        return not {"--json", "--sarif", "--csv", "--raw", "--full-length", "--field"}.isdisjoint(self.words)
+
+    @property
+    def is_text(self):
+        """Whether the output contains the text of messages, which may have several lines."""
+        return self.words[:2] == ("topic", "echo") and "--csv" not in self.words
+
+
+def _cases(command, *lines, until=""):
+    return [Case((*command.split(), *(shlex.split(line) if isinstance(line, str) else line)), until) for line in lines]
+
+
+# What hostile nodes publish.
+LIVE = {
+    "frames": [*_cases("frames", "", "--json"), *_cases("frames", "--watch", until="in 1 tree")],
+    "monitor": [
+        *_cases("monitor", "--once", "--once --json"),
+        *_cases("monitor", "", "--classic --duration 1s", ["map", ESCAPE], until="esc"),
+        *_cases("monitor", ["map", NEWLINE], until="two"),
+    ],
+    "doctor": [
+        *_cases("doctor", "", "--json", "--sarif", "--system"),
+        *_cases("doctor", "--watch", until="esc"),
+    ],
+    "why": _cases("why", *(["map", name] for name in (ESCAPE, NEWLINE, MISSING)), ["--json", "map", NEWLINE]),
+    "lookup": _cases("lookup", *(["map", name] for name in (ESCAPE, NEWLINE, MISSING)), ["--json", "map", NEWLINE]),
+    "echo": [
+        *_cases("echo", ["map", ESCAPE], ["map", NEWLINE], ["map", ESCAPE, "--json"], until="ranslation"),
+        *_cases("echo", ["map", MISSING], ["map", f"{NEWLINE}2"], until="Waiting"),
+    ],
+    "relay": _cases("relay", ["--from", "/tf=robot/", "--to", "/merged", "--status"], until="esc"),
+    "demo": _cases("demo", "--no-browser", until="map"),
+    "view": _cases("view", "--no-browser --port 0", until="http"),
+    "record": _cases("record", "-o {output} --all --duration 3s"),
+    "bag record": _cases("bag record", "-o {output} --all --duration 3s"),
+    "robot": _cases("robot", "{urdf}", "{broken_urdf}", until="esc"),
+    "joints": [
+        *_cases("joints", "{urdf}", until="esc"),
+        *_cases("joints", "--gui --no-browser --port 0", until="http"),
+    ],
+    "static": _cases("static", ["--frame-id", NEWLINE, "--child-frame-id", ESCAPE], until="two"),
+    "hub": _cases("hub", "", until="hub"),
+    "topic list": _cases("topic list", "", "-v", "-t"),
+    "topic info": _cases("topic info", "-v /text", "-v /strange0", f"/{'m' * 240}"),
+    "topic type": _cases("topic type", "/strange0", "/strange1"),
+    "topic find": _cases("topic find", "std_msgs/msg/String", [f"std_msgs/msg/{NEWLINE}"]),
+    "topic echo": [
+        *_cases("topic echo", "/text", "/text --csv", "/text --full-length", "/text --raw", "/tf", until="esc"),
+        *_cases("topic echo", "/rosout", "/rosout --csv", "/text --flow-style", "/text --field data", until="esc"),
+        *_cases("topic echo", "/strange0 --once", "/strange1 --once", [MISSING, "std_msgs/msg/String", "--once"]),
+    ],
+    "topic hz": _cases("topic hz", "/text", until="average rate"),
+    "topic bw": _cases("topic bw", "/text", until="/s"),
+    "topic delay": _cases("topic delay", "/tf", until="header"),
+    "topic pub": _cases("topic pub", ["/own", "std_msgs/msg/String", f"data: {ESCAPE!r}", "--once", "-w", "0"]),
+    "node list": _cases("node list", "", "--all"),
+    "node info": _cases("node info", "/talker", [f"/{NEWLINE}"], [f"/{ESCAPE}"], [MISSING]),
+    "service list": _cases("service list", "-t"),
+    "service find": _cases("service find", "std_srvs/srv/Trigger"),
+    "service type": _cases("service type", "/refuse", [MISSING]),
+    "service call": _cases("service call", "/refuse std_srvs/srv/Trigger"),
+    "action list": _cases("action list", "-t"),
+    "action info": _cases("action info", "/act -t", [MISSING]),
+    "action send_goal": _cases("action send_goal", "/act tf2_msgs/action/LookupTransform '{{}}'"),
+    "param list": _cases("param list", "", "--param-type"),
+    "param get": _cases("param get", "/talker evil", ["/talker", MISSING], [MISSING, "evil"]),
+    "param dump": _cases("param dump", "/talker"),
+    "param describe": _cases("param describe", "/talker evil", ["/talker", MISSING]),
+    "param set": _cases("param set", ["/talker", "evil", "other"], ["/talker", MISSING, "1"]),
+    "param delete": _cases("param delete", ["/talker", MISSING]),
+    "param load": _cases("param load", "/talker {parameters}"),
+    "lifecycle nodes": _cases("lifecycle nodes", ""),
+    "lifecycle get": _cases("lifecycle get", "/talker", [MISSING]),
+    "lifecycle list": _cases("lifecycle list", "/talker", [MISSING]),
+    "lifecycle set": _cases("lifecycle set", "/talker configure", [MISSING, "configure"]),
+}
+
+# What a recording or another file contains.
+RECORDED = {
+    "frames": _cases("frames", "{bag}", "{bag} --json"),
+    "doctor": _cases("doctor", "{bag}", "{bag} --json", "{bag} --sarif"),
+    "why": _cases("why", *(["{bag}", "map", name] for name in (*NAMES[:-1], MISSING))),
+    "lookup": _cases("lookup", *(["{bag}", "map", name] for name in (*NAMES[:-1], MISSING, f"{NEWLINE}2"))),
+    "bag info": _cases("bag info", "{bag}", "{bag} --json"),
+    "bag fix": _cases("bag fix", "{bag} -o {output}"),
+    "bag convert": _cases("bag convert", "{bag} {output}.mcap"),
+    "bag slice": _cases("bag slice", "{bag} {output}.mcap --start 1s"),
+    "bag merge": _cases("bag merge", "{bag} {bag} -o {output}.mcap"),
+    "batch": _cases("batch", *([NEWLINE, name, "{bag}", "-o", "{output}"] for name in ("map", MISSING))),
+    "cloud": _cases("cloud", ["{bag}", "/points", "--frame", NEWLINE, "-o", "{output}.ply"]),
+    "compare": _cases("compare", "{bag} {bag}", ["{bag}", MISSING]),
+    "plot": _cases("plot", ["{bag}", f"/tf/{NEWLINE}.x", "-o", "{output}.svg"], ["{bag}", "/log.msg"]),
+    "trajectory": _cases(
+        "trajectory", *(["{bag}", "map", name, "-o", "{output}.tum"] for name in (ESCAPE, NEWLINE, MISSING))
+    ),
+    "view": _cases("view", "{bag} --output {output}.html"),
+    "robot": _cases("robot", "{broken_urdf}"),
+    "joints": _cases("joints", "{broken_urdf}"),
+    "launch": _cases("launch", "{launch_file} --print"),
+}
+
+# Commands that show no text of a peer or of a file that a peer can choose.
+OWN_TEXT_ONLY = {
+    "bag play": "prints the path of the recording and numbers",
+    "play": "the same command",
+    "interface list": "prints types of installed packages",
+    "interface package": "prints types of installed packages",
+    "interface packages": "prints types of installed packages",
+    "interface proto": "prints types of installed packages",
+    "interface show": "prints types of installed packages",
+    "interfaces add": "the user's own folder",
+    "interfaces list": "the user's own folder",
+    "interfaces remove": "the user's own folder",
+    "interfaces show": "the user's own folder",
+    "interfaces stubs": "the user's own folder",
+    "lab break": "coframe's own nodes",
+    "lab check": "tests/course runs it on hostile programs",
+    "lab handbook": "coframe's own text",
+    "lab new": "the user's own folder",
+    "lab run": "the user's own program",
+    "pkg create": "the user's own folder",
+    "pkg executables": "installed packages",
+    "pkg list": "installed packages",
+    "pkg prefix": "installed packages",
+    "pkg xml": "installed packages",
+    "ros2 install": "the user's own environment",
+    "ros2 remove": "the user's own environment",
+    "router": "starts the router of Zenoh",
+    "run": "runs a program of an installed package",
+}
