@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from "vitest";
-import { binaryTriangles, gltfProblem, objProblem, stlCoordinates } from "../src/scene/mesh_limits";
+import { binaryTriangles, gltfProblem, objProblem, stlCoordinates, tgaProblem } from "../src/scene/mesh_limits";
 import { quoted } from "../src/util/static_commands";
 
 function stl(size: number, triangles: number, start = ""): ArrayBuffer {
@@ -39,6 +39,20 @@ describe("OBJ", () => {
     expect(objProblem(`f${" 1".repeat(6_100_000)}`)).toContain("vertices; at most");
     expect(objProblem(`f${" 1 1 1 1 \\\n".repeat(1_600_000)}`)).toContain("vertices; at most");
     expect(objProblem("newmtl a\n".repeat(100_001))).toContain("groups or materials");
+  });
+});
+
+describe("TGA", () => {
+  it("has a limit on the pixels in its header", () => {
+    const image = (width: number, height: number): ArrayBuffer => {
+      const bytes = new DataView(new ArrayBuffer(18));
+      bytes.setUint16(12, width, true);
+      bytes.setUint16(14, height, true);
+      return bytes.buffer;
+    };
+    expect(tgaProblem(image(4096, 4096))).toBe("");
+    expect(tgaProblem(image(65535, 65535))).toContain("pixels; at most");
+    expect(tgaProblem(new ArrayBuffer(17))).not.toBe("");
   });
 });
 

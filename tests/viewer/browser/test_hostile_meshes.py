@@ -24,7 +24,7 @@ WATCH = """() => {
 }"""
 COLLADA = """<?xml version="1.0"?>{doctype}
 <COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
-<asset><up_axis>Z_UP</up_axis></asset><library_geometries><geometry id="g"><mesh>
+<asset><up_axis>Z_UP</up_axis></asset>{texture}<library_geometries><geometry id="g"><mesh>
 <source id="s"><float_array id="a" count="9">0 0 0 1 0 0 0 1 0</float_array>
 <technique_common><accessor source="#a" count="3" stride="{stride}"/></technique_common></source>
 <vertices id="v"><input semantic="POSITION" source="#s"/></vertices>
@@ -32,14 +32,27 @@ COLLADA = """<?xml version="1.0"?>{doctype}
 </mesh></geometry></library_geometries>
 <library_nodes>{nodes}</library_nodes>
 <library_visual_scenes><visual_scene id="scene">
-<node id="n"><instance_geometry url="#g"/>{instance}</node></visual_scene></library_visual_scenes>
+<node id="n"><instance_geometry url="#g">{material}</instance_geometry>{instance}</node>
+</visual_scene></library_visual_scenes>
 <scene><instance_visual_scene url="#scene"/></scene></COLLADA>"""
-GOOD = {"doctype": "", "stride": 3, "vcount": 3, "nodes": "", "instance": "",
+GOOD = {"doctype": "", "texture": "", "material": "", "stride": 3, "vcount": 3, "nodes": "", "instance": "",
         "input": '<input semantic="VERTEX" source="#v" offset="0"/>'}  # fmt: skip
+# A TGA image of 20 000 x 20 000 pixels without data: run-length encoded, 32 bits per pixel.
+TGA = struct.pack("<BBB5xHHHHBB", 0, 0, 10, 0, 0, 20_000, 20_000, 32, 0)
+TEXTURE = """<library_images><image id="i"><init_from>huge.tga</init_from></image></library_images>
+<library_effects><effect id="e"><profile_COMMON><newparam sid="surface"><surface type="2D"><init_from>i</init_from>
+</surface></newparam><newparam sid="sampler"><sampler2D><source>surface</source></sampler2D></newparam>
+<technique sid="common"><phong><diffuse><texture texture="sampler" texcoord="UV"/></diffuse></phong></technique>
+</profile_COMMON></effect></library_effects>
+<library_materials><material id="m"><instance_effect url="#e"/></material></library_materials>"""
+MATERIAL = (
+    '<bind_material><technique_common><instance_material symbol="m" target="#m"/></technique_common></bind_material>'
+)
 INSTANCE = '<instance_node url="#d{}"/>'
 DOUBLING = "".join(f'<node id="d{i}">{2 * INSTANCE.format(i + 1)}</node>' for i in range(40))
 COLLADAS = {
     "good": {},
+    "good_but_for_its_texture": {"texture": TEXTURE, "material": MATERIAL},
     "polygon": {"vcount": 1_000_000_000},
     "stride": {"stride": 1_000_000_000},
     "inputs": {"input": ""},
@@ -76,6 +89,7 @@ def files():
 @pytest.mark.timeout(300)
 def test_hostile_meshes_are_refused_and_the_page_keeps_drawing(tmp_path, view, open_page):
     links, hostile = "", 0
+    (tmp_path / "huge.tga").write_bytes(TGA)
     for number, (name, content) in enumerate(files()):
         (tmp_path / name).write_bytes(content)
         hostile += not name.startswith("good")
@@ -85,7 +99,8 @@ def test_hostile_meshes_are_refused_and_the_page_keeps_drawing(tmp_path, view, o
     (tmp_path / "robot.urdf").write_text(f'<robot name="evil"><link name="base"/>{links}</robot>')
     buffer = coframe.Buffer()
     buffer.set("map", "base", coframe.Transform(), static=True)
-    page = open_page(view(buffer, robot=tmp_path / "robot.urdf").url).drawn()
+    url = view(buffer, robot=tmp_path / "robot.urdf").url
+    page = open_page(url, expected_errors=["a TGA image has 400000000 pixels"]).drawn()
     page.evaluate(WATCH)
     page.tab("displays")
     page.wait(

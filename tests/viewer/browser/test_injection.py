@@ -83,12 +83,13 @@ def check_frames_and_displays(page):
     check(page, "displays")
 
 
-def check_scene(page):
-    """Check the frames, the displays and the findings."""
-    check_frames_and_displays(page)
+def check_findings(page):
+    """Check the findings and the page about one of them."""
     page.tab("findings")
     page.wait(lambda: "TF0" in page.text("#body-findings"), "the findings")
     check(page, "findings")
+    page.raw.locator("#findings .finding").first.locator(".finding-head").click()
+    check(page, "the frame of a finding")
 
 
 @pytest.mark.slow
@@ -98,7 +99,8 @@ def test_hostile_names_of_a_recording_are_text_in_every_panel_of_the_scene(view,
     # Meshes that do not exist are errors that the browser logs.
     page = open_page(view(path, fixed="odom").url, expected_errors=["Failed to load resource"]).drawn()
     page.wait(lambda: MARKUP in page.rows(), "the frames in the tree")
-    check_scene(page)
+    check_frames_and_displays(page)
+    check_findings(page)
 
 
 @pytest.mark.slow
@@ -165,6 +167,8 @@ def test_hostile_names_are_text_in_a_replay(view, open_page, tmp_path):
     replay = open_page(file, expected_errors=["Failed to load resource"]).drawn()
     replay.wait(lambda: MARKUP in replay.rows(), "the frames in the tree")
     check_frames_and_displays(replay)
+    replay.tab("findings")  # A replay contains none.
+    check(replay, "findings")
 
 
 @pytest.mark.slow

@@ -3,6 +3,8 @@
 
 /** The most vertices, also while a file is read. */
 export const MAX_VERTICES = 6e6;
+/** The most pixels of a texture; those of compressed images in the scene. */
+export const MAX_PIXELS = 1 << 25;
 /** The most nodes, groups, materials or primitives of a file. */
 const MAX_PARTS = 100_000;
 const MAX_BUFFERS = 4;
@@ -28,6 +30,14 @@ export function stlCoordinates(text: string): Float32Array {
     if (numbers.length > 3 * MAX_VERTICES) break;
   }
   return new Float32Array(numbers.slice(0, numbers.length - (numbers.length % 9)));
+}
+
+/** Why a TGA image is not read, or "": the loader of three.js allocates what the header states. */
+export function tgaProblem(bytes: ArrayBuffer): string {
+  if (bytes.byteLength < 18) return "is not a TGA image";
+  const header = new DataView(bytes);
+  const pixels = header.getUint16(12, true) * header.getUint16(14, true);
+  return pixels > MAX_PIXELS ? tooMany(pixels, MAX_PIXELS, "pixels") : "";
 }
 
 /** Why an OBJ text or its material library is not read, or "". */

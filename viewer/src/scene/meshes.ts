@@ -7,23 +7,31 @@ import { GLTFLoader } from "three/examples/jsm/loaders/GLTFLoader.js";
 import { MTLLoader } from "three/examples/jsm/loaders/MTLLoader.js";
 import { OBJLoader } from "three/examples/jsm/loaders/OBJLoader.js";
 import { STLLoader } from "three/examples/jsm/loaders/STLLoader.js";
+import { TGALoader } from "three/examples/jsm/loaders/TGALoader.js";
 import {
   binaryTriangles,
   colladaProblem,
   gltfJson,
   gltfProblem,
+  MAX_PIXELS,
   MAX_VERTICES,
   objProblem,
   stlCoordinates,
+  tgaProblem,
 } from "./mesh_limits";
 
 const MAX_BYTES = 200e6;
 /** The page blocks while a text file is parsed. */
 const MAX_TEXT_BYTES = 60e6;
-/** The most pixels of a texture; those of compressed images in the scene. */
-const MAX_PIXELS = 1 << 25;
 /** A URL that replaces forbidden ones; loading it fails immediately. */
 export const FORBIDDEN_URL = "data:,";
+
+// The loaders of COLLADA files and of materials create their own loaders of TGA images.
+const parseTga = TGALoader.prototype.parse;
+TGALoader.prototype.parse = function (bytes: ArrayBuffer): ReturnType<typeof parseTga> {
+  refuse(tgaProblem(bytes), "a TGA image");
+  return parseTga.call(this, bytes);
+};
 
 export interface LoadedMesh {
   object: THREE.Object3D;
