@@ -229,3 +229,18 @@ def test_a_forked_child_exits_cleanly_and_its_parent_stays_on_the_graph(child, p
     assert parent.read() == "3"
     eventually(lambda: ("/", "parent") in participant.nodes())
     assert parent.finish() == (0, "")
+
+
+@pytest.mark.usefixtures("domain_id")
+def test_ctrl_c_while_the_interpreter_exits_is_ignored():
+    script = """
+import signal
+import coframe
+from coframe.wire.participant import Participant
+
+ros = coframe.connect("ends")
+end = Participant._end
+Participant._end = lambda self: (signal.raise_signal(signal.SIGINT), end(self), print("closed"))
+"""
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stdout, done.stderr) == (0, "closed\n", "")

@@ -4,8 +4,10 @@
 from __future__ import annotations
 
 import atexit
+import contextlib
 import logging
 import os
+import signal
 import threading
 from typing import TYPE_CHECKING, ClassVar
 
@@ -248,6 +250,9 @@ if hasattr(os, "register_at_fork"):
 @atexit.register
 def _end_all() -> None:
     """Close all participants, because the threads of the wire must stop before the interpreter exits."""
+    # A second Ctrl-C would leave the participants open and print a traceback. Only the main thread can set a handler.
+    with contextlib.suppress(ValueError):
+        signal.signal(signal.SIGINT, signal.SIG_IGN)
     with Participant._instances_lock:  # noqa: SLF001 - this module's class
         for participant in list(Participant._instances.values()):  # noqa: SLF001 - this module's class
             if participant._process == os.getpid():  # noqa: SLF001 - this module's class
