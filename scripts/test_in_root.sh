@@ -18,7 +18,7 @@ cd "$(dirname "$0")/.."
 project=$PWD
 work=$project/build/root
 host=$(cd "$(dirname "${VENV:-.venv}")" && pwd)/$(basename "${VENV:-.venv}")/bin/python
-suite=bookworm sdist="" bundle=""
+suite=bookworm sdist="" bundle="" prefix=""
 while [ $# -gt 0 ]; do
     case $1 in
         --sdist) sdist=yes ;;
@@ -56,7 +56,11 @@ fi
 download() { # VERSION FOLDER PACKAGE...: packages for that version of Python, outside of the root
     version=$1 folder=$2
     shift 2
-    "$host" -m pip download --quiet --only-binary :all: --python-version "$version" --dest "$folder" "$@"
+    if [ -n "$prefix" ]; then # this Python is outside of the root as well: it selects what is needed for its version only
+        "$host" -m pip --python "$python" download --quiet --only-binary :all: --dest "$folder" "$@"
+    else
+        "$host" -m pip download --quiet --only-binary :all: --python-version "$version" --dest "$folder" "$@"
+    fi
 }
 
 needed() { # VERSION WHEEL: what the tests in the root install
