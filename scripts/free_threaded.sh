@@ -67,7 +67,7 @@ for key in sys.argv[1:]:
 PYTHON
 }
 requirements build dev >"$work/requirements.txt"
-pip install --only-binary numpy,scipy -r "$work/requirements.txt" "numpy>=1.24,<3"
+pip install --only-binary :all: -r "$work/requirements.txt" "numpy>=1.24,<3"
 requirements bags viewer robots cli params parquet protobuf pdf plot | sort -u | while read -r requirement; do
     # apsw, which rosbags requires, downloads SQLite's source when it is compiled.
     pip install --only-binary apsw,matplotlib,pyarrow "$requirement" >/dev/null 2>&1 ||
