@@ -72,6 +72,7 @@ def test_stamps_of_tum_files_are_exact(tmp_path, stamp, expected):
         ("1 0 0 0 0 0 0 1\n2 0 0\n", "line 2: 3 columns; the lines above have 8"),
         ("1 0 0 zero 0 0 0 1\n", "line 1: not a row of numbers"),
         ("nan 0 0 0 0 0 0 1\n", "line 1: not a row of numbers"),
+        ("1e9999999 0 0 0 0 0 0 1\n", "line 1: not a row of numbers"),
         ("1 0 0 0 0 0 0 0\n", "quaternion must not be zero"),
         ("1 0 0 nan 0 0 0 1\n", "translation must be finite"),
         ("1 0 0 0 0 1 0 0 0 0 2 0\n", "is not a rotation"),

@@ -96,7 +96,7 @@ def _read_text(file: Path, lines: Iterable[str], kind: str | None) -> Transform:
             else:
                 stamps.append(_nanoseconds(cells[0], SECOND if kind == "tum" else 1))
                 numbers.extend(map(float, cells[1:8]))
-        except (ValueError, OverflowError, decimal.InvalidOperation):
+        except (ValueError, OverflowError, decimal.DecimalException):
             raise TrajectoryError(f"{file}, line {number}: not a row of numbers: {text[:80]!r}") from None
     if not columns:
         raise TrajectoryError(f"{file} contains no poses", hint=_LAYOUTS)
