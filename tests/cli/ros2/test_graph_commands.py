@@ -124,6 +124,27 @@ def test_parameters(run, tmp_path):
     assert "not set" in run("param", "get", NODE, "speed", code=1)
 
 
+@pytest.mark.slow
+def test_figures_of_a_topic_that_is_published_later(graph):
+    environment = {**os.environ, **graph.environment}
+    command = [sys.executable, "-m", "coframe.cli", "topic"]
+    pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True, "env": environment}
+    rate = subprocess.Popen([*command, "hz", "/pont"], **pipes)
+    warning = rate.stderr.readline()
+    publisher = subprocess.Popen(
+        [*command, "pub", "/pont", "std_msgs/msg/String", "{data: a}", "--rate", "50", "--print", "1000"],
+        stdout=subprocess.DEVNULL,
+        env=environment,
+    )
+    line = rate.stdout.readline()
+    for process in (publisher, rate):
+        process.send_signal(signal.SIGINT)
+    rate.communicate(timeout=20)
+    publisher.wait(timeout=20)
+    assert "WARNING: topic [/pont] does not appear to be published yet. Did you mean '/point'?" in warning
+    assert re.match(r"average rate: \d+\.\d{3}\n", line), line
+
+
 @pytest.mark.parametrize(
     ("command", "pattern"),
     [

@@ -13,7 +13,7 @@ import typer
 from coframe.cli.completion import complete_live_topics
 from coframe.cli.lifecycle import run_to_completion
 from coframe.cli.options import NonNegativeDuration, with_leading_slash
-from coframe.cli.output import fail
+from coframe.cli.output import fail, warn
 from coframe.cli.ros2.near_names import near_types
 from coframe.errors import CoframeError
 from coframe.formatting import did_you_mean
@@ -146,10 +146,16 @@ def split_node_name(name: str) -> tuple[str, str]:
     return namespace or "/", base
 
 
-def topic_type(node: Node, topic: str, *, include_hidden: bool = True) -> str:
+def topic_type(node: Node, topic: str, *, include_hidden: bool = True, wait: bool = False) -> str:
     """Return the type of a topic in the graph; end the command if there is none or if there are several.
 
     The texts are those of ros2cli.
+
+    Args:
+        node: A node in the graph.
+        topic: Full name of the topic.
+        include_hidden: Accept a topic with a part that begins with an underscore.
+        wait: Print a warning and wait for a topic that does not exist yet, as ``ros2 topic hz`` does.
     """
 
     def types() -> list[str]:
@@ -159,11 +165,14 @@ def topic_type(node: Node, topic: str, *, include_hidden: bool = True) -> str:
         fail(f"The topic {topic} is hidden.", "Add --include-hidden-topics.")
     found = wait_until(types)
     if not found:
-        fail(
-            f"topic [{topic}] does not appear to be published yet. Could not determine the type for the passed topic",
-            did_you_mean(topic, (name for name, _ in node.get_topic_names_and_types()), most=2)
-            or "coframe topic list shows all topics.",
-        )
+        unpublished = f"topic [{topic}] does not appear to be published yet"
+        hint = did_you_mean(topic, (name for name, _ in node.get_topic_names_and_types()), most=2)
+        if not wait:
+            hint = hint or "coframe topic list shows all topics."
+            fail(f"{unpublished}. Could not determine the type for the passed topic", hint)
+        warn(f"WARNING: {unpublished}. {hint}".rstrip())
+        while not (found := types()):
+            time.sleep(_PERIOD)
     if len(found) > 1:
         fail(f"Cannot echo topic '{topic}', as it contains more than one type: [{', '.join(found)}]")
     kind: str = found[0]

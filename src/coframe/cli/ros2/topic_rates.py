@@ -123,7 +123,7 @@ def _stream(node: Node, topic: str, *, raw: bool) -> MessageStream:
     from rclpy.qos import qos_profile_sensor_data  # noqa: PLC0415 - slow import
     from rosidl_runtime_py.utilities import get_message  # noqa: PLC0415 - slow import
 
-    kind = topic_type(node, topic)
+    kind = topic_type(node, topic, wait=True)
     # Best effort, as in ros2cli: it matches every publisher.
     return MessageStream(node, topic, load_type(kind, get_message), qos_profile_sensor_data, raw=raw)
 
