@@ -15,7 +15,6 @@ anything was left behind.
 from __future__ import annotations
 
 import argparse
-import os
 import signal
 import statistics
 import sys
@@ -49,7 +48,7 @@ with connect(sys.argv[1], max_size=None, compression=None) as socket:
 
 
 class Sample(NamedTuple):
-    """The resources of a process."""
+    """The resources of a process; memory is what it has in RAM without mapped files, whose pages the kernel moves."""
 
     memory: int
     descriptors: int
@@ -69,9 +68,10 @@ class Watched:
         process = self.program.process.pid
         if self.program.process.poll() is not None:
             raise RuntimeError(f"{self.name} ended: {self.program.errors()[-2000:]}")
-        pages = int(Path(f"/proc/{process}/statm").read_text().split()[1])
+        status = Path(f"/proc/{process}/status").read_text()
+        kilobytes = int(status.split("RssAnon:")[1].split()[0])
         threads = len(list(Path(f"/proc/{process}/task").iterdir()))
-        self.samples.append(Sample(pages * os.sysconf("SC_PAGE_SIZE"), descriptors(process), threads))
+        self.samples.append(Sample(kilobytes * 1024, descriptors(process), threads))
 
     def growth(self, warm_up: int) -> float:
         """Return the growth of the memory after the warm-up, as a fraction."""
