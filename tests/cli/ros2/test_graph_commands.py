@@ -125,6 +125,12 @@ def test_parameters(run, tmp_path):
 
 
 @pytest.mark.slow
+def test_a_name_that_no_topic_can_have_is_not_waited_for(run):
+    message = run("topic", "hz", "bad name", code=1)
+    assert "coframe: '/bad name' cannot be the name of a topic: topic name must not contain characters" in message
+
+
+@pytest.mark.slow
 def test_figures_of_a_topic_that_is_published_later(graph):
     environment = {**os.environ, **graph.environment}
     command = [sys.executable, "-m", "coframe.cli", "topic"]
@@ -141,7 +147,7 @@ def test_figures_of_a_topic_that_is_published_later(graph):
         process.send_signal(signal.SIGINT)
     rate.communicate(timeout=20)
     publisher.wait(timeout=20)
-    assert "WARNING: topic [/pont] does not appear to be published yet. Did you mean '/point'?" in warning
+    assert "topic [/pont] does not appear to be published yet: waiting for it. Did you mean '/point'?" in warning
     assert re.match(r"average rate: \d+\.\d{3}\n", line), line
 
 

@@ -155,7 +155,8 @@ def topic_type(node: Node, topic: str, *, include_hidden: bool = True, wait: boo
         node: A node in the graph.
         topic: Full name of the topic.
         include_hidden: Accept a topic with a part that begins with an underscore.
-        wait: Print a warning and wait for a topic that does not exist yet, as ``ros2 topic hz`` does.
+        wait: Print a warning and wait for a topic that does not exist yet, as ``ros2 topic hz`` does. End the command
+            if no topic can have this name.
     """
 
     def types() -> list[str]:
@@ -170,13 +171,23 @@ def topic_type(node: Node, topic: str, *, include_hidden: bool = True, wait: boo
         if not wait:
             hint = hint or "coframe topic list shows all topics."
             fail(f"{unpublished}. Could not determine the type for the passed topic", hint)
-        warn(f"WARNING: {unpublished}. {hint}".rstrip())
+        _check_name(node, topic)
+        warn(f"{unpublished}: waiting for it. {hint}".rstrip())
         while not (found := types()):
             time.sleep(_PERIOD)
     if len(found) > 1:
         fail(f"Cannot echo topic '{topic}', as it contains more than one type: [{', '.join(found)}]")
     kind: str = found[0]
     return kind
+
+
+def _check_name(node: Node, topic: str) -> None:
+    """End the command if no topic can have this name."""
+    try:
+        node.resolve_topic_name(topic)
+    except RuntimeError as error:
+        reason = str(error).removeprefix("failed to resolve name: ")
+        fail(f"'{topic}' cannot be the name of a topic: {reason}", "coframe topic list shows all topics.")
 
 
 def load_type(kind: str, load: Callable[[str], Any]) -> Any:
