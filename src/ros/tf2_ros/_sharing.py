@@ -43,7 +43,7 @@ def share(
     Returns:
         None if sharing is not enabled, not possible here, or does not suit this listener.
     """
-    if os.environ.get("COFRAME_SHARED") != "1" or not _is_usual(request, to_wire):
+    if not _is_enabled() or not _is_usual(request, to_wire):
         return None
     assert request.dynamic is not None
     dynamic, static = (request.node.resolve_topic_name(topic.name) for topic in (request.dynamic, request.static))
@@ -52,15 +52,27 @@ def share(
         source = Source(domain, dynamic, static, cache=buffer.cache_ns)
         shared = SharedTransforms.join(source, (reporter(request.dynamic), reporter(request.static)))
     except SegmentError as error:
-        text = f"The transforms are not shared with other processes: {error}"
-        if text not in _logged:
-            _logged.add(text)
-            _logger.warning(text)
+        _warn_once(f"The transforms are not shared with other processes: {error}")
         return None
     if not shared.follow(buffer, AUTHORITY):
         shared.leave()
         return None
     return Sharing(buffer, shared, (dynamic, static))
+
+
+def _is_enabled() -> bool:
+    value = os.environ.get("COFRAME_SHARED", "").strip()
+    if value not in ("", "0", "1"):
+        _warn_once(
+            f"COFRAME_SHARED is {value!r}, which has no effect. Set it to 1 to share transforms with other processes."
+        )
+    return value == "1"
+
+
+def _warn_once(text: str) -> None:
+    if text not in _logged:
+        _logged.add(text)
+        _logger.warning(text)
 
 
 def _is_usual(request: Request, to_wire: Callable[[QoSProfile], QoS]) -> bool:
