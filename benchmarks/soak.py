@@ -69,7 +69,7 @@ class Watched:
         if self.program.process.poll() is not None:
             raise RuntimeError(f"{self.name} ended: {self.program.errors()[-2000:]}")
         status = Path(f"/proc/{process}/status").read_text()
-        kilobytes = int(status.split("RssAnon:")[1].split()[0])
+        kilobytes = sum(int(status.split(kind)[1].split()[0]) for kind in ("RssAnon:", "RssShmem:"))
         threads = len(list(Path(f"/proc/{process}/task").iterdir()))
         self.samples.append(Sample(kilobytes * 1024, descriptors(process), threads))
 
