@@ -78,7 +78,7 @@ static_assert(sizeof(SharedSample) == 64);
 struct Chunk {
   // Large enough that insertions rarely allocate.
   static constexpr std::size_t kSize = 256;
-  // A short chunk ends after so many samples: large trees have many frames that move slowly or for a short time.
+  // For the first samples of a frame: large trees have many frames that move slowly or for a short time.
   static constexpr std::size_t kShortSize = 32;
 
   std::array<RelaxedAtomic<Stamp>, kSize> stamps;

@@ -60,7 +60,10 @@ def hub(
     source = Source(joined, tf_topic, tf_static_topic, int(cache), prefix, tuple(sorted(kept(keep))))
     with run_until_interrupted():
         try:
-            _print_status(source) if status else _receive(source)
+            if status:
+                _print_status(source)
+            else:
+                _receive(source)
         except _core.SegmentError as error:
             fail(str(error), "Use coframe.connect() without shared=True.")
 

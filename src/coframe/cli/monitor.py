@@ -133,7 +133,7 @@ def _watch(observer: LiveObserver, pair: Pair) -> NoReturn:
 
 
 def _tables(observation: Observation, pair: Pair, most: int | None = None) -> Group:
-    """Return the tables of the edges, at most so many, and of the publishers."""
+    """Return the tables of the edges, with at most `most` rows, and of the publishers."""
     if not observation.edges:
         return Group(Text("no transforms received yet: is a broadcaster running in the same ROS domain?"))
     edges = _table("edge", "publisher", "Hz", "jitter ms", "delay ms", "p99 ms", "age ms", "count")

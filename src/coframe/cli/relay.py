@@ -171,7 +171,7 @@ class _Rates:
 
 
 def _table(running: Relay, rates: _Rates, most: int | None = None) -> Group:
-    """Return a table of the edges, at most so many."""
+    """Return a table of the edges with at most `most` rows."""
     table = Table(box=None, pad_edge=False, header_style="dim")
     for column in ("edge", "robot", "from", "node", "to", "Hz", "age s", ""):
         table.add_column(column, justify="right" if column in {"Hz", "age s"} else "left")
