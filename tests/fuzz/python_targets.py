@@ -12,6 +12,7 @@ import contextlib
 import io
 import logging
 import os
+import shlex
 import shutil
 import socket
 import sys
@@ -478,7 +479,9 @@ def _fuzz(name: str, arguments: list[str]) -> None:
         with contextlib.redirect_stdout(io.StringIO()):
             run(data)
 
-    atheris.Setup([sys.argv[0], *arguments], quiet)
+    # To merge corpora, libFuzzer gives the first argument to a shell, followed by its own options.
+    command = shlex.join([sys.executable, str(Path(__file__).resolve()), name])
+    atheris.Setup([command, *arguments], quiet)
     atheris.Fuzz()
 
 

@@ -151,6 +151,8 @@ def keep(name: str) -> str:
             check=False,
         )
         CORPORA.mkdir(exist_ok=True)
+        if not any(merged.iterdir()):
+            return f"{name}: the inputs cannot be merged; the corpus in the repository is unchanged"
         files, size = sorted(merged.iterdir(), key=lambda file: (file.stat().st_size, file.name)), 0
         with zipfile.ZipFile(packed, "w", zipfile.ZIP_DEFLATED) as archive:
             for count, file in enumerate(files):

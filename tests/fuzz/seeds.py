@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "bags"))
 
+import numpy as np
 import recordings
 from recordings import START, walk
 from rosbags.rosbag1.writer import Writer as Rosbag1Writer
@@ -341,3 +342,8 @@ def trajectories() -> Iterable[bytes]:
     rows = [(START / 1e9 + i / 20, math.cos(i), math.sin(i), 0, 0, 0, 0, 1) for i in range(4)]
     yield "".join(" ".join(map(str, row)) + "\n" for row in rows).encode()
     yield b"# t x y z qx qy qz qw\n" + ",".join(map(str, rows[0])).encode()
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder) / "path.npz"
+        poses = coframe.Transform(np.zeros((3, 3)), stamp=np.arange(3), target="map", source="base")
+        coframe.trajectories.write_trajectory(poses, file)
+        yield file.read_bytes()

@@ -2,6 +2,8 @@
 """Trajectory files are written and read again in every format."""
 
 import io
+import struct
+import zipfile
 
 import numpy as np
 import pytest
@@ -73,6 +75,8 @@ def test_stamps_of_tum_files_are_exact(tmp_path, stamp, expected):
         ("1 0 0 zero 0 0 0 1\n", "line 1: not a row of numbers"),
         ("nan 0 0 0 0 0 0 1\n", "line 1: not a row of numbers"),
         ("1e9999999 0 0 0 0 0 0 1\n", "line 1: not a row of numbers"),
+        ("1e999980 0 0 0 0 0 0 1\n", "line 1: not a row of numbers"),
+        ("# \n" + "7" * 10_001, "line 2 has more than 10000 characters"),
         ("1 0 0 0 0 0 0 0\n", "quaternion must not be zero"),
         ("1 0 0 nan 0 0 0 1\n", "translation must be finite"),
         ("1 0 0 0 0 1 0 0 0 0 2 0\n", "is not a rotation"),
@@ -84,6 +88,39 @@ def test_invalid_files_are_reported_with_the_line(tmp_path, text, reason):
     path.write_text(text, encoding="latin-1")
     with pytest.raises(TrajectoryError, match=reason):
         read_trajectory(path)
+
+
+def npz(path, header, data=b""):
+    """Write an npz file whose member `translation` has the given text as its header."""
+    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
+        for name in ("target", "source", "stamps", "quaternion"):
+            content = io.BytesIO()
+            np.save(content, np.zeros((1, 4)))
+            archive.writestr(f"{name}.npy", content.getvalue())
+        archive.writestr("translation.npy", b"\x93NUMPY\x01\0" + struct.pack("<H", len(header)) + header + data)
+
+
+@pytest.mark.parametrize(
+    "header",
+    [
+        b"{'descr': '<f8', 'fortran_order': False, 'shape': (1000000000000000, 3), }",
+        b"{'descr': '<f8', 'fortran_order': False, 'shape': (10000000000000000000000, 3), }",
+        b"{'descr': '<f8', 'fortran_order': False, 'shape': (1, 3), }",
+        b"{'descr': '<f8', 'fortran_order': False, 'shape': (",
+        b"(" * 5000,
+    ],
+)
+def test_a_broken_npz_file_is_an_error(tmp_path, header):
+    npz(tmp_path / "a.npz", header)
+    with pytest.raises(TrajectoryError, match=r"a\.npz is not a trajectory: "):
+        read_trajectory(tmp_path / "a.npz")
+
+
+def test_a_small_npz_file_that_unpacks_to_a_large_one_is_refused(tmp_path):
+    header = b"{'descr': '<f8', 'fortran_order': False, 'shape': (20000000, 3), }"
+    npz(tmp_path / "a.npz", header, bytes(300_000_000))
+    with pytest.raises(TrajectoryError, match=r"it unpacks to 3000.* bytes; the limit is 268435456"):
+        read_trajectory(tmp_path / "a.npz")
 
 
 def test_another_format_than_requested_is_an_error(tmp_path, poses):

@@ -7,6 +7,7 @@ import decimal
 import re
 import zipfile
 from array import array
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -26,7 +27,10 @@ if TYPE_CHECKING:
 __all__ = ["READABLE_FORMATS", "read_trajectory"]
 
 READABLE_FORMATS = ("tum", "kitti", "euroc", "csv", "npz")
+MAX_LINE = 10_000  # characters
+MAX_UNPACKED = 256 << 20  # bytes of a compressed npz file; one that is larger itself may unpack to four times its size
 _SECONDS = re.compile(r"(-?)(\d+)(?:\.(\d*))?", re.ASCII)
+_LATEST = 1 << 63
 # The differences between the formats, for error messages.
 _LAYOUTS = (
     "TUM has 8 columns separated by spaces (seconds x y z qx qy qz qw), KITTI has 12 (a 3x4 matrix), EuRoC has at "
@@ -67,8 +71,8 @@ def read_trajectory(path: str | os.PathLike[str], format_: str | None = None) ->
             is_zip = stream.read(2) == b"PK"
         if format_ == "npz" or (format_ is None and is_zip):
             return _read_npz(file)
-        with file.open(encoding="utf-8-sig") as lines:
-            return _read_text(file, lines, format_)
+        with file.open(encoding="utf-8-sig") as text:
+            return _read_text(file, iter(partial(text.readline, MAX_LINE + 1), ""), format_)
     except OSError as error:
         raise TrajectoryError(f"{file} cannot be read: {error.strerror or error}") from None
     except UnicodeDecodeError:
@@ -80,6 +84,8 @@ def read_trajectory(path: str | os.PathLike[str], format_: str | None = None) ->
 def _read_text(file: Path, lines: Iterable[str], kind: str | None) -> Transform:
     numbers, stamps, columns = array("d"), array("q"), 0
     for number, line in enumerate(lines, start=1):
+        if len(line) > MAX_LINE:
+            raise TrajectoryError(f"{file} is not a trajectory: line {number} has more than {MAX_LINE} characters")
         text = line.strip()
         if text.startswith("stamp_ns,") and kind in {None, "csv"} and not columns:
             kind = "csv"
@@ -141,18 +147,32 @@ def _nanoseconds(text: str, unit: int) -> int:
         return -size if match[1] else size
     if match and unit == 1 and not match[3]:
         return int(match[1] + match[2])
-    return int((decimal.Decimal(text) * unit).to_integral_value())
+    time = decimal.Decimal(text) * unit
+    if abs(time) > _LATEST:
+        raise OverflowError  # before int(), which takes half a minute for 1e999999
+    return int(time.to_integral_value())
 
 
 def _read_npz(file: Path) -> Transform:
     try:
+        _check_unpacked_size(file)
         with np.load(file) as data:
             target, source = (str(data[name]) or None for name in ("target", "source"))
             return Transform(
                 data["translation"], data["quaternion"], target=target, source=source, stamp=data["stamps"]
             )
-    except (KeyError, ValueError, TypeError, zipfile.BadZipFile) as error:
+    except OSError:
+        raise
+    except Exception as error:  # noqa: BLE001 - NumPy and zipfile raise ten types for broken files
         raise TrajectoryError(
             f"{file} is not a trajectory: {error}",
             hint="An .npz file needs the arrays stamps, translation, quaternion, target and source.",
         ) from None
+
+
+def _check_unpacked_size(file: Path) -> None:
+    with zipfile.ZipFile(file) as archive:
+        size = sum(member.file_size for member in archive.infolist())
+    limit = max(MAX_UNPACKED, 4 * file.stat().st_size)
+    if size > limit:
+        raise ValueError(f"it unpacks to {size} bytes; the limit is {limit}")
