@@ -8,6 +8,7 @@ add the inputs that reach new code; the next run continues from there. ``--keep`
 from __future__ import annotations
 
 import argparse
+import base64
 import contextlib
 import hashlib
 import importlib.util
@@ -88,12 +89,13 @@ def environment(scratch: str) -> dict[str, str]:
     }
 
 
-def fuzz(name: str, seconds: int, extra: list[Path]) -> Outcome:
-    """Run a target for some seconds."""
+def fuzz(name: str, seconds: int, seed: int, extra: list[Path]) -> Outcome:
+    """Run a target for some seconds; a seed of 0 is a random one."""
     folder, seconds_per_input = corpus_of(name), SLOW.get(name, MOST_SECONDS)
     log = BUILD / f"{name}.log"
     options = [
         f"-max_total_time={seconds}",
+        f"-seed={seed}",
         f"-timeout={seconds_per_input}",
         f"-rss_limit_mb={MOST_MEMORY}",
         f"-max_len={LONGEST.get(name, 8000)}",
@@ -212,6 +214,7 @@ def main() -> int:
     )
     parser.add_argument("targets", nargs="*", metavar="TARGET", help=f"default: all of {', '.join([*NATIVE, *PYTHON])}")
     parser.add_argument("--seconds", type=int, default=60, help="total time, divided between the targets (60)")
+    parser.add_argument("--seed", type=int, default=0, help="repeat the mutations of a run (default: random)")
     parser.add_argument("--extra", type=Path, action="append", default=[], help="a folder with more seeds")
     parser.add_argument("--keep", action="store_true", help="minimise the corpora into the repository; no fuzzing")
     options = parser.parse_args()
@@ -226,7 +229,7 @@ def main() -> int:
     outcomes = []
     for name in names:
         started = time.monotonic()
-        outcomes.append(fuzz(name, max(options.seconds // len(names), 1), options.extra))
+        outcomes.append(fuzz(name, max(options.seconds // len(names), 1), options.seed, options.extra))
         print(
             f"{name}: {outcomes[-1].inputs} inputs in {time.monotonic() - started:.0f} s", file=sys.stderr, flush=True
         )
@@ -234,6 +237,7 @@ def main() -> int:
     for outcome in outcomes:
         for crash in outcome.crashes:
             print(f"{outcome.name} failed. Reproduce: {reproduction(outcome.name, crash)}")
+            print(f"The input in base64: {base64.b64encode(crash.read_bytes()).decode()}")
         if outcome.failure:
             print(f"{outcome.name} {outcome.failure}")
     return int(any(outcome.crashes or outcome.failure for outcome in outcomes))
