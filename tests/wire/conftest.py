@@ -61,6 +61,13 @@ class Child:
             pytest.fail(f"the child process ended: {self.finish()}")
         return line.rstrip("\n")
 
+    def ask(self, line: str) -> str:
+        """Send a line, and return the next line of its output."""
+        assert self.process.stdin
+        self.process.stdin.write(f"{line}\n")
+        self.process.stdin.flush()
+        return self.read()
+
     def finish(self) -> tuple[int, str]:
         """Let it continue after `input()`, wait for its exit, and return the exit code and stderr."""
         _, errors = self.process.communicate("\n", timeout=_PATIENCE)

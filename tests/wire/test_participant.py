@@ -113,6 +113,39 @@ def test_nodes_of_a_killed_process_disappear_when_its_lease_expires(participant,
     eventually(lambda: ("/robot", "talker") not in participant.nodes())
 
 
+@pytest.mark.slow
+def test_nodes_that_come_and_go_leave_nothing_in_other_processes(child):
+    watching = child("""
+        import gc, sys, time
+        from coframe.wire import Participant
+        participant = Participant.get()
+        participant.add_node("/", "watching")
+        print("ready", flush=True)
+        while input():
+            while participant.nodes() != [("/", "watching")]:
+                time.sleep(0.01)
+            gc.collect()
+            print(sys.getallocatedblocks(), flush=True)
+    """)
+    passing = child("""
+        import rclpy
+        while input():
+            for number in range(40):
+                rclpy.init()
+                rclpy.create_node(f"passing_{number}").destroy_node()
+                rclpy.shutdown()
+            print("done", flush=True)
+    """)
+
+    def blocks_after_forty_nodes():
+        passing.ask("more")
+        return int(watching.ask("count"))
+
+    assert watching.read() == "ready"
+    before = blocks_after_forty_nodes()
+    assert (blocks_after_forty_nodes() - before) / 40 < 12, "objects per node"
+
+
 def test_nodes_of_this_process_are_on_the_graph_immediately(participant):
     node = participant.add_node("/a/b", "own")
     assert participant.nodes() == [("/a/b", "own")]

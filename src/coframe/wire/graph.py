@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 UNKNOWN_NODE = "_NODE_NAME_UNKNOWN_"
 UNKNOWN_NAMESPACE = "_NODE_NAMESPACE_UNKNOWN_"
 
-_DEPARTED_WRITERS = 1000  # writers whose node names are kept after they have left
+_DEPARTED_WRITERS = 500  # writers whose node names are kept after they have left
 
 
 @dataclass(frozen=True)
@@ -164,7 +164,10 @@ class Graph:
         return names.full_name(node.namespace, node.name) if node else None
 
     def writer_node(self, handle: int) -> str | None:
-        """Return the full name of the node of a writer, also for some time after it has left; None if it is unknown."""
+        """Return the full name of the node of a writer on a ROS topic; None if it is unknown.
+
+        The names of the last writers that have left are kept.
+        """
         self.refresh()
         with self._lock:
             return self._writer_nodes.get(handle)
@@ -176,7 +179,7 @@ class Graph:
     def _store_writer_nodes(self) -> None:
         """Store the node names of writers, which are needed for samples whose writer has already left."""
         for handle, writer in self._writers.items():
-            if (node := self.owner(writer.guid)) is not None:
+            if names.is_topic(writer.topic) and (node := self.owner(writer.guid)) is not None:
                 self._writer_nodes[handle] = node
                 self._writer_nodes.move_to_end(handle)
         while len(self._writer_nodes) > len(self._writers) + _DEPARTED_WRITERS:

@@ -155,4 +155,5 @@ class _Cursor:
         return gid[:_GUID_SIZE]
 
     def _guids(self) -> tuple[bytes, ...]:
-        return tuple(self._guid() for _ in range(self._number(len(self._body) // self._gid_size)))
+        # From a list, which has a length: CPython keeps tuples whose size has changed in memory, up to 2000 per size.
+        return tuple([self._guid() for _ in range(self._number(len(self._body) // self._gid_size))])
