@@ -65,14 +65,14 @@ class McapWriter:
         self._pending = bytearray()
         self._index: dict[int, array[int]] = {}  # by channel: log time and offset of each pending message
         self._first, self._last = 0, 0  # log times of the pending messages
-        self._chunks: list[bytes] = []  # the chunk index records
+        self._chunks = 0
+        self._chunk_index = bytearray()  # their index records
         self._end = 0  # offset of the next chunk
-        self._tail = _END  # the end of the file, at that offset
-        self._index_size = 0  # bytes of the chunk index records
+        self._has_summary = False  # at that offset
         self.counts: list[int] = []
         self.start = 0
         self.end = 0
-        self._append(_MAGIC + _record(_HEADER, _text("ros2") + _text("coframe")), _END)
+        self._append(_MAGIC + _record(_HEADER, _text("ros2") + _text("coframe")), with_summary=False)
 
     @property
     def size(self) -> int:
@@ -147,12 +147,15 @@ class McapWriter:
             struct.pack("<Q", len(indices)) + self._compression + struct.pack("<QQ", len(packed), len(self._pending))
         )
         statistics = (self.start, self.end, self.counts.copy())
-        self._count_pending(_record(_CHUNK_INDEX, index))
+        record = _record(_CHUNK_INDEX, index)
+        self._count_pending(record)
         try:
-            self._append(chunk + indices, self._tail_at(self._end + len(chunk) + len(indices)))
+            self._append(chunk + indices, with_summary=self._is_index_small())
         except OSError:
             self.start, self.end, self.counts = statistics
-            self._index_size -= len(self._chunks.pop())
+            self._chunks -= 1
+            del self._chunk_index[-len(record) :]
+            self._restore_end()
             raise
 
     def close(self) -> None:
@@ -163,13 +166,19 @@ class McapWriter:
         """
         try:
             self.flush()
-            summary = self._summary(self._end)
-            if self._tail != summary:
-                self._append(b"", summary)
-            self._end += len(summary)
+            if not self._has_summary:
+                self._end_with_summary()
+            self._end = self._file.seek(0, os.SEEK_END)
             os.fsync(self._file.fileno())
         finally:
             self._file.close()
+
+    def _end_with_summary(self) -> None:
+        try:
+            self._append(b"", with_summary=True)
+        except OSError:
+            self._restore_end()
+            raise
 
     def _count_pending(self, chunk_index: bytes) -> None:
         """Count the pending messages as flushed."""
@@ -177,15 +186,13 @@ class McapWriter:
         self.end = max(self.end, self._last)
         for channel, entries in self._index.items():
             self.counts[channel] += len(entries) // 2
-        self._chunks.append(chunk_index)
-        self._index_size += len(chunk_index)
+        self._chunks += 1
+        self._chunk_index += chunk_index
         self._index = {}
         self._pending.clear()
 
-    def _tail_at(self, offset: int) -> bytes:
-        """Return the end of the file after a chunk that ends at an offset."""
-        is_small = self._index_size + len(self._definitions) <= _LARGEST_INDEX
-        return self._summary(offset) if is_small else _END
+    def _is_index_small(self) -> bool:
+        return len(self._chunk_index) + len(self._definitions) <= _LARGEST_INDEX
 
     def _define(self, record: bytes) -> None:
         self._definitions += record
@@ -205,9 +212,9 @@ class McapWriter:
         counts = b"".join(struct.pack("<HQ", *pair) for pair in enumerate(self.counts))
         statistics = struct.pack(
             "<QHIIIIQQ",
-            *(self.count, len(self._schemas), len(self.counts), 0, 0, len(self._chunks), self.start, self.end),
+            *(self.count, len(self._schemas), len(self.counts), 0, 0, self._chunks, self.start, self.end),
         )
-        groups = [*self._definition_groups(), (_CHUNK_INDEX, b"".join(self._chunks))]
+        groups: list[tuple[int, bytes | bytearray]] = [*self._definition_groups(), (_CHUNK_INDEX, self._chunk_index)]
         groups.append((_STATISTICS, _record(_STATISTICS, statistics + struct.pack("<I", len(counts)) + counts)))
         data_end = _record(_DATA_END, bytes(4))
         start = offset + len(data_end)
@@ -221,7 +228,7 @@ class McapWriter:
         checksum = zlib.crc32(summary + offsets + footer)
         return data_end + bytes(summary + offsets) + footer + struct.pack("<I", checksum) + _MAGIC
 
-    def _definition_groups(self) -> list[tuple[int, bytes]]:
+    def _definition_groups(self) -> list[tuple[int, bytearray]]:
         """Return the schemas and the channels, as two groups."""
         groups = {_SCHEMA: bytearray(), _CHANNEL: bytearray()}
         position = 0
@@ -230,22 +237,23 @@ class McapWriter:
             end = position + _RECORD.size + length
             groups[opcode] += self._definitions[position:end]
             position = end
-        return [(opcode, bytes(records)) for opcode, records in groups.items()]
+        return list(groups.items())
 
-    def _append(self, data: bytes, tail: bytes) -> None:
-        """Append data and an end of the file; restore the previous end if that fails."""
-        try:
-            self._write_at(self._end, data + tail)
-            self._file.truncate()
-        except OSError:
-            for old in (self._tail, _END):  # If the disk is full, only the short end may fit.
-                with suppress(OSError):
-                    self._file.truncate(self._end)
-                    self._write_at(self._end, old)
-                    break
-            raise
-        self._end += len(data)
-        self._tail = tail
+    def _append(self, data: bytes, *, with_summary: bool) -> None:
+        """Append data and an end of the file."""
+        end = self._end + len(data)
+        self._write_at(self._end, data + (self._summary(end) if with_summary else _END))
+        self._file.truncate()
+        self._end = end
+        self._has_summary = with_summary
+
+    def _restore_end(self) -> None:
+        """End the file as before an append that failed; if the disk is full, only the short end may fit."""
+        for with_summary in (self._has_summary, False):
+            with suppress(OSError):
+                self._file.truncate(self._end)
+                self._append(b"", with_summary=with_summary)
+                break
 
     def _write_at(self, offset: int, data: bytes) -> None:
         self._file.seek(offset)
