@@ -69,6 +69,12 @@ std::int64_t to_duration(nb::handle duration) {
   return converted("duration_ns", duration);
 }
 
+bool is_true(PyObject* object) {
+  const int truth = object ? PyObject_IsTrue(object) : 0;
+  if (truth < 0) throw nb::python_error();
+  return truth != 0;
+}
+
 LookupQuery query_of(BufferObject& buffer, nb::handle target, nb::handle source, nb::handle stamp) {
   LookupQuery query;
   query.target_id = buffer.frame(target.ptr());

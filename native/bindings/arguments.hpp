@@ -55,6 +55,9 @@ std::int64_t to_int64(nb::handle number);
 Stamp to_stamp(nb::handle stamp);
 std::int64_t to_duration(nb::handle duration);
 
+// Returns the truth value; false for nullptr, an omitted argument.
+bool is_true(PyObject* object);
+
 // The names in the query are valid as long as their objects.
 LookupQuery query_of(BufferObject& buffer, nb::handle target, nb::handle source, nb::handle stamp);
 LookupQuery full_query_of(BufferObject& buffer, nb::handle target, nb::handle target_stamp, nb::handle source,

@@ -31,6 +31,9 @@ void define_shared(nb::module_& module);
 void define_bags(nb::module_& module);
 void define_wire(nb::module_& module);
 
+// An argument that may be None, because the functions themselves report what a frame name or a stamp must be.
+inline auto any(const char* name) { return nb::arg(name).none(); }
+
 // Python runs signal handlers only between waits, so the main thread splits long waits into slices of this length.
 inline constexpr std::int64_t kSignalSliceNs = 50'000'000;
 

@@ -72,7 +72,6 @@ class WatchObject {
 
 void define_waiting(nb::module_& module) {
   using nb::arg;
-  const auto any = [](const char* name) { return nb::arg(name).none(); };
   nb::class_<Mailbox>(module, "Mailbox", "A queue of tokens that waits and watches put when something has happened.")
       .def(nb::init<>())
       .def("put", &Mailbox::put, arg("token"), "Put a token from Python.")

@@ -4,7 +4,7 @@
 // The layers of a lookup, outermost first. Each layer answers by calling one of the layers below it.
 //
 //   layer                        frames given as              path through the tree  waits  reports why it failed
-//   bindings/buffer.cpp
+//   bindings/buffer_lookups.cpp
 //     py_lookup                  str objects, ids cached      cached, then walked    no     yes
 //     lookup_general             names, any valid arguments   cached first           yes    yes
 //     lookup_waiting             names                        cached, then walked    yes    yes

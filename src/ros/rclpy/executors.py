@@ -387,7 +387,7 @@ class Executor:
         next_ns: int | None = None
         ready: list[tuple[ExecutorEntity, Node]] = []
         for node in nodes:
-            for entity in node._Coframe__waitables():
+            for entity in node._Coframe__entities.waitables:
                 remaining = entity._Coframe__remaining_ns()
                 if remaining is None:
                     continue

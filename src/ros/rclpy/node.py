@@ -6,7 +6,6 @@
 
 from __future__ import annotations
 
-import threading
 import weakref
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -14,34 +13,24 @@ from rcl_interfaces.msg import ParameterEvent
 from rclpy import _arguments
 from rclpy._absent import Handle, no_handle
 from rclpy._arguments import Arguments
-from rclpy._destroyable import destroyed
-from rclpy._node_graph import NodeGraph
+from rclpy._entity_registry import EntityRegistry, check_callback
+from rclpy._node_endpoints import NodeEndpoints
 from rclpy._node_parameters import NodeParameters
 from rclpy._remapping import NameResolver, remap_node
 from rclpy._rosout import RosoutPublisher
-from rclpy.callback_groups import CallbackGroup, MutuallyExclusiveCallbackGroup, ReentrantCallbackGroup
-from rclpy.client import Client
+from rclpy.callback_groups import CallbackGroup, ReentrantCallbackGroup
 from rclpy.clock import Clock, ROSClock
 from rclpy.constants import S_TO_NS
-from rclpy.event_handler import EventHandler, MismatchReporter, PublisherEventCallbacks, SubscriptionEventCallbacks
 from rclpy.exceptions import NameValidationException, NotInitializedException, RCLError, _with_hint
 from rclpy.guard_condition import GuardCondition
 from rclpy.impl.rcutils_logger import RcutilsLogger
 from rclpy.parameter import Parameter
 from rclpy.parameter_service import ParameterService
-from rclpy.publisher import Publisher
 from rclpy.qos import (
-    QoSProfile,
-    as_qos_profile,
     qos_profile_parameter_events,
-    qos_profile_services_default,
 )
-from rclpy.qos_overriding_options import QoSOverridingOptions, apply_qos_overrides
-from rclpy.service import Service
-from rclpy.subscription import Subscription
 from rclpy.time_source import USE_SIM_TIME_NAME, TimeSource
 from rclpy.timer import Rate, Timer
-from rclpy.type_support import check_is_valid_srv_type, message_class
 from rclpy.utilities import get_default_context
 from rclpy.validate_namespace import validate_namespace
 from rclpy.validate_node_name import validate_node_name
@@ -53,14 +42,13 @@ if TYPE_CHECKING:
     from typing_extensions import Self
 
     from rclpy.context import Context
-    from rclpy.executors import Executor, ExecutorEntity, PolledSubscription
-    from rclpy.subscription_content_filter_options import ContentFilterOptions
+    from rclpy.executors import Executor, PolledSubscription
 
 HIDDEN_NODE_PREFIX = "_"
 EntityT = TypeVar("EntityT")
 
 
-class Node(NodeParameters, NodeGraph):
+class Node(NodeEndpoints):
     """A node of the ROS graph.
 
     Args:
@@ -103,16 +91,10 @@ class Node(NodeParameters, NodeGraph):
         if not self.__context.ok():
             raise NotInitializedException("cannot create node")
         arguments = _arguments_for(self.__context, cli_args, use_global_arguments=use_global_arguments)
-        self.__names = _names_for(node_name, namespace or "", arguments)
-        self.__lock = threading.RLock()
-        self.__is_destroyed = False
+        self._Coframe__names = _names_for(node_name, namespace or "", arguments)
         self.__executor: Callable[[], Executor | None] = _no_executor
-        self.__entities: dict[type[Any], list[Any]] = {
-            kind: [] for kind in (Timer, Subscription, GuardCondition, Client, Service, Waitable, Publisher, Rate)
-        }
-        self.__waitables: tuple[ExecutorEntity, ...] = ()
+        self._Coframe__entities = EntityRegistry(self.get_fully_qualified_name(), self.__context)
         self.__timers_of_rates: dict[Rate, Timer] = {}
-        self.__default_callback_group = MutuallyExclusiveCallbackGroup()
         self.__logger = RcutilsLogger(self.get_fully_qualified_name().lstrip("/").replace("/", "."))
         self.__clock = ROSClock()
 
@@ -125,7 +107,7 @@ class Node(NodeParameters, NodeGraph):
 
         self._Coframe__participant = self.__context._Coframe__get_participant()
         self._Coframe__graph_node = self._Coframe__participant.add_node(
-            self.__names.namespace, self.__names.node_name, has_parameters=True
+            self._Coframe__names.namespace, self._Coframe__names.node_name, has_parameters=True
         )
         self._Coframe__polled_subscriptions: list[PolledSubscription] = []
         self.__rosout: RosoutPublisher | None = None
@@ -171,11 +153,11 @@ class Node(NodeParameters, NodeGraph):
 
     def get_name(self) -> str:
         """Return the name without the namespace."""
-        return self.__names.node_name
+        return self._Coframe__names.node_name
 
     def get_namespace(self) -> str:
         """Return the namespace, for example "/" or "/robot1"."""
-        return self.__names.namespace
+        return self._Coframe__names.namespace
 
     def get_fully_qualified_name(self) -> str:
         """Return the name with the namespace, for example "/robot1/arm"."""
@@ -199,7 +181,7 @@ class Node(NodeParameters, NodeGraph):
 
     def __resolve(self, name: str, *, is_service: bool, only_expand: bool) -> str:
         try:
-            return self.__names.resolve(name, is_service=is_service, only_expand=only_expand)
+            return self._Coframe__names.resolve(name, is_service=is_service, only_expand=only_expand)
         except NameValidationException as error:
             raise _with_hint(RCLError(f"failed to resolve name: {error.error_msg}"), f"The name is {name!r}.") from None
 
@@ -213,7 +195,7 @@ class Node(NodeParameters, NodeGraph):
     @property
     def default_callback_group(self) -> CallbackGroup:
         """The callback group of entities created without a group. It is mutually exclusive."""
-        return self.__default_callback_group
+        return self._Coframe__entities.default_group
 
     @property
     def executor(self) -> Executor | None:
@@ -232,34 +214,14 @@ class Node(NodeParameters, NodeGraph):
             new_executor.add_node(self)
 
     @property
-    def publishers(self) -> Iterator[Publisher]:
-        """The publishers of the node."""
-        yield from self.__entities[Publisher]
-
-    @property
-    def subscriptions(self) -> Iterator[Subscription]:
-        """The subscriptions of the node."""
-        yield from self.__entities[Subscription]
-
-    @property
-    def clients(self) -> Iterator[Client]:
-        """The service clients of the node."""
-        yield from self.__entities[Client]
-
-    @property
-    def services(self) -> Iterator[Service]:
-        """The services of the node."""
-        yield from self.__entities[Service]
-
-    @property
     def timers(self) -> Iterator[Timer]:
         """The timers of the node."""
-        yield from self.__entities[Timer]
+        yield from self._Coframe__entities.of(Timer)
 
     @property
     def guards(self) -> Iterator[GuardCondition]:
         """The guard conditions of the node."""
-        yield from self.__entities[GuardCondition]
+        yield from self._Coframe__entities.of(GuardCondition)
 
     def get_clock(self) -> Clock:
         """Return the clock of the node, which is set from /clock if `use_sim_time` is true."""
@@ -269,215 +231,7 @@ class Node(NodeParameters, NodeGraph):
         """Return the logger of the node."""
         return self.__logger
 
-    # Creation and destruction of entities
-
-    def create_publisher(
-        self,
-        msg_type: type[Any],
-        topic: str,
-        qos_profile: QoSProfile | int,
-        *,
-        callback_group: CallbackGroup | None = None,
-        event_callbacks: PublisherEventCallbacks | None = None,
-        qos_overriding_options: QoSOverridingOptions | None = None,
-        publisher_class: type[Publisher] = Publisher,
-    ) -> Publisher:
-        """Create a publisher.
-
-        Args:
-            msg_type: Class of the messages.
-            topic: Name of the topic, which is expanded and remapped.
-            qos_profile: QoS profile, or its depth.
-            callback_group: Group of the event callbacks. None: the default group of the node.
-            event_callbacks: Callbacks for QoS events. None: incompatible QoS is logged.
-            qos_overriding_options: QoS policies that parameters may override. None: no policies.
-            publisher_class: Class of the publisher, a subclass of Publisher.
-
-        Raises:
-            InvalidQosOverridesError: A parameter value is not valid for its policy.
-            InvalidTopicNameException: The topic name is not valid.
-            AttributeError, RuntimeError: `msg_type` is not a message class.
-            RCLError: The context was shut down.
-        """
-        name = self.__names.resolve(topic)
-        msg_type, qos = message_class(msg_type), as_qos_profile(qos_profile)
-        self.__check_usable("publisher")
-        if qos_overriding_options is not None:
-            qos = apply_qos_overrides(self, "publisher", name, qos, qos_overriding_options)
-        callbacks = event_callbacks or PublisherEventCallbacks()
-        reporter = MismatchReporter(callbacks, self.__logger, topic)
-        wire = self._Coframe__participant.publisher(
-            self._Coframe__graph_node,
-            name,
-            msg_type,
-            qos._Coframe__to_wire(),
-            on_change=None if event_callbacks is None else self.context._Coframe__wakeup.event,
-            on_mismatch=reporter,
-        )
-        handlers = callbacks.create_event_handlers(self.__group(callback_group), wire, topic)
-        publisher = publisher_class(wire, msg_type, topic, name, qos, self.context, event_handlers=handlers)
-        return self.__add_with_events(publisher, handlers, reporter)
-
-    def create_subscription(
-        self,
-        msg_type: type[Any],
-        topic: str,
-        callback: Callable[..., Any],
-        qos_profile: QoSProfile | int,
-        *,
-        callback_group: CallbackGroup | None = None,
-        event_callbacks: SubscriptionEventCallbacks | None = None,
-        qos_overriding_options: QoSOverridingOptions | None = None,
-        raw: bool = False,
-        content_filter_options: ContentFilterOptions | None = None,
-    ) -> Subscription:
-        """Create a subscription.
-
-        Args:
-            msg_type: Class of the messages.
-            topic: Name of the topic, which is expanded and remapped.
-            callback: Function or coroutine function that is called with each message, and with a dict of its timestamps
-                (nanoseconds) if it accepts two arguments.
-            qos_profile: QoS profile, or the number of messages that are queued for the executor.
-            callback_group: Group of the callback. None: the default group of the node.
-            event_callbacks: Callbacks for QoS events. None: incompatible QoS is logged.
-            qos_overriding_options: QoS policies that parameters may override. None: no policies.
-            raw: Whether to pass serialized messages to the callback.
-            content_filter_options: None, because coframe has no content filters.
-
-        Raises:
-            InvalidQosOverridesError: A parameter value is not valid for its policy.
-            InvalidTopicNameException: The topic name is not valid.
-            AttributeError, RuntimeError: `msg_type` is not a message class.
-            RCLError: The context was shut down.
-            NotImplementedError: Options of a content filter are given.
-        """
-        if content_filter_options is not None:
-            raise NotImplementedError(
-                f"coframe has no content filters ({content_filter_options.filter_expression!r}). Skip the messages in "
-                "the callback instead."
-            )
-        name = self.__names.resolve(topic)
-        msg_type, qos = message_class(msg_type), as_qos_profile(qos_profile)
-        _check_callback(callback)
-        self.__check_usable("subscription")
-        if qos_overriding_options is not None:
-            qos = apply_qos_overrides(self, "subscription", name, qos, qos_overriding_options)
-        callbacks = event_callbacks or SubscriptionEventCallbacks()
-        reporter = MismatchReporter(callbacks, self.__logger, topic)
-        wire = self._Coframe__participant.subscription(
-            self._Coframe__graph_node,
-            name,
-            msg_type,
-            qos._Coframe__to_wire(),
-            on_data=self.context._Coframe__wakeup.event,
-            on_mismatch=reporter,
-        )
-        group = self.__group(callback_group)
-        handlers = callbacks.create_event_handlers(group, wire, topic)
-        subscription = Subscription(wire, msg_type, topic, name, callback, group, qos, raw, event_handlers=handlers)
-        return self.__add_with_events(subscription, handlers, reporter)
-
-    def create_client(
-        self,
-        srv_type: Any,
-        srv_name: str,
-        *,
-        qos_profile: QoSProfile = qos_profile_services_default,
-        callback_group: CallbackGroup | None = None,
-    ) -> Client:
-        """Create a service client.
-
-        Args:
-            srv_type: Class of the service.
-            srv_name: Name of the service, which is expanded and remapped.
-            qos_profile: QoS profile of requests and responses.
-            callback_group: Group of the client. None: the default group of the node.
-
-        Raises:
-            InvalidServiceNameException: The service name is not valid.
-            AttributeError, RuntimeError: `srv_type` is not a service class.
-            RCLError: The context was shut down.
-        """
-        check_is_valid_srv_type(srv_type)
-        self.__check_usable("client")
-        name, qos, graph_node = (
-            self.__names.resolve(srv_name, is_service=True),
-            qos_profile._Coframe__to_wire(),
-            self._Coframe__graph_node,
-        )
-        wakeup = self.context._Coframe__wakeup.event
-        replies = self._Coframe__participant.subscription(
-            graph_node, name, srv_type.Response, qos, on_data=wakeup, kind="reply"
-        )
-        requests = self._Coframe__participant.publisher(graph_node, name, srv_type.Request, qos, kind="request")
-        group = self.__group(callback_group)
-        return self.__add(
-            Client(
-                self.context,
-                self._Coframe__participant,
-                requests,
-                replies,
-                self.__get_executor,
-                srv_type,
-                srv_name,
-                name,
-                qos_profile,
-                group,
-            )
-        )
-
-    def create_service(
-        self,
-        srv_type: Any,
-        srv_name: str,
-        callback: Callable[[Any, Any], Any],
-        *,
-        qos_profile: QoSProfile = qos_profile_services_default,
-        callback_group: CallbackGroup | None = None,
-    ) -> Service:
-        """Create a service.
-
-        Args:
-            srv_type: Class of the service.
-            srv_name: Name of the service, which is expanded and remapped.
-            callback: Function or coroutine function that is called with the request and an empty response, and returns
-                the response.
-            qos_profile: QoS profile of requests and responses.
-            callback_group: Group of the callback. None: the default group of the node.
-
-        Raises:
-            InvalidServiceNameException: The service name is not valid.
-            AttributeError, RuntimeError: `srv_type` is not a service class.
-            RCLError: The context was shut down.
-        """
-        return self._Coframe__create_service(Service, srv_type, srv_name, callback, qos_profile, callback_group)
-
-    def _Coframe__create_service(
-        self,
-        kind: type[Service],
-        srv_type: Any,
-        srv_name: str,
-        callback: Callable[[Any, Any], Any],
-        qos_profile: QoSProfile,
-        callback_group: CallbackGroup | None,
-    ) -> Service:
-        check_is_valid_srv_type(srv_type)
-        _check_callback(callback)
-        self.__check_usable("service")
-        name, qos, graph_node = (
-            self.__names.resolve(srv_name, is_service=True),
-            qos_profile._Coframe__to_wire(),
-            self._Coframe__graph_node,
-        )
-        wakeup = self.context._Coframe__wakeup.event
-        # The reply publisher comes first, so that clients that discover the request reader can receive replies.
-        replies = self._Coframe__participant.publisher(graph_node, name, srv_type.Response, qos, kind="reply")
-        requests = self._Coframe__participant.subscription(
-            graph_node, name, srv_type.Request, qos, on_data=wakeup, kind="request"
-        )
-        group = self.__group(callback_group)
-        return self.__add(kind(requests, replies, srv_type, srv_name, name, callback, group, qos_profile))
+    # Timers, guard conditions, rates and waitables
 
     def create_timer(
         self,
@@ -496,14 +250,14 @@ class Node(NodeParameters, NodeGraph):
             clock: Clock that measures the period. None: the clock of the node.
             autostart: Whether the timer starts now, and not with its `reset()`.
         """
-        _check_callback(callback)
-        self.__check_usable("timer")
+        check_callback(callback)
+        self._Coframe__entities.check_usable("timer")
         period_ns = int(float(timer_period_sec) * S_TO_NS)
-        group = self.__group(callback_group)
+        group = self._Coframe__entities.group(callback_group)
         timer = Timer(callback, group, period_ns, clock or self.__clock, context=self.context)
         if not autostart:
             timer.cancel()
-        return self.__add(timer)
+        return self._Coframe__entities.add(timer)
 
     def create_guard_condition(
         self, callback: Callable[[], Any], callback_group: CallbackGroup | None = None
@@ -514,8 +268,10 @@ class Node(NodeParameters, NodeGraph):
             callback: Function or coroutine function that is called after a trigger.
             callback_group: Group of the callback. None: the default group of the node.
         """
-        self.__check_usable("guard_condition")
-        return self.__add(GuardCondition(callback, self.__group(callback_group), context=self.context))
+        self._Coframe__entities.check_usable("guard_condition")
+        return self._Coframe__entities.add(
+            GuardCondition(callback, self._Coframe__entities.group(callback_group), context=self.context)
+        )
 
     def create_rate(self, frequency: float, clock: Clock | None = None) -> Rate:
         """Create a rate, whose `sleep()` limits a loop to a frequency.
@@ -529,20 +285,16 @@ class Node(NodeParameters, NodeGraph):
         """
         if frequency <= 0:
             raise ValueError("frequency must be > 0")
-        self.__check_not_destroyed()
+        self._Coframe__entities.check_not_destroyed()
         # A group of its own, so that the callbacks of the node do not delay the end of a period.
         timer = self.create_timer(1 / frequency, _do_nothing, ReentrantCallbackGroup(), clock)
-        rate = self.__add(Rate(timer, context=self.context))
+        rate = self._Coframe__entities.add(Rate(timer, context=self.context))
         self.__timers_of_rates[rate] = timer
         return rate
 
     def add_waitable(self, waitable: Waitable) -> None:
         """Add a waitable of the user, which executors of this node run."""
-        self.__check_not_destroyed()
-        with self.__lock:
-            self.__entities[Waitable].append(waitable)
-            self.__collect_waitables()
-        self.context._Coframe__wakeup.set()
+        self._Coframe__entities.add_waitable(waitable)
 
     def remove_waitable(self, waitable: Waitable) -> None:
         """Remove a waitable.
@@ -550,57 +302,33 @@ class Node(NodeParameters, NodeGraph):
         Raises:
             ValueError: The waitable was not added.
         """
-        with self.__lock:
-            self.__entities[Waitable].remove(waitable)
-            self.__collect_waitables()
+        self._Coframe__entities.remove_waitable(waitable)
 
     @property
     def waitables(self) -> Iterator[Waitable]:
         """The waitables of the user, and the handlers of QoS events."""
-        yield from self.__entities[Waitable]
-
-    def destroy_publisher(self, publisher: Publisher) -> bool:
-        """Destroy a publisher. Return False if it does not belong to this node."""
-        return self.__remove(publisher)
-
-    def destroy_subscription(self, subscription: Subscription) -> bool:
-        """Destroy a subscription. Return False if it does not belong to this node."""
-        return self.__remove(subscription)
-
-    def destroy_client(self, client: Client) -> bool:
-        """Destroy a service client. Return False if it does not belong to this node."""
-        return self.__remove(client)
-
-    def destroy_service(self, service: Service) -> bool:
-        """Destroy a service. Return False if it does not belong to this node."""
-        return self.__remove(service)
+        yield from self._Coframe__entities.of(Waitable)
 
     def destroy_timer(self, timer: Timer) -> bool:
         """Destroy a timer. Return False if it does not belong to this node."""
-        return self.__remove(timer)
+        return self._Coframe__entities.remove(timer)
 
     def destroy_guard_condition(self, guard: GuardCondition) -> bool:
         """Destroy a guard condition. Return False if it does not belong to this node."""
-        return self.__remove(guard)
+        return self._Coframe__entities.remove(guard)
 
     def destroy_rate(self, rate: Rate) -> bool:
         """Destroy a rate. Return False if it does not belong to this node."""
         timer = self.__timers_of_rates.pop(rate, None)
-        return self.__remove(rate) and timer is not None and self.__remove(timer)
+        return self._Coframe__entities.remove(rate) and timer is not None and self._Coframe__entities.remove(timer)
 
     def destroy_node(self) -> None:
         """Destroy all entities of the node and remove it from the graph. Repeated calls have no effect."""
-        with self.__lock:
-            if self.__is_destroyed:
-                return
-            self.__is_destroyed = True
+        if not self._Coframe__entities.begin_destruction():
+            return
         if self.executor is not None:
             self.executor.remove_node(self)
-        self.__entities[Waitable].clear()  # The user destroys them.
-        for entities in self.__entities.values():
-            while entities:
-                entities.pop().destroy()
-        self.__waitables = ()
+        self._Coframe__entities.destroy_all()
         if self.__rosout is not None:
             self.__rosout.close()
         self._Coframe__graph_node.close()
@@ -615,18 +343,6 @@ class Node(NodeParameters, NodeGraph):
     def __repr__(self) -> str:
         return f"<{type(self).__name__} {self.get_fully_qualified_name()}>"
 
-    def _Coframe__add_entity(self, entity: EntityT) -> EntityT:
-        """Add a publisher or subscription that tf2_ros created, so that the node lists and destroys it."""
-        return self.__add(entity)
-
-    @property
-    def _Coframe__is_destroyed(self) -> bool:
-        return self.__is_destroyed
-
-    def _Coframe__waitables(self) -> tuple[ExecutorEntity, ...]:
-        """Return the entities that an executor waits for."""
-        return self.__waitables
-
     def _Coframe__on_parameter_set(self, parameter: Parameter[Any]) -> None:
         if parameter.name == USE_SIM_TIME_NAME:
             self.__time_source.ros_time_is_active = parameter.value is True
@@ -635,74 +351,6 @@ class Node(NodeParameters, NodeGraph):
         event.node = self.get_fully_qualified_name()
         event.stamp = self.__clock.now().to_msg()
         self.__parameter_events.publish(event)
-
-    def __get_executor(self) -> Executor | None:
-        return self.executor
-
-    def __check_not_destroyed(self) -> None:
-        if self.__is_destroyed:
-            raise destroyed(f"The node {self.get_fully_qualified_name()}")
-
-    def __check_usable(self, entity: str) -> None:
-        """Check that an entity can be created: the node exists, and its context was not shut down."""
-        self.__check_not_destroyed()
-        # After a signal, a program may still create publishers for final messages.
-        if not (self.context.ok() or self.context._Coframe__was_shut_down_by_signal):
-            reason = "Failed to create {}: rcl node's context is invalid"
-            if entity in {"timer", "guard_condition"}:
-                reason = (
-                    "failed to create {}: the given context is not valid, either rcl_init() was not called or "
-                    "rcl_shutdown() was called."
-                )
-            hint = "rclpy.shutdown() was called. Create a new node after rclpy.init()."
-            raise _with_hint(RCLError(reason.format(entity)), hint)
-
-    def __group(self, group: CallbackGroup | None) -> CallbackGroup:
-        return self.__default_callback_group if group is None else group
-
-    def __add(self, entity: EntityT) -> EntityT:
-        with self.__lock:
-            self.__entities_like(entity).append(entity)
-            self.__collect_waitables()
-        group = getattr(entity, "callback_group", None)
-        if group is not None:
-            group.add_entity(entity)
-        self.context._Coframe__wakeup.set()
-        return entity
-
-    def __add_with_events(self, entity: EntityT, handlers: list[EventHandler], reporter: MismatchReporter) -> EntityT:
-        reporter.handlers = handlers
-        for handler in handlers:
-            self.add_waitable(handler)
-        return self.__add(entity)
-
-    def __remove(self, entity: Any) -> bool:
-        with self.__lock:
-            entities = self.__entities_like(entity)
-            if entity not in entities:
-                return False
-            entities.remove(entity)
-            for handler in getattr(entity, "event_handlers", ()):
-                self.__entities[Waitable].remove(handler)
-            self.__collect_waitables()
-        entity.destroy()
-        return True
-
-    def __entities_like(self, entity: Any) -> list[Any]:
-        return next((entities for kind, entities in self.__entities.items() if isinstance(entity, kind)), [])
-
-    def __collect_waitables(self) -> None:
-        """Update the waitables. Executors read the tuple without a lock."""
-        self.__waitables = tuple(
-            entity
-            for kind in (Timer, Subscription, GuardCondition, Client, Service, Waitable)
-            for entity in self.__entities[kind]
-        )
-
-
-def _check_callback(callback: object) -> None:
-    if not callable(callback):
-        raise TypeError(f"The callback must be a function, not {callback!r}. Pass the function without calling it.")
 
 
 def _do_nothing() -> None:

@@ -15,7 +15,7 @@ from rclpy.qos import QoSPolicyEnum, QoSPolicyKind, QoSProfile
 if TYPE_CHECKING:
     from typing_extensions import Self
 
-    from rclpy.node import Node
+    from rclpy._node_parameters import NodeParameters
 
 __all__ = ["InvalidQosOverridesError", "QoSOverridingOptions", "QosCallbackResult", "QosCallbackType"]
 
@@ -59,7 +59,7 @@ class QoSOverridingOptions:
 
 
 def apply_qos_overrides(
-    node: Node, entity: str, topic: str, qos: QoSProfile, options: QoSOverridingOptions
+    node: NodeParameters, entity: str, topic: str, qos: QoSProfile, options: QoSOverridingOptions
 ) -> QoSProfile:
     """Declare the read-only override parameters of an endpoint and return the resulting profile.
 

@@ -72,7 +72,7 @@ class SharedSubscriptions:
         subscription = Subscription(
             reader, TFMessage, name, name, topic.callback, self._request.group, topic.qos, raw=False
         )
-        return self._request.node._Coframe__add_entity(subscription)
+        return self._request.node._Coframe__entities.add(subscription)
 
     def _dynamic_destroyed(self) -> None:
         own = self._own_of_the_other()
@@ -86,7 +86,7 @@ class SharedSubscriptions:
 
     def _own_of_the_other(self) -> Subscriptions | None:
         """Return own subscriptions, of which the program destroys one; None if it destroys both, or the node."""
-        if self._closed or self._request.node._Coframe__is_destroyed:
+        if self._closed or self._request.node._Coframe__entities.is_destroyed:
             self._sharing.leave()
             return None
         self._sharing.end()

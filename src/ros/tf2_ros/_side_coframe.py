@@ -45,7 +45,7 @@ def static_publisher(node: Node, topic: str, qos: QoSProfile) -> Any:
     """Return a publisher of static transforms that all broadcasters of the process share."""
     name = node.resolve_topic_name(topic)
     writer = node._Coframe__participant.static_broadcaster(node._Coframe__graph_node, name)
-    return node._Coframe__add_entity(Publisher(writer, TFMessage, topic, name, qos, node.context))
+    return node._Coframe__entities.add(Publisher(writer, TFMessage, topic, name, qos, node.context))
 
 
 def direct_sender(publisher: Any) -> tuple[Callable[[Any], bool], object]:
@@ -101,7 +101,7 @@ class _NativeSubscriptions:
             on_mismatch=_reporter(node, topic),
         )
         self._readers.append(reader)
-        return node._Coframe__add_entity(
+        return node._Coframe__entities.add(
             Subscription(reader, TFMessage, name, name, topic.callback, request.group, qos, raw=False)
         )
 

@@ -1,0 +1,305 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The class Buffer."""
+
+from __future__ import annotations
+
+import sys
+from typing import TYPE_CHECKING, Any
+
+from coframe import _core, errors, frozen_file, time
+from coframe.buffer.edge_info import FrameInfo, edge_infos, edge_table
+from coframe.buffer.many_lookups import ManyLookups
+from coframe.buffer.storing import check_not_frozen, check_single, rejected, rows_of, stamp_of
+from coframe.buffer.waiting import CallbackHandle, timed_out, transform_or_timeout
+from coframe.dispatcher import Dispatcher
+from coframe.errors import TransformException
+
+if TYPE_CHECKING:
+    import os
+    from collections.abc import Callable
+
+    from numpy.typing import ArrayLike
+
+    from coframe.buffer.edge_info import EdgeInfo
+    from coframe.explanation import Explanation
+    from coframe.time import DurationLike, StampLike
+    from coframe.transform import Transform
+    from coframe.viewer import Viewer
+
+_KEEP_EVERYTHING = -1
+DEFAULT_AUTHORITY = "no recorded authority"
+
+_core.register_errors(errors)
+_core.register_time(time)
+
+
+class Buffer(ManyLookups):
+    """Store of transforms over time with the semantics of tf2, safe to use from any number of threads.
+
+    All stamps are in nanoseconds; 0 or None means the latest time at which every edge between the frames has data.
+    By default there is no extrapolation. A failed lookup raises the same exception as tf2 with the same text, and
+    with a ``hint``.
+
+    Args:
+        cache: How long dynamic transforms are kept: text such as ``"10s"``, int nanoseconds or a timedelta. None
+            keeps everything, which suits recordings.
+
+    Raises:
+        TypeError: ``cache`` is not a duration; a float of seconds is not accepted.
+        ValueError: ``cache`` is negative, or its text is not a number and a unit, or it is a positive int below
+            100 000: such a cache would be shorter than 100 us.
+
+    Example:
+        >>> import coframe
+        >>> buffer = coframe.Buffer()
+        >>> lidar = coframe.Transform.from_rpy([0.1, 0.0, 0.3])
+        >>> buffer.set("base_link", "lidar", lidar, static=True)
+        True
+        >>> buffer.lookup("base_link", "lidar").translation.tolist()
+        [0.1, 0.0, 0.3]
+    """
+
+    def __init__(self, cache: DurationLike | None = "10s") -> None:
+        super().__init__(_KEEP_EVERYTHING if cache is None else _cache_ns(cache))
+        self._dispatcher = Dispatcher()
+
+    def set(
+        self,
+        parent: str,
+        child: str,
+        transform: Transform,
+        stamp: StampLike | None = None,
+        *,
+        static: bool = False,
+        authority: str = DEFAULT_AUTHORITY,
+    ) -> bool:
+        """Store the pose of ``child`` relative to ``parent`` at one time.
+
+        Args:
+            parent: The parent frame, in which the transform is expressed.
+            child: The child frame, whose pose the transform describes.
+            transform: A single transform. If it names its frames, its target must be ``parent`` and its source
+                ``child``.
+            stamp: Time of the sample, in nanoseconds or as another :data:`~coframe.time.StampLike`; by default the
+                stamp of the transform. Static transforms need no stamp.
+            static: Whether the transform is valid for all time. A frame that changes between static and dynamic loses
+                its earlier samples.
+            authority: Name of the publisher, as shown in reports.
+
+        Returns:
+            True if the sample was stored; False if it was older than the cache.
+
+        Raises:
+            InvalidArgumentException: tf2 rejects the transform (empty or equal frame names, NaN, ...), with tf2's
+                text; or the transform is between other frames, or has no stamp, or the buffer is frozen.
+            TypeError: ``transform`` is not a :class:`coframe.Transform`.
+        """
+        refusals = self._set_plain(parent, child, transform, stamp, static) if authority is DEFAULT_AUTHORITY else None
+        if refusals is None:
+            refusals = self._set(parent, child, transform, stamp, static, authority)
+        if refusals == 0:
+            return True
+        facts = (parent, child, stamp_of(transform, stamp), *transform.values)
+        errors_found = [text for level, text in _core.insert_texts(refusals, *facts, authority) if level == "error"]
+        if errors_found:
+            raise rejected(parent, child, "\n".join(errors_found))
+        return False
+
+    def _set(
+        self, parent: str, child: str, transform: Transform, stamp: StampLike | None, static: bool, authority: str
+    ) -> int:
+        """Store any valid arguments of `set`, and return the reasons for refusal as bits."""
+        check_single(parent, child, transform, stamp, static=static)
+        check_not_frozen(self, parent, child)
+        return self._set_values(parent, child, stamp_of(transform, stamp), *transform.values, static, authority)
+
+    def set_many(
+        self,
+        parent: str,
+        child: str,
+        stamps: ArrayLike | None,
+        poses: Transform | ArrayLike,
+        *,
+        static: bool = False,
+        authority: str = DEFAULT_AUTHORITY,
+    ) -> int:
+        """Store many samples of one edge, like :meth:`set` for each of them in the order of their stamps.
+
+        Args:
+            parent: The parent frame, in which the poses are expressed.
+            child: The child frame, whose poses these are.
+            stamps: Times of the samples, shape (N,), int64 nanoseconds or datetime64, in any order; None uses the
+                stamps of the batch.
+            poses: A batch of shape (N,), or an array of shape (N, 7): x, y, z in metres and qx, qy, qz, qw.
+            static: Whether the transform is valid for all time; then the last sample is used.
+            authority: Name of the publisher, as shown in reports.
+
+        Returns:
+            The number of stored samples. Samples older than the cache are not stored.
+
+        Raises:
+            InvalidArgumentException: tf2 rejects one of the samples, with tf2's text, or the buffer is frozen; then
+                no sample is stored.
+            ValueError: The shapes do not match.
+        """
+        times, values = rows_of(parent, child, stamps, poses)
+        check_not_frozen(self, parent, child)
+        refusals, stored, row = self._set_rows(parent, child, times, values, static, authority)
+        if refusals:
+            x, y, z, qx, qy, qz, qw = values[row].tolist()
+            texts = _core.insert_texts(refusals, parent, child, int(times[row]), x, y, z, qx, qy, qz, qw, authority)
+            raise rejected(parent, child, f"row {row}: " + "\n".join(line for _, line in texts))
+        return stored
+
+    def wait(
+        self, target: str, source: str, stamp: StampLike | None = None, *, timeout: DurationLike | None = None
+    ) -> Transform:
+        """Wait until the transform is available, and return it.
+
+        Args:
+            target: The target frame.
+            source: The source frame.
+            stamp: Time of the lookup, as in :meth:`lookup`.
+            timeout: How long to wait, such as ``"2s"``; None waits without a limit.
+
+        Returns:
+            The transform, as :meth:`lookup` returns it.
+
+        Raises:
+            TimeoutException: The transform did not become available in time; ``__cause__`` is the failed lookup.
+        """
+        try:
+            return self.lookup(target, source, stamp, timeout=sys.maxsize if timeout is None else timeout)
+        except TransformException as error:
+            raise timed_out(target, source, timeout, error) from error
+
+    async def wait_async(
+        self, target: str, source: str, stamp: StampLike | None = None, *, timeout: DurationLike | None = None
+    ) -> Transform:
+        """Wait until the transform is available, in asyncio: other tasks run meanwhile, and no thread blocks.
+
+        Args:
+            target: The target frame.
+            source: The source frame.
+            stamp: Time of the lookup, as in :meth:`lookup`.
+            timeout: How long to wait, such as ``"2s"``; None waits without a limit.
+
+        Returns:
+            The transform, as :meth:`lookup` returns it.
+
+        Raises:
+            TimeoutException: The transform did not become available in time; ``__cause__`` is the failed lookup.
+        """
+        found = await transform_or_timeout(self, target, source, stamp, timeout)
+        if found is not None:
+            return found
+        try:
+            return self.lookup(target, source, stamp)
+        except TransformException as error:
+            raise timed_out(target, source, timeout, error) from error
+
+    def why(
+        self, target: str, source: str, at: StampLike | None = None, *, now: StampLike | None = None
+    ) -> Explanation:
+        """Explain why :meth:`lookup` succeeds or fails: the chain of edges, and which one is missing, late or early.
+
+        Args:
+            target: The target frame.
+            source: The source frame.
+            at: Time of the lookup; 0 or None means the latest.
+            now: The current time on the clock of the stamps, in nanoseconds. By default the system time, if the stamps
+                are within an hour of it. Buffers that are frozen or keep everything hold recordings, for which there
+                is no current time.
+
+        Returns:
+            The explanation; ``print()`` draws it.
+        """
+        from coframe.explanation import explain  # noqa: PLC0415 - most programs never need an explanation
+
+        return explain(self, target, source, at, now=now)
+
+    def on_change(self, callback: Callable[[EdgeInfo], object], *, child: str | None = None) -> CallbackHandle:
+        """Call ``callback`` when the edge between ``child`` and its parent receives a new sample.
+
+        The calls come from a separate thread, one after another and with no lock held, so the callback may use the
+        buffer. Samples that arrive during a call lead to one more call.
+
+        Args:
+            callback: Called with the current state of the edge.
+            child: The child frame of the edge, which need not exist yet; None means every edge.
+
+        Returns:
+            A handle. Close it to remove the callback; the callback is also removed together with the buffer.
+        """
+
+        def report(changed: list[str]) -> None:
+            for edge in self.edges(changed):
+                callback(edge)
+
+        start = lambda mailbox, token: _core.watch(self, mailbox, token, child or "")  # noqa: E731 - one expression
+        return CallbackHandle(self._dispatcher.watch(start, report))
+
+    def snapshot(self) -> Buffer:
+        """Return a frozen copy of the buffer as it is now; the samples are shared, not copied."""
+        copy = Buffer.__new__(Buffer)
+        _core.Buffer.__init__(copy, self.cache_ns)
+        copy._become_snapshot(self)
+        copy._dispatcher = Dispatcher()
+        return copy
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Save the buffer to a file that :func:`coframe.load` opens without reading it first.
+
+        A sample takes 72 bytes, and a moving frame up to 18 kB more. The file is complete or does not appear at all.
+
+        Args:
+            path: The file, usually ``*.cfz``. An existing file is replaced.
+
+        Raises:
+            FrozenFileError: The file cannot be written.
+        """
+        frozen_file.save(self.snapshot(), path)
+
+    def edges(self, children: list[str] | None = None, *, now: int | None = None) -> list[EdgeInfo]:
+        """Return the state of the edges between frames and their parents.
+
+        Args:
+            children: Child frames of the edges to return; None returns all edges.
+            now: Current time in nanoseconds, from which ages are computed; by default the system time, and no age for
+                recordings. Pass the time of the clock for simulations.
+        """
+        return edge_infos(self, children, now)
+
+    def frames(self) -> list[FrameInfo]:
+        """Return the state of every frame, in the order in which the buffer received them."""
+        return [FrameInfo(*facts) for facts in self._frame_tuples()]
+
+    def __contains__(self, frame: object) -> bool:
+        return isinstance(frame, str) and self.frame_exists(frame)
+
+    def __repr__(self) -> str:
+        cache = "everything" if self.cache_ns < 0 else f"{self.cache_ns / time.SECOND:g}s"
+        return f"Buffer(cache={cache}, frames={len(self.frame_names())})"
+
+    def show(self, **options: Any) -> Viewer:
+        """Show the frames in the viewer, in a notebook below the cell; the same as :func:`coframe.show`.
+
+        Args:
+            options: The options of :func:`coframe.show`, such as ``fixed="map"``.
+        """
+        import coframe  # noqa: PLC0415 - the viewer is above this module
+
+        return coframe.show(self, **options)
+
+    def _repr_html_(self) -> str:
+        return edge_table(self)
+
+
+_core.register_buffer_class(Buffer)
+
+
+def _cache_ns(cache: DurationLike) -> int:
+    nanoseconds = time.duration_ns(cache)
+    if nanoseconds < 0:
+        raise ValueError(f"cache must not be negative, but is {cache!r}. Use None to keep everything.")
+    return nanoseconds

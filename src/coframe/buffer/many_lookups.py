@@ -1,0 +1,208 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Lookups at many times: batches, trajectories, and the time interval in which there are transforms."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Literal, TypeAlias, overload
+
+import numpy as np
+
+from coframe import _core, time
+from coframe.resampling import StepLimits
+from coframe.transform import batch_of, stamps_of
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
+
+    from coframe.time import DurationLike, StampLike
+    from coframe.transform import Transform
+
+OnError: TypeAlias = Literal["raise", "nan", "clip"]
+Array: TypeAlias = "NDArray[np.float64]"
+
+
+class ManyLookups(_core.Buffer):
+    """Base class of :class:`Buffer` with the lookups at many times."""
+
+    @overload
+    def lookup_many(
+        self,
+        target: str,
+        source: str,
+        stamps: ArrayLike,
+        *,
+        out: None = None,
+        threads: int = 1,
+        on_error: OnError = "raise",
+        twist: Literal[False] = False,
+        extrapolate: DurationLike | None = None,
+        hold: bool = False,
+    ) -> Transform: ...
+    @overload
+    def lookup_many(
+        self,
+        target: str,
+        source: str,
+        stamps: ArrayLike,
+        *,
+        out: Array,
+        threads: int = 1,
+        on_error: OnError = "raise",
+        twist: Literal[False] = False,
+        extrapolate: DurationLike | None = None,
+        hold: bool = False,
+    ) -> Array: ...
+    @overload
+    def lookup_many(
+        self,
+        target: str,
+        source: str,
+        stamps: ArrayLike,
+        *,
+        out: None = None,
+        threads: int = 1,
+        on_error: OnError = "raise",
+        twist: Literal[True],
+        extrapolate: DurationLike | None = None,
+        hold: bool = False,
+    ) -> tuple[Transform, Array]: ...
+    @overload
+    def lookup_many(
+        self,
+        target: str,
+        source: str,
+        stamps: ArrayLike,
+        *,
+        out: Array,
+        threads: int = 1,
+        on_error: OnError = "raise",
+        twist: Literal[True],
+        extrapolate: DurationLike | None = None,
+        hold: bool = False,
+    ) -> tuple[Array, Array]: ...
+
+    def lookup_many(
+        self,
+        target: str,
+        source: str,
+        stamps: ArrayLike,
+        *,
+        out: Array | None = None,
+        threads: int = 1,
+        on_error: OnError = "raise",
+        twist: bool = False,
+        extrapolate: DurationLike | None = None,
+        hold: bool = False,
+    ) -> Transform | Array | tuple[Transform | Array, Array]:
+        """Look up the transform from ``source`` to ``target`` at many times.
+
+        Args:
+            target: The target frame.
+            source: The source frame.
+            stamps: Times of the lookups, shape (N,), int64 nanoseconds or datetime64, in any order; 0 means the
+                latest.
+            out: float64 array to fill and return instead of a new batch. Shape (N, 7) receives x, y, z in metres and
+                qx, qy, qz, qw; shape (N, 4, 4) receives matrices.
+            threads: Number of threads to use.
+            on_error: What to do with a time without a transform: ``"raise"`` the exception of :meth:`lookup`, fill
+                its row with ``"nan"``, or ``"clip"`` it to the interval in which all edges have data.
+            twist: Whether to return the twist of ``source`` relative to ``target`` as well.
+            extrapolate: As in :meth:`lookup`.
+            hold: As in :meth:`lookup`.
+
+        Returns:
+            A batch of shape (N,) with its ``stamps``, or ``out``. With ``twist`` a tuple of that and an array of
+            shape (N, 6): linear velocity in m/s and angular velocity in rad/s of the origin of ``source``, expressed
+            in ``target``, from the interpolation between samples (at a sample: in the interval after it).
+
+        Raises:
+            TransformException: As :meth:`lookup`; with ``"nan"`` only if no row has a transform.
+            ValueError: ``stamps`` or ``out`` has another shape or type.
+
+        Example:
+            >>> import coframe
+            >>> buffer = coframe.Buffer()
+            >>> for second in (1, 2):
+            ...     moved = coframe.Transform([second, 0, 0])
+            ...     _ = buffer.set("map", "base", moved, second * 1_000_000_000)
+            >>> buffer.lookup_many("map", "base", [1_250_000_000, 1_500_000_000]).translation[:, 0].tolist()
+            [1.25, 1.5]
+        """
+        times = np.array(stamps_of(stamps), ndmin=1)
+        if times.ndim != 1:
+            raise ValueError(f"stamps must have shape (N,), not {times.shape}")
+        rows = out if out is not None and _is_rows(out, times.size) else np.empty((times.size, 7))
+        twists = np.empty((times.size, 6)) if twist else None
+        beyond = np.empty_like(times) if extrapolate is not None else None
+        missing = self._lookup_rows(target, source, times, rows, twists, beyond, on_error, threads, extrapolate, hold)
+        if missing == 0 and times.size and np.isnan(rows[:, 0]).all():
+            self.lookup(target, source, int(np.ravel(stamps_of(stamps))[0]), extrapolate=extrapolate, hold=hold)
+        batch = batch_of(rows[:, :3], rows[:, 3:], target, source, times, beyond)
+        if out is not None and out is not rows:
+            out[...] = batch.matrix
+        result = batch if out is None else out
+        return result if twists is None else (result, twists)
+
+    def trajectory(
+        self,
+        target: str,
+        source: str,
+        start: StampLike | None = None,
+        stop: StampLike | None = None,
+        *,
+        max_translation: float | None = None,
+        max_rotation: float | None = None,
+    ) -> Transform:
+        """Return the path of ``source`` relative to ``target``, at the times of the samples or at a chosen spacing.
+
+        Args:
+            target: The target frame, in which the poses are expressed.
+            source: The source frame, whose poses these are.
+            start: Time of the first pose; None starts when all edges have data.
+            stop: Time of the last pose; None stops when an edge has no more data.
+            max_translation: Largest distance between two successive poses, in metres.
+            max_rotation: Largest rotation between two successive poses, in radians. With one of these two limits, the
+                result has as few poses as the limits allow: where nothing moves, only the first and the last pose.
+
+        Returns:
+            A batch with its ``stamps``, in order. If all edges are static, a batch of one pose.
+
+        Raises:
+            TransformException: As :meth:`lookup`.
+            ValueError: A limit is not positive.
+        """
+        first, last = self.span(target, source)
+        first = first if start is None else max(first, time.stamp_ns(start))
+        last = last if stop is None else min(last, time.stamp_ns(stop))
+        inside = np.frombuffer(self._stamps_between(target, source, first, last), dtype=np.int64)
+        stamps = np.unique(np.concatenate([[first], inside, [last]]).astype(np.int64)) if first <= last else inside
+        if max_translation is None and max_rotation is None:
+            return self.lookup_many(target, source, stamps)
+        steps = StepLimits(max_translation, max_rotation)
+        return steps.resample(lambda times: self.lookup_many(target, source, times), stamps)
+
+    def span(self, target: str, source: str) -> tuple[int, int]:
+        """Return the time interval in which every edge between two frames has data.
+
+        Returns:
+            The first and the last time in nanoseconds; (0, 0) if all edges are static.
+
+        Raises:
+            TransformException: As :meth:`lookup`, or the edges have no common time.
+        """
+        ends = np.array([np.iinfo(np.int64).min + 1, np.iinfo(np.int64).max])
+        if self.latest_common_time(target, source) == 0:
+            return 0, 0
+        self._lookup_rows(target, source, ends, np.empty((2, 7)), None, None, "clip", 1)
+        if ends[0] == np.iinfo(np.int64).min + 1:  # Both names are those of one frame: there are no edges.
+            return 0, 0
+        return int(ends[0]), int(ends[1])
+
+
+def _is_rows(out: Array, count: int) -> bool:
+    """Return whether poses can be written to `out` directly; False for matrices."""
+    if out.dtype == np.float64 and out.shape in {(count, 7), (count, 4, 4)}:
+        return out.ndim == 2 and out.flags.c_contiguous and out.flags.writeable
+    raise ValueError(
+        f"out must be float64 of shape ({count}, 7) or ({count}, 4, 4), not {out.dtype} of shape {out.shape}"
+    )

@@ -1,0 +1,104 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What a buffer stores: the checks of the arguments, and the errors for transforms that tf2 rejects."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from coframe import _core, time
+from coframe.errors import InvalidArgumentException
+from coframe.transform import stamps_of
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
+
+    from coframe.time import StampLike
+    from coframe.transform import Transform
+
+_REFUSED_HINT = "Frame names must differ and not be empty, values must be finite, and a quaternion must not be zero."
+
+
+def check_single(parent: str, child: str, transform: Transform, stamp: StampLike | None, *, static: bool) -> None:
+    """Check that `set` can store a transform.
+
+    Raises:
+        InvalidArgumentException: It is a batch, is between other frames, or has no stamp.
+        TypeError: It is not a :class:`coframe.Transform`.
+    """
+    if not isinstance(transform, _core.Transform):
+        raise TypeError(
+            f"set() takes a coframe.Transform, not {type(transform).__name__}. Create one with "
+            "Transform(translation, quaternion), Transform.from_rpy(...) or Transform.from_matrix(...)."
+        )
+    if transform.shape:
+        raise InvalidArgumentException.with_details(
+            f"set() takes a single transform, not a batch of shape {transform.shape}",
+            hint="Use set_many() for a batch.",
+        )
+    _check_frames(parent, child, transform)
+    if stamp is None and transform.stamp is None and not static:
+        raise InvalidArgumentException.with_details(
+            f"the dynamic transform {parent!r} -> {child!r} has no stamp",
+            hint="Pass stamp=..., or static=True if the transform never changes.",
+        )
+
+
+def rows_of(
+    parent: str, child: str, stamps: ArrayLike | None, poses: Transform | ArrayLike
+) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
+    """Return the stamps, shape (N,), and poses, shape (N, 7), that `set_many` stores.
+
+    Raises:
+        InvalidArgumentException: The poses are between other frames, or have no stamps.
+        ValueError: The shapes do not match.
+    """
+    if isinstance(poses, _core.Transform):
+        _check_frames(parent, child, poses)
+        stamps = poses.stamps if stamps is None else stamps
+        poses = np.concatenate([poses.translation, poses.quaternion], axis=-1)
+    values = np.ascontiguousarray(poses, dtype=np.float64)
+    if stamps is None:
+        raise InvalidArgumentException.with_details(
+            f"the dynamic transforms {parent!r} -> {child!r} have no stamps",
+            hint="Pass stamps=..., an array of nanoseconds.",
+        )
+    times = np.ascontiguousarray(stamps_of(stamps))
+    if times.ndim != 1 or values.shape != (*times.shape, 7):
+        raise ValueError(f"stamps must have shape (N,) and poses (N, 7), not {times.shape} and {values.shape}")
+    return times, values
+
+
+def check_not_frozen(buffer: _core.Buffer, parent: str, child: str) -> None:
+    """Raise an InvalidArgumentException if a buffer is read-only."""
+    if buffer.frozen:
+        raise InvalidArgumentException.with_details(
+            f"the buffer is frozen: the transform {parent!r} -> {child!r} was not stored",
+            target=parent,
+            source=child,
+            hint="A snapshot, a loaded file and a buffer after freeze() are read-only. Use a new coframe.Buffer().",
+        )
+
+
+def rejected(parent: str, child: str, text: str) -> InvalidArgumentException:
+    """Return the error for a transform that tf2 rejects, with tf2's text."""
+    return InvalidArgumentException.with_details(
+        text, target=parent, source=child, edge=(parent, child), hint=_REFUSED_HINT
+    )
+
+
+def stamp_of(transform: Transform, stamp: StampLike | None) -> int:
+    """Return the stamp with which a transform is stored, in nanoseconds."""
+    return (transform.stamp if stamp is None else time.stamp_ns(stamp)) or 0
+
+
+def _check_frames(parent: str, child: str, transform: Transform) -> None:
+    frames = (transform.target or parent, transform.source or child)
+    if frames != (parent, child):
+        raise InvalidArgumentException.with_details(
+            f"cannot store the transform {frames[0]} <- {frames[1]} as {parent} <- {child}",
+            target=parent,
+            source=child,
+            hint="In set(parent, child, transform), parent must be the transform's target and child its source.",
+        )
