@@ -27,6 +27,8 @@ if TYPE_CHECKING:
 CLI = ("python", "-m", "coframe.cli")
 _MESSAGES = 4000
 _LIMIT = 60.0  # seconds
+_FILLER = "filler"
+_PROMISE = "a sentence with the path and the reason, exit code 1; no partial file, except the messages of a bag"
 _SAVE = "import sys, coframe; coframe.open_bag(sys.argv[1]).buffer.save(sys.argv[2])"
 
 # Commands that write. BAG is a recording, OUT a new path on the disk with the fault.
@@ -38,10 +40,14 @@ _COMMANDS = {
     "batch": (*CLI, "batch", "odom", "base_link", "BAG", "-o", "OUT"),
     "replay": (*CLI, "view", "BAG", "-o", "OUT.html"),
     "frames": (*CLI, "frames", "BAG", "-o", "OUT.svg"),
+    "frames_picture": (*CLI, "frames", "BAG", "-o", "OUT.png"),
+    "plot": (*CLI, "plot", "BAG", "odom:base_link.x", "-o", "OUT.png"),
     "frozen": ("python", "-c", _SAVE, "BAG", "OUT.cfz"),
     "course": (*CLI, "lab", "new", "OUT"),
 }
-_SMALL = {"frames", "batch", "course"}  # their files might fit
+_SMALL = {"frames", "frames_picture", "plot", "batch", "course"}  # their files might fit
+# The messages written before the error can be read.
+_KEEP_A_PART = {"bag_fix", "bag_convert", "bag_slice"}
 # A program that saves a buffer gets coframe's exception.
 _WITH_TRACEBACK = {"frozen"}
 
@@ -94,6 +100,7 @@ def _fails_with_a_sentence(name: str, options: str, reason: str, *, fill: bool =
         except subprocess.TimeoutExpired:
             return Measurement(f"no end within {_LIMIT:.0f} s", kept=False)
         took = time.monotonic() - begin
+        left = [str(path.relative_to(disk)) for path in disk.rglob("*") if path.is_file() and path.name != _FILLER]
     lines = [line for line in done.stderr.replace(str(disk), "DISK").splitlines() if line.strip()]
     kept = done.returncode == 1 and reason in done.stderr and "DISK" in "".join(lines)
     if name in _WITH_TRACEBACK:
@@ -101,21 +108,23 @@ def _fails_with_a_sentence(name: str, options: str, reason: str, *, fill: bool =
         lines = [line for line in lines if "FrozenFileError" in line]
     else:
         kept &= "Traceback" not in done.stderr and len(lines) <= 4
-    return Measurement(f"exit code {done.returncode} after {took:.1f} s: {' '.join(lines)[-300:]}", kept)
+    kept &= not left or name in _KEEP_A_PART
+    partial = f", partial files {', '.join(left)}" if left else ""
+    return Measurement(f"exit code {done.returncode} after {took:.1f} s{partial}: {' '.join(lines)[-300:]}", kept)
 
 
 def _fill(disk: Path) -> None:
-    with contextlib.suppress(OSError), (disk / "filler").open("wb", buffering=0) as file:
+    with contextlib.suppress(OSError), (disk / _FILLER).open("wb", buffering=0) as file:
         while True:
             file.write(bytes(4096))
 
 
 for _name in _COMMANDS:
     _full = partial(_fails_with_a_sentence, _name, "size=64k", "No space left on device", fill=_name in _SMALL)
-    CASES.append(Case(f"disk_full_{_name}", "a sentence with the path and the reason, exit code 1", _full))
+    CASES.append(Case(f"disk_full_{_name}", _PROMISE, _full))
 for _name in _COMMANDS:
     _read_only = partial(_fails_with_a_sentence, _name, "size=64k,ro", "Read-only file system")
-    CASES.append(Case(f"disk_read_only_{_name}", "a sentence with the path and the reason, exit code 1", _read_only))
+    CASES.append(Case(f"disk_read_only_{_name}", _PROMISE, _read_only))
 
 
 @case("disk_full_record", "the recording ends with a sentence and exit code 1; what was written can be read")

@@ -4,7 +4,12 @@
 from __future__ import annotations
 
 import importlib
-from typing import Any
+import logging
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
 
 
 def import_optional(module: str, purpose: str, install: str) -> Any:
@@ -26,3 +31,18 @@ def import_optional(module: str, purpose: str, install: str) -> Any:
         raise ModuleNotFoundError(
             f"{purpose} needs the module {module}, which is not installed: pip install '{install}'", name=error.name
         ) from None
+
+
+@contextmanager
+def importing_matplotlib() -> Iterator[None]:
+    """Return a context manager that imports matplotlib without its warnings.
+
+    With a read-only home folder, matplotlib caches its fonts in a temporary folder by itself, but prints two warnings.
+    """
+    log = logging.getLogger("matplotlib")
+    level = log.level
+    log.setLevel(logging.ERROR)
+    try:
+        yield
+    finally:
+        log.setLevel(level)

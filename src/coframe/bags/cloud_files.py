@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import tempfile
-from contextlib import closing, suppress
+from contextlib import closing
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO, Protocol
 
@@ -13,6 +13,7 @@ import numpy as np
 from coframe import time
 from coframe.bags.definitions import definition_of
 from coframe.bags.mcap_writer import McapWriter
+from coframe.complete_files import complete_or_absent
 from coframe.errors import RecordingError
 from coframe.messages import find, serialize
 from coframe.sensors.thinning import thinned
@@ -112,7 +113,7 @@ def _write_folder(source: _CloudSource, folder: Path, kind: str, voxel: float | 
     for cloud in source:
         folder.mkdir(parents=True, exist_ok=True)
         one = cloud if voxel is None else cloud._replace(points=thinned(cloud.points, voxel))
-        with (folder / f"{name}_{cloud.stamp}.{kind}").open("wb") as stream:
+        with complete_or_absent(folder / f"{name}_{cloud.stamp}.{kind}") as part, part.open("wb") as stream:
             written += _fill(_WRITERS[kind](stream), [one])
     source.check_some()
     return written
@@ -120,20 +121,14 @@ def _write_folder(source: _CloudSource, folder: Path, kind: str, voxel: float | 
 
 def _write_one(path: Path, kind: str, clouds: Iterable[Cloud], source: _CloudSource) -> int:
     """Write all clouds to one file, which exists at the end only if it is complete."""
-    temporary = path.with_name(f".{path.name}.part")
-    temporary.unlink(missing_ok=True)  # A process that was killed may have left it.
-    try:
+    with complete_or_absent(path) as part:
         if kind == "mcap":
-            with closing(McapWriter(temporary)) as bag:
+            with closing(McapWriter(part)) as bag:
                 written = _fill(_BagTopic(bag, source.clouds.topic), clouds)
         else:
-            with temporary.open("wb") as stream:
+            with part.open("wb") as stream:
                 written = _fill(_WRITERS[kind](stream), clouds)
         source.check_some()
-        temporary.replace(path)
-    finally:
-        with suppress(OSError):
-            temporary.unlink()
     return written
 
 

@@ -25,6 +25,7 @@ from coframe.cli.options import (
 from coframe.cli.output import fail, fail_to_write, printable
 from coframe.cli.plot import check_figure_package, save_figure
 from coframe.cli.recordings import open_recording
+from coframe.complete_files import write_complete
 from coframe.formatting import count
 from coframe.plotting import FIGURE_FORMATS, Figure, Series
 from coframe.trajectories import compare_trajectories, parse_delta, read_trajectory
@@ -176,7 +177,7 @@ def _write(path: Path, result: Comparison, title: str) -> None:
         return
     text = json.dumps(result.as_dict(), indent=2) + "\n" if kind == "json" else _csv(result)
     try:
-        path.write_text(text, encoding="utf-8")
+        write_complete(path, text.encode())
     except OSError as error:
         fail_to_write(path, error)
 

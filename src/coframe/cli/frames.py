@@ -31,7 +31,9 @@ from coframe.cli.options import (
 from coframe.cli.output import fail, fail_to_write, printable, report_console, warn
 from coframe.cli.progress import reading_progress
 from coframe.cli.ros_arguments import node_identity
+from coframe.complete_files import write_complete
 from coframe.doctor import observe_recording
+from coframe.optional_imports import importing_matplotlib
 from coframe.tree_drawing import grow
 from coframe.tree_drawing.graphviz import as_graphviz
 from coframe.tree_drawing.labels import summary
@@ -54,7 +56,8 @@ def _pdf(forest: Forest, title: str) -> bytes:
 
 
 def _png(forest: Forest, title: str) -> bytes:
-    from coframe.tree_drawing.png import as_png  # noqa: PLC0415 - needs an extra package
+    with importing_matplotlib():
+        from coframe.tree_drawing.png import as_png  # noqa: PLC0415 - needs an extra package
 
     return as_png(forest, title)
 
@@ -183,7 +186,7 @@ def _write_or_print(forests: dict[str, Forest], files: list[Path], as_json: bool
 def _write(path: Path, forest: Forest, title: str) -> None:
     content = _FORMATS[path.suffix.lower()](forest, title)
     try:
-        path.write_bytes(content if isinstance(content, bytes) else content.encode(errors="backslashreplace"))
+        write_complete(path, content if isinstance(content, bytes) else content.encode(errors="backslashreplace"))
     except OSError as error:
         fail_to_write(path, error)
     typer.echo(f"{path}: {summary(forest)}", err=True)

@@ -20,6 +20,7 @@ from coframe.cli.options import DurationOption
 from coframe.cli.output import fail, print_bounded, printable, report_console, warn
 from coframe.cli.progress import item_progress
 from coframe.cli.view import PortOption, open_browser, optional_viewer
+from coframe.complete_files import complete_or_absent, write_complete
 from coframe.course import formats
 from coframe.course.assignment import FILE
 from coframe.course.checking import check_class, check_folder, submissions
@@ -171,7 +172,7 @@ def _write_reports(
 ) -> None:
     for path, convert in formatted:
         if path is not None:
-            path.write_text(json.dumps(convert(report), indent=2) + "\n", encoding="utf-8")
+            write_complete(path, f"{json.dumps(convert(report), indent=2)}\n".encode())
 
 
 @lab.command("break", cls=PlainCommand, short_help="Start the system with a fault, for you to find.")
@@ -316,7 +317,7 @@ def _check_class(
     rows = [formats.csv_row(name, reports[name]) for name in sorted(reports)]
     columns = list(dict.fromkeys(column for row in rows for column in row if column != "problem"))
     if output is not None:
-        with output.open("w", encoding="utf-8", newline="") as file:
+        with complete_or_absent(output) as part, part.open("w", encoding="utf-8", newline="") as file:
             writer = csv.DictWriter(file, [*columns, "problem"], restval=0.0)
             writer.writeheader()
             writer.writerows({key: csv_cell(value) for key, value in row.items()} for row in rows)

@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-from contextlib import suppress
 from typing import TYPE_CHECKING
 
 import typer
@@ -12,6 +11,7 @@ from coframe.cli.lifecycle import run_to_completion
 from coframe.cli.output import fail_to_write
 from coframe.cli.progress import task_progress
 from coframe.cli.recordings import check_has_transforms, open_recording, parse_time
+from coframe.complete_files import write_complete
 from coframe.robots import load
 from coframe.viewer.replay.export import export_replay
 from coframe.viewer.robots.robot_message import make_mesh_table
@@ -66,12 +66,7 @@ def write_replay(
 
 
 def _write(output: Path, page: bytes) -> None:
-    part = output.with_name(f".{output.name}.part")
     try:
-        part.write_bytes(page)
-        part.replace(output)
+        write_complete(output, page)
     except OSError as error:
         fail_to_write(output, error)
-    finally:
-        with suppress(OSError):  # On a read-only disk, this is an error even if there is no such file.
-            part.unlink()

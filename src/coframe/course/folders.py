@@ -4,9 +4,11 @@
 from __future__ import annotations
 
 import re
+from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from coframe.complete_files import write_complete
 from coframe.course.assignment import FILE, assignment_file, assignment_of
 from coframe.errors import CourseError
 
@@ -43,9 +45,12 @@ def create_folder(folder: Path, variant: int | None) -> list[Path]:
         folder.mkdir(parents=True, exist_ok=True)
         for name in names:
             text = (_TEMPLATES / f"{name}{_SUFFIX}").read_text(encoding="utf-8")
-            (folder / name).write_text(_filled(text, assignment), encoding="utf-8")
-        (folder / FILE).write_text(assignment_file(assignment), encoding="utf-8")
+            write_complete(folder / name, _filled(text, assignment).encode())
+        write_complete(folder / FILE, assignment_file(assignment).encode())
     except OSError as error:
+        for name in (*names, FILE):
+            with suppress(OSError):  # It was not written yet.
+                (folder / name).unlink()
         raise CourseError(
             f"Cannot write {error.filename or folder}: {error.strerror}.", hint="Choose another folder."
         ) from None

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from coframe.complete_files import write_complete
 from coframe.errors import PlotError
 from coframe.time import SECOND
 
@@ -107,7 +108,7 @@ class Figure:
             from coframe.plotting.image import as_image  # noqa: PLC0415 - needs an extra package
 
             content = as_image(self, kind)
-        Path(path).write_bytes(content)
+        write_complete(path, content)
 
 
 def figure_format(path: str | os.PathLike[str]) -> str:

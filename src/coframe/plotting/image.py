@@ -9,6 +9,7 @@ from itertools import cycle
 from typing import TYPE_CHECKING, Any
 
 from coframe.errors import PlotError
+from coframe.optional_imports import importing_matplotlib
 from coframe.plotting.figure import COLOURS
 
 if TYPE_CHECKING:
@@ -23,7 +24,8 @@ _STYLE = {"svg.fonttype": "none", "svg.hashsalt": "coframe", "axes.unicode_minus
 def check_installed() -> None:
     """Raise a PlotError unless matplotlib is installed."""
     try:
-        importlib.import_module("matplotlib.figure")
+        with importing_matplotlib():
+            importlib.import_module("matplotlib.figure")
     except ModuleNotFoundError:
         raise PlotError(
             "SVG and PNG plots need the package matplotlib, which is not installed",

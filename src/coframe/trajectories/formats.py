@@ -4,19 +4,20 @@
 from __future__ import annotations
 
 import importlib
-import os
-from contextlib import contextmanager, nullcontext, suppress
+from contextlib import contextmanager, nullcontext
 from itertools import chain
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TextIO
 
 import numpy as np
 
+from coframe.complete_files import complete_or_absent
 from coframe.errors import RecordingError
 from coframe.formatting import seconds
 from coframe.transform import Transform
 
 if TYPE_CHECKING:
+    import os
     from collections.abc import Callable, Iterable, Iterator
     from contextlib import AbstractContextManager
 
@@ -131,24 +132,8 @@ def _text_stream(target: Any) -> AbstractContextManager[TextIO]:
 
 @contextmanager
 def _text_file(path: Path) -> Iterator[TextIO]:
-    with _complete_or_absent(path) as name, name.open("w", encoding="utf-8") as stream:
+    with complete_or_absent(path) as name, name.open("w", encoding="utf-8") as stream:
         yield stream
-
-
-@contextmanager
-def _complete_or_absent(path: Path) -> Iterator[Path]:
-    """Yield the name to write to; the file gets its own name only after everything has been written."""
-    if path.exists() and not path.is_file():  # a device or a named pipe
-        yield path
-        return
-    path = path.resolve()  # A symbolic link stays.
-    part = path.with_name(f".{path.name}.{os.getpid()}.part")
-    try:
-        yield part
-        part.replace(path)
-    finally:
-        with suppress(FileNotFoundError):
-            part.unlink()
 
 
 def _tum(poses: Transform) -> Iterator[str]:
@@ -186,7 +171,7 @@ def _values(poses: Transform) -> NDArray[np.float64]:
 
 def _write_npz(batches: Iterator[Transform], path: Path) -> None:
     parts = list(batches)
-    with _complete_or_absent(path) as name, name.open("wb") as file:
+    with complete_or_absent(path) as name, name.open("wb") as file:
         np.savez(
             file,
             stamps=np.concatenate([_stamps(part) for part in parts]),
@@ -206,7 +191,7 @@ def _write_parquet(batches: Iterator[Transform], path: Path) -> None:
             "Parquet needs the package pyarrow, which is not installed", hint="pip install 'coframe[parquet]'"
         ) from None
     writer: Any = None
-    with _complete_or_absent(path) as name:
+    with complete_or_absent(path) as name:
         try:
             for poses in batches:
                 values = _values(poses)

@@ -1,0 +1,56 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Files that are complete or do not appear: a full disk or Ctrl-C leaves no partial file, and keeps an earlier one."""
+
+from __future__ import annotations
+
+import os
+from contextlib import contextmanager, suppress
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+__all__ = ["complete_or_absent", "write_complete"]
+
+
+@contextmanager
+def complete_or_absent(path: str | os.PathLike[str]) -> Iterator[Path]:
+    """Yield the name to write to; the file gets its own name only after everything has been written.
+
+    Devices and named pipes are written directly.
+
+    Raises:
+        OSError: The file cannot be written; `filename` is the name of the file itself.
+    """
+    path = Path(path)
+    if path.exists() and not path.is_file():
+        yield path
+        return
+    path = path.resolve()  # A symbolic link stays.
+    part = path.with_name(f".{path.name}.{os.getpid()}.part")
+    _remove(part)  # A process that was killed may have left it.
+    try:
+        yield part
+        part.replace(path)
+    except OSError as error:
+        if error.filename == str(part):
+            error.filename, error.filename2 = str(path), None
+        raise
+    finally:
+        _remove(part)
+
+
+def write_complete(path: str | os.PathLike[str], content: bytes) -> None:
+    """Write a file, which keeps its earlier content if this fails.
+
+    Raises:
+        OSError: The file cannot be written.
+    """
+    with complete_or_absent(path) as part:
+        part.write_bytes(content)
+
+
+def _remove(path: Path) -> None:
+    with suppress(OSError):  # On a read-only disk, this is an error even if there is no such file.
+        path.unlink()
