@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-__all__ = ["MAX_BYTES", "compose_yaml", "read_yaml"]
+__all__ = ["MAX_BYTES", "compose_yaml", "error_position", "read_yaml"]
 
 MAX_BYTES = 16 << 20  # of a parameter or launch file, and of the metadata of a recording
 MAX_DEPTH = 100
@@ -48,6 +48,17 @@ def compose_yaml(text: str | bytes, max_bytes: int = MAX_BYTES) -> Any:
     return _within_limits(text, max_bytes, lambda yaml, base: yaml.compose(text, base))
 
 
+def error_position(error: ValueError) -> tuple[int, int] | None:
+    """Return where a text is not valid YAML, as line and column from 0; None for an error without a position."""
+    return error.position if isinstance(error, _SyntaxError) else None
+
+
+class _SyntaxError(ValueError):
+    def __init__(self, reason: str, position: tuple[int, int]) -> None:
+        super().__init__(reason)
+        self.position = position
+
+
 def _within_limits(text: str | bytes, max_bytes: int, load: Callable[[Any, Any], Any]) -> Any:
     """Return what a function that takes the module yaml and a loader reads, after a check of the limits."""
     yaml: Any = importlib.import_module("yaml")
@@ -60,7 +71,12 @@ def _within_limits(text: str | bytes, max_bytes: int, load: Callable[[Any, Any],
         return load(yaml, base)
     except (yaml.YAMLError, ValueError, TypeError, OverflowError) as error:
         reason = " ".join(str(error).split())
-        raise ValueError(_TOO_DEEP if _PARSER_TOO_DEEP in reason else reason) from None
+        if _PARSER_TOO_DEEP in reason:
+            raise ValueError(_TOO_DEEP) from None
+        mark = getattr(error, "problem_mark", None)
+        if mark is not None:
+            raise _SyntaxError(reason, (mark.line, mark.column)) from None
+        raise ValueError(reason) from None
 
 
 def _integer(loader: Any, node: Any) -> Any:

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from coframe.bounded_yaml import read_yaml
+from coframe.bounded_yaml import error_position, read_yaml
 from coframe.cli.output import fail
 
 if TYPE_CHECKING:
@@ -13,18 +13,45 @@ if TYPE_CHECKING:
 
 __all__ = ["read_values", "yaml_value"]
 
+_WIDTH = 60  # characters of an invalid text that are shown
+_LONGEST_EXAMPLE = 150
+# The reasons of the YAML parser (C and Python), and what they mean for the user.
+_REASONS = {
+    "found unexpected ':'": "a space is missing after the colon",
+    "',' or '}'": "a comma or } is missing, or a text with special characters has no quotes",
+    "',' or ']'": "a comma or ] is missing, or a text with special characters has no quotes",
+    "mapping values are not allowed": "there is a second colon; a text that contains a colon and a space needs quotes",
+    "unexpected end of stream": "a quote is missing",
+    "cannot start any token": "a text that begins with this character needs quotes",
+    "expected node content": "a value or a closing bracket is missing",
+    "undefined alias": "a text that begins with * needs quotes",
+    "<document start>": "there is something after the end of the values",
+}
 
-def yaml_value(text: str, what: str) -> Any:
+
+def yaml_value(text: str, what: str, hint: str = "") -> Any:
     """Return the value of a YAML text; end the command if it is not valid YAML.
 
     Args:
         text: The text.
         what: What it is, for the error: "VALUES".
+        hint: What to do.
     """
     try:
         return read_yaml(text)
     except ValueError as error:
-        fail(f"{what}: {text[:60]!r} is not valid YAML: {str(error).splitlines()[0]}", code=2)
+        position = error_position(error)
+        if position is None:
+            fail(f"{what} is not valid YAML: {error}", hint, code=2)
+        lines = text.splitlines() or [""]
+        # An end that is missing is reported after the last line.
+        row, column = position if position[0] < len(lines) else (len(lines) - 1, len(lines[-1]))
+        reason = next((ours for theirs, ours in _REASONS.items() if theirs in str(error)), str(error))
+        where = f"line {row + 1}, character {column + 1}" if len(lines) > 1 else f"character {column + 1}"
+        start = max(0, column - _WIDTH // 2)
+        shown = lines[row][start : start + _WIDTH]
+        pointer = f"    {shown}\n    {' ' * (column - start)}^"
+        fail(f"{what} is not valid YAML at {where}: {reason}", hint, code=2, details=pointer)
 
 
 def read_values(message: Any, text: str) -> Callable[[Any], None]:
@@ -37,11 +64,15 @@ def read_values(message: Any, text: str) -> Callable[[Any], None]:
     Returns:
         A function that sets the stamps which are written as "now" or "auto" to a time message.
     """
-    values = yaml_value(text or "{}", "VALUES")
+    example = f"Example for {_name(message)}: '{_example(message)}'"
+    values = yaml_value(text or "{}", "VALUES", example)
     if values is None:
         values = {}
     if not isinstance(values, dict):
-        fail("The passed value needs to be a dictionary in YAML format", "Example: '{data: hello}'", code=2)
+        fail(f"The passed value needs to be a dictionary in YAML format, not {text[:_WIDTH]!r}", example, code=2)
+    for field in values:
+        if isinstance(field, str) and ":" in field and values[field] is None:
+            fail(f"VALUES: {field!r} is not a field: a space is missing after the colon", example, code=2)
     from rosidl_runtime_py import set_message_fields  # noqa: PLC0415 - slow import
 
     try:
@@ -58,6 +89,26 @@ def read_values(message: Any, text: str) -> Callable[[Any], None]:
             setter(now)
 
     return fill
+
+
+def _example(message: Any) -> str:
+    """Return values for the first fields of a message, without the quotes of a shell."""
+    fields: list[str] = []
+    for field in message.get_fields_and_field_types():
+        if value := _example_value(getattr(message, field)):
+            fields.append(f"{field}: {value}")
+        if sum(map(len, fields)) > _LONGEST_EXAMPLE:
+            break
+    return f"{{{', '.join(fields)}}}"
+
+
+def _example_value(value: Any) -> str:
+    """Return a value as YAML; "" for arrays, which an example can omit."""
+    if hasattr(value, "get_fields_and_field_types"):
+        return _example(value)
+    if isinstance(value, str):
+        return "hello"
+    return str(value).lower() if isinstance(value, bool | int | float) else ""
 
 
 def _name(message: Any) -> str:
