@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-import { createHash } from "node:crypto";
 import { readFileSync } from "node:fs";
 import type { Plugin } from "vite";
 import { defineConfig } from "vitest/config";
@@ -19,51 +18,50 @@ dagre,
 ${readFileSync("node_modules/@dagrejs/dagre/LICENSE", "utf8").trim()}
 */`;
 
-/** Inlines the script and the style sheet, so that a replay is a single file that opens from disk. */
-function oneFile(): Plugin {
+const REPLAY_HEAD =
+  `<meta http-equiv="Content-Security-Policy" content="default-src 'none'; script-src 'sha256-%SCRIPT_HASH%'; ` +
+  `style-src 'unsafe-inline'; img-src data: blob:; connect-src data: blob:">`;
+
+/**
+ * Writes replay.html: the page with a policy that forbids all requests. src/coframe/viewer/replay/template.py replaces the
+ * words between percent signs by page.js, its hash and viewer.css, so that a replay is a single file that opens from disk.
+ */
+function replayPage(): Plugin {
   return {
-    name: "one-file",
-    enforce: "post",
-    // Vite must insert the preload list of dynamic imports first.
+    name: "replay-page",
     generateBundle: {
       order: "post",
       handler(_options, bundle) {
         const page = bundle["index.html"];
         if (page?.type !== "asset") throw new Error("The build contains no index.html.");
-        let html = String(page.source);
-        for (const [name, part] of Object.entries(bundle)) {
-          if (part.type === "chunk") {
-            // `</script` would end the element early. The escaped form is the same JavaScript string.
-            const code = part.code.replaceAll("</script", "<\\/script");
-            const hash = createHash("sha256").update(code).digest("base64");
-            html = html
-              .replace(/<script type="module"[^>]*><\/script>/, "")
-              .replace("%SCRIPT_HASH%", () => `sha256-${hash}`)
-              .replace("</body>", () => `<script type="module">${code}</script></body>`);
-          } else if (name.endsWith(".css")) {
-            html = html.replace(/<link rel="stylesheet"[^>]*>/, () => `<style>${String(part.source)}</style>`);
-          } else continue;
-          delete bundle[name];
-        }
-        page.source = html;
-        page.fileName = "replay.html";
+        const source = String(page.source)
+          .replace("<head>", `<head>\n    ${REPLAY_HEAD}`)
+          .replace(/ *<script type="module"[^>]*><\/script>\n/, "")
+          .replace(/ *<link rel="modulepreload"[^>]*>\n/, "")
+          .replace(/<link rel="stylesheet"[^>]*>/, "<style>%STYLE%</style>")
+          .replace(
+            "</body>",
+            `  <script type="application/json" id="replay">%RECORDING%</script>\n` +
+              `    <script type="module">%SCRIPT%</script>\n  </body>`,
+          );
+        this.emitFile({ type: "asset", fileName: "replay.html", source });
       },
     },
   };
 }
 
-const REPLAY_HEAD =
-  `<meta http-equiv="Content-Security-Policy" content="default-src 'none'; script-src '%SCRIPT_HASH%'; ` +
-  `style-src 'unsafe-inline'; img-src data: blob:; connect-src data: blob:">`;
-
-/** Adds what distinguishes a replay from the live page: a policy that forbids all requests, and the recording. */
-function replayPage(): Plugin {
+/** Makes page.js valid inside a script element, which some texts would end or change. */
+function inlineScript(): Plugin {
   return {
-    name: "replay-page",
-    transformIndexHtml: (html) =>
-      html
-        .replace("<head>", `<head>\n    ${REPLAY_HEAD}`)
-        .replace("</body>", `  <script type="application/json" id="replay">null</script>\n  </body>`),
+    name: "inline-script",
+    generateBundle(_options, bundle) {
+      const page = bundle["assets/page.js"];
+      if (page?.type !== "chunk") throw new Error("The build contains no page.js.");
+      if (page.imports.length > 0) throw new Error(`page.js imports ${page.imports.join(", ")}.`);
+      // The escaped form is the same JavaScript string.
+      page.code = page.code.replaceAll("</script", "<\\/script");
+      if (page.code.includes("<!--")) throw new Error("page.js contains the start of an HTML comment.");
+    },
   };
 }
 
@@ -76,25 +74,29 @@ function preload(): Plugin {
   };
 }
 
-export default defineConfig(({ mode }) => {
-  const replay = mode === "replay";
+/** The build of the page itself, which replays contain, is `vite build --mode page`; the other one builds what loads it. */
+export default defineConfig(({ command, mode }) => {
+  const isPage = mode === "page";
   return {
     base: "./",
     publicDir: false,
-    plugins: replay ? [replayPage(), oneFile()] : [preload()],
+    plugins: isPage ? [inlineScript()] : [preload(), replayPage()],
     build: {
       outDir: "../src/coframe/viewer/static",
-      emptyOutDir: !replay,
+      emptyOutDir: !isPage,
       target: "es2022",
       modulePreload: false,
       cssCodeSplit: false,
       chunkSizeWarningLimit: 2000,
       // The names are fixed, so that a rebuild gives the same files. The server uses ETags for caching.
       rollupOptions: {
+        ...(isPage
+          ? { input: { page: "src/page.ts" }, preserveEntrySignatures: "allow-extension" as const }
+          : { external: command === "build" ? /\/page$/ : [] }),
         output: {
-          codeSplitting: !replay,
-          postBanner: ({ name }) => (name === "panes" ? PANES_NOTICE : replay || name === "page" ? NOTICE : ""),
-          entryFileNames: "assets/viewer.js",
+          ...(isPage ? {} : { paths: (id: string) => (id.endsWith("/page") ? "./assets/page.js" : id) }),
+          postBanner: ({ name }) => (name === "panes" ? PANES_NOTICE : name === "page" ? NOTICE : ""),
+          entryFileNames: isPage ? "assets/page.js" : "assets/viewer.js",
           chunkFileNames: "assets/[name].js",
           assetFileNames: "assets/viewer[extname]",
         },

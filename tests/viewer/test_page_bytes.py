@@ -1,12 +1,16 @@
 # SPDX-License-Identifier: Apache-2.0
 """The committed page equals a build of its source, so that installing coframe does not need Node.js."""
 
+import base64
+import hashlib
 import re
 import shutil
 import subprocess
 from pathlib import Path
 
 import pytest
+
+from coframe.viewer.replay.template import replay_template
 
 ROOT = Path(__file__).parents[2]
 STATIC = Path("src/coframe/viewer/static")
@@ -33,10 +37,16 @@ def test_the_page_loads_its_own_files_and_nothing_else():
 
 
 def test_the_replay_is_one_file_without_network_access():
-    page = (ROOT / STATIC / "replay.html").read_text()
+    before, after = replay_template(ROOT / STATIC)
+    page = before + after
     assert re.findall(r"<(?:script|link)[^>]*(?:src|href)=\"(?!data:)[^\"]*\"", page[: page.index("<body>")]) == []
     assert "default-src 'none'" in page
-    assert page.count('<script type="application/json" id="replay">null</script>') == 1
+    assert before.endswith('<script type="application/json" id="replay">')
+    script = after.partition('<script type="module">')[2].rpartition("</script>")[0]
+    assert script == (ROOT / STATIC / "assets/page.js").read_text()
+    assert "</script" not in script, "it would end the element"
+    digest = base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()
+    assert f"script-src 'sha256-{digest}'" in before, "browsers would not run the script"
 
 
 def test_the_lock_file_contains_no_registry():

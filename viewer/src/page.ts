@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/** Builds the page, and passes the messages of the source to the model, whose events update all parts. */
+/**
+ * Builds the page, and passes the messages of the source to the model, whose events update all parts. A replay contains
+ * this script only, which then starts by itself.
+ */
 
 import { AdjustPanel } from "./panels/adjust";
 import { Bar } from "./panels/bar";
@@ -17,6 +20,7 @@ import { Overlay } from "./panels/overlay";
 import { Panel } from "./panels/side_panel";
 import { exposeProbe } from "./probe";
 import type { BinaryMessage, ServerMessage } from "./protocol/messages";
+import { openReplay } from "./replay/source";
 import { RvizPanel } from "./panels/rviz";
 import { Shortcuts } from "./panels/shortcuts";
 import type { Source } from "./protocol/source";
@@ -51,8 +55,7 @@ export function showPage(source: Source): void {
   );
   const timeline = new Timeline(byId("timeline"), model);
   const dock = new DockLauncher(byId("dock"), model, async () => {
-    // A replay has no server that could fill the panels; its page does not contain them.
-    if (import.meta.env.MODE === "replay") throw new Error("A replay has no panels.");
+    // Never in a replay: it has no server that could fill the panels, and does not contain their script.
     const { makeDock } = await import("./panes");
     return (root, onChange) => makeDock(root, model, theme, onChange);
   });
@@ -205,3 +208,6 @@ export function showPage(source: Source): void {
     }
   });
 }
+
+const recording = document.getElementById("replay");
+if (recording) showPage(openReplay(recording));

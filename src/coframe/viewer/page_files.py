@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The files of the built page. Wheels contain the large ones compressed (CMakeLists.txt)."""
+"""The files of the built page. Wheels contain the scripts and the style sheet compressed (CMakeLists.txt)."""
 
 from __future__ import annotations
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Curves over time: live as they arrive, or of a whole recording. */
 
-import "uplot/dist/uPlot.min.css";
 import { CompletedInput, MAX_TEXT } from "../dock/completion";
 import type { Pane } from "../dock/dock";
 import type { Model } from "../model/model";

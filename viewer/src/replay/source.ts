@@ -25,6 +25,7 @@ import {
   type DisplayOptions,
   type Vector,
 } from "../protocol/messages";
+import { fatal } from "../util/fatal";
 import { quoted } from "../util/static_commands";
 import { bytes, DAMAGED, lastUpTo, ReplayDisplay, type PoseAt } from "./displays";
 import type { Source, SourceEvents } from "../protocol/source";
@@ -45,11 +46,15 @@ type Listener = <K extends keyof SourceEvents>(event: K, value: SourceEvents[K])
 const FRAME_INTERVAL_MS = 33;
 const NO_GLOBAL_OPTIONS: RvizGlobalOptions = { fixed_frame: null, background: null, frame_rate: null };
 
-/** Reads the recording that the server has inserted into this page. */
-export function replayBlock(): ReplayBlock {
-  const block = JSON.parse(document.getElementById("replay")?.textContent ?? "null") as ReplayBlock | null;
-  if (block?.format !== "coframe-replay") throw new Error("The page contains no recording.");
-  return block;
+/** Opens the recording in an element of this page. */
+export function openReplay(element: HTMLElement): ReplaySource {
+  try {
+    const block = JSON.parse(element.textContent) as ReplayBlock | null;
+    if (block?.format !== "coframe-replay") throw new Error("The page contains no recording.");
+    return new ReplaySource(block);
+  } catch (error) {
+    throw fatal("Cannot open this replay", error instanceof Error ? error.message : String(error));
+  }
 }
 
 export class ReplaySource implements Source {

@@ -36,7 +36,6 @@ if TYPE_CHECKING:
 
 __all__ = ["export_replay"]
 
-TEMPLATE = STATIC / "replay.html"
 _DEFAULT_RATE, _LOWEST_RATE = 30.0, 1.0
 # As in the page: how many topics are displayed without a configuration, and those that are too large for this.
 _MAX_AUTOMATIC = 12
@@ -104,7 +103,7 @@ def export_replay(
         fixed = fixed or (rviz.fixed_frame if rviz is not None else "") or scene.structure.largest
         settings = ReplaySettings(tuple(shown), look)
         request = ReplayRequest(first, last, rate, fixed, FRAME_TIMEOUT, source.title, last, settings)
-        return replay_page(TEMPLATE, content, request, progress)
+        return replay_page(STATIC, content, request, progress)
     finally:
         descriptions.close()
         for messages in opened.values():

@@ -11,11 +11,11 @@ import numpy as np
 
 from coframe.errors import ViewerError
 from coframe.time import SECOND
-from coframe.viewer import page_files
 from coframe.viewer.protocol.encoding import relative_to
 from coframe.viewer.protocol.replay_block import ReplayBlock
 from coframe.viewer.protocol.server_messages import Robot, TreeFrame
 from coframe.viewer.replay.displays import ReplayTimes, no_progress, packed, record_displays
+from coframe.viewer.replay.template import replay_template
 from coframe.viewer.robots.meshes import MESH_TYPES, MeshError
 from coframe.viewer.scene.scene import LocalOrigin, Scene
 from coframe.viewer.scene.statistics import frame_rows
@@ -55,7 +55,6 @@ MAX_POSES = 3_000_000  # 84 MB, and a third more as text.
 MAX_DISPLAYS = 100
 MAX_MESH_BYTES = 20 << 20
 TIMELINE_BINS = 240
-_OPENING, _EMPTY = '<script type="application/json" id="replay">', "null"
 
 
 class ReplaySettings(NamedTuple):
@@ -115,30 +114,24 @@ class ReplayContent(NamedTuple):
 
 
 def replay_page(
-    template: Path, content: ReplayContent, request: ReplayRequest, progress: Progress | None = None
+    static: Path, content: ReplayContent, request: ReplayRequest, progress: Progress | None = None
 ) -> bytes:
     """Return the HTML of a replay.
 
     Args:
-        template: The page that plays it, with an empty block for the data.
+        static: The folder of the built page.
         content: The data.
         request: The part of the data.
         progress: Called with a task, the amount done and the total.
 
     Raises:
-        ViewerError: The span is empty or too large, or the template does not exist.
+        ViewerError: The span is empty or too large, or the built page does not exist.
     """
-    try:
-        page = page_files.read(template).decode()
-    except OSError:
-        raise ViewerError("the page for replays is missing from this installation: build it in viewer/") from None
-    before, block_start, after = page.partition(_OPENING + _EMPTY)
-    if not block_start:
-        raise ViewerError("the page for replays has no block for the data: build it again in viewer/")
+    before, after = replay_template(static)
     block = json.dumps(_block(content, request, progress or no_progress), separators=(",", ":"), allow_nan=False)
     # Inside a script element only its end tag has a meaning in HTML.
     safe = block.replace("<", "\\u003c")
-    return f"{before}{_OPENING}{safe}{after}".encode()
+    return f"{before}{safe}{after}".encode()
 
 
 def _block(content: ReplayContent, request: ReplayRequest, progress: Progress) -> ReplayBlock:

@@ -253,10 +253,10 @@ class ViewerServer:
         state, policy = self._state, self._access.content_security
         try:
             replay = state.replay_request(dict(parse_qsl(query)))
-            template, robots = self._static / "replay.html", list(state.descriptions.known.values())
+            robots = list(state.descriptions.known.values())
             with state.opened(display.topic for display in replay.settings.displays) as messages:
                 content = ReplayContent(state.source.buffer, messages, robots, state.meshes)
-                page = await self._loop.run_in_executor(state.executor, replay_page, template, content, replay)
+                page = await self._loop.run_in_executor(state.executor, replay_page, self._static, content, replay)
         except ViewerError as error:
             return text_response(HTTPStatus.BAD_REQUEST, f"{error} {error.hint}".strip(), policy)
         attachment = {"Content-Disposition": 'attachment; filename="coframe-replay.html"'}
