@@ -22,11 +22,12 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
 from demo_animation import BROWSER_ARGUMENTS, wait_for
-from handbook_notebooks import CHAPTERS, HANDBOOK, cells
+from handbook_notebooks import CHAPTERS, HANDBOOK
 from PIL import Image
 from playwright.sync_api import sync_playwright
 
 import coframe
+from coframe.course.notebooks import cells
 from coframe.viewer import Viewer
 
 if TYPE_CHECKING:

@@ -7,12 +7,10 @@ import html
 import re
 import shutil
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
+from coframe.course.notebooks import notebook
 from coframe.errors import CourseError
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable
 
 __all__ = ["Chapter", "chapters", "contents", "terminal_text", "write_pages"]
 
@@ -93,9 +91,11 @@ def write_pages(folder: Path) -> Path:
         folder.mkdir(parents=True, exist_ok=True)
         for file in source.glob("*.md"):
             _target(folder, file).write_text(_page(file.read_text(encoding="utf-8")), encoding="utf-8")
-        _copy(_pictures(source), folder)
+        for picture in _pictures(source):
+            shutil.copyfile(picture, folder / picture.name)
         (folder / _NOTEBOOKS).mkdir(exist_ok=True)
-        _copy((source / _NOTEBOOKS).glob("*.ipynb"), folder / _NOTEBOOKS)
+        for chapter in chapters():
+            (folder / _NOTEBOOKS / f"{chapter.file.stem}.ipynb").write_text(notebook(chapter.file), encoding="utf-8")
     except OSError as error:
         raise CourseError(
             f"Cannot write {error.filename or folder}: {error.strerror}.", hint="Choose another folder."
@@ -109,11 +109,6 @@ def _target(folder: Path, file: Path) -> Path:
 
 def _pictures(folder: Path) -> list[Path]:
     return [file for file in folder.iterdir() if file.suffix in {".svg", ".png", ".jpg", ".gif", ".webp"}]
-
-
-def _copy(files: Iterable[Path], folder: Path) -> None:
-    for file in files:
-        shutil.copyfile(file, folder / file.name)
 
 
 def _page(text: str) -> str:
