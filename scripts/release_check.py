@@ -28,8 +28,9 @@ if TYPE_CHECKING:
 
 ROOT = Path(__file__).resolve().parents[1]
 MEGABYTE = 1_000_000
-MAX_WHEEL = 5 * MEGABYTE  # the download; NumPy is the only other one
-MAX_UNPACKED = 7.5 * MEGABYTE  # without Cyclone DDS, which the wheels of some platforms contain
+# Both without Cyclone DDS, which the wheels of some platforms contain.
+MAX_WHEEL = 3.1 * MEGABYTE  # the download; NumPy is the only other one
+MAX_UNPACKED = 6.7 * MEGABYTE
 MAX_SDIST = 10 * MEGABYTE
 PAGE = "coframe/viewer/static/assets/"
 BUNDLED = "coframe/_bundled/"
@@ -62,12 +63,14 @@ def check_wheel(path: Path) -> Iterator[str]:
     """Check sizes, and that every bundled part comes with its licence."""
     with zipfile.ZipFile(path) as wheel:
         names = wheel.namelist()
-        unpacked = unpacked_size(wheel)
+        bundled = [info for info in wheel.infolist() if info.filename.startswith(BUNDLED)]
+        download = path.stat().st_size - sum(info.compress_size for info in bundled)
+        unpacked = sum(info.file_size for info in wheel.infolist()) - sum(info.file_size for info in bundled)
         parts = ", ".join(f"{kind} {size / MEGABYTE:.1f}" for kind, size in largest_parts(wheel))
         scripts = page_scripts(wheel)
         (metadata,) = (wheel.read(name).decode() for name in names if re.fullmatch(r"[^/]*\.dist-info/METADATA", name))
-    print(f"{path.name}: {path.stat().st_size / MEGABYTE:.1f} MB, unpacked {unpacked / MEGABYTE:.1f} MB ({parts}, ...)")
-    if path.stat().st_size > MAX_WHEEL or unpacked > MAX_UNPACKED:
+    print(f"{path.name}: {download / MEGABYTE:.1f} MB, unpacked {unpacked / MEGABYTE:.1f} MB ({parts}, ...)")
+    if download > MAX_WHEEL or unpacked > MAX_UNPACKED:
         yield f"{path.name} is larger than {MAX_WHEEL / MEGABYTE:g} MB, or {MAX_UNPACKED / MEGABYTE:g} MB unpacked"
     if not any(re.fullmatch(r"coframe-[^/]*\.dist-info/licenses/LICENSE", name) for name in names):
         yield f"{path.name} has no LICENSE"
@@ -93,11 +96,6 @@ def missing_licences(names: list[str], scripts: str) -> Iterator[str]:
         short = package.rpartition("/")[2]
         if not re.search(rf"^{short}(\.js)?,", scripts, re.MULTILINE | re.IGNORECASE):
             yield f"the notice in the viewer's page does not name {package}"
-
-
-def unpacked_size(wheel: zipfile.ZipFile) -> int:
-    """Return the bytes of the installed files, without a bundled Cyclone DDS."""
-    return sum(info.file_size for info in wheel.infolist() if not info.filename.startswith(BUNDLED))
 
 
 def largest_parts(wheel: zipfile.ZipFile, count: int = 5) -> list[tuple[str, int]]:

