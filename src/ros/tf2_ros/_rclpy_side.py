@@ -3,6 +3,7 @@
 
 from coframe.ros_side import tf2_is_replaced
 
+# Two imports of the same names: a type checker compares the signatures of both sides.
 if tf2_is_replaced():
     from tf2_ros._side_sourced import (
         direct_sender,

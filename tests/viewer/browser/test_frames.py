@@ -73,7 +73,7 @@ def test_labels_are_drawn_at_their_frames(lab):
 
     def labels_match():
         shown = np.array(lab.evaluate(LABELS))
-        # Labels are only moved vertically to avoid overlaps.
+        # Labels far from the right edge of the view are only moved vertically to avoid overlaps.
         return len(shown) >= 4 and np.abs(shown[:, 0] - shown[:, 2]).max() < 20.0 and np.ptp(shown[:, 2:]) > 60.0
 
     lab.wait(labels_match, "labels at their frames")

@@ -5,6 +5,7 @@ import base64
 import struct
 from urllib.parse import urlsplit
 
+import numpy as np
 import pytest
 
 import coframe
@@ -96,6 +97,17 @@ def test_the_page_fits_a_phone(view, open_page):
         box = page.raw.locator(selector).bounding_box()
         assert box["x"] >= 0
         assert box["x"] + box["width"] <= 390
+
+
+def test_a_phone_shows_names_completely(view, open_page):
+    buffer = coframe.Buffer(None)
+    for number in range(8):
+        pose = coframe.Transform([0.3 * np.cos(number), 0.3 * np.sin(number), 0.1 * number])
+        buffer.set("base", f"camera_{number}_optical_frame", pose, static=True)
+    page = open_page(view(buffer, fixed="base").url, width=390, height=760, has_touch=True, is_mobile=True).drawn()
+    right_ends = "[...document.querySelectorAll('#labels .label')].map((label) => label.getBoundingClientRect().right)"
+    page.until(f"{right_ends}.length > 3")
+    assert max(page.evaluate(right_ends)) <= 390
 
 
 def test_dark_light_and_layout_are_remembered(view, open_page):

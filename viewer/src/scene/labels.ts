@@ -44,9 +44,11 @@ export class LabelLayer {
     const used = new Set<string>();
     for (const { label, x, y } of visible) {
       if (used.size >= MAX_LABELS) break;
-      const row = reserveRow(occupied, x, y, Math.min(label.text.length, MAX_CHARACTERS) * CHARACTER_PX + 12);
+      const length = Math.min(label.text.length, MAX_CHARACTERS) * CHARACTER_PX + 12;
+      const left = labelLeft(x, length, width);
+      const row = reserveRow(occupied, left, y, length);
       if (row === null) continue;
-      this.place(label, x, row);
+      this.place(label, left, row);
       used.add(label.key);
     }
     for (const [key, element] of this.pool)
@@ -68,6 +70,11 @@ export class LabelLayer {
     setText(element, shorten(label.text, MAX_CHARACTERS));
     element.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px)`;
   }
+}
+
+/** The left end of a label: right of its frame, or left of it where the view ends too early. */
+export function labelLeft(x: number, length: number, width: number): number {
+  return x + length <= width ? x : Math.max(0, x - length);
 }
 
 /** Reserves a free row near (x, y) for a text of this width. Returns its y, or null if all rows are occupied. */
