@@ -77,6 +77,8 @@ def _within_limits(text: str | bytes, max_bytes: int, load: Callable[[Any, Any],
         if mark is not None:
             raise _SyntaxError(reason, (mark.line, mark.column)) from None
         raise ValueError(reason) from None
+    except (AttributeError, LookupError):  # PyYAML does not check what follows !!bool, !!int and !!timestamp
+        raise ValueError("a value does not have the type that its tag (!!) names") from None
 
 
 def _integer(loader: Any, node: Any) -> Any:

@@ -242,6 +242,8 @@ def test_trajectories_at_other_times(bag, tmp_path):
         (("--stamps-of", "gone"), 1, "has no topic 'gone'"),
         (("--rate", "1", "--start", "1h"), 1, "No stamps between"),
         (("--start", "1h"), 1, "No stamps between"),
+        (("--start", ""), 2, "'' is not a point in time"),
+        (("--stop", ""), 2, "'' is not a point in time"),
         (("-o", "/nowhere/x.tum"), 1, "cannot be written: No such file"),
     ],
 )

@@ -105,6 +105,18 @@ def test_prefixes(tmp_path):
         assert (odometry.header.frame_id, odometry.child_frame_id) == ("odom", "r1/base")
 
 
+def test_names_with_braces(tmp_path):
+    source = recordings.write_mcap(
+        tmp_path / "a.mcap",
+        rows=[*recordings.messages(), ("/{x}{0.real}", START, b"")],
+        types={"/{x}{0.real}": (ODOMETRY, "ros2msg", b"", "cdr")},
+    )
+    code, output = fix(source, tmp_path / "new", "--prefix", "{y}/")
+    assert code == 0
+    assert "frame names given the prefix '{y}/'" in output
+    assert "/{x}{0.real}: 1 damaged message skipped" in output
+
+
 def test_statics_come_first_and_from_another_recording(tmp_path):
     static, *moving = recordings.messages()
     late = recordings.write_mcap(tmp_path / "late.mcap", rows=[*moving, ("/tf_static", START + 9 * SECOND, static[2])])

@@ -56,6 +56,29 @@ def test_a_closed_pipe_is_not_an_error(bag, name):
     process.wait(60)
 
 
+@pytest.mark.skipif(os.name != "posix", reason="Windows has no arguments in bytes")
+@pytest.mark.parametrize(
+    ("words", "code"),
+    [
+        (["frames", b"--prefix=\xff/"], 2),
+        (["bag", "fix", "run.mcap", b"\xff"], 2),
+        (["echo", "a", b"\xff"], 2),
+        (["frames", b"\xff.mcap"], 0),
+        (["frames", b"--output=f\xff/out.svg", "run.mcap"], 0),
+    ],
+)
+def test_arguments_that_are_not_text_are_refused_unless_they_are_paths(bag, tmp_path, words, code):
+    if sys.platform == "darwin" and code == 0:
+        pytest.skip("its file systems have no such names")
+    (tmp_path / "run.mcap").write_bytes(bag.read_bytes())
+    if code == 0:
+        Path(os.fsdecode(os.fsencode(tmp_path) + b"/\xff.mcap")).write_bytes(bag.read_bytes())
+        Path(os.fsdecode(os.fsencode(tmp_path) + b"/f\xff")).mkdir()
+    done = subprocess.run([sys.executable, "-m", "coframe.cli", *words], capture_output=True, cwd=tmp_path, check=False)
+    assert (done.returncode, b"Traceback" in done.stderr) == (code, False), done.stderr
+    assert (b"is not valid UTF-8" in done.stderr) == (code == 2)
+
+
 def test_a_missing_temporary_folder_is_reported(tmp_path):
     script = "import tempfile; tempfile._candidate_tempdir_list = lambda: ['/absent']\n"
     script += f"from coframe.cli import run; run(['lab', 'check', {str(tmp_path)!r}])"

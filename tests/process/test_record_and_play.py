@@ -154,6 +154,8 @@ def test_keys_control_the_replay(network, shared):
     ("arguments", "code", "reason"),
     [
         (("record", "--max-size", "big"), 2, "--max-size: 'big' is not a size"),
+        (("record", "--max-size", "9" * 400), 2, "' is not a size"),
+        (("record", "--backlog", "9" * 400 + "GB"), 2, "' is not a size"),
         (("record", "--compression", "zip"), 2, "No compression named 'zip'"),
         (("record", "-a", "/tf"), 2, "--all cannot be combined with TOPIC"),
         (("record", "-e", "["), 2, "is not a valid regular expression"),

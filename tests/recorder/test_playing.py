@@ -199,6 +199,13 @@ def test_loop_and_clock(bag, listen, eventually):
     assert np.median(jumps[jumps > 0]) == pytest.approx(30 * SECOND / 200, rel=0.5)
 
 
+def test_a_clock_of_one_message_per_century(bag, listen, eventually):
+    ticks = listen("/clock", CLOCK)
+    with coframe.play(bag, topics=["/words"], delay=SETTLED, rate=30, clock=1e-21) as player:
+        eventually(ticks)
+        assert player.wait(20)  # the thread that publishes the clock has not failed, which pytest would report
+
+
 def test_remapped_topics(bag, listen):
     received_words, nothing = listen("/robot1/words"), listen("/words")
     with coframe.play(bag, delay=SETTLED, rate=50, remap={"words": "/robot1/words"}) as player:
@@ -242,13 +249,14 @@ def test_damaged_messages_are_skipped_and_reported(tmp_path, listen):
 
 def test_invalid_topic_names_are_skipped_and_reported(tmp_path, listen):
     with Writer(tmp_path / "run") as writer:
-        for topic in ("words", "", "/words", "/a b\x1b[2J"):
+        for topic in ("words", "", "/" + "x" * 70_000, "/words", "/a b\x1b[2J"):
             writer.write(writer.add_topic(topic, STRING), text(topic), START)
         writer.write(writer.add_topic("/typeless", ""), text("x"), START)
     received_words = listen("/words")
     with coframe.play(tmp_path / "run", delay=SETTLED) as player:
         assert player.wait(20)
         assert [problem.partition(" is not replayed")[0] for problem in player.problems[:2]] == ["words", ""]
+        assert "The limit is 256 bytes" in player.problems[2]
     assert words(received_words()) == ["/words"]
 
 

@@ -173,6 +173,20 @@ def test_invalid_node_names(participant):
     assert caught.value.hint == "Use '/robot'."
 
 
+@pytest.mark.dds_only("Zenoh has other names")
+@pytest.mark.parametrize(
+    ("topic", "ros_type", "reason"),
+    [
+        ("/" + "x" * 70_000, "std_msgs/msg/String", r"has 70003 bytes\. The limit is 256 bytes"),
+        ("/x", "std_msgs/msg/" + "X" * 70_000, r"has 70\d\d\d bytes\. The limit is 256 bytes"),
+        ("/\udcff", "std_msgs/msg/String", "is not valid UTF-8"),
+    ],
+)
+def test_names_that_crash_cyclone_dds_are_refused(participant, node, topic, ros_type, reason):
+    with pytest.raises(WireError, match=reason):
+        participant.raw_publisher(node, topic, ros_type, QoS())
+
+
 def test_an_invalid_domain_id():
     with pytest.raises(WireError, match="a domain ID is an integer from 0 to 232"):
         Participant.get(233)

@@ -169,7 +169,7 @@ class _Repair:
         self._robot = robot
         self._rename = rename
         self._routes: dict[Channel, _Route | None] = {}
-        self._counts: Counter[str] = Counter()  # by sentence, with "{}" in place of the count
+        self._counts: Counter[tuple[str, str]] = Counter()  # by what is before the count, and what follows it
         self._copied = 0
         self._moving = {
             name: {edge.child for edge in buffer.edges() if edge.parent and not edge.static}
@@ -198,10 +198,10 @@ class _Repair:
         topics = len({channel.topic for channel, route in self._routes.items() if route is not None})
         amounts = f"{count(self._copied, 'message')} on {count(topics, 'topic')}"
         copied = f"{amounts} copied, with an index and metadata.yaml"
-        return [copied, *(_counted(sentence, number) for sentence, number in self._counts.items())]
+        return [copied, *(f"{topic}{_counted(what, number)}" for (topic, what), number in self._counts.items())]
 
     def _count(self, channel: Channel, what: str, number: int = 1) -> None:
-        self._counts[f"{channel.topic}: {{}} {what}"] += number
+        self._counts[f"{channel.topic}: ", what] += number
 
     def _route(self, channel: Channel) -> _Route | None:
         if channel not in self._routes:
@@ -245,7 +245,7 @@ class _Repair:
             self._count(channel, "damaged messages skipped")
             return None
         if channel.encoding == "ros1":
-            self._counts["{} messages converted from ROS 1 to ROS 2"] += 1
+            self._counts["", "messages converted from ROS 1 to ROS 2"] += 1
         return message
 
     def _corrected(self, channel: Channel, route: _Route, message: bytes) -> bytes:
@@ -288,7 +288,7 @@ class _Repair:
                 self._write_statics(channel, route, new, "static transforms added")
         if len(new) < len(added):
             skipped = len(added) - len(new)
-            self._counts["{} static transforms not added because the recording contains their frames"] += skipped
+            self._counts["", "static transforms not added because the recording contains their frames"] += skipped
 
     def _known(self) -> set[str]:
         """Return the new names of the child frames in the namespaces of the robot's topics."""
@@ -333,9 +333,9 @@ def _statics_of(path: str | os.PathLike[str]) -> list[TransformStamped]:
     return [to_transform_stamped(parent, child, transform, 0) for parent, child, transform in transforms]
 
 
-def _counted(sentence: str, number: int) -> str:
-    """Return a sentence with its number, and with the noun in the singular if the number is 1."""
-    text = sentence.format(number)
+def _counted(what: str, number: int) -> str:
+    """Return a number and what it counts, with the noun in the singular if the number is 1."""
+    text = f"{number} {what}"
     return _PLURAL.sub(lambda match: match[0].removesuffix("s"), text, count=1) if number == 1 else text
 
 

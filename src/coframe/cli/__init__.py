@@ -7,7 +7,7 @@ import os
 import sys
 from typing import TYPE_CHECKING
 
-from coframe.cli.streams import accept_any_encoding, discard_output, flush_output
+from coframe.cli.streams import accept_any_encoding, discard_output, flush_output, undecodable
 from coframe.cli.system_errors import description
 
 if TYPE_CHECKING:
@@ -49,6 +49,9 @@ def run(words: list[str], *, program: str = "coframe", shown: Collection[str] | 
         shown: The commands that exist. None: all.
     """
     accept_any_encoding()
+    if bad := next(filter(undecodable, words), None):
+        print(f"coframe: the argument {bad[:60]!r} is not valid UTF-8.", file=sys.stderr)
+        sys.exit(2)
     try:
         try:
             _app(_command_name(words), program, shown)(words, prog_name=program)

@@ -160,7 +160,7 @@ def _positive(what: str, value: float, most: float = math.inf) -> float:
     if not value > 0:
         fail(f"{what} must be > 0.0")
     if value > most:
-        fail(f"{what} must be at most {most:g}, not {value:g}")
+        fail(f"{what} must be at most {most:g}, not {str(value)[:20]}")
     return value
 
 

@@ -41,6 +41,7 @@ __all__ = ["record"]
 _REFRESH = 0.2  # seconds
 _SIZE = re.compile(r"(\d+(?:\.\d+)?)\s*([kMG]?)B?", re.IGNORECASE)
 _UNITS = {"": 1, "k": 1000, "m": 1000**2, "g": 1000**3}
+_LARGEST = 1 << 63  # bytes
 
 
 def record(
@@ -221,7 +222,7 @@ def _finish(recorder: Recorder) -> None:
 
 def _bytes(option: str, text: str) -> int:
     match = _SIZE.fullmatch(text.strip())
-    size = 0 if match is None else int(float(match[1]) * _UNITS[match[2].lower()])
-    if size < 1:
-        fail(f"{option}: {text!r} is not a size. Write, for example, 500MB or 2GB.", code=2)
-    return size
+    size = 0.0 if match is None else float(match[1]) * _UNITS[match[2].lower()]
+    if not 1 <= size < _LARGEST:
+        fail(f"{option}: {text[:60]!r} is not a size. Write, for example, 500MB or 2GB.", code=2)
+    return int(size)

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import math
+import re
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
@@ -107,8 +108,8 @@ def _number(text: str, flag: str) -> float:
 def _domain(text: str | None) -> int | None:
     if text is None:
         return None
-    if not text.isdecimal() or int(text) > 232:
-        raise ArgumentError(f"--domain must be an integer from 0 to 232, not {text!r}")
+    if not re.fullmatch("[0-9]{1,3}", text) or int(text) > 232:
+        raise ArgumentError(f"--domain must be an integer from 0 to 232, not {text[:60]!r}")
     return int(text)
 
 

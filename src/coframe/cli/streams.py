@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Standard output and standard error: encodings with few characters, closed pipes and full disks."""
+"""Encodings of arguments and of standard output; closed pipes and full disks."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import io
 import os
 import sys
 
-__all__ = ["accept_any_encoding", "discard_output", "flush_output"]
+__all__ = ["accept_any_encoding", "discard_output", "flush_output", "undecodable"]
 
 _HANDLER = "coframe.plain"
 # What trees and texts contain, as far as one character can replace it, so that columns stay aligned.
@@ -25,6 +25,20 @@ def accept_any_encoding() -> None:
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper) and not stream.encoding.lower().startswith("utf"):
             stream.reconfigure(errors=_HANDLER)
+
+
+def undecodable(word: str) -> bool:
+    """Return whether an argument has bytes that are not valid UTF-8 and is not the path of a file, nor in a folder.
+
+    Python represents these bytes by lone surrogates. The names of frames, topics and new files cannot contain them.
+    """
+    try:
+        word.encode()
+    except UnicodeEncodeError:
+        path = word.partition("=")[2] if word.startswith("--") else word
+        folder, name = os.path.split(path)
+        return not (os.path.lexists(path) or (os.path.lexists(folder) and not undecodable(name)))
+    return False
 
 
 def flush_output() -> None:

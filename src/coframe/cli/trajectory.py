@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from coframe import Transform
+    from coframe.bags import Recording
 
 __all__ = ["trajectory"]
 
@@ -84,8 +85,7 @@ def trajectory(
     except ValueError as error:
         fail(str(error), code=2)
     with run_to_completion(), open_recording(bag, namespace, tf_topic, tf_static_topic, prefix, keep) as recording:
-        for text in filter(None, (start, stop)):
-            parse_time("--start/--stop", text, recording)
+        _check_times(recording, start, stop)
         stamps = query.stamps(recording)
         missing, first, last = 0, int(stamps[-1]), int(stamps[0])
 
@@ -113,6 +113,12 @@ def trajectory(
                 if missing < len(stamps)
                 else f"{output}: {poses}"
             )
+
+
+def _check_times(recording: Recording, *times: str | None) -> None:
+    for text in times:
+        if text is not None:
+            parse_time("--start/--stop", text, recording)
 
 
 def _format(output: Path | None, requested: str | None) -> str:

@@ -108,7 +108,7 @@ class PlaybackClock:
     def sleep(self, seconds: float) -> bool:
         """Wait for some seconds of real time, even if paused. Return False if the clock is stopped."""
         with self._changed:
-            return not self._changed.wait_for(lambda: self._stopped, seconds)
+            return not self._changed.wait_for(lambda: self._stopped, min(seconds, threading.TIMEOUT_MAX))
 
     def _now(self) -> int:
         if self._paused or self._since is None:

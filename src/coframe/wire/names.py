@@ -7,7 +7,7 @@ from typing import Literal, NamedTuple
 
 Kind = Literal["topic", "request", "reply"]
 
-MAX_NAME = 256  # bytes of the namespace or the name of a node
+MAX_NAME = 256  # bytes of the namespace or the name of a node, and of the DDS name of a topic or type
 
 _AFFIXES: dict[Kind, tuple[str, str]] = {
     "topic": ("rt", ""),

@@ -201,8 +201,8 @@ def _parse_arguments(args: list[str]) -> _arguments.Arguments:
 
 def _default_domain_id() -> int:
     text = os.environ.get("ROS_DOMAIN_ID", "").strip() or "0"
-    if not text.isdecimal():
-        raise RuntimeError(f"ROS_DOMAIN_ID is {text!r}, which is not a domain. Set it to a number from 0 to 232.")
+    if not text.isdecimal() or len(text) > 9:
+        raise RuntimeError(f"ROS_DOMAIN_ID is {text[:60]!r}, which is not a domain. Set it to a number from 0 to 232.")
     return int(text)
 
 

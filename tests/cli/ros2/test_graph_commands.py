@@ -124,6 +124,36 @@ def test_parameters(run, tmp_path):
     assert "not set" in run("param", "get", NODE, "speed", code=1)
 
 
+@pytest.mark.parametrize(
+    ("arguments", "reason"),
+    [
+        (("topic", "pub", "/2nd", "std_msgs/msg/String"), "'/2nd' cannot be a topic name: topic name token must not"),
+        (("topic", "pub", "/a", "../../x"), "The passed type '../../x' is invalid"),
+        (("topic", "pub", "/a", "std_msgs/msg/String", "--node-name", "a b"), "'a b' cannot be a node name"),
+        (("topic", "pub", "/a", "std_msgs/msg/String", "--rate", "nan"), "rate must be greater than zero"),
+        (("topic", "bw", "/chatter", "--window", "9" * 25), "is not in the range"),
+        (("topic", "echo", "/chatter", "--qos-depth", "9" * 25), "is not in the range"),
+    ],
+)
+def test_impossible_names_and_numbers(run, arguments, reason):
+    code = 1 if "../../x" in arguments else 2
+    assert reason in " ".join(run(*arguments, code=code).split())
+
+
+@pytest.mark.parametrize("domain", ["abc", "9" * 5000, "9" * 9])
+def test_an_impossible_domain(domain):
+    done = subprocess.run(
+        [sys.executable, "-m", "coframe.cli", "topic", "list"],
+        env={**os.environ, "ROS_DOMAIN_ID": domain},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 1
+    assert done.stderr.startswith("coframe: ")
+    assert "from 0 to 232" in done.stderr
+
+
 @pytest.mark.slow
 def test_a_name_that_no_topic_can_have_is_not_waited_for(run):
     message = run("topic", "hz", "bad name", code=1)

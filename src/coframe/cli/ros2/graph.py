@@ -94,14 +94,15 @@ def graph_node(
         name: Name of the node; a hidden name with the process ID by default.
     """
     import rclpy  # noqa: PLC0415 - help and completion start faster
+    from rclpy.exceptions import NameValidationException  # noqa: PLC0415
     from rclpy.parameter import Parameter  # noqa: PLC0415
     from rclpy.signals import SignalHandlerOptions  # noqa: PLC0415
 
     with run_to_completion():
-        # Ctrl-C raises KeyboardInterrupt in this thread, as in all commands.
-        rclpy.init(args=[], signal_handler_options=SignalHandlerOptions.NO)
         node = None
         try:
+            # Ctrl-C raises KeyboardInterrupt in this thread, as in all commands.
+            rclpy.init(args=[], signal_handler_options=SignalHandlerOptions.NO)
             node = rclpy.create_node(
                 name or f"_coframe_{os.getpid()}",
                 use_global_arguments=False,
@@ -115,6 +116,8 @@ def graph_node(
             if isinstance(error, (CoframeError, typer.Exit)):
                 raise
             fail(str(error))
+        except NameValidationException as error:
+            fail(f"{error.name!r} cannot be a {error.name_type}: {error.error_msg}", code=2)
         finally:
             if node is not None:
                 node.destroy_node()
@@ -199,7 +202,7 @@ def load_type(kind: str, load: Callable[[str], Any]) -> Any:
     """
     try:
         return load(kind)
-    except (AttributeError, ImportError, LookupError, ValueError) as error:
+    except (AttributeError, ImportError, LookupError, TypeError, ValueError) as error:
         fail(
             f"The passed type '{kind}' is invalid: {error}",
             near_types(kind) or "coframe interface list shows all types. COFRAME_INTERFACES adds packages of your own.",

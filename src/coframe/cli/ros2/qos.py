@@ -20,7 +20,9 @@ ProfileOption = Annotated[
     str | None,
     typer.Option("--qos-profile", metavar="NAME", help="QoS preset, e.g. sensor_data."),
 ]
-DepthOption = Annotated[int | None, typer.Option("--qos-depth", metavar="N", min=0, help="Depth of the QoS history.")]
+DepthOption = Annotated[
+    int | None, typer.Option("--qos-depth", metavar="N", min=0, max=2**31 - 1, help="Depth of the QoS history.")
+]
 HistoryOption = Annotated[
     str | None, typer.Option("--qos-history", metavar="POLICY", help="QoS history: keep_last or keep_all.")
 ]

@@ -29,6 +29,7 @@ if TYPE_CHECKING:
 __all__ = ["pub"]
 
 _KEEP_ALIVE = NonNegativeDuration("100ms")
+_LONGEST_PERIOD = 1e9  # seconds; Python cannot sleep for more than nine times as long
 _POLL = 0.1  # seconds between two looks for matching subscriptions, as in ros2cli
 
 
@@ -93,7 +94,7 @@ def pub(
     Example: coframe topic pub /chatter std_msgs/msg/String '{data: hello}' --rate 2
     """
     del no_daemon
-    if rate <= 0:
+    if not rate > 0:
         fail("rate must be greater than zero", code=2)
     count = 1 if once else times
     with graph_node(spin_time, use_sim_time=use_sim_time, name=node_name or f"_coframe_pub_{os.getpid()}") as node:
@@ -104,7 +105,7 @@ def pub(
         qos = QoSWords(qos_profile, qos_depth, qos_history, qos_reliability, qos_durability).to_profile()
         publisher = node.create_publisher(type(message), topic_name, qos)
         _wait_for_subscriptions(publisher, (1 if count else 0) if wait_matching is None else wait_matching)
-        _publish(node, publisher, message, fill_stamps, 1.0 / rate, print_every, count)
+        _publish(node, publisher, message, fill_stamps, min(1.0 / rate, _LONGEST_PERIOD), print_every, count)
         time.sleep(keep_alive.seconds)
 
 

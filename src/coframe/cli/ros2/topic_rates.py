@@ -33,6 +33,7 @@ if TYPE_CHECKING:
 __all__ = ["bw", "delay", "hz"]
 
 _WINDOW = 10_000  # messages; ros2cli's default for hz and delay
+_MAX_WINDOW = 10_000_000
 _BANDWIDTH_WINDOW = 100  # messages; ros2cli's default for bw
 _KILO = 1000  # ros2cli prints decimal units
 
@@ -40,7 +41,10 @@ _KILO = 1000  # ros2cli prints decimal units
 def hz(
     topic_name: TopicArgument,
     window: Annotated[
-        int, typer.Option("--window", "-w", metavar="N", min=2, help="Number of messages of the statistics.")
+        int,
+        typer.Option(
+            "--window", "-w", metavar="N", min=2, max=_MAX_WINDOW, help="Number of messages of the statistics."
+        ),
     ] = _WINDOW,
     filter_expression: Annotated[
         str | None,
@@ -70,7 +74,10 @@ def hz(
 def bw(
     topic_name: TopicArgument,
     window: Annotated[
-        int, typer.Option("--window", "-w", metavar="N", min=2, help="Number of messages of the statistics.")
+        int,
+        typer.Option(
+            "--window", "-w", metavar="N", min=2, max=_MAX_WINDOW, help="Number of messages of the statistics."
+        ),
     ] = _BANDWIDTH_WINDOW,
     use_sim_time: SimTimeOption = False,
     spin_time: SpinTimeOption = AT_ONCE,
@@ -95,7 +102,10 @@ def bw(
 def delay(
     topic_name: TopicArgument,
     window: Annotated[
-        int, typer.Option("--window", "-w", metavar="N", min=2, help="Number of messages of the statistics.")
+        int,
+        typer.Option(
+            "--window", "-w", metavar="N", min=2, max=_MAX_WINDOW, help="Number of messages of the statistics."
+        ),
     ] = _WINDOW,
     use_sim_time: SimTimeOption = False,
     spin_time: SpinTimeOption = AT_ONCE,

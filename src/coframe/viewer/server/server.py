@@ -76,7 +76,7 @@ class ViewerServer:
         self._scheduler = ClientScheduler(self._loop, state)
         self._end = asyncio.Event()
         self._started = threading.Event()
-        self._failure: OSError | None = None
+        self._failure: Exception | None = None
         self._thread = threading.Thread(target=self._run, args=(port,), name="coframe-viewer", daemon=True)
         self._thread.start()
         self._started.wait()
@@ -131,7 +131,7 @@ class ViewerServer:
     async def _serve(self, port: int | None) -> None:
         try:
             server = await self._listen(port)
-        except OSError as error:
+        except (OSError, OverflowError, UnicodeError) as error:  # also for ports above 65535 and impossible host names
             self._failure = error
             return
         self.port = next(iter(server.sockets)).getsockname()[1]
@@ -283,13 +283,13 @@ class ViewerServer:
         return text_response(HTTPStatus.NOT_FOUND, "File not found.", self._access.content_security)
 
 
-def _cannot_listen(host: str, port: int, reason: OSError) -> ViewerError:
+def _cannot_listen(host: str, port: int, reason: Exception) -> ViewerError:
     # The text of the exception itself would repeat the address.
-    is_foreign = reason.errno == errno.EADDRNOTAVAIL or isinstance(reason, socket.gaierror)
-    if is_foreign:
+    code = getattr(reason, "errno", None)
+    if code == errno.EADDRNOTAVAIL or isinstance(reason, socket.gaierror | UnicodeError):
         return ViewerError(
             f"cannot listen on {host}: it is not an address of this machine",
             hint="Choose another host, or 127.0.0.1.",
         )
-    text = os.strerror(reason.errno) if reason.errno else str(reason)
+    text = os.strerror(code) if code else str(reason)
     return ViewerError(f"cannot listen on {host}:{port}: {text}", hint="Choose another port, or 0 for any free port.")
