@@ -247,6 +247,7 @@ def test_watch_prints_repeatedly_and_ends_by_a_signal(start, inside):
         assert process.wait(20) == 0
         assert "Traceback" not in process.stderr.read()
     assert set(reports[-1]["frames"]) == {"odom", "base_link", "lidar_link"}
+    assert reports[0]["end_ns"] - reports[0]["start_ns"] >= 1_000_000_000, "not before the nodes are discovered"
 
 
 @pytest.mark.slow

@@ -223,6 +223,7 @@ def _watch(observer: LiveObserver, ignore: list[str], as_json: bool) -> None:
     return_freed_arrays()
     console = Console(highlight=False)
     with Live(console=console, auto_refresh=False, screen=False, transient=False) as live:
+        observer.listen(1.0)  # Discovery takes time: at once, every graph would look empty.
         while True:
             begun = time.process_time()
             report = diagnose(observer.observe(), ignore=ignore)
