@@ -36,7 +36,8 @@ status=0
 "$venv/bin/python" -m pytest -p no:cacheprovider --ignore=tests/viewer/browser --ignore=tests/test_wheel.py \
     --ignore=tests/bags/test_hostile.py --timeout=900 "$@" || status=$?
 unset LD_PRELOAD
-if ls "$build"/report.* >/dev/null 2>&1; then
+# A warning that too much memory was asked for is not an error: a test reads a file that claims to contain petabytes.
+if grep -qsE "ERROR: |runtime error: " "$build"/report.*; then
     echo "sanitize-suite: reports of the sanitizers:"
     head -50 "$build"/report.*
     exit 1
