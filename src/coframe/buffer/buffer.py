@@ -7,8 +7,8 @@ import sys
 from typing import TYPE_CHECKING, Any
 
 from coframe import _core, errors, frozen_file, time
+from coframe.buffer import many_lookups
 from coframe.buffer.edge_info import FrameInfo, edge_infos, edge_table
-from coframe.buffer.many_lookups import ManyLookups
 from coframe.buffer.storing import check_not_frozen, check_single, rejected, rows_of, stamp_of
 from coframe.buffer.waiting import CallbackHandle, timed_out, transform_or_timeout
 from coframe.dispatcher import Dispatcher
@@ -33,7 +33,7 @@ _core.register_errors(errors)
 _core.register_time(time)
 
 
-class Buffer(ManyLookups):
+class Buffer(many_lookups.Buffer):
     """Store of transforms over time with the semantics of tf2, safe to use from any number of threads.
 
     All stamps are in nanoseconds; 0 or None means the latest time at which every edge between the frames has data.

@@ -21,8 +21,8 @@ OnError: TypeAlias = Literal["raise", "nan", "clip"]
 Array: TypeAlias = "NDArray[np.float64]"
 
 
-class ManyLookups(_core.Buffer):
-    """Base class of :class:`Buffer` with the lookups at many times."""
+class Buffer(_core.Buffer):
+    """The part of :class:`coframe.Buffer` with lookups at many times; it has that name because errors contain it."""
 
     @overload
     def lookup_many(

@@ -30,8 +30,8 @@ if TYPE_CHECKING:
     from rclpy.subscription_content_filter_options import ContentFilterOptions
 
 
-class NodeEndpoints(NodeParameters, NodeGraph):
-    """Base class of `Node` with what communicates over the graph.
+class Node(NodeParameters, NodeGraph):
+    """The part of `rclpy.node.Node` that communicates over the graph; it has that name because errors contain it.
 
     Attributes:
         executor: The executor of the node.

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Nodes."""
 
+# Programs also import from this module what it does not use itself (F401), as in ROS 2.
 # The modules of rclpy share attributes named `_Coframe__x`, the form of mangled names.
 # ruff: noqa: SLF001
 
@@ -10,15 +11,14 @@ import weakref
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from rcl_interfaces.msg import ParameterEvent
-from rclpy import _arguments
+from rclpy import _arguments, _node_endpoints
 from rclpy._absent import Handle, no_handle
 from rclpy._arguments import Arguments
 from rclpy._entity_registry import EntityRegistry, check_callback
-from rclpy._node_endpoints import NodeEndpoints
 from rclpy._node_parameters import NodeParameters
 from rclpy._remapping import NameResolver, remap_node
 from rclpy._rosout import RosoutPublisher
-from rclpy.callback_groups import CallbackGroup, ReentrantCallbackGroup
+from rclpy.callback_groups import CallbackGroup, MutuallyExclusiveCallbackGroup, ReentrantCallbackGroup  # noqa: F401
 from rclpy.clock import Clock, ROSClock
 from rclpy.constants import S_TO_NS
 from rclpy.exceptions import NameValidationException, NotInitializedException, RCLError, _with_hint
@@ -26,11 +26,11 @@ from rclpy.guard_condition import GuardCondition
 from rclpy.impl.rcutils_logger import RcutilsLogger
 from rclpy.parameter import Parameter
 from rclpy.parameter_service import ParameterService
-from rclpy.qos import (
-    qos_profile_parameter_events,
-)
+from rclpy.qos import qos_profile_parameter_events, qos_profile_services_default  # noqa: F401
+from rclpy.qos_overriding_options import QoSOverridingOptions  # noqa: F401
 from rclpy.time_source import USE_SIM_TIME_NAME, TimeSource
 from rclpy.timer import Rate, Timer
+from rclpy.type_support import check_is_valid_srv_type  # noqa: F401
 from rclpy.utilities import get_default_context
 from rclpy.validate_namespace import validate_namespace
 from rclpy.validate_node_name import validate_node_name
@@ -48,7 +48,7 @@ HIDDEN_NODE_PREFIX = "_"
 EntityT = TypeVar("EntityT")
 
 
-class Node(NodeEndpoints):
+class Node(_node_endpoints.Node):
     """A node of the ROS graph.
 
     Args:
