@@ -25,7 +25,10 @@ TASKS = {
     "read a URDF": ("how-to/urdf.html", "read-a-urdf-or-xacro-file"),
     "convert a bag": ("how-to/recordings.html", "commands-look-into-a-bag-convert-cut-or-repair-it"),
     "poses as a pandas table": ("how-to/pandas.html", ""),
-    "nodes do not see each other": ("how-to/doctor.html", "nodes-do-not-see-each-other-why-does-my-program-see-nothing"),
+    "nodes do not see each other": (
+        "how-to/doctor.html",
+        "nodes-do-not-see-each-other-or-my-program-sees-nothing",
+    ),
     "record and replay": ("quickstart.html", "record-and-replay"),
     "two robots one viewer": ("how-to/several-robots.html", "several-robots-in-one-viewer"),
     "extrapolation into the future": ("concepts/conventions.html", "extrapolation-into-the-future"),
