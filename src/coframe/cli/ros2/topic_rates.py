@@ -33,19 +33,18 @@ if TYPE_CHECKING:
 __all__ = ["bw", "delay", "hz"]
 
 _WINDOW = 10_000  # messages; ros2cli's default for hz and delay
-_MAX_WINDOW = 10_000_000
 _BANDWIDTH_WINDOW = 100  # messages; ros2cli's default for bw
 _KILO = 1000  # ros2cli prints decimal units
+
+WindowOption = Annotated[
+    int,
+    typer.Option("--window", "-w", metavar="N", min=2, max=10_000_000, help="Number of messages of the statistics."),
+]
 
 
 def hz(
     topic_name: TopicArgument,
-    window: Annotated[
-        int,
-        typer.Option(
-            "--window", "-w", metavar="N", min=2, max=_MAX_WINDOW, help="Number of messages of the statistics."
-        ),
-    ] = _WINDOW,
+    window: WindowOption = _WINDOW,
     filter_expression: Annotated[
         str | None,
         typer.Option("--filter", metavar="EXPR", help="Count messages m for which this Python expression is true."),
@@ -73,12 +72,7 @@ def hz(
 
 def bw(
     topic_name: TopicArgument,
-    window: Annotated[
-        int,
-        typer.Option(
-            "--window", "-w", metavar="N", min=2, max=_MAX_WINDOW, help="Number of messages of the statistics."
-        ),
-    ] = _BANDWIDTH_WINDOW,
+    window: WindowOption = _BANDWIDTH_WINDOW,
     use_sim_time: SimTimeOption = False,
     spin_time: SpinTimeOption = AT_ONCE,
     no_daemon: DaemonOption = False,
@@ -101,12 +95,7 @@ def bw(
 
 def delay(
     topic_name: TopicArgument,
-    window: Annotated[
-        int,
-        typer.Option(
-            "--window", "-w", metavar="N", min=2, max=_MAX_WINDOW, help="Number of messages of the statistics."
-        ),
-    ] = _WINDOW,
+    window: WindowOption = _WINDOW,
     use_sim_time: SimTimeOption = False,
     spin_time: SpinTimeOption = AT_ONCE,
     no_daemon: DaemonOption = False,
