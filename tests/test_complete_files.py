@@ -54,6 +54,16 @@ def test_an_error_keeps_the_earlier_file(tmp_path):
     assert list(tmp_path.iterdir()) == [file]
 
 
+def test_two_writers_of_one_file_do_not_disturb_each_other(tmp_path):
+    file = tmp_path / "out.txt"
+    with complete_or_absent(file) as earlier:
+        earlier.write_bytes(b"earlier")
+        write_complete(file, b"between")
+        assert file.read_bytes() == b"between"
+    assert file.read_bytes() == b"earlier"
+    assert list(tmp_path.iterdir()) == [file]
+
+
 def test_an_error_names_the_file_itself(tmp_path):
     file = tmp_path / "missing" / "out.txt"
     with pytest.raises(FileNotFoundError) as caught:

@@ -3,12 +3,13 @@
 
 from __future__ import annotations
 
-import os
+import uuid
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    import os
     from collections.abc import Iterator
 
 __all__ = ["complete_or_absent", "write_complete"]
@@ -18,7 +19,8 @@ __all__ = ["complete_or_absent", "write_complete"]
 def complete_or_absent(path: str | os.PathLike[str]) -> Iterator[Path]:
     """Yield the name to write to; the file gets its own name only after everything has been written.
 
-    Devices and named pipes are written directly.
+    Several threads and processes may write the same file: each writes under a name of its own, and the last one to
+    finish determines the content. Devices and named pipes are written directly.
 
     Raises:
         OSError: The file cannot be written; `filename` is the name of the file itself.
@@ -28,8 +30,7 @@ def complete_or_absent(path: str | os.PathLike[str]) -> Iterator[Path]:
         yield path
         return
     path = path.resolve()  # A symbolic link stays.
-    part = path.with_name(f".{path.name}.{os.getpid()}.part")
-    _remove(part)  # A process that was killed may have left it.
+    part = path.with_name(f".{path.name}.{uuid.uuid4().hex[:12]}.part")
     try:
         yield part
         part.replace(path)

@@ -18,16 +18,16 @@ from __future__ import annotations
 import contextlib
 import os
 import struct
-import uuid
 import zlib
-from pathlib import Path
 from typing import TYPE_CHECKING, BinaryIO, NamedTuple
 
 from coframe import _core
+from coframe.complete_files import complete_or_absent
 from coframe.errors import FrozenFileError
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
+    from pathlib import Path
 
     from coframe.buffer import Buffer
 
@@ -76,43 +76,34 @@ _HEADER = struct.Struct("<8sIIIIqQQQQ")
 
 def save(snapshot: Buffer, path: str | os.PathLike[str]) -> None:
     """Write a frozen buffer to a file; see :meth:`coframe.Buffer.save`."""
-    target = Path(path)
-    table, chunks = _core.frozen_parts(snapshot)
-    with _replacing(target) as file:
-        file.write(bytes(_PAGE))
-        crc = 0
-        for first in range(0, chunks, _BLOCK):
-            block = _core.frozen_chunks(snapshot, first, _BLOCK)
-            crc = zlib.crc32(block, crc)
-            file.write(block)
-        size = chunks * _CHUNK
-        file.write(table)
-        header = _HEADER.pack(
-            _MAGIC, _VERSION, zlib.crc32(table), crc, 0, snapshot.cache_ns, _PAGE, size, _PAGE + size, len(table)
-        )
-        file.seek(0)
-        file.write(header + _CRC.pack(zlib.crc32(header)))
-
-
-@contextlib.contextmanager
-def _replacing(target: Path) -> Iterator[BinaryIO]:
-    """Open a new file that replaces the target once it is complete."""
-    temporary = target.with_name(f".{target.name}.{uuid.uuid4().hex}")
     try:
-        with temporary.open("xb") as file:
-            yield file
+        with complete_or_absent(path) as part, part.open("wb") as file:
+            _write(snapshot, file)
             file.flush()
             os.fsync(file.fileno())
-        temporary.replace(target)
     except OSError as error:
         raise FrozenFileError(
-            f"{target} cannot be written: {error.strerror or error}",
+            f"{path} cannot be written: {error.strerror or error}",
             hint="Check that the folder exists, that you may write to it, and that the disk has space. "
             "On Windows, no other program may have the file open.",
         ) from None
-    finally:
-        with contextlib.suppress(OSError):  # On a read-only disk, this is an error even if there is no such file.
-            temporary.unlink()
+
+
+def _write(snapshot: Buffer, file: BinaryIO) -> None:
+    table, chunks = _core.frozen_parts(snapshot)
+    file.write(bytes(_PAGE))  # The header is written last: it contains the checksums.
+    crc = 0
+    for first in range(0, chunks, _BLOCK):
+        block = _core.frozen_chunks(snapshot, first, _BLOCK)
+        crc = zlib.crc32(block, crc)
+        file.write(block)
+    size = chunks * _CHUNK
+    file.write(table)
+    header = _HEADER.pack(
+        _MAGIC, _VERSION, zlib.crc32(table), crc, 0, snapshot.cache_ns, _PAGE, size, _PAGE + size, len(table)
+    )
+    file.seek(0)
+    file.write(header + _CRC.pack(zlib.crc32(header)))
 
 
 @contextlib.contextmanager

@@ -122,6 +122,15 @@ def test_a_file_is_complete_or_does_not_appear(path, monkeypatch):
     assert list(path.parent.iterdir()) == [path]
 
 
+def test_threads_save_to_one_path(path):
+    buffer = filled()
+    with concurrent.futures.ThreadPoolExecutor(4) as pool:
+        for saved in [pool.submit(buffer.save, path) for _ in range(40)]:
+            saved.result()
+    assert coframe.load(path, verify=True).trajectory("map", "lidar") == buffer.trajectory("map", "lidar")
+    assert list(path.parent.iterdir()) == [path]
+
+
 @pytest.mark.parametrize(
     ("change", "says"),
     [

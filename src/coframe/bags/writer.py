@@ -16,6 +16,7 @@ from coframe.bags.mcap_writer import McapWriter, compressor
 from coframe.bags.offered_qos import OfferedQos, to_yaml
 from coframe.bags.sqlite_writer import SqliteWriter
 from coframe.bags.transforms import is_static
+from coframe.complete_files import write_complete
 from coframe.errors import RecordingError
 
 if TYPE_CHECKING:
@@ -318,13 +319,8 @@ class Writer:
         """Write metadata.yaml; if the disk is full, the previous version stays."""
         self._note_file()
         text = self._dump({"rosbag2_bagfile_information": self._metadata()})
-        new = self.path / "metadata.yaml.new"
-        try:
-            new.write_text(text, encoding="utf-8")
-            new.replace(self.path / "metadata.yaml")
-        except OSError:
-            with suppress(OSError):
-                new.unlink(missing_ok=True)
+        with suppress(OSError):
+            write_complete(self.path / "metadata.yaml", text.encode())
 
     def _metadata(self) -> dict[str, Any]:
         files = [file for file in self._contents.files if file.count] or self._contents.files[:1]
