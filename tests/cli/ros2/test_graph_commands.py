@@ -33,6 +33,13 @@ def test_lists(run, listed):
     assert run("service", "type", "/switch") == "std_srvs/srv/SetBool\n"
 
 
+def test_the_option_about_the_daemon_has_no_effect(run):
+    assert "/chatter\n" in run("topic", "list", "--no-daemon")
+    assert "program" in run("topic", "info", "--no-daemon", "--verbose", "/chatter")
+    assert "std_msgs/msg/String" in run("node", "info", NODE, "--no-daemon")
+    assert "--no-daemon" not in run("topic", "list", "--help")
+
+
 def test_information_about_a_topic(run):
     assert run("topic", "info", "/chatter") == "Type: std_msgs/msg/String\nPublisher count: 1\nSubscription count: 0\n"
     verbose = run("topic", "info", "/chatter", "--verbose")

@@ -12,7 +12,7 @@ from coframe.cli.options import with_leading_slash
 from coframe.cli.output import fail, one_line, print_bounded, printable
 from coframe.cli.ros2.graph import (
     DISCOVERY,
-    DaemonOption,
+    GraphCommand,
     SpinTimeOption,
     graph_node,
     joined,
@@ -41,19 +41,17 @@ action = typer.Typer(
 )
 
 
-@action.command(cls=PlainCommand, short_help="Show the clients and servers of an action.")
+@action.command(cls=GraphCommand, short_help="Show the clients and servers of an action.")
 def info(
     action_name: ActionArgument,
     show_types: Annotated[bool, typer.Option("--show-types", "-t", help="Show the types as well.")] = False,
     count: Annotated[bool, typer.Option("--count", "-c", help="Print the numbers of nodes only.")] = False,
     spin_time: SpinTimeOption = DISCOVERY,
-    no_daemon: DaemonOption = False,
 ) -> None:
     """Show the nodes that are clients and servers of an action.
 
     Example: coframe action info /fibonacci
     """
-    del no_daemon
     from rclpy.action import (  # noqa: PLC0415 - slow import
         get_action_client_names_and_types_by_node,
         get_action_server_names_and_types_by_node,
@@ -71,18 +69,16 @@ def info(
                 print(one_line(f"    {name} {joined(types)}" if show_types else f"    {name}"))
 
 
-@action.command("list", cls=PlainCommand, short_help="List the actions.")
+@action.command("list", cls=GraphCommand, short_help="List the actions.")
 def list_actions(
     show_types: Annotated[bool, typer.Option("--show-types", "-t", help="Show the types as well.")] = False,
     count: Annotated[bool, typer.Option("--count-actions", "-c", help="Print the number of actions only.")] = False,
     spin_time: SpinTimeOption = DISCOVERY,
-    no_daemon: DaemonOption = False,
 ) -> None:
     """List the actions of the ROS graph.
 
     Example: coframe action list -t
     """
-    del no_daemon
     from rclpy.action import get_action_names_and_types  # noqa: PLC0415 - slow import
 
     with graph_node(spin_time) as node:

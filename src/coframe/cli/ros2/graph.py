@@ -9,8 +9,10 @@ import time
 from typing import TYPE_CHECKING, Annotated, Any, NoReturn
 
 import typer
+from typer.core import TyperOption
 
 from coframe.cli.completion import complete_live_topics
+from coframe.cli.help_format import PlainCommand
 from coframe.cli.lifecycle import run_to_completion
 from coframe.cli.options import NonNegativeDuration, with_leading_slash
 from coframe.cli.output import fail, warn
@@ -26,7 +28,7 @@ if TYPE_CHECKING:
 __all__ = [
     "AT_ONCE",
     "AllOption",
-    "DaemonOption",
+    "GraphCommand",
     "HiddenTopicsOption",
     "NodeArgument",
     "SimTimeOption",
@@ -58,9 +60,6 @@ SpinTimeOption = Annotated[
         help="Time to wait for the discovery of other nodes.",
     ),
 ]
-DaemonOption = Annotated[
-    bool, typer.Option("--no-daemon", help="Accepted for compatibility: coframe has no daemon.", hidden=True)
-]
 SimTimeOption = Annotated[
     bool, typer.Option("--use-sim-time", "-s", help="Use the time of /clock instead of the system time.")
 ]
@@ -80,6 +79,16 @@ TopicArgument = Annotated[
 NodeArgument = Annotated[
     str, typer.Argument(metavar="NODE", help="Name of the node, e.g. /robot1/arm.", callback=with_leading_slash)
 ]
+
+
+class GraphCommand(PlainCommand):
+    """A command about the graph, which accepts ``--no-daemon`` as in ros2cli: coframe has no daemon."""
+
+    def __init__(self, *args: Any, **kwargs: Any) -> None:
+        super().__init__(*args, **kwargs)
+        self.params.append(
+            TyperOption(param_decls=["--no-daemon"], is_flag=True, default=False, hidden=True, expose_value=False)
+        )
 
 
 @contextlib.contextmanager

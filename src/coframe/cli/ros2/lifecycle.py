@@ -7,14 +7,14 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from coframe.cli.help_format import PlainCommand, PlainGroup
+from coframe.cli.help_format import PlainGroup
 from coframe.cli.output import fail, one_line
 from coframe.cli.ros2.calls import call_service
 from coframe.cli.ros2.graph import (
     AT_ONCE,
     DISCOVERY,
     AllOption,
-    DaemonOption,
+    GraphCommand,
     NodeArgument,
     SpinTimeOption,
     graph_node,
@@ -37,20 +37,18 @@ lifecycle = typer.Typer(
 )
 
 
-@lifecycle.command(cls=PlainCommand, short_help="Print the states of lifecycle nodes.")
+@lifecycle.command(cls=GraphCommand, short_help="Print the states of lifecycle nodes.")
 def get(
     node_name: Annotated[
         str | None, typer.Argument(metavar="[NODE]", help="Name of a node. [default: all lifecycle nodes]")
     ] = None,
     include_hidden: AllOption = False,
     spin_time: SpinTimeOption = DISCOVERY,
-    no_daemon: DaemonOption = False,
 ) -> None:
     """Print the state of a lifecycle node, or of all lifecycle nodes.
 
     Example: coframe lifecycle get /lidar
     """
-    del no_daemon
     with graph_node(AT_ONCE if node_name else spin_time) as node:
         names = [_existing(node, node_name)] if node_name else _lifecycle_nodes(node, include_hidden=include_hidden)
         for name in names:
@@ -58,18 +56,16 @@ def get(
             print(one_line(f"{'' if node_name else f'{name}: '}{state.label} [{state.id}]"))
 
 
-@lifecycle.command("list", cls=PlainCommand, short_help="List the transitions that a node can make now.")
+@lifecycle.command("list", cls=GraphCommand, short_help="List the transitions that a node can make now.")
 def list_transitions(
     node_name: NodeArgument,
     show_all: Annotated[bool, typer.Option("--all", "-a", help="List all transitions of the node.")] = False,
     spin_time: SpinTimeOption = AT_ONCE,
-    no_daemon: DaemonOption = False,
 ) -> None:
     """List the transitions that a lifecycle node can make in its state.
 
     Example: coframe lifecycle list /lidar
     """
-    del no_daemon
     service = ("GetAvailableTransitions", "get_transition_graph" if show_all else "get_available_transitions")
     with graph_node(spin_time) as node:
         for each in _call(node, _existing(node, node_name), *service).available_transitions:
@@ -77,37 +73,33 @@ def list_transitions(
             print(f"\tStart: {one_line(each.start_state.label)}\n\tGoal: {one_line(each.goal_state.label)}")
 
 
-@lifecycle.command(cls=PlainCommand, short_help="List the lifecycle nodes.")
+@lifecycle.command(cls=GraphCommand, short_help="List the lifecycle nodes.")
 def nodes(
     include_hidden: AllOption = False,
     count: Annotated[bool, typer.Option("--count-nodes", "-c", help="Print the number of nodes only.")] = False,
     spin_time: SpinTimeOption = DISCOVERY,
-    no_daemon: DaemonOption = False,
 ) -> None:
     """List the lifecycle nodes of the ROS graph.
 
     Example: coframe lifecycle nodes
     """
-    del no_daemon
     with graph_node(spin_time) as node:
         names = _lifecycle_nodes(node, include_hidden=include_hidden)
     print(len(names) if count else "\n".join(map(one_line, names)))
 
 
-@lifecycle.command("set", cls=PlainCommand, short_help="Change the state of a lifecycle node.")
+@lifecycle.command("set", cls=GraphCommand, short_help="Change the state of a lifecycle node.")
 def set_state(
     node_name: NodeArgument,
     transition: Annotated[
         str, typer.Argument(metavar="TRANSITION", help="Name or ID of a transition, e.g. configure or activate.")
     ],
     spin_time: SpinTimeOption = AT_ONCE,
-    no_daemon: DaemonOption = False,
 ) -> None:
     """Change the state of a lifecycle node.
 
     Example: coframe lifecycle set /lidar configure
     """
-    del no_daemon
     with graph_node(spin_time) as node:
         name = _existing(node, node_name)
         available = [

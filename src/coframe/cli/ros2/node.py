@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from coframe.cli.help_format import PlainCommand, PlainGroup
+from coframe.cli.help_format import PlainGroup
 from coframe.cli.output import one_line
 from coframe.cli.ros2.graph import (
     DISCOVERY,
     AllOption,
-    DaemonOption,
+    GraphCommand,
     NodeArgument,
     SpinTimeOption,
     fail_without_node,
@@ -39,18 +39,16 @@ node = typer.Typer(
 )
 
 
-@node.command("list", cls=PlainCommand, short_help="List the nodes.")
+@node.command("list", cls=GraphCommand, short_help="List the nodes.")
 def list_nodes(
     show_all: AllOption = False,
     count: Annotated[bool, typer.Option("--count-nodes", "-c", help="Print the number of nodes only.")] = False,
     spin_time: SpinTimeOption = DISCOVERY,
-    no_daemon: DaemonOption = False,
 ) -> None:
     """List the nodes of the ROS graph.
 
     Example: coframe node list
     """
-    del no_daemon
     with graph_node(spin_time) as own:
         names = node_names(own, include_hidden=show_all)
     if count:
@@ -66,20 +64,18 @@ def list_nodes(
         print(one_line(name))
 
 
-@node.command(cls=PlainCommand, short_help="Show the topics, services and actions of a node.")
+@node.command(cls=GraphCommand, short_help="Show the topics, services and actions of a node.")
 def info(
     node_name: NodeArgument,
     include_hidden: Annotated[
         bool, typer.Option("--include-hidden", help="Show hidden topics, services and actions as well.")
     ] = False,
     spin_time: SpinTimeOption = DISCOVERY,
-    no_daemon: DaemonOption = False,
 ) -> None:
     """Show the subscriptions, publishers, services and actions of a node.
 
     Example: coframe node info /dynamic_tf_broadcaster
     """
-    del no_daemon
     with graph_node(spin_time) as own:
         if not wait_until(lambda: node_name in node_names(own, include_hidden=True)):
             fail_without_node(own, f"Unable to find node '{node_name}'", node_name)

@@ -10,12 +10,12 @@ from typing import Annotated
 
 import typer
 
-from coframe.cli.help_format import PlainCommand, PlainGroup
+from coframe.cli.help_format import PlainGroup
 from coframe.cli.output import fail, one_line, printable
 from coframe.cli.ros2.graph import (
     AT_ONCE,
     DISCOVERY,
-    DaemonOption,
+    GraphCommand,
     NodeArgument,
     SpinTimeOption,
     graph_node,
@@ -44,18 +44,16 @@ param = typer.Typer(
 )
 
 
-@param.command(cls=PlainCommand, short_help="Delete a parameter of a node.")
+@param.command(cls=GraphCommand, short_help="Delete a parameter of a node.")
 def delete(
     node_name: NodeArgument,
     name: ParameterArgument,
     spin_time: SpinTimeOption = AT_ONCE,
-    no_daemon: DaemonOption = False,
 ) -> None:
     """Delete a parameter of a node.
 
     Example: coframe param delete /listener speed
     """
-    del no_daemon
     with graph_node(spin_time) as node:
         result = ParameterClient(node, node_name).set({name: None})[0]
     if not result.successful:
@@ -63,18 +61,16 @@ def delete(
     print("Deleted parameter successfully")
 
 
-@param.command(cls=PlainCommand, short_help="Show type, description and limits of parameters.")
+@param.command(cls=GraphCommand, short_help="Show type, description and limits of parameters.")
 def describe(
     node_name: NodeArgument,
     names: Annotated[list[str], typer.Argument(metavar="NAME...", help="Names of parameters.")],
     spin_time: SpinTimeOption = AT_ONCE,
-    no_daemon: DaemonOption = False,
 ) -> None:
     """Show the type, the description and the limits of parameters of a node.
 
     Example: coframe param describe /listener use_sim_time
     """
-    del no_daemon
     with graph_node(spin_time) as node:
         descriptors = ParameterClient(node, node_name).describe(names)
     if len(descriptors) < len(names):
@@ -83,17 +79,15 @@ def describe(
         print(printable("\n".join(description_lines(descriptor))))
 
 
-@param.command(cls=PlainCommand, short_help="Print all parameters of a node as a YAML file.")
+@param.command(cls=GraphCommand, short_help="Print all parameters of a node as a YAML file.")
 def dump(
     node_name: NodeArgument,
     spin_time: SpinTimeOption = AT_ONCE,
-    no_daemon: DaemonOption = False,
 ) -> None:
     """Print all parameters of a node in the format of --params-file.
 
     Example: coframe param dump /listener > listener.yaml
     """
-    del no_daemon
     with graph_node(spin_time) as node:
         client = ParameterClient(node, node_name)
         names = client.names()
@@ -101,19 +95,17 @@ def dump(
     print(as_yaml_file(node_name, {name: python_value(value) for name, value in values.items()}), end="")
 
 
-@param.command(cls=PlainCommand, short_help="Print a parameter of a node.")
+@param.command(cls=GraphCommand, short_help="Print a parameter of a node.")
 def get(
     node_name: NodeArgument,
     name: ParameterArgument,
     hide_type: Annotated[bool, typer.Option("--hide-type", help="Print the value only.")] = False,
     spin_time: SpinTimeOption = AT_ONCE,
-    no_daemon: DaemonOption = False,
 ) -> None:
     """Print a parameter of a node.
 
     Example: coframe param get /listener use_sim_time
     """
-    del no_daemon
     with graph_node(spin_time) as node:
         values = ParameterClient(node, node_name).get([name])
     line = value_line(values[0], hide_type=hide_type) if values else None
@@ -122,7 +114,7 @@ def get(
     print(printable(line))
 
 
-@param.command("list", cls=PlainCommand, short_help="List the parameters of nodes.")
+@param.command("list", cls=GraphCommand, short_help="List the parameters of nodes.")
 def list_parameters(
     node_name: Annotated[
         str | None, typer.Argument(metavar="[NODE]", help="Name of a node. [default: all nodes]")
@@ -137,13 +129,11 @@ def list_parameters(
     ] = None,
     include_hidden: HiddenNodesOption = False,
     spin_time: SpinTimeOption = DISCOVERY,
-    no_daemon: DaemonOption = False,
 ) -> None:
     """List the parameters of one node or of all nodes.
 
     Example: coframe param list /listener
     """
-    del no_daemon
     try:
         pattern = re.compile(expression or "")
     except re.error as error:
@@ -162,7 +152,7 @@ def list_parameters(
                 print(one_line(f"  {name}{suffix}"))
 
 
-@param.command(cls=PlainCommand, short_help="Set the parameters of a node from a YAML file.")
+@param.command(cls=GraphCommand, short_help="Set the parameters of a node from a YAML file.")
 def load(
     node_name: NodeArgument,
     file: Annotated[Path, typer.Argument(metavar="FILE", help="A YAML file in the format of --params-file.")],
@@ -170,13 +160,11 @@ def load(
         bool, typer.Option("--no-use-wildcard", help="Do not use the parameters below /**.")
     ] = False,
     spin_time: SpinTimeOption = AT_ONCE,
-    no_daemon: DaemonOption = False,
 ) -> None:
     """Set the parameters of a node from a YAML file.
 
     Example: coframe param load /listener listener.yaml
     """
-    del no_daemon
     values = parameters_of_file(file, node_name, use_wildcard=not no_use_wildcard)
     with graph_node(spin_time) as node:
         results = ParameterClient(node, node_name).set(values)
@@ -190,19 +178,17 @@ def load(
         raise typer.Exit(1)
 
 
-@param.command("set", cls=PlainCommand, short_help="Set a parameter of a node.")
+@param.command("set", cls=GraphCommand, short_help="Set a parameter of a node.")
 def set_parameter(
     node_name: NodeArgument,
     name: ParameterArgument,
     value: Annotated[str, typer.Argument(metavar="VALUE", help="Value as YAML, e.g. 1.5, true or '[1, 2]'.")],
     spin_time: SpinTimeOption = AT_ONCE,
-    no_daemon: DaemonOption = False,
 ) -> None:
     """Set a parameter of a node.
 
     Example: coframe param set /dynamic_tf_broadcaster rate 100.0
     """
-    del no_daemon
     from rclpy.parameter import get_parameter_value  # noqa: PLC0415 - slow import
 
     with graph_node(spin_time) as node:

@@ -14,7 +14,7 @@ from coframe.cli.output import fail, one_line
 from coframe.cli.ros2.graph import (
     AT_ONCE,
     DISCOVERY,
-    DaemonOption,
+    GraphCommand,
     SpinTimeOption,
     graph_node,
     is_hidden,
@@ -83,37 +83,33 @@ def call(
             time.sleep(1.0 / rate)
 
 
-@service.command(cls=PlainCommand, short_help="List the services of a type.")
+@service.command(cls=GraphCommand, short_help="List the services of a type.")
 def find(
     service_type: Annotated[str, typer.Argument(metavar="TYPE", help="Type, e.g. std_srvs/srv/SetBool.")],
     count: Annotated[bool, typer.Option("--count-services", "-c", help="Print the number of services only.")] = False,
     include_hidden: HiddenServicesOption = False,
     spin_time: SpinTimeOption = DISCOVERY,
-    no_daemon: DaemonOption = False,
 ) -> None:
     """List the services that have a type.
 
     Example: coframe service find std_srvs/srv/SetBool
     """
-    del no_daemon
     with graph_node(spin_time) as node:
         names = [name for name, types in _services(node, include_hidden=include_hidden) if service_type in types]
     print(len(names) if count else "\n".join(map(one_line, names)))
 
 
-@service.command("list", cls=PlainCommand, short_help="List the services.")
+@service.command("list", cls=GraphCommand, short_help="List the services.")
 def list_services(
     show_types: Annotated[bool, typer.Option("--show-types", "-t", help="Show the types as well.")] = False,
     count: Annotated[bool, typer.Option("--count-services", "-c", help="Print the number of services only.")] = False,
     include_hidden: HiddenServicesOption = False,
     spin_time: SpinTimeOption = DISCOVERY,
-    no_daemon: DaemonOption = False,
 ) -> None:
     """List the services of the ROS graph.
 
     Example: coframe service list -t
     """
-    del no_daemon
     with graph_node(spin_time) as node:
         services = _services(node, include_hidden=include_hidden)
     if count:
@@ -123,13 +119,12 @@ def list_services(
         print(one_line(f"{name} {joined(types)}" if show_types else name))
 
 
-@service.command("type", cls=PlainCommand, short_help="Print the type of a service.")
-def type_(service_name: ServiceArgument, spin_time: SpinTimeOption = AT_ONCE, no_daemon: DaemonOption = False) -> None:
+@service.command("type", cls=GraphCommand, short_help="Print the type of a service.")
+def type_(service_name: ServiceArgument, spin_time: SpinTimeOption = AT_ONCE) -> None:
     """Print the type of a service; the exit code is 1 if the service is unknown.
 
     Example: coframe service type /reset
     """
-    del no_daemon
     with graph_node(spin_time) as node:
         types = wait_until(lambda: dict(node.get_service_names_and_types()).get(service_name))
     if not types:

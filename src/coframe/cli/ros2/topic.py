@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from coframe.cli.help_format import PlainCommand, PlainGroup
+from coframe.cli.help_format import PlainGroup
 from coframe.cli.output import fail, one_line, printable
 from coframe.cli.ros2.graph import (
     AT_ONCE,
     DISCOVERY,
-    DaemonOption,
+    GraphCommand,
     HiddenTopicsOption,
     SpinTimeOption,
     TopicArgument,
@@ -36,46 +36,42 @@ topic = typer.Typer(
     no_args_is_help=True,
     rich_markup_mode=None,
 )
-topic.command(cls=PlainCommand, short_help="Show the bandwidth of a topic.")(bw)
-topic.command(cls=PlainCommand, short_help="Show the delay of messages by their header.")(delay)
-topic.command(cls=PlainCommand, short_help="Print the messages of a topic as YAML.")(echo)
+topic.command(cls=GraphCommand, short_help="Show the bandwidth of a topic.")(bw)
+topic.command(cls=GraphCommand, short_help="Show the delay of messages by their header.")(delay)
+topic.command(cls=GraphCommand, short_help="Print the messages of a topic as YAML.")(echo)
 
 
-@topic.command(cls=PlainCommand, short_help="List the topics of a type.")
+@topic.command(cls=GraphCommand, short_help="List the topics of a type.")
 def find(
     topic_type: Annotated[str, typer.Argument(metavar="TYPE", help="Type, e.g. sensor_msgs/msg/LaserScan.")],
     count: Annotated[bool, typer.Option("--count-topics", "-c", help="Print the number of topics only.")] = False,
     include_hidden: HiddenTopicsOption = False,
     spin_time: SpinTimeOption = DISCOVERY,
-    no_daemon: DaemonOption = False,
 ) -> None:
     """List the topics that have a type.
 
     Example: coframe topic find sensor_msgs/msg/LaserScan
     """
-    del no_daemon
     with graph_node(spin_time) as node:
         names = [name for name, types in _topics(node, include_hidden=include_hidden) if topic_type in types]
     print(len(names) if count else "\n".join(map(one_line, names)))
 
 
-topic.command(cls=PlainCommand, short_help="Show the rate of a topic.")(hz)
+topic.command(cls=GraphCommand, short_help="Show the rate of a topic.")(hz)
 
 
-@topic.command(cls=PlainCommand, short_help="Show the type of a topic and who publishes it.")
+@topic.command(cls=GraphCommand, short_help="Show the type of a topic and who publishes it.")
 def info(
     topic_name: TopicArgument,
     verbose: Annotated[
         bool, typer.Option("--verbose", "-v", help="Show node, type, GID and QoS of each publisher and subscription.")
     ] = False,
     spin_time: SpinTimeOption = DISCOVERY,
-    no_daemon: DaemonOption = False,
 ) -> None:
     """Show the type of a topic, and the numbers of its publishers and subscriptions.
 
     Example: coframe topic info /tf --verbose
     """
-    del no_daemon
     end = "\n\n" if verbose else "\n"
     with graph_node(spin_time) as node:
         types = wait_until(lambda: dict(node.get_topic_names_and_types()).get(topic_name))
@@ -90,7 +86,7 @@ def info(
             print(printable(str(endpoint)), end=end)
 
 
-@topic.command("list", cls=PlainCommand, short_help="List the topics.")
+@topic.command("list", cls=GraphCommand, short_help="List the topics.")
 def list_topics(
     show_types: Annotated[bool, typer.Option("--show-types", "-t", help="Show the types as well.")] = False,
     count: Annotated[bool, typer.Option("--count-topics", "-c", help="Print the number of topics only.")] = False,
@@ -99,13 +95,11 @@ def list_topics(
     ] = False,
     include_hidden: HiddenTopicsOption = False,
     spin_time: SpinTimeOption = DISCOVERY,
-    no_daemon: DaemonOption = False,
 ) -> None:
     """List the topics of the ROS graph.
 
     Example: coframe topic list -t
     """
-    del no_daemon
     with graph_node(spin_time) as node:
         topics = _topics(node, include_hidden=include_hidden)
         if count:
@@ -118,16 +112,15 @@ def list_topics(
                 print(one_line(f"{name} {joined(types)}" if show_types else name))
 
 
-topic.command(cls=PlainCommand, short_help="Publish messages on a topic.")(pub)
+topic.command(cls=GraphCommand, short_help="Publish messages on a topic.")(pub)
 
 
-@topic.command("type", cls=PlainCommand, short_help="Print the type of a topic.")
-def type_(topic_name: TopicArgument, spin_time: SpinTimeOption = AT_ONCE, no_daemon: DaemonOption = False) -> None:
+@topic.command("type", cls=GraphCommand, short_help="Print the type of a topic.")
+def type_(topic_name: TopicArgument, spin_time: SpinTimeOption = AT_ONCE) -> None:
     """Print the type of a topic; the exit code is 1 if the topic is unknown.
 
     Example: coframe topic type /tf
     """
-    del no_daemon
     with graph_node(spin_time) as node:
         types = wait_until(lambda: dict(node.get_topic_names_and_types()).get(topic_name))
     if not types:

@@ -12,7 +12,6 @@ from coframe.cli.options import NonNegativeDuration
 from coframe.cli.output import fail, print_bounded, printable
 from coframe.cli.ros2.graph import (
     AT_ONCE,
-    DaemonOption,
     HiddenTopicsOption,
     SimTimeOption,
     SpinTimeOption,
@@ -93,13 +92,12 @@ def echo(
     include_hidden: HiddenTopicsOption = False,
     use_sim_time: SimTimeOption = False,
     spin_time: SpinTimeOption = AT_ONCE,
-    no_daemon: DaemonOption = False,
 ) -> None:
     """Print the messages of a topic. The QoS is chosen so that every publisher matches, unless it is given.
 
     Example: coframe topic echo /scan --once --field header
     """
-    del lost_messages, no_daemon
+    del lost_messages
     length = None if full_length else truncate_length
     write = _writer(field, csv=csv, length=length, no_arr=no_arr, no_str=no_str, flow_style=flow_style, raw=raw)
     accepts = message_filter(filter_expression)

@@ -11,7 +11,7 @@ import typer
 
 from coframe.cli.options import NonNegativeDuration, with_leading_slash
 from coframe.cli.output import fail
-from coframe.cli.ros2.graph import AT_ONCE, DaemonOption, SimTimeOption, SpinTimeOption, graph_node, load_type
+from coframe.cli.ros2.graph import AT_ONCE, SimTimeOption, SpinTimeOption, graph_node, load_type
 from coframe.cli.ros2.qos import (
     DepthOption,
     DurabilityOption,
@@ -87,13 +87,11 @@ def pub(
     qos_durability: DurabilityOption = None,
     use_sim_time: SimTimeOption = False,
     spin_time: SpinTimeOption = AT_ONCE,
-    no_daemon: DaemonOption = False,
 ) -> None:
     """Publish messages on a topic. In VALUES, "stamp: now" and "header: auto" stand for the current time.
 
     Example: coframe topic pub /chatter std_msgs/msg/String '{data: hello}' --rate 2
     """
-    del no_daemon
     if not rate > 0:
         fail("rate must be greater than zero", code=2)
     count = 1 if once else times

@@ -14,7 +14,6 @@ import typer
 from coframe.cli.output import fail
 from coframe.cli.ros2.graph import (
     AT_ONCE,
-    DaemonOption,
     SimTimeOption,
     SpinTimeOption,
     TopicArgument,
@@ -52,13 +51,11 @@ def hz(
     wall_time: Annotated[bool, typer.Option("--wall-time", help="Use the system time, not that of /clock.")] = False,
     use_sim_time: SimTimeOption = False,
     spin_time: SpinTimeOption = AT_ONCE,
-    no_daemon: DaemonOption = False,
 ) -> None:
     """Show the rate at which messages arrive on a topic: mean, shortest, longest period and standard deviation.
 
     Example: coframe topic hz /scan
     """
-    del no_daemon
     accepts = message_filter(filter_expression)
     with graph_node(spin_time, use_sim_time=use_sim_time and not wall_time) as node:
         stream = _stream(node, topic_name, raw=filter_expression is None)
@@ -75,13 +72,11 @@ def bw(
     window: WindowOption = _BANDWIDTH_WINDOW,
     use_sim_time: SimTimeOption = False,
     spin_time: SpinTimeOption = AT_ONCE,
-    no_daemon: DaemonOption = False,
 ) -> None:
     """Show the bytes per second that arrive on a topic, and the sizes of the messages.
 
     Example: coframe topic bw /camera/image_raw
     """
-    del no_daemon
     with graph_node(spin_time, use_sim_time=use_sim_time) as node:
         stream = _stream(node, topic_name, raw=True)
         print(f"Subscribed to [{topic_name}]", flush=True)
@@ -98,13 +93,11 @@ def delay(
     window: WindowOption = _WINDOW,
     use_sim_time: SimTimeOption = False,
     spin_time: SpinTimeOption = AT_ONCE,
-    no_daemon: DaemonOption = False,
 ) -> None:
     """Show how long after the stamp in its header a message arrives.
 
     Example: coframe topic delay /scan
     """
-    del no_daemon
     with graph_node(spin_time, use_sim_time=use_sim_time) as node:
         stream = _stream(node, topic_name, raw=False)
         delays: deque[float] = deque(maxlen=window)
