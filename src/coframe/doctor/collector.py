@@ -3,11 +3,11 @@
 
 from __future__ import annotations
 
-from collections import deque
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from coframe.doctor.transform_rows import TransformRows
 from coframe.doctor.transforms import Transforms, numbered
 
 if TYPE_CHECKING:
@@ -46,8 +46,8 @@ class Collector:
         self.messages: dict[str, int] = {}
         self._names: dict[str, int] = {}
         self._name_bytes = 0
-        self._static: deque[Transforms] = deque()
-        self._moving: deque[Transforms] = deque()
+        self._static = TransformRows()
+        self._moving = TransformRows()
 
     def add(
         self,
@@ -92,18 +92,14 @@ class Collector:
 
     def forget(self, before: int, most: int) -> None:
         """Remove dynamic transforms that arrived before a time, and the oldest ones beyond a maximum number of rows."""
-        while self._moving and self._moving[0].arrived[-1] < before:
-            self._moving.popleft()
-        for batches in (self._static, self._moving):
-            rows = sum(map(len, batches))
-            while rows > most and len(batches) > 1:
-                rows -= len(batches.popleft())
+        self._moving.forget(before, most)
+        self._static.forget(0, most)
 
     def transforms(self) -> Transforms:
         """Return all rows in the order of arrival."""
         sent = tuple(self._names)
-        return Transforms.joined([*self._static, *self._moving], tuple(map(self._renamed, sent)), sent)
+        return Transforms.joined([self._static.table(), self._moving.table()], tuple(map(self._renamed, sent)), sent)
 
     def publishers(self) -> set[str]:
         """Return the names of the publishers of the remaining rows."""
-        return {name for batches in (self._static, self._moving) for batch in batches for name in batch.publishers}
+        return self._static.publishers() | self._moving.publishers()

@@ -14,12 +14,13 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-__all__ = ["NORM_TOLERANCE", "Transforms", "bare", "numbered"]
+__all__ = ["COLUMNS", "NORM_TOLERANCE", "NO_TRANSFORMS", "Transforms", "bare", "numbered"]
 
 # tf2 rejects a quaternion whose squared length differs from 1 by this much or more.
 NORM_TOLERANCE = 0.01
 _DENSE = 1_000_000  # keys up to this one are counted, which is faster than sorting them
-_COLUMNS = ("arrived", "stamp", "parent", "child", "static", "values")
+# All but the publishers, whose numbers depend on their names.
+COLUMNS = ("arrived", "stamp", "parent", "child", "static", "values")
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,7 +56,7 @@ class Transforms:
     def joined(batches: Sequence[Transforms], names: tuple[str, ...], sent: tuple[str, ...] = ()) -> Transforms:
         """Return the rows of all batches in the order of arrival; the numbers of frames are those of these names."""
         columns: dict[str, Any] = {
-            name: np.concatenate([getattr(batch, name) for batch in (_NONE, *batches)]) for name in _COLUMNS
+            name: np.concatenate([getattr(batch, name) for batch in (NO_TRANSFORMS, *batches)]) for name in COLUMNS
         }
         publishers: dict[str, int] = {}
         columns["publisher"] = np.concatenate(
@@ -138,7 +139,7 @@ def _is_edge(names: tuple[str, str]) -> bool:
 
 
 _NO_NUMBERS = np.zeros(0, dtype=np.int64)
-_NONE = Transforms(
+NO_TRANSFORMS = Transforms(
     arrived=_NO_NUMBERS,
     stamp=_NO_NUMBERS,
     parent=_NO_NUMBERS,

@@ -1,0 +1,84 @@
+# SPDX-License-Identifier: Apache-2.0
+"""TransformRows: transforms that are appended at the end and removed at the beginning, in arrays that stay."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from coframe.doctor.transforms import COLUMNS, NO_TRANSFORMS, Transforms, numbered
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+__all__ = ["TransformRows"]
+
+_GROWTH = 1.5  # of the arrays, when they are full
+_MOST_PUBLISHERS = 1000  # with more, those without rows are forgotten
+
+
+class TransformRows:
+    """Rows of transforms in the order in which they were appended.
+
+    The arrays are used again for new rows. If each batch had arrays of its own, they would come and go several times
+    per second between other blocks, and the holes between them would add to the memory of a process that runs for
+    hours.
+    """
+
+    def __init__(self) -> None:
+        empty = {name: getattr(NO_TRANSFORMS, name) for name in (*COLUMNS, "publisher")}
+        self._columns: dict[str, NDArray[Any]] = {name: column.copy() for name, column in empty.items()}
+        self._publishers: dict[str, int] = {}
+        self._begin = 0
+        self._end = 0
+
+    def __len__(self) -> int:
+        return self._end - self._begin
+
+    def append(self, batch: Transforms) -> None:
+        """Append copies of all rows of a batch."""
+        self._make_room(len(batch))
+        rows = slice(self._end, self._end + len(batch))
+        for name in COLUMNS:
+            self._columns[name][rows] = getattr(batch, name)
+        self._columns["publisher"][rows] = numbered(self._publishers, batch.publishers)[batch.publisher]
+        self._end = rows.stop
+
+    def forget(self, before: int, most: int) -> None:
+        """Remove the first rows up to one that arrived at a time or later, and those beyond a maximum number."""
+        recent = self._columns["arrived"][self._begin : self._end] >= before
+        self._begin = max(self._begin + int(recent.argmax()) if recent.any() else self._end, self._end - most)
+        if len(self._publishers) > _MOST_PUBLISHERS:
+            self._forget_publishers()
+
+    def table(self) -> Transforms:
+        """Return the rows without a copy: valid until the next change."""
+        rows = slice(self._begin, self._end)
+        columns: dict[str, Any] = {name: column[rows] for name, column in self._columns.items()}
+        return Transforms(**columns, publishers=tuple(self._publishers))
+
+    def publishers(self) -> set[str]:
+        """Return the names of the publishers of the rows."""
+        names = tuple(self._publishers)
+        return {names[number] for number in np.unique(self._columns["publisher"][self._begin : self._end]).tolist()}
+
+    def _make_room(self, count: int) -> None:
+        """Let this number of rows fit behind the end: move the rows to the beginning, and enlarge full arrays."""
+        capacity = len(self._columns["stamp"])
+        if self._end + count <= capacity:
+            return
+        kept, length = slice(self._begin, self._end), len(self)
+        larger = int(_GROWTH * (length + count))
+        for name, column in self._columns.items():
+            target = np.empty((larger, *column.shape[1:]), column.dtype) if larger > capacity else column
+            target[:length] = column[kept]
+            self._columns[name] = target
+        self._begin, self._end = 0, length
+
+    def _forget_publishers(self) -> None:
+        rows = slice(self._begin, self._end)
+        used, numbers = np.unique(self._columns["publisher"][rows], return_inverse=True)
+        names = tuple(self._publishers)
+        self._publishers = {names[number]: i for i, number in enumerate(used.tolist())}
+        self._columns["publisher"][rows] = numbers
