@@ -21,23 +21,29 @@ if sys.argv[1] == "returned":
     return_freed_arrays()
 np.ones(1_000_000)  # From now on, glibc keeps blocks of up to 8 MB.
 before = memory()
-arrays, small = [], []
-for _ in range(50):
-    arrays.append(np.ones(250_000))
-    small.append(bytes(50_000))
+arrays = [np.ones(250_000) for _ in range(51)]
+last = arrays.pop()  # at the end of the heap, which glibc would return otherwise
 arrays.clear()
 print(memory() - before)
 """
 BLOCKS = """
 before = memory()
-arrays, small = [], []
-for _ in range(1000):
-    arrays.append(np.ones(6000))
-    small.append(bytes(1000))
+arrays = [np.ones(6000) for _ in range(1000)]
+last = arrays.pop()  # at the end of the heap, which glibc would return otherwise
 arrays.clear()
 if sys.argv[1] == "returned":
     return_freed_blocks()
 print(memory() - before)
+"""
+
+
+CYCLES = """
+import gc
+return_freed_blocks()
+gc.collect()
+for _ in range(20):
+    return_freed_blocks()
+print(gc.collect())
 """
 
 
@@ -56,3 +62,7 @@ def test_freed_arrays_are_returned_to_the_system():
 def test_freed_blocks_between_others_are_returned_to_the_system():
     assert kept(BLOCKS, "kept") > 30e6
     assert kept(BLOCKS, "returned") < 15e6
+
+
+def test_returning_memory_leaves_nothing_for_the_cyclic_garbage_collector():
+    assert kept(CYCLES, "") == 0

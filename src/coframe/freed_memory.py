@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import ctypes
 import sys
+from functools import cache
 from typing import Any
 
 __all__ = ["return_freed_arrays", "return_freed_blocks"]
@@ -32,6 +33,7 @@ def return_freed_blocks() -> None:
         malloc_trim(0)
 
 
+@cache  # Each CDLL makes classes that refer to each other, which stay until Python's cyclic garbage collector runs.
 def _function(name: str) -> Any:
     """Return a function of glibc; None without glibc."""
     return getattr(ctypes.CDLL(None), name, None) if sys.platform == "linux" else None
