@@ -152,6 +152,13 @@ def test_functions_coroutines_and_loops(launched):
     assert "the function has the arguments ['n', 'name'], but the values are ['name']" in lines[0]
 
 
+@pytest.mark.parametrize("length", ["10001", "1000000000"])
+def test_a_loop_has_a_limited_length(launched, length):
+    code, lines = launched(ForLoop(length, function=lambda i: None))  # noqa: ARG005
+    assert code == 1
+    assert f"ForLoop has the length {length}, and the limit is 10000" in lines[0]
+
+
 def test_output_of_processes(launched, tmp_path):
     code, lines = launched(
         python("import sys; print('out'); sys.stderr.write('err'); sys.exit(3)", cwd=str(tmp_path)),

@@ -25,6 +25,7 @@ if TYPE_CHECKING:
 __all__ = ["ForEach", "ForLoop"]
 
 SEPARATOR = ";"
+MAX_REPETITIONS = 10_000  # of a loop; each makes entities, which stay in memory until they have been visited
 
 
 @expose_action("for_each")
@@ -151,6 +152,8 @@ class ForLoop(Action):
             length = int(text)
         except ValueError:
             raise ValueError(f"ForLoop needs a whole number as its length, not {text!r}") from None
+        if length > MAX_REPETITIONS:
+            raise ValueError(f"ForLoop has the length {length}, and the limit is {MAX_REPETITIONS}")
         found = [entity for index in range(length) for entity in normalize_to_list_of_entities(self.__function(index))]
         return list(found)
 
