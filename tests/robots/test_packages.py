@@ -134,6 +134,19 @@ def test_a_xacro_file_cannot_exhaust_memory_or_time(tmp_path, monkeypatch, body)
         load(tmp_path / "a.urdf.xacro")
 
 
+@pytest.mark.parametrize(
+    "body",
+    ['<xacro:include filename="a.urdf.xacro"/>', '<xacro:macro name="m"><xacro:m/></xacro:macro><xacro:m/>'],
+)
+def test_xacro_that_contains_itself_is_named(tmp_path, body):
+    pytest.importorskip("xacro")
+    (tmp_path / "a.urdf.xacro").write_text(
+        f'<robot name="a" xmlns:xacro="http://www.ros.org/wiki/xacro">{body}</robot>'
+    )
+    with pytest.raises(RobotDescriptionError, match="a macro or an included file contains itself"):
+        load(tmp_path / "a.urdf.xacro")
+
+
 def test_load_errors_contain_the_file_and_the_line(tmp_path):
     with pytest.raises(RobotDescriptionError, match=r"gone.urdf: cannot be read: No such file"):
         load(tmp_path / "gone.urdf")

@@ -40,8 +40,11 @@ def _answer(request: Mapping[str, Any]) -> dict[str, Any]:
     except OSError as error:
         return {"os_error": [error.errno, error.strerror or str(error), error.filename]}
     except Exception as error:  # noqa: BLE001 - Python expressions in the file can raise any exception
-        if isinstance(getattr(error, "exc", None) or error, MemoryError):  # xacro wraps exceptions
+        cause = getattr(error, "exc", None) or error  # xacro wraps exceptions
+        if isinstance(cause, MemoryError):
             return {"error": f"xacro: the file needs more than {MAX_MEMORY >> 30} GiB of memory, the limit"}
+        if isinstance(cause, RecursionError):
+            return {"error": "xacro: a macro or an included file contains itself, directly or through others"}
         return {"error": f"xacro: {str(error) or type(error).__name__}", "hint": getattr(error, "hint", "")}
     if len(text) > MAX_OUTPUT:
         return {"error": f"the expanded file has more than {MAX_OUTPUT >> 20} MiB, the limit"}
