@@ -4,11 +4,12 @@
 from __future__ import annotations
 
 import tracemalloc
+from dataclasses import replace
 
 import numpy as np
 
 from coframe.doctor.transform_rows import TransformRows
-from coframe.doctor.transforms import Transforms
+from coframe.doctor.transforms import COLUMNS, Transforms
 
 ROWS = 50  # per batch
 
@@ -26,6 +27,14 @@ def batch(number: int, publisher: str = "/robot") -> Transforms:
         values=np.repeat((number * ROWS + index)[:, np.newaxis], 7, axis=1).astype(float),
         publishers=(publisher,),
     )
+
+
+def dense(number: int, count: int) -> Transforms:
+    """Return a batch with a number of rows that arrive at once."""
+    rows = batch(number)
+    index = np.arange(count) % ROWS
+    columns = {name: getattr(rows, name)[index] for name in (*COLUMNS, "publisher")}
+    return replace(rows, **columns)
 
 
 def test_the_newest_rows_stay_in_order_and_complete() -> None:
@@ -64,7 +73,10 @@ def test_memory_does_not_grow_with_time() -> None:
         peaks = []
         for number in range(3000):
             rows.append(batch(number))
-            rows.forget(before=number - 99, most=10_000)
+            if number % 50:  # Otherwise, the next rows arrive before old ones are forgotten.
+                rows.forget(before=number - 99, most=10_000)
+            if number > 1000 and number % 7 == 0:
+                rows.append(dense(number, 20))  # The rate rises by 6 %, for which there is room.
             if number % 1000 == 999:
                 peaks.append(tracemalloc.get_traced_memory()[0])
     finally:

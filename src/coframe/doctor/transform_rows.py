@@ -14,7 +14,8 @@ if TYPE_CHECKING:
 
 __all__ = ["TransformRows"]
 
-_GROWTH = 1.5  # of the arrays, when they are full
+_GROWTH = 1.5  # of the arrays, when they are almost full
+_LEAST_ROOM = 1.1  # with less, the rows would be moved too often
 _MOST_PUBLISHERS = 1000  # with more, those without rows are forgotten
 
 
@@ -69,9 +70,9 @@ class TransformRows:
         if self._end + count <= capacity:
             return
         kept, length = slice(self._begin, self._end), len(self)
-        larger = int(_GROWTH * (length + count))
+        larger = int(_GROWTH * (length + count)) if _LEAST_ROOM * (length + count) > capacity else 0
         for name, column in self._columns.items():
-            target = np.empty((larger, *column.shape[1:]), column.dtype) if larger > capacity else column
+            target = np.empty((larger, *column.shape[1:]), column.dtype) if larger else column
             target[:length] = column[kept]
             self._columns[name] = target
         self._begin, self._end = 0, length
