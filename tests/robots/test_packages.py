@@ -136,15 +136,20 @@ def test_a_xacro_file_cannot_exhaust_memory_or_time(tmp_path, monkeypatch, body)
 
 @pytest.mark.parametrize(
     "body",
-    ['<xacro:include filename="a.urdf.xacro"/>', '<xacro:macro name="m"><xacro:m/></xacro:macro><xacro:m/>'],
+    [
+        '<xacro:include filename="a.urdf.xacro"/>',
+        '<xacro:macro name="m"><xacro:m/></xacro:macro><xacro:m/>',
+        "<a>" * 3000 + "</a>" * 3000,
+    ],
 )
-def test_xacro_that_contains_itself_is_named(tmp_path, body):
+def test_xacro_that_is_nested_too_deeply_is_an_error_with_a_hint(tmp_path, body):
     pytest.importorskip("xacro")
     (tmp_path / "a.urdf.xacro").write_text(
         f'<robot name="a" xmlns:xacro="http://www.ros.org/wiki/xacro">{body}</robot>'
     )
-    with pytest.raises(RobotDescriptionError, match="a macro or an included file contains itself"):
+    with pytest.raises(RobotDescriptionError, match="nested too deeply to be expanded") as caught:
         load(tmp_path / "a.urdf.xacro")
+    assert "a macro or an included file contains itself" in caught.value.hint
 
 
 def test_load_errors_contain_the_file_and_the_line(tmp_path):

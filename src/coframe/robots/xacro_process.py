@@ -44,7 +44,8 @@ def _answer(request: Mapping[str, Any]) -> dict[str, Any]:
         if isinstance(cause, MemoryError):
             return {"error": f"xacro: the file needs more than {MAX_MEMORY >> 30} GiB of memory, the limit"}
         if isinstance(cause, RecursionError):
-            return {"error": "xacro: a macro or an included file contains itself, directly or through others"}
+            hint = "Check whether a macro or an included file contains itself, directly or through others."
+            return {"error": "xacro: the file is nested too deeply to be expanded", "hint": hint}
         return {"error": f"xacro: {str(error) or type(error).__name__}", "hint": getattr(error, "hint", "")}
     if len(text) > MAX_OUTPUT:
         return {"error": f"the expanded file has more than {MAX_OUTPUT >> 20} MiB, the limit"}
