@@ -4,37 +4,28 @@
 from __future__ import annotations
 
 import tracemalloc
-from dataclasses import replace
 
 import numpy as np
 
 from coframe.doctor.transform_rows import TransformRows
-from coframe.doctor.transforms import COLUMNS, Transforms
+from coframe.doctor.transforms import Transforms
 
 ROWS = 50  # per batch
 
 
-def batch(number: int, publisher: str = "/robot") -> Transforms:
-    """Return rows that arrive at `number`, each with a value of its own."""
-    index = np.arange(ROWS, dtype=np.int64)
+def batch(number: int, publisher: str = "/robot", rows: int = ROWS) -> Transforms:
+    """Return rows that arrive at `number`; the first ROWS of all batches have values of their own."""
+    index = np.arange(rows, dtype=np.int64)
     return Transforms(
-        arrived=np.full(ROWS, number),
+        arrived=np.full(rows, number),
         stamp=number * ROWS + index,
         parent=index,
         child=index + 1,
-        publisher=np.zeros(ROWS, dtype=np.int64),
-        static=np.zeros(ROWS, dtype=bool),
+        publisher=np.zeros(rows, dtype=np.int64),
+        static=np.zeros(rows, dtype=bool),
         values=np.repeat((number * ROWS + index)[:, np.newaxis], 7, axis=1).astype(float),
         publishers=(publisher,),
     )
-
-
-def dense(number: int, count: int) -> Transforms:
-    """Return a batch with a number of rows that arrive at once."""
-    rows = batch(number)
-    index = np.arange(count) % ROWS
-    columns = {name: getattr(rows, name)[index] for name in (*COLUMNS, "publisher")}
-    return replace(rows, **columns)
 
 
 def test_the_newest_rows_stay_in_order_and_complete() -> None:
@@ -76,12 +67,27 @@ def test_memory_does_not_grow_with_time() -> None:
             if number % 50:  # Otherwise, the next rows arrive before old ones are forgotten.
                 rows.forget(before=number - 99, most=10_000)
             if number > 1000 and number % 7 == 0:
-                rows.append(dense(number, 20))  # The rate rises by 6 %, for which there is room.
+                rows.append(batch(number, rows=20))  # The rate rises by 6 %, for which there is room.
             if number % 1000 == 999:
                 peaks.append(tracemalloc.get_traced_memory()[0])
     finally:
         tracemalloc.stop()
     assert peaks[2] < 1.01 * peaks[0]
+
+
+def test_rows_that_arrive_after_a_pause_take_the_place_of_old_ones() -> None:
+    rows = TransformRows()
+    tracemalloc.start()
+    try:
+        for number in range(1000):
+            rows.forget(before=number - 99, most=10_000)
+            rows.append(batch(number))
+        before = tracemalloc.get_traced_memory()[0]
+        rows.forget(before=1060 - 99, most=10_000)
+        rows.append(batch(1060, rows=60 * ROWS))
+        assert tracemalloc.get_traced_memory()[0] < 1.01 * before
+    finally:
+        tracemalloc.stop()
 
 
 def test_publishers_that_have_left_are_forgotten() -> None:

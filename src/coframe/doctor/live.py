@@ -197,6 +197,8 @@ class LiveObserver:
         for handles in published.values():
             for handle, endpoint in handles.items():
                 self._add_writer(handle, endpoint)
+        if self.window is not None:  # New transforms take the place of old ones, also after a pause.
+            self._collector.forget(time.time_ns() - self.window, MAX_TRANSFORMS)
         for topic, (subscription, static) in self._transforms.items():
             self._take_transforms(topic, subscription.take(), static)
         self._topics_ignored = 0
