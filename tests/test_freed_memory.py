@@ -35,8 +35,6 @@ if sys.argv[1] == "returned":
     return_freed_blocks()
 print(memory() - before)
 """
-
-
 CYCLES = """
 import gc
 return_freed_blocks()
@@ -59,7 +57,7 @@ def test_freed_arrays_are_returned_to_the_system():
 
 
 @pytest.mark.skipif(platform.libc_ver()[0] != "glibc", reason="about the allocator of glibc")
-def test_freed_blocks_between_others_are_returned_to_the_system():
+def test_freed_blocks_below_another_one_are_returned_to_the_system():
     assert kept(BLOCKS, "kept") > 30e6
     assert kept(BLOCKS, "returned") < 15e6
 
