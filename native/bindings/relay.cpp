@@ -71,7 +71,7 @@ nb::list relay_writers(const Relay& self, Relay::SourceId source) {
   for (const auto& [handle, writer] : self.writers(source)) {
     list.append(nb::make_tuple(
         writer_tuple(handle, writer.messages, writer.received_at, writer.period, writer.delay, writer.name_problems),
-        writer.malformed, writer.refused));
+        writer.malformed, writer.refused, writer.over_limit));
   }
   return list;
 }

@@ -293,9 +293,14 @@ void define_readers(nb::module_& wire) {
   define_reader_properties<PyReader>(reader);
 
   auto tap = nb::class_<PyTap>(wire, "Tap", "Records messages with their arrival times on DDS's thread.");
-  tap.def(nb::init<dds::Entity, dds::Entity, const QosProfile&, const std::string&, std::size_t, std::size_t>(),
-          nb::arg("participant"), nb::arg("topic"), nb::arg("qos"), nb::arg("user_data"), nb::arg("head"),
-          nb::arg("capacity"), ReleaseGil())
+  tap.def(
+         "__init__",
+         [](PyTap* self, dds::Entity participant, dds::Entity topic, const QosProfile& qos,
+            const std::string& user_data, std::size_t head, std::size_t messages, std::size_t size) {
+           new (self) PyTap(participant, topic, qos, user_data, Tap::Limits{head, messages, size});
+         },
+         nb::arg("participant"), nb::arg("topic"), nb::arg("qos"), nb::arg("user_data"), nb::arg("head"),
+         nb::arg("messages"), nb::arg("size"), ReleaseGil())
       .def("take", &take_tapped,
            "Return the messages since the last call: their bytes, and as bytes their ends (uint64), arrived, sent "
            "(int64) "

@@ -104,9 +104,13 @@ std::uint32_t Relay::place_of(const Source& source, Writer& writer, std::size_t 
   writer.name_problems.note(source.renaming, view.parent);
   writer.name_problems.note(source.renaming, view.child);
   if (renamed(source.renaming, source.direction, view, parent, child)) {
-    if (check_names(parent, child) == 0) place = find_or_add(parent, child);
-    if (place == 0) {
+    if (check_names(parent, child) != 0) {
       ++writer.refused;
+      return 0;
+    }
+    place = find_or_add(parent, child);
+    if (place == 0) {
+      ++writer.over_limit;
       return 0;
     }
   }

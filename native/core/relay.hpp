@@ -64,7 +64,8 @@ class Relay {
 
   struct Writer {
     std::uint64_t messages = 0, malformed = 0;
-    std::uint64_t refused = 0;  // transforms with invalid names or values, or beyond the limits
+    std::uint64_t refused = 0;     // transforms with invalid names or values
+    std::uint64_t over_limit = 0;  // transforms of edges for which there was no room
     std::int64_t received_at = 0;
     ArrivalPeriod period;
     StampDelay delay;

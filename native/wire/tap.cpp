@@ -16,9 +16,8 @@ std::int64_t now() {
 }  // namespace
 
 Tap::Tap(dds::Entity participant, dds::Entity topic, const QosProfile& profile, const std::string& user_data,
-         std::size_t head, std::size_t capacity)
-    : head_(head),
-      capacity_(capacity),
+         const Limits& limits)
+    : limits_(limits),
       reader_(participant, topic, make_qos(profile, user_data).get(), &Tap::on_data, this) {
   on_data(reader_.entity(), this);  // samples that arrived before the listener was attached
 }
@@ -35,12 +34,12 @@ void Tap::drain(dds::Entity reader) {
   const std::int64_t arrived = now();
   const std::lock_guard lock(mutex_);
   const auto keep = [&](const dds::Sample& sample) {
-    if (messages_.ends.size() >= capacity_) {
+    if (messages_.ends.size() >= limits_.messages || messages_.bytes.size() >= limits_.size) {
       ++missed_;
       return;
     }
     const auto bytes = sample.bytes();
-    messages_.bytes.append(reinterpret_cast<const char*>(bytes.data()), std::min(bytes.size(), head_));
+    messages_.bytes.append(reinterpret_cast<const char*>(bytes.data()), std::min(bytes.size(), limits_.head));
     messages_.arrived.push_back(arrived);
     messages_.sent.push_back(sample.info().source_timestamp);
     messages_.writers.push_back(sample.info().publication_handle);

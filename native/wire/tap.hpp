@@ -24,14 +24,20 @@ class Tap {
     std::string bytes;
   };
 
-  // Keeps the first `head` bytes of each message, and at most `capacity` messages; further ones are only counted.
+  // What is kept until take(). Messages beyond `messages` or `size` are only counted.
+  struct Limits {
+    std::size_t head;  // bytes of each message
+    std::size_t messages;
+    std::size_t size;  // bytes of all messages
+  };
+
   Tap(dds::Entity participant, dds::Entity topic, const QosProfile& profile, const std::string& user_data,
-      std::size_t head, std::size_t capacity);
+      const Limits& limits);
   void close() noexcept { reader_.close(); }
 
   // Returns the messages since the last call.
   Messages take();
-  // Returns how many messages were dropped because `capacity` was reached.
+  // Returns how many messages were dropped because a limit was reached.
   std::uint64_t missed();
 
   const DataReader& reader() const { return reader_; }
@@ -41,7 +47,7 @@ class Tap {
   static void on_data(dds::Entity reader, void* self) noexcept;
   void drain(dds::Entity reader);
 
-  const std::size_t head_, capacity_;
+  const Limits limits_;
   std::mutex mutex_;  // protects the two members below
   Messages messages_;
   std::uint64_t missed_ = 0;

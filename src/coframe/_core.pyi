@@ -715,8 +715,8 @@ class Relay:
             dropped for the rate or the maximum error; the newest stamp; the arrival time of the last transform.
         """
 
-    def writers(self, source: int) -> list[tuple[tuple[int, int, int, int, int | None, str, str, str], int, int]]:
-        """Return for each writer of a source: see TfReader.writers(); malformed messages; rejected transforms."""
+    def writers(self, source: int) -> list[tuple[tuple[int, int, int, int, int | None, str, str, str], int, int, int]]:
+        """Return each writer of a source: see TfReader.writers(); malformed messages; invalid, surplus transforms."""
 
 def frozen_parts(buffer: Buffer) -> tuple[bytes, int]:
     """Return the table of a frozen buffer for a file, and its number of sample chunks."""
@@ -890,7 +890,7 @@ class Tap:
     """Records messages with their arrival times on DDS's thread, without the GIL; polled with take()."""
 
     def __init__(
-        self, participant: int, topic: int, qos: QosProfile, user_data: str, head: int, capacity: int
+        self, participant: int, topic: int, qos: QosProfile, user_data: str, head: int, messages: int, size: int
     ) -> None: ...
     def take(self) -> tuple[bytes, bytes, bytes, bytes, bytes]:
         """Return the messages since the last call, the oldest first.

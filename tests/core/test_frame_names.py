@@ -145,8 +145,8 @@ def test_a_relay_drops_transforms_that_a_buffer_would_refuse():
     native.add(0, 1, b"\0\1\0\0\xff\xff\xff\x7f")
     native.add(0, 1, b"")
     assert native.take() is None
-    [(writer, malformed, refused)] = native.writers(0)
-    assert (writer[1], malformed, refused) == (3, 2, 4)
+    [(writer, malformed, refused, over_limit)] = native.writers(0)
+    assert (writer[1], malformed, refused, over_limit) == (3, 2, 4, 0)
     with pytest.raises(IndexError):
         native.add(7, 1, cdr())
 
@@ -157,15 +157,16 @@ def test_the_number_of_frames_of_a_writer_is_bounded():
     for batch in range(70):
         native.add(0, batch, cdr(*(stamped("a", f"b{batch}_{number}") for number in range(1000))))
     assert len(native.edges()) == 65536
+    assert sum(over_limit for _, _, _, over_limit in native.writers(0)) == 70_000 - 65536
 
 
 def test_naming_problems_are_reported_with_examples():
     native, pass_on = relay("robot1/", keep=["map"])
     pass_on(0, stamped("map", "odom"))
-    [(writer, _, _)] = native.writers(0)
+    [(writer, *_)] = native.writers(0)
     assert writer[5:] == ("", "", "odom")
     pass_on(0, stamped("/map", "robot1/odom"))
-    [(writer, _, _)] = native.writers(0)
+    [(writer, *_)] = native.writers(0)
     assert writer[5:] == ("/map", "robot1/odom", "odom")
     problems = frame_names.naming_problems("/robot1/tf", *writer[5:])
     assert "'/map'; its leading slash is removed" in problems[0]

@@ -15,6 +15,7 @@ import pytest
 from nodes import ROBOT
 
 import coframe
+from coframe.doctor import diagnose
 from coframe.doctor.live import LiveObserver
 from coframe.messages import find
 
@@ -143,6 +144,49 @@ def test_topics_have_a_limit_and_departed_ones_are_forgotten(domain_id, eventual
                 assert {name[1] for name in topics()} == {letter}
             eventually(lambda: not topics())
         assert listening.observe().topics_ignored == 0
+
+
+def test_transforms_and_messages_beyond_the_limits_are_reported(domain_id, eventually, monkeypatch):
+    pytest.importorskip("dds_library", reason="transforms are received over DDS")
+    monkeypatch.setattr("coframe.doctor.live.MAX_TRANSFORMS", 40)
+    monkeypatch.setattr("coframe.doctor.live.MAX_MESSAGES", 20)
+    stamped, transforms, imu = (
+        find(name) for name in ("geometry_msgs/msg/TransformStamped", "tf2_msgs/msg/TFMessage", "sensor_msgs/msg/Imu")
+    )
+    with LiveObserver(domain_id) as listening, coframe.connect("arm", domain=domain_id) as ros:
+        tf, rates = ros.publisher("/tf", transforms), ros.publisher("/imu", imu)
+        link, reading = stamped(child_frame_id="link"), imu()
+        link.header.frame_id = reading.header.frame_id = "base"
+
+        def found():
+            tf.publish(transforms(transforms=[link]))
+            rates.publish(reading)
+            listening.poll()
+            return [finding.text for finding in diagnose(listening.observe()).findings if "too many" in finding.text]
+
+        eventually(lambda: len(found()) == 2)
+        since, incomplete = found()
+        assert re.fullmatch(r"only the transforms of the last [\d.]+ m?s were examined: there are too many", since)
+        assert incomplete == "some messages of /imu were not examined: there are too many"
+        assert len(listening.observe().transforms) <= 41
+
+
+def test_a_pause_does_not_enlarge_the_arrays_of_transforms(domain_id, eventually):
+    pytest.importorskip("dds_library", reason="transforms are received over DDS")
+    stamped, transforms = find("geometry_msgs/msg/TransformStamped"), find("tf2_msgs/msg/TFMessage")
+    message = transforms(transforms=[stamped(child_frame_id=f"link{i}") for i in range(100)])
+    for one in message.transforms:
+        one.header.frame_id = "base"
+    with LiveObserver(domain_id, window=1_000_000_000) as listening, coframe.connect("arm", domain=domain_id) as ros:
+        tf = ros.publisher("/tf", transforms)
+        eventually(lambda: tf.publish(message) or listening.poll() or len(listening.observe().transforms) >= 1000)
+        time.sleep(1.1)  # longer than the window, so that these rows are too old
+        for _ in range(10):
+            tf.publish(message)
+        time.sleep(0.2)
+        listening.poll()
+        capacity = len(listening._collector._moving._columns["stamp"])
+        assert capacity < 2000, "old rows and new ones were stored at the same time"
 
 
 @pytest.mark.slow

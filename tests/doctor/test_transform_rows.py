@@ -43,8 +43,11 @@ def test_rows_beyond_the_maximum_are_the_oldest() -> None:
     rows = TransformRows()
     for number in range(10):
         rows.append(batch(number))
-    rows.forget(before=0, most=120)
+    rows.forget(before=2, most=500)
+    assert rows.forgotten_until == 0, "what is too old is not missing"
+    rows.forget(before=2, most=120)
     assert rows.table().stamp.tolist() == list(range(380, 500))
+    assert rows.forgotten_until == 7
 
 
 def test_all_rows_can_be_forgotten() -> None:

@@ -6,9 +6,9 @@ import re
 import pytest
 
 import coframe
-from coframe.messages import find
+from coframe.messages import find, serialize
 from coframe.wire import Participant
-from coframe.wire.qos import TF_STATIC_WRITER
+from coframe.wire.qos import TF, TF_STATIC_WRITER
 
 # A robot that publishes odom and base on its own topic and a mount on its static topic until it is killed.
 ROBOT = """
@@ -136,6 +136,31 @@ def test_a_frame_that_two_robots_publish_is_reported_and_taken_from_the_first(ro
     )
     eventually(lambda: any("robot1 and robot2 both publish a transform to 'odom'" in text for text in warnings))
     assert ros.buffer.lookup("map", "odom").translation[0] == 1.0
+
+
+def test_what_cannot_be_relayed_is_counted_and_reported_once(participant, node, fleet, eventually):
+    warnings = []
+    relay = fleet(coframe.relay, "robot1", prefix_each=True, warn=warnings.append)
+    kind, stamped = find("tf2_msgs/msg/TFMessage"), find("geometry_msgs/msg/TransformStamped")
+    tf = participant.raw_publisher(node, "/robot1/tf", "tf2_msgs/msg/TFMessage", TF)
+    own_parent = stamped(child_frame_id="odom")
+    own_parent.header.frame_id = "odom"
+    message = serialize(kind(transforms=[own_parent]))
+
+    def counted():
+        tf.write(message)
+        tf.write(message[:-9])
+        [robot] = relay.robots
+        return min(robot.not_relayed[:2]) >= 3
+
+    eventually(counted)
+    eventually(lambda: len(warnings) >= 2)
+    assert sorted(warnings) == [
+        "/tester on /robot1/tf publishes messages that are not valid TFMessages, which are not relayed",
+        "/tester on /robot1/tf publishes transforms with invalid frame names or values, which are not relayed",
+    ]
+    assert relay.robots[0].not_relayed.over_limit == 0
+    assert relay.edges() == []
 
 
 def test_transforms_of_a_relay_are_not_relayed_again(robot, fleet, eventually):

@@ -175,7 +175,8 @@ def _table(running: Relay, rates: _Rates, most: int | None = None) -> Group:
     table = Table(box=None, pad_edge=False, header_style="dim")
     for column in ("edge", "robot", "from", "node", "to", "Hz", "age s", ""):
         table.add_column(column, justify="right" if column in {"Hz", "age s"} else "left")
-    states = {robot.name: robot.state for robot in running.robots}
+    robots = running.robots
+    states = {robot.name: robot.state for robot in robots}
     edges = sorted(running.edges(), key=lambda edge: (edge.target, edge.robot, edge.parent, edge.child))
     each = rates.update(edges)
     for edge in edges[:most]:
@@ -193,4 +194,6 @@ def _table(running: Relay, rates: _Rates, most: int | None = None) -> Group:
         ]
         table.add_row(*(Text(one_line(cell), style="red" if note else "") for cell in cells))
     left = len(edges) - len(table.rows)
-    return Group(table, *([Text(f"... and {count(left, 'more edge')}", style="dim")] if left else []))
+    notes = [f"... and {count(left, 'more edge')}"] if left else []
+    notes += [f"not relayed of {one.name}: {one.not_relayed}" for one in robots if any(one.not_relayed)]
+    return Group(table, *(Text(one_line(note), style="dim") for note in notes))

@@ -95,6 +95,11 @@ class Collector:
         self._moving.forget(before, most)
         self._static.forget(0, most)
 
+    @property
+    def forgotten_until(self) -> int:
+        """The time of arrival of the last transform that was removed because there were too many; 0 if none was."""
+        return max(self._static.forgotten_until, self._moving.forgotten_until)
+
     def transforms(self) -> Transforms:
         """Return all rows in the order of arrival."""
         sent = tuple(self._names)

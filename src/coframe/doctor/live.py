@@ -95,10 +95,17 @@ class _Topic:
         self.subscription = subscription
         self.since = time.monotonic_ns()
         self.messages = 0
-        self.headers: deque[_ReceivedHeader] = deque(maxlen=MAX_MESSAGES)
+        self.headers: deque[_ReceivedHeader] = deque()
         self.decoded: deque[tuple[int, Any]] = deque()
         self._sizes: deque[int] = deque()  # bytes of the decoded messages
         self._bytes = 0
+        self.forgotten_until = 0  # the time of the last message that was dropped or forgotten because of a limit
+
+    def add_header(self, header: _ReceivedHeader) -> None:
+        """Store a header, and forget the oldest one beyond the limit on their number."""
+        self.headers.append(header)
+        if len(self.headers) > MAX_MESSAGES:
+            self.forgotten_until = self.headers.popleft().arrived
 
     def add_decoded(self, size: int, arrived: int, message: Any) -> None:
         """Store a message, and forget the oldest ones beyond the limits on their number and their bytes."""
@@ -106,6 +113,7 @@ class _Topic:
         self._sizes.append(size)
         self._bytes += size
         while len(self.decoded) > MAX_MESSAGES or (self._bytes > MAX_DECODED_BYTES and len(self.decoded) > 1):
+            self.forgotten_until = self.decoded[0][0]
             self._drop_oldest()
 
     def forget(self, before: int) -> None:
@@ -169,6 +177,7 @@ class LiveObserver:
         self._static_writers: set[int] = set()  # those that have delivered
         self._topics: dict[str, _Topic] = {}
         self._topics_ignored = 0
+        self._dropped_at: dict[str, int] = {}  # by topic of transforms, the time of the last dropped message
         self._return_due = 0.0
         try:
             self._node = self._participant.add_node(namespace, node_name)
@@ -197,8 +206,9 @@ class LiveObserver:
         for handles in published.values():
             for handle, endpoint in handles.items():
                 self._add_writer(handle, endpoint)
-        if self.window is not None:  # New transforms take the place of old ones, also after a pause.
-            self._collector.forget(time.time_ns() - self.window, MAX_TRANSFORMS)
+        before = 0 if self.window is None else time.time_ns() - self.window
+        # Before new transforms are added: they take the place of old ones, also after a pause.
+        self._collector.forget(before, MAX_TRANSFORMS)
         for topic, (subscription, static) in self._transforms.items():
             self._take_transforms(topic, subscription.take(), static)
         self._topics_ignored = 0
@@ -211,9 +221,8 @@ class LiveObserver:
                 self._subscribe_if_relevant(name, sorted({endpoint.ros_type for endpoint in handles.values()}))
         for other in self._topics.values():
             self._take(other)
+        self._forget(before, {handle for handles in published.values() for handle in handles})
         if self.window is not None:
-            before = time.time_ns() - self.window
-            self._forget(before, {handle for handles in published.values() for handle in handles})
             self._leave(
                 [name for name, topic in self._topics.items() if name not in published and topic.is_over(before)]
             )
@@ -234,6 +243,7 @@ class LiveObserver:
 
     def observe(self) -> Observation:
         """Return what was received within the window."""
+        self._return_due = 0.0  # The caller discards a large report: the next poll returns its memory.
         end = time.time_ns()
         start = self.start if self.window is None else max(self.start, end - self.window)
         return Observation(
@@ -245,6 +255,11 @@ class LiveObserver:
             damaged_messages=self._collector.damaged,
             messages_ignored=self._collector.ignored,
             topics_ignored=self._topics_ignored,
+            transforms_since=self._collector.forgotten_until if self._collector.forgotten_until >= start else 0,
+            incomplete=(
+                *(topic for topic, dropped_at in self._dropped_at.items() if dropped_at >= start),
+                *(topic.name for topic in self._topics.values() if topic.forgotten_until >= start),
+            ),
             topics=self._facts(),
             sensors=tuple(
                 s for topic in self._topics.values() for s in _sensors(topic, start, self._rename, self._node_of)
@@ -324,6 +339,8 @@ class LiveObserver:
         return {writer for reader in readers for writer in reader.matched_handles()} - self._static_writers
 
     def _take_transforms(self, topic: str, messages: MessageBatch, static: bool) -> None:
+        if messages.dropped:
+            self._dropped_at[topic] = time.time_ns()
         if not len(messages.ends):
             return
         handles, publisher = np.unique(messages.writers, return_inverse=True)
@@ -365,6 +382,8 @@ class LiveObserver:
     def _take(self, topic: _Topic) -> None:
         messages = topic.subscription.take()
         topic.messages += len(messages.ends)
+        if messages.dropped:
+            topic.forgotten_until = time.time_ns()
         whole = Slices.contiguous(messages.data, messages.ends).each()
         rows = zip(map(bytes, whole), messages.arrived.tolist(), messages.writers.tolist(), strict=True)
         if topic.type in _DECODED or topic.name.endswith(_DESCRIPTION):
@@ -375,7 +394,7 @@ class LiveObserver:
             header = peek_header(data)
             if header is not None:
                 stamp, frame = header
-                topic.headers.append(_ReceivedHeader(frame.lstrip("/"), stamp, arrived, writer))
+                topic.add_header(_ReceivedHeader(frame.lstrip("/"), stamp, arrived, writer))
 
     def _decoded(self, ros_type: str) -> list[tuple[int, Any]]:
         return [pair for topic in self._topics.values() if topic.type == ros_type for pair in topic.decoded]

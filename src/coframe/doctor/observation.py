@@ -130,6 +130,9 @@ class Observation:
         damaged_messages: The number of messages that are not valid TFMessages.
         messages_ignored: The number of messages that were ignored because of too many frame names before them.
         topics_ignored: The number of topics that were not examined because there are too many.
+        transforms_since: The time of arrival since which all transforms are included, if older ones were forgotten
+            because there are too many; otherwise 0.
+        incomplete: The topics of which some messages are not included, because there are too many.
         topics: The topics by name.
         sensors: Messages with a header that names a frame.
         descriptions: The robot descriptions, in the order of arrival.
@@ -150,6 +153,8 @@ class Observation:
     damaged_messages: int = 0
     messages_ignored: int = 0
     topics_ignored: int = 0
+    transforms_since: int = 0
+    incomplete: tuple[str, ...] = ()
     topics: dict[str, TopicFacts] = field(default_factory=dict)
     sensors: tuple[Sensor, ...] = ()
     descriptions: tuple[str, ...] = ()

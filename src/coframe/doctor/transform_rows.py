@@ -25,6 +25,10 @@ class TransformRows:
     The arrays are used again for new rows. If each batch had arrays of its own, they would come and go several times
     per second between other blocks, and the holes between them would add to the memory of a process that runs for
     hours.
+
+    Attributes:
+        forgotten_until: The time of arrival of the last row that was removed because there were too many; 0 if none
+            was.
     """
 
     def __init__(self) -> None:
@@ -33,6 +37,7 @@ class TransformRows:
         self._publishers: dict[str, int] = {}
         self._begin = 0
         self._end = 0
+        self.forgotten_until = 0
 
     def __len__(self) -> int:
         return self._end - self._begin
@@ -49,7 +54,10 @@ class TransformRows:
     def forget(self, before: int, most: int) -> None:
         """Remove the first rows up to one that arrived at a time or later, and those beyond a maximum number."""
         recent = self._columns["arrived"][self._begin : self._end] >= before
-        self._begin = max(self._begin + int(recent.argmax()) if recent.any() else self._end, self._end - most)
+        self._begin = self._begin + int(recent.argmax()) if recent.any() else self._end
+        if len(self) > most:
+            self._begin = self._end - most
+            self.forgotten_until = int(self._columns["arrived"][self._begin - 1])
         if len(self._publishers) > _MOST_PUBLISHERS:
             self._forget_publishers()
 

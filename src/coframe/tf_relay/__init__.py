@@ -11,6 +11,6 @@
 from coframe.tf_relay.forwarding import Relay
 from coframe.tf_relay.max_error import MaxError
 from coframe.tf_relay.starting import relay
-from coframe.tf_relay.status import RelayedEdge, RelayedRobot
+from coframe.tf_relay.status import NotRelayed, RelayedEdge, RelayedRobot
 
-__all__ = ["MaxError", "Relay", "RelayedEdge", "RelayedRobot", "relay"]
+__all__ = ["MaxError", "NotRelayed", "Relay", "RelayedEdge", "RelayedRobot", "relay"]

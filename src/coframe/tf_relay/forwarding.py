@@ -13,7 +13,7 @@ from coframe.errors import WireError
 from coframe.frame_names import kept, renaming
 from coframe.tf_publishers import TfPublisher, publisher_state, tf_publisher
 from coframe.tf_relay.robots import Robot, topic_of_kind
-from coframe.tf_relay.status import RelayedEdge, RelayedRobot
+from coframe.tf_relay.status import NotRelayed, RelayedEdge, RelayedRobot
 from coframe.time import MILLISECOND, SECOND
 from coframe.wire.participant import Participant
 from coframe.wire.qos import TF_STATIC_WRITER, QoS
@@ -21,7 +21,7 @@ from coframe.wire.tf_reader import WriterStatistics
 from coframe.wire.warn_once import WarnOnce
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
+    from collections.abc import Callable, Iterable, Iterator
     from types import TracebackType
 
     from typing_extensions import Self
@@ -132,11 +132,12 @@ class Relay:
     @property
     def robots(self) -> list[RelayedRobot]:
         """The state of each robot."""
-        publishers: dict[str, list[TfPublisher]] = {robot.name: [] for robot in self._robots}
-        for input_ in self._inputs:
-            for route in input_.routes:
-                publishers[route.output.robots[route.source].name] += self._publishers(input_, route)
-        return [RelayedRobot(name, publisher_state(found), found) for name, found in publishers.items()]
+        robots = []
+        for name, received in self._received().items():
+            publishers = [publisher for publisher, _ in received]
+            not_relayed = NotRelayed(*map(sum, zip(*(counts for _, counts in received), strict=True)))
+            robots.append(RelayedRobot(name, publisher_state(publishers), publishers, not_relayed))
+        return robots
 
     def edges(self) -> list[RelayedEdge]:
         """Return every edge that is published, with its origin and its counters."""
@@ -282,34 +283,41 @@ class Relay:
                 )
         return self._relay_writers[writer]
 
-    def _publishers(self, input_: _Input, route: _Route) -> list[TfPublisher]:
-        """Return the publishers of one robot on one topic."""
-        writers = self.participant.writers(input_.topic)
+    def _received(self) -> dict[str, list[tuple[TfPublisher, NotRelayed]]]:
+        """Return the publishers of each robot, with what could not be relayed of each."""
+        received: dict[str, list[tuple[TfPublisher, NotRelayed]]] = {robot.name: [] for robot in self._robots}
+        for input_ in self._inputs:
+            for route in input_.routes:
+                received[route.output.robots[route.source].name] += self._publishers(input_, route)
+        return received
+
+    def _publishers(self, input_: _Input, route: _Route) -> Iterator[tuple[TfPublisher, NotRelayed]]:
+        """Yield the publishers of one robot on one topic."""
+        present = self.participant.writers(input_.topic)
         with self._lock:
-            statistics = [WriterStatistics(*facts) for facts, _, _ in route.output.native.writers(route.source)]
-        return [
-            tf_publisher(
-                each,
-                self.participant.writer_node(each.writer),
-                input_.topic,
-                static=input_.static,
-                present=each.writer in writers,
+            writers = route.output.native.writers(route.source)
+        for facts, *not_relayed in writers:
+            statistics = WriterStatistics(*facts)
+            node = self.participant.writer_node(statistics.writer)
+            publisher = tf_publisher(
+                statistics, node, input_.topic, static=input_.static, present=statistics.writer in present
             )
-            for each in statistics
-        ]
+            yield publisher, NotRelayed(*not_relayed)
 
     def _check(self) -> None:
         """Warn about problems, once each, and about changes of the state of robots."""
         self._forget_departed_writers()
         edges = self.edges()
-        for robot in self.robots:
-            for publisher in robot.publishers:
-                children = [edge.child for edge in edges if edge.robot == robot.name and edge.node == publisher.node]
+        for robot, received in self._received().items():
+            for publisher, not_relayed in received:
+                children = [edge.child for edge in edges if edge.robot == robot and edge.node == publisher.node]
                 if problem := publisher.clock_problem(children):
-                    self._warn_once(f"clock {publisher.node} {publisher.topic}", f"{robot.name}: {problem}")
-                for problem in publisher.naming_problems:
+                    self._warn_once(f"clock {publisher.node} {publisher.topic}", f"{robot}: {problem}")
+                for problem in publisher.naming_problems + not_relayed.problems(
+                    f"{publisher.node} on {publisher.topic}"
+                ):
                     self._warn_once(problem, problem)
-            self._report_state(robot)
+            self._report_state(robot, publisher_state(publisher for publisher, _ in received))
         for edge in edges:
             if edge.conflicting_robot:
                 self._warn_once(
@@ -319,23 +327,23 @@ class Relay:
                     "prefix, or stop one of the publishers.",
                 )
 
-    def _report_state(self, robot: RelayedRobot) -> None:
-        before, self._states[robot.name] = self._states[robot.name], robot.state
-        if robot.state == before:
+    def _report_state(self, robot: str, state: str) -> None:
+        before, self._states[robot] = self._states[robot], state
+        if state == before:
             return
-        if robot.state == "gone":
-            self._warn(f"{robot.name} is gone: no node publishes its transforms any more, so its frames are stale.")
-        elif robot.state == "stale":
-            self._warn(f"{robot.name} is stale: its publishers are on the graph, but no dynamic transforms arrive.")
+        if state == "gone":
+            self._warn(f"{robot} is gone: no node publishes its transforms any more, so its frames are stale.")
+        elif state == "stale":
+            self._warn(f"{robot} is stale: its publishers are on the graph, but no dynamic transforms arrive.")
         elif before != "waiting":
-            self._warn(f"{robot.name} is live again.")
+            self._warn(f"{robot} is live again.")
 
     def _forget_departed_writers(self) -> None:
         for input_ in self._inputs:
             present = self.participant.writers(input_.topic)
             for output, source in input_.routes:
                 with self._lock:
-                    for (writer, _, received_at, *_), _, _ in output.native.writers(source):
+                    for (writer, _, received_at, *_), *_ in output.native.writers(source):
                         if writer not in present and time.monotonic_ns() - received_at > _FORGET_AFTER:
                             output.native.forget_writer(source, writer)
                             self._relay_writers.pop(writer, None)

@@ -6,10 +6,12 @@ from __future__ import annotations
 import warnings
 from typing import TYPE_CHECKING, NamedTuple
 
+from coframe.formatting import count
+
 if TYPE_CHECKING:
     from coframe.tf_publishers import TfPublisher
 
-__all__ = ["RelayedEdge", "RelayedRobot"]
+__all__ = ["NotRelayed", "RelayedEdge", "RelayedRobot"]
 
 
 class RelayedEdge(NamedTuple):
@@ -54,6 +56,35 @@ class RelayedEdge(NamedTuple):
         return self.conflicting_robot
 
 
+class NotRelayed(NamedTuple):
+    """How much of what was received could not be relayed.
+
+    Attributes:
+        malformed: The number of messages that are not valid TFMessages.
+        invalid: The number of transforms with frame names or values that tf2 refuses.
+        over_limit: The number of transforms of new edges, after the relay had the maximum number of edges.
+    """
+
+    malformed: int = 0
+    invalid: int = 0
+    over_limit: int = 0
+
+    def problems(self, publisher: str) -> list[str]:
+        """Return one text for each reason, with the name of the publisher."""
+        texts = {
+            "messages that are not valid TFMessages": self.malformed,
+            "transforms with invalid frame names or values": self.invalid,
+            "transforms of further edges, beyond the maximum of a relay": self.over_limit,
+        }
+        return [f"{publisher} publishes {what}, which are not relayed" for what, number in texts.items() if number]
+
+    def __str__(self) -> str:
+        return (
+            f"{count(self.malformed, 'malformed message')}, {count(self.invalid, 'invalid transform')} and "
+            f"{count(self.over_limit, 'transform')} beyond the maximum number of edges"
+        )
+
+
 class RelayedRobot(NamedTuple):
     """A robot of a relay.
 
@@ -62,8 +93,10 @@ class RelayedRobot(NamedTuple):
         state: "waiting" (no message has arrived), "live", "stale" (no dynamic transform has arrived recently) or
             "gone" (all publishers have left).
         publishers: The publishers of the robot's transforms, including those that left recently.
+        not_relayed: How much of what these publishers sent could not be relayed.
     """
 
     name: str
     state: str
     publishers: list[TfPublisher]
+    not_relayed: NotRelayed

@@ -10,7 +10,7 @@ handle, a 64-bit number that messages carry and the graph knows.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -20,6 +20,20 @@ if TYPE_CHECKING:
     from coframe.wire.graph import Graph
     from coframe.wire.names import Endpoint
     from coframe.wire.qos import QoS
+
+
+class QueueLimits(NamedTuple):
+    """What a `BackendTap` keeps until it is taken.
+
+    Attributes:
+        head: The number of bytes of each message.
+        messages: The number of messages.
+        size: The number of bytes of all messages. The last one may exceed it.
+    """
+
+    head: int
+    messages: int
+    size: int
 
 
 class BackendEndpoint(Protocol):
@@ -122,7 +136,7 @@ class Session(Protocol):
     def reader(self, node: GraphNode, endpoint: Endpoint, qos: QoS, on_data: _core.Event | None) -> BackendReader:
         """Create a subscription that queues messages."""
 
-    def tap(self, node: GraphNode, endpoint: Endpoint, qos: QoS, *, max_bytes: int, capacity: int) -> BackendTap:
+    def tap(self, node: GraphNode, endpoint: Endpoint, qos: QoS, limits: QueueLimits) -> BackendTap:
         """Create a subscription that records messages."""
 
     def tf_reader(

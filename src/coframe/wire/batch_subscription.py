@@ -18,6 +18,9 @@ if TYPE_CHECKING:
     from coframe.wire.qos import QoS
 
 
+MAX_QUEUED_BYTES = 256 << 20  # of one subscription, until its messages are taken
+
+
 class MessageBatch(NamedTuple):
     """N received messages, or the first bytes of each, oldest first. Times are nanoseconds since 1970.
 
@@ -27,6 +30,7 @@ class MessageBatch(NamedTuple):
         arrived: The arrival times on the clock of this machine, (N,) int64.
         sent: The publication times on the clock of the publisher's machine, (N,) int64.
         writers: The handles of the writers, (N,) uint64, for `Participant.writer_node`.
+        dropped: The number of further messages, which were dropped because the queue was full.
     """
 
     data: bytes
@@ -34,6 +38,7 @@ class MessageBatch(NamedTuple):
     arrived: NDArray[np.int64]
     sent: NDArray[np.int64]
     writers: NDArray[np.uint64]
+    dropped: int
 
 
 class BatchSubscription(LocalEndpoint):
@@ -41,20 +46,18 @@ class BatchSubscription(LocalEndpoint):
 
     def __init__(self, native: BackendTap, node: GraphNode, endpoint: Endpoint, qos: QoS) -> None:
         self._reader = native
+        self._missed = 0
         super().__init__(native, node, endpoint, qos)
 
     def take(self) -> MessageBatch:
         """Return the messages that arrived since the last call."""
         data, ends, arrived, sent, writers = self._reader.take()
+        before, self._missed = self._missed, self._reader.missed
         return MessageBatch(
             data,
             np.frombuffer(ends, np.uint64),
             np.frombuffer(arrived, np.int64),
             np.frombuffer(sent, np.int64),
             np.frombuffer(writers, np.uint64),
+            self._missed - before,
         )
-
-    @property
-    def dropped(self) -> int:
-        """The number of messages that were dropped because the queue was full."""
-        return self._reader.missed

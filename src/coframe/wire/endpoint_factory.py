@@ -6,7 +6,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from coframe.wire import names
-from coframe.wire.batch_subscription import BatchSubscription
+from coframe.wire.backend import QueueLimits
+from coframe.wire.batch_subscription import MAX_QUEUED_BYTES, BatchSubscription
 from coframe.wire.endpoints import GraphNode, Publisher, RawPublisher, Subscription
 from coframe.wire.names import Endpoint
 from coframe.wire.qos import TF, TF_STATIC_READER, QoS
@@ -157,13 +158,15 @@ class EndpointFactory:
             ros_type: The type, such as "sensor_msgs/msg/LaserScan". It does not have to be known in this process.
             qos: The requested quality of service.
             max_bytes: The number of bytes to keep of each message.
-            capacity: The number of messages that can be queued; further messages are dropped and counted.
+            capacity: The number of messages that can be queued. Further messages, and those beyond
+                :data:`MAX_QUEUED_BYTES <coframe.wire.batch_subscription.MAX_QUEUED_BYTES>`, are dropped and counted.
 
         Raises:
             WireError: The middleware cannot create the subscription.
         """
         endpoint = Endpoint(topic, ros_type)
-        native = self._session.tap(node, endpoint, qos, max_bytes=max_bytes, capacity=capacity)
+        limits = QueueLimits(max_bytes, capacity, MAX_QUEUED_BYTES)
+        native = self._session.tap(node, endpoint, qos, limits)
         return BatchSubscription(native, node, endpoint, qos)
 
     def tf_reader(

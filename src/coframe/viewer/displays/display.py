@@ -38,8 +38,8 @@ _logger = logging.getLogger("coframe.viewer")
 # How long a message waits for its transform, in seconds.
 TRANSFORM_TIMEOUT = 1.0
 _HOLD = "15s"
-_MAX_ENTRIES = 1000
-_MAX_LAYERS = 200
+MAX_DRAWINGS = 1000  # of one message
+MAX_LAYERS = 200
 _IDENTITY = np.array([0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0])
 
 
@@ -139,7 +139,8 @@ class Display:
         self._work: Future[_Rendered | None] | None = None
         self._incoming: _Layer | None = None
         self._incoming_since = 0.0
-        self._layers: deque[_Layer] = deque(maxlen=_MAX_LAYERS)
+        self._left_out = 0  # drawings of the incoming layer
+        self._layers: deque[_Layer] = deque(maxlen=MAX_LAYERS)
 
     def update(self, buffer: Buffer, fixed: str, at: int, now: int) -> None:
         """Continue to draw what is visible at a time.
@@ -225,8 +226,9 @@ class Display:
         known = {id(entry.drawing): entry for entry in self._entries()}
         entries = [
             known.get(id(drawing)) or _Entry(drawing, next(self._sequences), self.messages.frame(drawing.frame))
-            for drawing in rendered.drawings[:_MAX_ENTRIES]
+            for drawing in rendered.drawings[:MAX_DRAWINGS]
         ]
+        self._left_out = len(rendered.drawings) - len(entries)
         self._incoming = _Layer(rendered.message.time, entries)
         self._incoming_since = time.monotonic()
 
@@ -235,6 +237,10 @@ class Display:
         if missing is None:
             self._show(layer)
             self.status = Status("ok")
+            if self._left_out:
+                self.status = Status(
+                    "error", f"{self._left_out} groups of markers are not drawn: a message has at most {MAX_DRAWINGS}"
+                )
             return
         waited = time.monotonic() - self._incoming_since
         if at == 0 and waited < TRANSFORM_TIMEOUT and not layer.is_hopeless:

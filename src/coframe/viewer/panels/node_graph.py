@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 __all__ = ["NodeGraphWatcher"]
 
 _PERIOD = 1.0  # seconds between two updates
-_MAX_LINKS = 5_000
+MAX_LINKS = 5_000
 # Every node has these topics, so that they would hide the structure of the graph.
 _INFRASTRUCTURE = {"/rosout", "/parameter_events"}
 _OWN_NODES = ("/coframe_view", "/coframe_view_doctor")
@@ -106,7 +106,7 @@ def describe_graph(connection: Connection) -> NodeGraph:
         types = sorted({info.ros_type for _, info in (*published, *subscribed)})
         topics.append(GraphTopic(topic=topic, types=types, infrastructure=_is_infrastructure(topic)))
         for publishes, mine, others in ((True, published, subscribed), (False, subscribed, published)):
-            for endpoint, info in mine[: _MAX_LINKS - len(links)]:
+            for endpoint, info in mine[: MAX_LINKS - len(links)]:
                 name = _name(info)
                 links.append(
                     GraphLink(
@@ -119,9 +119,10 @@ def describe_graph(connection: Connection) -> NodeGraph:
                         else _problem(endpoint, others, publishes=publishes, qos_must_match=participant.qos_must_match),
                     )
                 )
+    left_out = sum(map(len, (*writers.values(), *readers.values()))) - len(links)
     return NodeGraph(
         type="graph",
-        text="",
+        text=f"{left_out} more connections are not shown: the graph shows at most {MAX_LINKS}." if left_out else "",
         nodes=[GraphNode(name=name, infrastructure=name in own) for name in nodes],
         topics=topics,
         links=_without_copies(links),

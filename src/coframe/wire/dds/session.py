@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from coframe import Buffer
+    from coframe.wire.backend import QueueLimits
     from coframe.wire.endpoints import GraphNode
     from coframe.wire.graph import NodeInfo
     from coframe.wire.names import Endpoint
@@ -81,12 +82,12 @@ class DdsSession:
             endpoint, lambda topic, data: _core.Reader(self.native.entity, topic, native_qos(qos), data, on_data)
         )
 
-    def tap(self, node: GraphNode, endpoint: Endpoint, qos: QoS, *, max_bytes: int, capacity: int) -> _core.Tap:
+    def tap(self, node: GraphNode, endpoint: Endpoint, qos: QoS, limits: QueueLimits) -> _core.Tap:
         """Create a reader that records messages."""
         del node
         return self._create(
             endpoint,
-            lambda topic, data: _core.Tap(self.native.entity, topic, native_qos(qos), data, max_bytes, capacity),
+            lambda topic, data: _core.Tap(self.native.entity, topic, native_qos(qos), data, *limits),
         )
 
     def tf_reader(

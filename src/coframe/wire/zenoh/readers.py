@@ -15,6 +15,7 @@ from coframe.wire.zenoh.receiver import Received, Receiver, queue_length
 
 if TYPE_CHECKING:
     from coframe import Buffer
+    from coframe.wire.backend import QueueLimits
     from coframe.wire.qos import QoS
     from coframe.wire.zenoh.endpoint import Place
 
@@ -86,13 +87,12 @@ class ZenohTap(_Subscription):
     """A subscription that records messages. Implements `coframe.wire.backend.BackendTap`.
 
     Attributes:
-        missed: How many messages were dropped because `capacity` messages were waiting.
+        missed: How many messages were dropped because a limit was reached.
     """
 
-    def __init__(self, place: Place, qos: QoS, *, max_bytes: int, capacity: int) -> None:
+    def __init__(self, place: Place, qos: QoS, limits: QueueLimits) -> None:
         super().__init__(place, None)
-        self._max_bytes = max_bytes
-        self._capacity = capacity
+        self._limits = limits
         self._messages_lock = threading.Lock()
         self._messages = _Messages()
         self.missed = 0
@@ -103,10 +103,10 @@ class ZenohTap(_Subscription):
         arrived = time.time_ns()
         with self._messages_lock:
             messages = self._messages
-            if len(messages.ends) >= self._capacity:
+            if len(messages.ends) >= self._limits.messages or len(messages.data) >= self._limits.size:
                 self.missed += 1
                 return
-            messages.data += message.data[: self._max_bytes]
+            messages.data += message.data[: self._limits.head]
             messages.ends.append(len(messages.data))
             messages.arrived.append(arrived)
             messages.sent.append(message.sent)

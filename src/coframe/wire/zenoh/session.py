@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from coframe import Buffer, _core
-    from coframe.wire.backend import BackendReader, BackendWriter
+    from coframe.wire.backend import BackendReader, BackendWriter, QueueLimits
     from coframe.wire.endpoints import GraphNode
     from coframe.wire.names import Endpoint
     from coframe.wire.qos import QoS
@@ -105,10 +105,10 @@ class ZenohSession:
         place = self._place(endpoint, type_hash, identity.gid)
         return self._opened(endpoint, lambda: RequestReader(place, qos, on_data, self._services))
 
-    def tap(self, node: GraphNode, endpoint: Endpoint, qos: QoS, *, max_bytes: int, capacity: int) -> ZenohTap:
+    def tap(self, node: GraphNode, endpoint: Endpoint, qos: QoS, limits: QueueLimits) -> ZenohTap:
         """Create a subscription that records messages."""
         place = self._subscription_place(node, endpoint, qos)
-        return self._opened(endpoint, lambda: ZenohTap(place, qos, max_bytes=max_bytes, capacity=capacity))
+        return self._opened(endpoint, lambda: ZenohTap(place, qos, limits))
 
     def tf_reader(
         self,
