@@ -17,8 +17,7 @@ std::int64_t now() {
 
 Tap::Tap(dds::Entity participant, dds::Entity topic, const QosProfile& profile, const std::string& user_data,
          const Limits& limits)
-    : limits_(limits),
-      reader_(participant, topic, make_qos(profile, user_data).get(), &Tap::on_data, this) {
+    : limits_(limits), reader_(participant, topic, make_qos(profile, user_data).get(), &Tap::on_data, this) {
   on_data(reader_.entity(), this);  // samples that arrived before the listener was attached
 }
 
