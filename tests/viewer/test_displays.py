@@ -256,6 +256,22 @@ def test_markers_are_added_deleted_and_grouped_by_frame(ros, robot, view, open_t
     publisher.until("frames", lambda update: not update.displays)
 
 
+def test_drawings_beyond_the_limit_are_counted(ros, robot, view, open_tab, monkeypatch):
+    monkeypatch.setattr("coframe.viewer.displays.display.MAX_DRAWINGS", 2)
+    marker = find("visualization_msgs/msg/Marker")
+    markers = [marker(id=number, type=marker.CUBE) for number in range(3)]
+    for made, frame in zip(markers, ("map", "base", "lidar"), strict=True):
+        made.header.frame_id = frame
+        made.header.stamp.sec, made.header.stamp.nanosec = divmod(robot - SECOND, SECOND)
+    tab = open_tab(view(ros, fixed="map"))
+    subscribe(tab, "/markers")
+    array_type = find("visualization_msgs/msg/MarkerArray")
+    publisher = RepeatingPublisher(ros, tab, "/markers", array_type(markers=markers))
+    shown = publisher.until("display", lambda display: display["state"] == "error")
+    assert shown["text"] == "not drawn: 1 group of markers; a message has at most 2"
+    tab.frame_update(lambda update: len(update.displays) == 2)
+
+
 def test_odometry_is_drawn_with_a_trail(ros, robot, view, open_tab):
     tab = open_tab(view(ros, fixed="map"))
     subscribe(tab, "/odom", keep=3)

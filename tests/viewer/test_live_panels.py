@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Curves, the inspected message, the log and the graph of a live ROS graph: real DDS, real WebSockets."""
 
+import re
 import threading
 import time
 
@@ -137,6 +138,16 @@ def test_log_messages_from_before_and_after_are_received(domain_id, ros, view, o
         assert tab.wait("log", lambda one: one["entries"])["entries"][0]["level"] == "error"
         tab.send("log", shown=False)
         eventually(lambda: "/rosout" not in topics(ros.node))
+
+
+@pytest.mark.usefixtures("robot")
+def test_connections_beyond_the_limit_of_the_graph_are_counted(ros, view, open_tab, monkeypatch):
+    monkeypatch.setattr("coframe.viewer.panels.node_graph.MAX_LINKS", 3)
+    tab = open_tab(view(ros))
+    tab.send("graph", shown=True)
+    graph = tab.wait("graph", lambda graph: graph["text"])
+    assert re.fullmatch(r"\d+ more connections are not shown: the graph shows at most 3\.", graph["text"])
+    assert len(graph["links"]) <= 3
 
 
 @pytest.mark.dds_only("over Zenoh, quality of service does not prevent communication")

@@ -112,6 +112,20 @@ def test_other_files_are_rejected_with_a_message(package, view, open_tab, mesh):
     assert len(robot["problems"][0]) < 300
 
 
+def test_of_many_problems_the_first_are_shown_and_the_others_counted(tmp_path, view, open_tab):
+    meshes = "".join(
+        f'<link name="l{i}"><visual><geometry><mesh filename="{i}.stl"/></geometry></visual></link>' for i in range(60)
+    )
+    joints = "".join(
+        f'<joint name="j{i}" type="fixed"><parent link="l0"/><child link="l{i}"/></joint>' for i in range(1, 60)
+    )
+    file = tmp_path / "many.urdf"
+    file.write_text(f'<robot name="many">{meshes}{joints}</robot>')
+    robot = open_tab(view(coframe.Buffer(None), robot=file)).wait("robot")
+    assert len(robot["problems"]) == 51
+    assert robot["problems"][-1] == "... and 10 more"
+
+
 def test_no_url_leads_outside_the_served_folders(package, view, open_tab):
     robot = robot_file(package, "package://arm_description/meshes/base link.dae")
     viewer = view(coframe.Buffer(None), robot=robot)

@@ -376,7 +376,7 @@ export interface GraphLink {
   problem: string;
 }
 
-/** The nodes and topics; sent when they change. `text` gives the reason if there are none. */
+/** The nodes and topics; sent when they change. `text` gives the reason if there are none, or not all. */
 export interface NodeGraph {
   type: "graph";
   text: string;

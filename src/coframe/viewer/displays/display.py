@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from coframe.errors import ConnectivityException, ExtrapolationException, LookupException, TransformException
+from coframe.formatting import count
 from coframe.time import SECOND
 from coframe.viewer.displays.renderers import make_renderer
 from coframe.viewer.protocol.encoding import EntryPose, set_owner
@@ -238,9 +239,8 @@ class Display:
             self._show(layer)
             self.status = Status("ok")
             if self._left_out:
-                self.status = Status(
-                    "error", f"{self._left_out} groups of markers are not drawn: a message has at most {MAX_DRAWINGS}"
-                )
+                left_out = count(self._left_out, "group")
+                self.status = Status("error", f"not drawn: {left_out} of markers; a message has at most {MAX_DRAWINGS}")
             return
         waited = time.monotonic() - self._incoming_since
         if at == 0 and waited < TRANSFORM_TIMEOUT and not layer.is_hopeless:

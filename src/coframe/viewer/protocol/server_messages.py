@@ -367,7 +367,7 @@ class GraphLink(TypedDict):
 
 
 class NodeGraph(TypedDict):
-    """The nodes and topics; sent when they change. ``text`` gives the reason if there are none."""
+    """The nodes and topics; sent when they change. ``text`` gives the reason if there are none, or not all."""
 
     type: Literal["graph"]
     text: str

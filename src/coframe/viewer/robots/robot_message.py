@@ -60,11 +60,16 @@ def robot_message(robot: Robot, number: int, source: str, topic: str | None, mes
         source=source,
         urdf=robot.text,
         meshes=urls,
-        problems=problems[:_MAX_PROBLEMS],
-        warnings=list(robot.warnings)[:_MAX_PROBLEMS],
+        problems=_shortened(problems),
+        warnings=_shortened(list(robot.warnings)),
         joints=list(_joints_of(robot)),
         description_topic=topic,
     )
+
+
+def _shortened(sentences: list[str]) -> list[str]:
+    left_out = len(sentences) - _MAX_PROBLEMS
+    return [*sentences[:_MAX_PROBLEMS], f"... and {left_out} more"] if left_out > 0 else sentences
 
 
 def _files_of(robot: Robot) -> Iterator[str]:
