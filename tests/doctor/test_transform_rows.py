@@ -78,6 +78,22 @@ def test_memory_does_not_grow_with_time() -> None:
     assert peaks[2] < 1.01 * peaks[0]
 
 
+def test_rows_are_moved_without_a_copy_of_all() -> None:
+    rows = TransformRows()
+    tracemalloc.start()
+    try:
+        for number in range(1000):
+            rows.append(batch(number))
+            rows.forget(before=number - 99, most=10_000)
+            if number == 500:
+                before = tracemalloc.get_traced_memory()[0]
+                tracemalloc.reset_peak()
+        peak = tracemalloc.get_traced_memory()[1]
+    finally:
+        tracemalloc.stop()
+    assert peak - before < 0.1 * rows.table().values.nbytes
+
+
 def test_rows_that_arrive_after_a_pause_take_the_place_of_old_ones() -> None:
     rows = TransformRows()
     tracemalloc.start()

@@ -81,7 +81,8 @@ class TransformRows:
         larger = int(_GROWTH * (length + count)) if _LEAST_ROOM * (length + count) > capacity else 0
         for name, column in self._columns.items():
             target = np.empty((larger, *column.shape[1:]), column.dtype) if larger else column
-            target[:length] = column[kept]
+            # As one-dimensional arrays: for others, NumPy makes a copy of all rows if they overlap.
+            target[:length].reshape(-1)[:] = column[kept].reshape(-1)
             self._columns[name] = target
         self._begin, self._end = 0, length
 
