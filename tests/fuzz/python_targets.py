@@ -35,6 +35,21 @@ MESSAGE_TYPES = (
     "rcl_interfaces/msg/ParameterEvent",
     "diagnostic_msgs/msg/DiagnosticArray",
 )
+DISPLAYED_TYPES = (
+    "geometry_msgs/msg/PoseArray",
+    "geometry_msgs/msg/PoseStamped",
+    "nav_msgs/msg/OccupancyGrid",
+    "nav_msgs/msg/Path",
+    "sensor_msgs/msg/CameraInfo",
+    "sensor_msgs/msg/CompressedImage",
+    "sensor_msgs/msg/Image",
+    "sensor_msgs/msg/LaserScan",
+    "sensor_msgs/msg/PointCloud2",
+    "sensor_msgs/msg/Range",
+    "visualization_msgs/msg/Marker",
+    "visualization_msgs/msg/MarkerArray",
+)
+SENSOR_TYPES = ("sensor_msgs/msg/Image", "sensor_msgs/msg/LaserScan", "sensor_msgs/msg/PointCloud2")
 _LONGEST = 20_000  # most messages of a recording that a target reads
 
 
@@ -64,6 +79,60 @@ def messages() -> Callable[[bytes], object]:
             except ValueError:  # a string that contains a NUL
                 return
             assert serialize(deserialize(again, type(message))) == again
+
+    return run
+
+
+@target
+def displays() -> Callable[[bytes], object]:
+    """Draw messages of all types that the viewer displays."""
+    from coframe.errors import DecodeError
+    from coframe.messages import deserialize, find
+    from coframe.viewer.displays import DRAW_FUNCTIONS, CannotDrawError, Drawing, Options
+    from coframe.viewer.displays.markers import MarkerSet
+
+    classes = [find(name) for name in DISPLAYED_TYPES]
+
+    def drawings(name: str, message: object) -> list[Drawing]:
+        if name in DRAW_FUNCTIONS:
+            return [DRAW_FUNCTIONS[name](message, Options())]
+        markers = MarkerSet(lambda _name: (None, "no meshes"))
+        markers.apply(message, 0)
+        return markers.draw(Options())
+
+    def run(data: bytes) -> None:
+        if not data:
+            return
+        number = data[0] % len(classes)
+        with contextlib.suppress(DecodeError, CannotDrawError):
+            for drawing in drawings(DISPLAYED_TYPES[number], deserialize(data[1:], classes[number])):
+                drawing.take_data()
+
+    return run
+
+
+@target
+def sensor_messages() -> Callable[[bytes], object]:
+    """Convert images, scans and clouds to arrays, and transform clouds."""
+    import coframe
+    from coframe.messages import deserialize, find
+    from coframe.sensors import project_scan, transform_cloud
+    from cv_bridge import CvBridge, CvBridgeError
+    from sensor_msgs_py.point_cloud2 import read_points
+
+    classes = [find(name) for name in SENSOR_TYPES]
+    pose = coframe.Transform([1, 2, 3], [0, 0, 0, 1])
+    convert = (CvBridge().imgmsg_to_cv2, project_scan, read_points)
+
+    def run(data: bytes) -> None:
+        if not data:
+            return
+        number = data[0] % len(classes)
+        with contextlib.suppress(coframe.CoframeError, CvBridgeError, ValueError):
+            message = deserialize(data[1:], classes[number])
+            convert[number](message)
+            if SENSOR_TYPES[number] == "sensor_msgs/msg/PointCloud2":
+                transform_cloud(message, pose)
 
     return run
 
@@ -412,12 +481,13 @@ def parameters() -> Callable[[bytes], object]:
 
 @target
 def trajectories() -> Callable[[bytes], object]:
-    """Read a trajectory file (TUM, KITTI, CSV)."""
+    """Read a trajectory file: NPZ, CSV (EuRoC too), TUM or KITTI."""
     import coframe
     from coframe.trajectories import read_trajectory
 
     def run(data: bytes) -> None:
-        path = _scratch() / "path.txt"
+        suffix = "npz" if data.startswith(b"PK") else "csv" if b"," in data.partition(b"\n")[0] else "txt"
+        path = _scratch() / f"path.{suffix}"
         path.write_bytes(data)
         with contextlib.suppress(coframe.CoframeError):
             read_trajectory(path)

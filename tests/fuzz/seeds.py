@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
+    from collections.abc import Callable, Iterable, Sequence
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "bags"))
 
@@ -188,6 +188,50 @@ def messages() -> Iterable[bytes]:
     yield bytes([MESSAGE_TYPES.index("tf2_msgs/msg/TFMessage")]) + many(["a", "b"])
 
 
+def displays() -> Iterable[bytes]:
+    from python_targets import DISPLAYED_TYPES
+
+    yield from _sensor_seeds(DISPLAYED_TYPES)
+
+
+def sensor_messages() -> Iterable[bytes]:
+    from python_targets import SENSOR_TYPES
+
+    yield from _sensor_seeds(SENSOR_TYPES)
+
+
+def _sensor_seeds(names: Sequence[str]) -> Iterable[bytes]:
+    """Return a message of each type with some content, preceded by the number of its type."""
+    field = find("sensor_msgs/msg/PointField")
+    cloud = [field(name=name, offset=4 * i, datatype=7, count=1) for i, name in enumerate(("x", "y", "z", "intensity"))]
+    png = b"\x89PNG\r\n\x1a\n" + struct.pack(">I4sII5BI", 13, b"IHDR", 4, 3, 8, 2, 0, 0, 0, 0)
+    jpeg = b"\xff\xd8\xff\xe0\0\4JF\xff\xc0\0\x0b\x08\0\3\0\4\1\1\x11\0\xff\xd9"
+    marker, pose = find("visualization_msgs/msg/Marker"), find("geometry_msgs/msg/Pose")
+    contents = {
+        "geometry_msgs/msg/PoseArray": [{"poses": [pose(), pose()]}],
+        "nav_msgs/msg/OccupancyGrid": [{"data": [-1, 0, 100, 50, 1, 2]}],
+        "nav_msgs/msg/Path": [{"poses": [find("geometry_msgs/msg/PoseStamped")()]}],
+        "sensor_msgs/msg/CameraInfo": [{"height": 3, "width": 4, "distortion_model": "plumb_bob", "d": [0.1] * 5}],
+        "sensor_msgs/msg/CompressedImage": [{"format": "png", "data": png}, {"format": "jpeg", "data": jpeg}],
+        "sensor_msgs/msg/Image": [
+            {"height": 2, "width": 2, "encoding": encoding, "step": 2 * size, "data": bytes(4 * size)}
+            for encoding, size in (("rgb8", 3), ("bgra8", 4), ("mono16", 2), ("32FC1", 4), ("bayer_rggb8", 1))
+        ],
+        "sensor_msgs/msg/LaserScan": [{"angle_increment": 0.1, "range_max": 9.0, "ranges": [1.0, 2.0, 3.0]}],
+        "sensor_msgs/msg/PointCloud2": [
+            {"height": 1, "width": 2, "fields": cloud, "point_step": 16, "row_step": 32, "data": bytes(range(32))}
+        ],
+        "visualization_msgs/msg/Marker": [{"type": kind, "ns": "lab", "text": "hello"} for kind in range(12)],
+        "visualization_msgs/msg/MarkerArray": [{"markers": [marker(id=1), marker(id=2, type=4), marker(action=3)]}],
+    }
+    for number, name in enumerate(names):
+        for fields in contents.get(name, [{}]):
+            message = find(name)(**fields)
+            if name == "nav_msgs/msg/OccupancyGrid":
+                message.info.width, message.info.height, message.info.resolution = 3, 2, 0.5
+            yield bytes([number]) + serialize(message)
+
+
 def definitions() -> Iterable[bytes]:
     yield b"m# a comment\nstd_msgs/Header header\nint32 X=3\nstring<=5 name 'a'\nfloat64[<=9] v [1.5, 2]\nuint8[4] d\n"
     yield b"m" + b'int32 a\n---\nbool b true\nstring t "x\\"y"\n'
@@ -342,6 +386,8 @@ def trajectories() -> Iterable[bytes]:
     rows = [(START / 1e9 + i / 20, math.cos(i), math.sin(i), 0, 0, 0, 0, 1) for i in range(4)]
     yield "".join(" ".join(map(str, row)) + "\n" for row in rows).encode()
     yield b"# t x y z qx qy qz qw\n" + ",".join(map(str, rows[0])).encode()
+    yield b"#timestamp, p_x, p_y, p_z, q_w, q_x, q_y, q_z\n" + b"1403636580838555648,1,2,3,1,0,0,0\n" * 3
+    yield b"stamp,x,y,z,qx,qy,qz,qw\n" + b"1.5,1,2,3,0,0,0,1\n" * 3
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / "path.npz"
         poses = coframe.Transform(np.zeros((3, 3)), stamp=np.arange(3), target="map", source="base")

@@ -4,7 +4,9 @@
 import os
 import subprocess
 import sys
+from html.parser import HTMLParser
 from pathlib import Path
+from xml.etree import ElementTree
 
 import pytest
 import typer
@@ -122,3 +124,47 @@ def test_texts_of_the_graph(graph, files, tmp_path, case, in_terminal):
     assert code in {0, 1, 2, 130}, (code, output[-1000:])
     assert problems(output, is_data=case.is_data, is_text=case.is_text) == []
     assert case.until in output
+
+
+class _Tags(HTMLParser):
+    """The names of all elements of a page."""
+
+    def __init__(self):
+        super().__init__()
+        self.found = set()
+
+    def handle_starttag(self, tag, _attributes):
+        self.found.add(tag)
+
+
+IMAGE, TWO = (f"{{bag}}:map:{name}" for name in ("<img src=x onerror=alert(1)>", NEWLINE))
+
+
+@pytest.mark.parametrize(
+    ("words", "suffixes"),
+    [
+        (["frames", "{bag}"], [".svg", ".gv", ".mmd", ".md", ".json"]),
+        (
+            ["plot", "{bag}", *(f"map:{name}.x" for name in ("<img src=x onerror=alert(1)>", NEWLINE))],
+            [".html", ".svg"],
+        ),
+        (["compare", IMAGE, TWO], [".html", ".svg", ".csv", ".json"]),
+    ],
+    ids=["frames", "plot", "compare"],
+)
+def test_files_that_commands_write(files, tmp_path, words, suffixes):
+    written = [tmp_path / f"out{suffix}" for suffix in suffixes]
+    command = [word.replace("{bag}", str(files["{bag}"])) for word in words]
+    result = CliRunner().invoke(app, [*command, *(word for file in written for word in ("-o", str(file)))])
+    assert result.exit_code == 0, result.output[-1000:]
+    for file in written:
+        text = file.read_text(encoding="utf-8")
+        assert not {*"\x1b\x07\x9b\u202e"} & {*text}, file.name
+        if file.suffix != ".html":  # where a line end is a space
+            assert not [line for line in text.splitlines() if "forged line" in line and "two" not in line], file.name
+        if file.suffix == ".svg":
+            assert "img" not in {element.tag.rpartition("}")[2] for element in ElementTree.fromstring(text).iter()}
+        if file.suffix in {".html", ".md"}:
+            tags = _Tags()
+            tags.feed(text)
+            assert "img" not in tags.found
