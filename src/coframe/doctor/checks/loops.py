@@ -9,7 +9,7 @@ import numpy as np
 
 from coframe.doctor.edge import publishers_of
 from coframe.doctor.finding import Finding, Severity
-from coframe.formatting import duration, listed, quoted, times
+from coframe.formatting import quoted, times
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -20,18 +20,12 @@ __all__ = ["CODE", "find"]
 
 CODE = "TF004"
 _MOST_NAMES = 20  # of a loop, in the text of a finding
-_COVER_ALL = "Observe for a shorter --duration, or record with `coframe record` and examine the recording."
 
 
 def find(observation: Observation) -> Iterator[Finding]:
-    """Yield the loops, then the transforms that tf2 rejects, damaged and empty messages, and what was left out."""
+    """Yield the loops, then the transforms that tf2 rejects, then damaged and empty messages."""
     yield from _loops(observation)
     yield from _refused(observation)
-    yield from _damaged_and_empty(observation)
-    yield from _left_out(observation)
-
-
-def _damaged_and_empty(observation: Observation) -> Iterator[Finding]:
     if observation.damaged_messages:
         yield Finding(
             code=CODE,
@@ -47,44 +41,6 @@ def _damaged_and_empty(observation: Observation) -> Iterator[Finding]:
             text=f"a message without transforms was published {times(observation.empty_messages)}",
             fix="This is harmless. To avoid it: `if transforms: broadcaster.sendTransform(transforms)`.",
             harm="Listeners process it without effect.",
-        )
-
-
-def _left_out(observation: Observation) -> Iterator[Finding]:
-    """Yield what this report does not cover, because of the limits of the doctor."""
-    if observation.messages_ignored:
-        yield Finding(
-            code=CODE,
-            severity=Severity.WARNING,
-            text=f"{observation.messages_ignored} messages were ignored: there are too many frame names",
-            fix="Find the publisher that creates new frame names all the time. This report covers the messages before "
-            "them.",
-            harm="Every buffer grows with each new frame name, for as long as its process runs.",
-        )
-    if observation.topics_ignored:
-        yield Finding(
-            code=CODE,
-            severity=Severity.WARNING,
-            text=f"{observation.topics_ignored} topics were not examined: there are too many",
-            fix="Find the node that creates new topics all the time. This report covers the topics before them.",
-            harm="Every participant stores each announced topic, for as long as it is published.",
-        )
-    if observation.transforms_since:
-        yield Finding(
-            code=CODE,
-            severity=Severity.NOTE,
-            text=f"only the transforms of the last {duration(observation.end - observation.transforms_since)} were "
-            "examined: there are too many",
-            fix=_COVER_ALL,
-            harm="Problems that were over before that time are not in this report.",
-        )
-    if observation.incomplete:
-        yield Finding(
-            code=CODE,
-            severity=Severity.NOTE,
-            text=f"some messages of {listed(observation.incomplete)} were not examined: there are too many",
-            fix=_COVER_ALL,
-            harm="Problems of these messages are not in this report.",
         )
 
 

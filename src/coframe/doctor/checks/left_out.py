@@ -1,0 +1,57 @@
+# SPDX-License-Identifier: Apache-2.0
+"""TF027: what the report does not cover, because there is more of it than the doctor examines."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from coframe.doctor.finding import Finding, Severity
+from coframe.formatting import duration, listed
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from coframe.doctor.observation import Observation
+
+__all__ = ["CODE", "find"]
+
+CODE = "TF027"
+_COVER_ALL = "Observe for a shorter --duration, or record with `coframe record` and examine the recording."
+
+
+def find(observation: Observation) -> Iterator[Finding]:
+    """Yield messages, topics and transforms that were not examined."""
+    if observation.messages_ignored:
+        yield Finding(
+            code=CODE,
+            severity=Severity.WARNING,
+            text=f"{observation.messages_ignored} messages were ignored: there are too many frame names",
+            fix="Find the publisher that creates new frame names all the time. This report covers the messages before "
+            "them.",
+            harm="Every buffer grows with each new frame name, for as long as its process runs.",
+        )
+    if observation.topics_ignored:
+        yield Finding(
+            code=CODE,
+            severity=Severity.WARNING,
+            text=f"{observation.topics_ignored} topics were not examined: there are too many",
+            fix="Find the node that creates new topics all the time. This report covers the topics before them.",
+            harm="Every participant stores each announced topic, for as long as it is published.",
+        )
+    if observation.transforms_since:
+        yield Finding(
+            code=CODE,
+            severity=Severity.NOTE,
+            text=f"only the transforms of the last {duration(observation.end - observation.transforms_since)} were "
+            "examined: there are too many",
+            fix=_COVER_ALL,
+            harm="Problems that were over before that time are not in this report.",
+        )
+    if observation.incomplete:
+        yield Finding(
+            code=CODE,
+            severity=Severity.NOTE,
+            text=f"some messages of {listed(observation.incomplete)} were not examined: there are too many",
+            fix=_COVER_ALL,
+            harm="Problems of these messages are not in this report.",
+        )
