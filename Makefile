@@ -8,6 +8,9 @@ NATIVE := $(shell find native -name '*.cpp' -o -name '*.hpp' -o -name '*.inc') C
 # For scripts that need the standard library only.
 ANY_PYTHON = $(if $(wildcard $(BIN)/python),$(BIN)/python,python3)
 
+# Many processes import the same modules, so these are compiled once; the files are not next to the sources.
+PYTEST := env -u PYTHONDONTWRITEBYTECODE PYTHONPYCACHEPREFIX=$(CURDIR)/build/pycache $(BIN)/python -m pytest
+
 # build-system.requires of pyproject.toml.
 BUILD_TOOLS = $(shell sed -n 's/^requires = \[\(.*\)\]/\1/p' pyproject.toml | sed 's/", "/" "/g')
 
@@ -45,15 +48,15 @@ demo: $(DEMO_STAMP) ## show the lab's moving transform tree, live in the browser
 	@$(BIN)/coframe demo $(ARGS)
 
 test: $(STAMP) ## run the test suite (under 6 minutes)
-	$(BIN)/python -m pytest --numprocesses 4 --dist loadfile --no-loadscope-reorder $(ARGS)
+	$(PYTEST) --numprocesses 4 --dist loadfile --no-loadscope-reorder $(ARGS)
 
 test-zenoh: $(STAMP) ## run the tests of the running graph over Zenoh instead of DDS (those of routers configure Zenoh themselves)
-	COFRAME_WIRE=zenoh $(BIN)/python -m pytest --numprocesses 2 --dist loadfile --no-loadscope-reorder \
+	COFRAME_WIRE=zenoh $(PYTEST) --numprocesses 2 --dist loadfile --no-loadscope-reorder \
 		--ignore tests/wire/test_router.py --ignore tests/wire/test_wan.py \
 		tests/wire tests/rclpy tests/tf2 tests/recorder tests/lab tests/viewer $(ARGS)
 
 test-shared: $(STAMP) ## run the tests of programs that use tf2_ros with transforms that processes share (Linux)
-	COFRAME_SHARED=1 $(BIN)/python -m pytest --numprocesses 2 --dist loadfile --no-loadscope-reorder \
+	COFRAME_SHARED=1 $(PYTEST) --numprocesses 2 --dist loadfile --no-loadscope-reorder \
 		tests/tf2 tests/rclpy tests/packages tests/lab tests/doctor tests/process $(ARGS)
 
 $(VENV)/.oracle: pyproject.toml | $(STAMP)
@@ -64,16 +67,16 @@ $(VENV)/.installers: pyproject.toml | $(STAMP)
 	@$(BIN)/python -m pip install --quiet "pip>=25.1" && $(BIN)/python -m pip install --quiet --group installers && touch $@
 
 test-slow: $(STAMP) $(VENV)/.oracle $(VENV)/.installers $(VENV)/.docs ## run the tests that take minutes
-	$(BIN)/python -m pytest -m "slow and not long" $(ARGS)
+	$(PYTEST) -m "slow and not long" $(ARGS)
 
 test-ros: $(STAMP) ## run programs with the sourced ROS 2 and with coframe, and compare their outputs
-	COFRAME_TEST_ROS=1 $(BIN)/python -m pytest tests/interop tests/course/test_sourced_ros.py -v $(ARGS)
+	COFRAME_TEST_ROS=1 $(PYTEST) tests/interop tests/course/test_sourced_ros.py -v $(ARGS)
 
 test-ros-wheels: ## grade the lab's solution and verify coframe.ros2 on rclpy and Fast DDS of ROS 2 Kilted, which pip installs into build/ros_wheels
 	scripts/ros_wheels.sh
 
 test-long: $(STAMP) ## compare ten million random operations with the real tf2 (a new seed each run); ten minutes with a stuck tab; a class of 36
-	$(BIN)/python -m pytest -m long -rP $(ARGS)
+	$(PYTEST) -m long -rP $(ARGS)
 
 sanitize: ## run the native core under ThreadSanitizer and AddressSanitizer, with damaged messages and dying writers
 	@$(MAKE) -s -C tests/native thread address plain
@@ -178,7 +181,7 @@ page: ## build the viewer's page from viewer/ into src/coframe/viewer/static (ne
 
 page-check: ## check the page's types and tests, and that the committed page is what its source builds
 	cd viewer && npm ci --silent && npm run --silent check
-	$(BIN)/python -m pytest -m slow tests/viewer/test_page_bytes.py
+	$(PYTEST) -m slow tests/viewer/test_page_bytes.py
 
 clean: ## delete build results and the virtual environment
 	rm -rf build dist $(VENV) .mypy_cache .ruff_cache .pytest_cache .hypothesis

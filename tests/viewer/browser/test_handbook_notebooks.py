@@ -3,18 +3,13 @@
 
 import subprocess
 import sys
-import warnings
 from pathlib import Path
 
+import notebooks
 import pytest
-
-nbformat = pytest.importorskip("nbformat", reason="the notebook tests need nbclient and nbconvert")
-nbclient = pytest.importorskip("nbclient", reason="the notebook tests need nbclient")
-nbconvert = pytest.importorskip("nbconvert", reason="the notebook tests need nbconvert")
 
 ROOT = Path(__file__).parents[3]
 FOLDER = ROOT / "docs" / "handbook" / "notebooks"
-TIMEOUT = 120.0  # seconds
 FRAMES = {
     "01_why_frames": {"base_link", "lidar_link", "link1"},
     "02_rotations": {"target", "source"},
@@ -37,6 +32,7 @@ def test_the_notebooks_are_current():
 
 
 def test_the_notebooks_are_valid_and_without_outputs():
+    nbformat = notebooks.package("nbformat")
     for path in FOLDER.glob("*.ipynb"):
         notebook = nbformat.read(path, as_version=4)
         nbformat.validate(notebook)
@@ -48,18 +44,15 @@ def test_the_notebooks_are_valid_and_without_outputs():
     [pytest.param(name, marks=[] if name == "01_why_frames" else pytest.mark.slow) for name in FRAMES],
 )
 def test_a_chapter_runs_and_shows_its_frames(chapter, open_page, tmp_path):
-    notebook = nbformat.read(FOLDER / f"{chapter}.ipynb", as_version=4)
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # of Jupyter's own packages
-        nbclient.NotebookClient(notebook, timeout=TIMEOUT, resources={"metadata": {"path": str(tmp_path)}}).execute()
-        notebook.cells = [cell for cell in notebook.cells if cell.cell_type == "code"]  # without the chapter's figures
-        body, _ = nbconvert.HTMLExporter(template_name="basic").from_notebook_node(notebook)
+    notebook = notebooks.package("nbformat").read(FOLDER / f"{chapter}.ipynb", as_version=4)
+    notebooks.execute(notebook, tmp_path)
+    notebook.cells = [cell for cell in notebook.cells if cell.cell_type == "code"]  # without the chapter's figures
     file = tmp_path / f"{chapter}.html"
-    file.write_text(f"<!doctype html><meta charset=utf-8>{body}", encoding="utf-8")
+    file.write_text(f"<!doctype html><meta charset=utf-8>{notebooks.exported(notebook)}", encoding="utf-8")
     page = open_page(file.as_uri())
     frames = page.raw.query_selector_all("iframe")
     assert len(frames) == 1
     viewer = frames[0].content_frame()
-    viewer.wait_for_function("() => window.coframe && coframe.updates > 0", timeout=TIMEOUT * 1000)
+    viewer.wait_for_function("() => window.coframe && coframe.updates > 0", timeout=notebooks.TIMEOUT * 1000)
     assert set(viewer.evaluate("Object.keys(coframe.frames)")) == FRAMES[chapter]
     assert any(frame["visible"] for frame in viewer.evaluate("Object.values(coframe.frames)"))

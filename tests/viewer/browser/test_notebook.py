@@ -10,10 +10,10 @@ import subprocess
 import sys
 import threading
 import time
-import warnings
 from contextlib import contextmanager, suppress
 from types import SimpleNamespace
 
+import notebooks
 import numpy as np
 import pytest
 import recordings
@@ -23,10 +23,7 @@ import coframe
 from coframe.viewer import notebook
 from coframe.viewer.notebook import suitable_inline
 
-nbformat = pytest.importorskip("nbformat", reason="the notebook tests need nbclient and nbconvert")
-nbclient = pytest.importorskip("nbclient", reason="the notebook tests need nbclient")
 sync_api = pytest.importorskip("playwright.sync_api", reason="the browser tests need playwright")
-nbconvert = pytest.importorskip("nbconvert", reason="the notebook tests need nbconvert")
 
 TIMEOUT = 60.0  # seconds
 HOSTILE = "<img src=x onerror=alert(1)>"
@@ -49,12 +46,9 @@ def circling():
 
 def executed(*cells, folder):
     """Return the HTML that nbconvert makes of a notebook after a kernel has executed its cells."""
-    document = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(cell) for cell in cells])
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # of Jupyter's own packages
-        nbclient.NotebookClient(document, timeout=TIMEOUT, resources={"metadata": {"path": str(folder)}}).execute()
-        body, _ = nbconvert.HTMLExporter(template_name="basic").from_notebook_node(document)
-    return body
+    document = notebooks.new_notebook(*cells)
+    notebooks.execute(document, folder)
+    return notebooks.exported(document)
 
 
 def drawn_in(page, number=0):
@@ -152,9 +146,9 @@ buffer.set('map', 'base', coframe.Transform([1.0, 0.0, 0.0]), 1_000_000_000)
 buffer.show(inline='viewer')""",
         "buffer.set('map', 'base', coframe.Transform([2.0, 0.0, 0.0]), 2_000_000_000)",
     ]
-    live = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(cell) for cell in cells])
+    live = notebooks.new_notebook(*cells)
     live.metadata["kernelspec"] = {"name": "python3", "display_name": "Python 3", "language": "python"}
-    nbformat.write(live, tmp_path / "live.ipynb")
+    notebooks.package("nbformat").write(live, tmp_path / "live.ipynb")
     with jupyterlab(tmp_path) as url:
         page = open_page(url, expected_errors=("",))  # JupyterLab's own
         page.raw.wait_for_selector(".jp-Notebook-ExecutionIndicator[data-status=idle]", timeout=TIMEOUT * 1000)
