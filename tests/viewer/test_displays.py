@@ -349,6 +349,10 @@ def test_an_occupancy_grid(decoded):
     shown = decoded(draw_grid(grid, Options()).data)
     assert shown.cells.tolist() == [[-1, 0, 100], [50, 0, 0]]
     assert (shown.resolution, shown.corner) == (0.5, [-4.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0])
+    for number in (float("nan"), 1e300):
+        grid.info.origin.position.x = number
+        with pytest.raises(CannotDrawError, match="is not a finite 32-bit number"):
+            draw_grid(grid, Options())
     grid.info.width = 4_000_000_000
     with pytest.raises(CannotDrawError, match="4000000000 x 2 cells has data for 6"):
         draw_grid(grid, Options())

@@ -26,6 +26,7 @@ _DATATYPES: dict[int, np.dtype[Any]] = {
 }
 
 DUMMY_FIELD_PREFIX = "unnamed_field"
+MAX_ELEMENTS = 10_000  # of a point: a message may say that it has billions
 
 
 def read_points(
@@ -101,8 +102,14 @@ def dtype_from_fields(fields: Iterable[PointField], point_step: int | None = Non
     Args:
         fields: Fields of a point. A field with a count above 1 becomes several, named `<field>_0`, `<field>_1`, ...
         point_step: Size of a point in bytes, if there is padding after the last field.
+
+    Raises:
+        ValueError: A point has more than 10 000 elements, or a field is beyond `point_step`.
     """
-    names: list[str] = []
+    fields = list(fields)
+    if sum(field.count for field in fields) > MAX_ELEMENTS:
+        raise ValueError(f"A point has more than {MAX_ELEMENTS} elements, which is the limit.")
+    names: dict[str, None] = {}
     formats: list[np.dtype[Any]] = []
     offsets: list[int] = []
     for number, field in enumerate(fields):
@@ -112,10 +119,10 @@ def dtype_from_fields(fields: Iterable[PointField], point_step: int | None = Non
         for element in range(field.count):
             element_name = f"{name}_{element}" if field.count > 1 else name
             assert element_name not in names, "Duplicate field names are not allowed!"
-            names.append(element_name)
+            names[element_name] = None
             formats.append(datatype)
             offsets.append(field.offset + element * datatype.itemsize)
-    description: Any = {"names": names, "formats": formats, "offsets": offsets}
+    description: Any = {"names": list(names), "formats": formats, "offsets": offsets}
     if point_step is not None:
         description["itemsize"] = point_step
     dtype: np.dtype[Any] = np.dtype(description)
@@ -169,6 +176,8 @@ def create_cloud_xyz32(header: Header, points: Any, point_step: int | None = Non
 
 def as_structured(cloud: PointCloud2) -> NDArray[Any]:
     """Return a view of the cloud's data as a structured array of shape (height, width) in the cloud's byte order."""
+    if cloud.height * cloud.width > len(cloud.data):  # with points of 0 bytes, there could be any number
+        raise ValueError(f"The cloud has {cloud.height} x {cloud.width} points, but {len(cloud.data)} bytes of data.")
     dtype = dtype_from_fields(cloud.fields, cloud.point_step).newbyteorder(">" if cloud.is_bigendian else "<")
     row_step = cloud.row_step or cloud.point_step * cloud.width
     strides = (row_step, cloud.point_step)
