@@ -73,15 +73,21 @@ def talk(robot: str, rate: float) -> None:
 
 
 def listen(robots: list[str], cache: int) -> None:
-    """Listen until a line is read; print when the newest stamp of each robot changed, and which stamps are stored."""
+    """Listen until a line is read; print when the newest stamp of each robot changed, and which stamps are stored.
+
+    Also print when all publishers of static transforms had been discovered, and when their transforms were there.
+    """
     node = rclpy.create_node("listener")
     buffer = Buffer(cache_time=Duration(seconds=cache))
     listener = TransformListener(buffer, node, spin_thread=True)
     arrivals: dict[str, list[tuple[float, int]]] = {robot: [] for robot in robots}
     statics: dict[str, float] = {}
+    discovered: float | None = None
     ended = _end_of_input()
     print("ready", flush=True)
     while not ended.wait(_POLL):
+        if discovered is None and len(node.get_publishers_info_by_topic("/tf_static")) >= len(robots):
+            discovered = time.monotonic()
         for robot in robots:
             newest = _newest(buffer, f"odom_{robot}", robot)
             if newest and (not arrivals[robot] or arrivals[robot][-1][1] != newest):
@@ -90,7 +96,8 @@ def listen(robots: list[str], cache: int) -> None:
                 statics[robot] = time.monotonic()
     sent: dict[str, list[int]] = json.loads(ended.line or "{}")
     stored = {robot: [_has(buffer, robot, stamp) for stamp in stamps] for robot, stamps in sent.items()}
-    print(json.dumps({"arrivals": arrivals, "statics": statics, "stored": stored}), flush=True)
+    report = {"arrivals": arrivals, "statics": statics, "discovered": discovered, "stored": stored}
+    print(json.dumps(report), flush=True)
     listener.unregister()
 
 
