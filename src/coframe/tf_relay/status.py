@@ -79,10 +79,12 @@ class NotRelayed(NamedTuple):
         return [f"{publisher} publishes {what}, which are not relayed" for what, number in texts.items() if number]
 
     def __str__(self) -> str:
-        return (
-            f"{count(self.malformed, 'malformed message')}, {count(self.invalid, 'invalid transform')} and "
-            f"{count(self.over_limit, 'transform')} beyond the maximum number of edges"
-        )
+        counted = {
+            "malformed message": self.malformed,
+            "invalid transform": self.invalid,
+            "transform beyond the maximum number of edge": self.over_limit,
+        }
+        return ", ".join(count(number, what) for what, number in counted.items() if number)
 
 
 class RelayedRobot(NamedTuple):
