@@ -62,7 +62,7 @@ class NotRelayed(NamedTuple):
     Attributes:
         malformed: The number of messages that are not valid TFMessages.
         invalid: The number of transforms with frame names or values that tf2 rejects.
-        over_limit: The number of transforms of new edges, after the relay had the maximum number of edges.
+        over_limit: The number of surplus transforms: those of new edges, after the relay had the maximum number of edges.
     """
 
     malformed: int = 0
@@ -82,7 +82,7 @@ class NotRelayed(NamedTuple):
         counted = {
             "malformed message": self.malformed,
             "invalid transform": self.invalid,
-            "transform beyond the maximum number of edge": self.over_limit,
+            "surplus transform": self.over_limit,
         }
         return ", ".join(count(number, what) for what, number in counted.items() if number)
 
