@@ -62,7 +62,7 @@ class NotRelayed(NamedTuple):
     Attributes:
         malformed: The number of messages that are not valid TFMessages.
         invalid: The number of transforms with frame names or values that tf2 rejects.
-        over_limit: The number of surplus transforms: those of new edges, after the relay had the maximum number of edges.
+        over_limit: The number of surplus transforms: of new edges, after the relay had the maximum number of edges.
     """
 
     malformed: int = 0
