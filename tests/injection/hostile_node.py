@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Publishes frames, node names, types, texts, parameters and log messages that are hostile, until its input ends."""
 
+import itertools
 import sys
 import threading
 
@@ -46,10 +47,12 @@ def main():
     def publish():
         tf.publish(message(NAMES, node))
         for name in NAMES:
-            text.publish(String(data=name))
             log.publish(Log(level=40, name=name[:1000], msg=name, file=name[:1000], function=name[:1000]))
 
+    texts = itertools.cycle(NAMES)
     node.create_timer(PERIOD, publish)
+    # One by one: a slow reader receives the last ten messages, and of bursts always the same ones.
+    node.create_timer(PERIOD / len(NAMES), lambda: text.publish(String(data=next(texts))))
     executor = SingleThreadedExecutor()
     executor.add_node(node)
     threading.Thread(target=executor.spin, daemon=True).start()
