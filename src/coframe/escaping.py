@@ -21,13 +21,16 @@ def printable(text: str) -> str:
 
 
 def one_line(text: str) -> str:
-    r"""Return a sentence with names from outside as one printable line; the middle of a very long one is left out.
+    r"""Return a sentence with names from outside as one printable line; the end of a very long one is left out.
+
+    Without its middle, a shell command could end a quotation and run what a name contains; a first part cannot.
 
     Example:
         >>> one_line("no frame 'two\nlines'")
         "no frame 'two\\nlines'"
     """
-    return printable(_shortened(text, LONGEST_LINE).replace("\n", r"\n").replace("\t", r"\t"))
+    short = text if len(text) <= LONGEST_LINE else f"{text[: LONGEST_LINE - 1]}\N{HORIZONTAL ELLIPSIS}"
+    return printable(short.replace("\n", r"\n").replace("\t", r"\t"))
 
 
 def shown(name: str) -> str:

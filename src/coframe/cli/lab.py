@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import csv
 import json
+import shlex
 import sys
 import threading
 from contextlib import closing
@@ -77,7 +78,8 @@ def new(
     with run_to_completion():
         for path in create_folder(folder, variant):
             print(f"created {printable(str(path))}")
-        print(f"Next: read {printable(str(folder / 'README.md'))}, then run: coframe lab run {printable(str(folder))}")
+        command = f"coframe lab run {shlex.quote(printable(str(folder)))}"
+        print(f"Next: read {printable(str(folder / 'README.md'))}, then run: {command}")
 
 
 @lab.command(cls=PlainCommand, short_help="Run the nodes of a folder next to a simulated robot.")

@@ -9,7 +9,8 @@ import type { CodePage, Finding, Findings, Hello, Severity } from "../protocol/m
 
 /** Each severity has its own shape, because colour alone is not accessible. */
 const SHAPES: Record<Severity, IconName> = { error: "octagon", warning: "triangle", note: "disc" };
-const MAX_TEXT = 1000;
+/** More than the server sends: a command without its middle could run what a name contains. */
+const MAX_TEXT = 2100;
 
 export function severityIcon(severity: Severity): SVGElement {
   const svg = icon(SHAPES[severity]);
