@@ -3,6 +3,7 @@
 
 import pytest
 
+import rcl_interfaces.msg
 import rclpy
 from rcl_interfaces.msg import ParameterDescriptor, ParameterEvent, SetParametersResult
 from rclpy.executors import SingleThreadedExecutor
@@ -92,6 +93,11 @@ def test_client_of_another_node(context, make_node, executor, wait_until, tmp_pa
     both = [Parameter("rate", value=7), Parameter("gain.p", value="x").to_parameter_msg()]
     assert not result(client.set_parameters_atomically(both)).result.successful
     assert served.get_parameter("rate").value == 6
+    unknown = rcl_interfaces.msg.Parameter(name="rate", value=rcl_interfaces.msg.ParameterValue(type=99))
+    for request in (client.set_parameters, client.set_parameters_atomically):
+        answer = result(request([unknown]))
+        refused = answer.results[0] if request == client.set_parameters else answer.result
+        assert (refused.successful, refused.reason) == (False, "Unexpected parameter type 99.")
     assert [entry.successful for entry in result(client.delete_parameters(["any", "rate"])).results] == [True, False]
     assert not served.has_parameter("any")
 

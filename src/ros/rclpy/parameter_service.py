@@ -22,6 +22,10 @@ if TYPE_CHECKING:
     from rclpy.node import Node
 
 
+# RuntimeError: the message has a type that does not exist, which must not end the node.
+_NOT_SET = (ParameterNotDeclaredException, RuntimeError)
+
+
 class ParameterService:
     """Parameter services of a node.
 
@@ -73,18 +77,19 @@ class ParameterService:
         return response
 
     def _set(self, request: Any, response: Any) -> Any:
+        results = []
         for message in request.parameters:
             try:
-                [result] = self._node.set_parameters([Parameter.from_parameter_msg(message)])
-            except ParameterNotDeclaredException as error:
-                result = SetParametersResult(successful=False, reason=str(error))
-            response.results = [*response.results, result]
+                results += self._node.set_parameters([Parameter.from_parameter_msg(message)])
+            except _NOT_SET as error:
+                results.append(SetParametersResult(successful=False, reason=str(error)))
+        response.results = results
         return response
 
     def _set_atomically(self, request: Any, response: Any) -> Any:
         try:
             parameters = [Parameter.from_parameter_msg(message) for message in request.parameters]
             response.result = self._node.set_parameters_atomically(parameters)
-        except ParameterNotDeclaredException as error:
+        except _NOT_SET as error:
             response.result = SetParametersResult(successful=False, reason=str(error))
         return response
