@@ -303,6 +303,33 @@ def test_a_stuck_tab_takes_no_memory_and_does_not_delay_others(view, open_tab):
     assert memory[-1] - memory[0] < 5_000_000
 
 
+@pytest.mark.skipif(sys.platform != "linux", reason="measures memory as Linux reports it")
+def test_a_client_that_only_sends_pings_takes_no_memory(view, open_tab):
+    viewer = view(small_buffer())
+    address = urlsplit(viewer.url)
+    opening = (
+        f"GET /ws HTTP/1.1\r\nHost: {address.netloc}\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
+        "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\nSec-WebSocket-Version: 13\r\n\r\n"
+    )
+    ping = b"\x89\xfd" + bytes(4 + 125)  # 125 bytes, with a mask of zeros
+    before, sent = resident_bytes(), 0
+    with socket.create_connection((address.hostname, address.port), timeout=2.0) as flooding:
+        flooding.sendall(opening.encode())
+        assert b"101" in flooding.recv(1000)
+        with contextlib.suppress(TimeoutError):
+            while sent < 100_000_000:
+                sent += flooding.send(ping * 8)
+        assert resident_bytes() - before < 20_000_000
+        open_tab(viewer).frame_update()
+
+
+def test_text_that_is_not_unicode_is_refused_without_a_traceback(view, open_tab, caplog):
+    tab = open_tab(view(small_buffer()))
+    tab.send("relate", id=1, target="\ud800", source="b")
+    assert "must be text" in tab.wait("problem")["text"]
+    assert "Traceback" not in caplog.text
+
+
 def resident_bytes():
     return int(Path("/proc/self/statm").read_text().split()[1]) * 4096 if sys.platform == "linux" else 0
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
+import re
 import types
 import typing
 from dataclasses import dataclass
@@ -38,6 +39,9 @@ __all__ = [
     "record",
     "shorten",
 ]
+
+
+_SURROGATE = re.compile("[\ud800-\udfff]")
 
 
 class InvalidFieldError(CoframeError, ValueError):
@@ -73,7 +77,7 @@ class Text:
 
     def check(self, value: object, path: str) -> str:
         """Return the string."""
-        if not isinstance(value, str):
+        if not isinstance(value, str) or _SURROGATE.search(value):  # Half of a surrogate pair is not a character.
             raise InvalidFieldError(path, "text", value)
         return value
 

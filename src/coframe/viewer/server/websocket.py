@@ -78,6 +78,7 @@ class WebSocket(asyncio.Protocol):
         self._clear = asyncio.Event()
         self._clear.set()
         self._accepts_more = True
+        self._pauses: set[str] = set()  # Why nothing is received at the moment.
 
     @property
     def has_ended(self) -> bool:
@@ -105,13 +106,11 @@ class WebSocket(asyncio.Protocol):
 
     def pause(self) -> None:
         """Stop receiving."""
-        if self._transport is not None:
-            self._transport.pause_reading()
+        self._pause("listener")
 
     def resume(self) -> None:
         """Receive again."""
-        if self._transport is not None:
-            self._transport.resume_reading()
+        self._resume("listener")
 
     def close(self) -> None:
         """Close the connection with a closing handshake."""
@@ -157,7 +156,7 @@ class WebSocket(asyncio.Protocol):
         self._protocol.receive_data(data)
         for event in self._protocol.events_received():
             if isinstance(event, Request):
-                self.pause()  # A client must not send more before the response.
+                self._pause("response")  # A client must not send more before the response.
                 self._answering = asyncio.get_running_loop().create_task(self._respond(event))
             else:
                 self._is_alive = True
@@ -175,10 +174,12 @@ class WebSocket(asyncio.Protocol):
         """Stop sending; see asyncio.Protocol."""
         self._accepts_more = False
         self._clear.clear()
+        self._pause("unwritten")  # A client that only sends pings would fill the memory with answers.
 
     def resume_writing(self) -> None:
         """Send again; see asyncio.Protocol."""
         self._accepts_more = self._is_alive = True
+        self._resume("unwritten")
         self._send_unsent()
         if self.is_clear:
             self._clear.set()
@@ -200,7 +201,7 @@ class WebSocket(asyncio.Protocol):
         self._is_alive = True
         if self._protocol.state is OPEN:
             self._listener = self._make_listener(self)
-        self.resume()
+        self._resume("response")
 
     def _receive(self, frame: Frame) -> None:
         if self._listener is None or frame.opcode not in {Opcode.TEXT, Opcode.BINARY, Opcode.CONT}:
@@ -221,6 +222,16 @@ class WebSocket(asyncio.Protocol):
             frame = _frame(*self._unsent.popleft())
             if self._transport is not None and self._protocol.state is OPEN:
                 self._transport.write(frame)
+
+    def _pause(self, reason: str) -> None:
+        self._pauses.add(reason)
+        if self._transport is not None:
+            self._transport.pause_reading()
+
+    def _resume(self, reason: str) -> None:
+        self._pauses.discard(reason)
+        if self._transport is not None and not self._pauses:
+            self._transport.resume_reading()
 
     def _flush(self) -> None:
         """Write what the protocol has to send."""
