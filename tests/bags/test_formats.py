@@ -17,6 +17,7 @@ from rosbags.rosbag2 import CompressionMode, StoragePlugin
 import coframe
 from coframe.bags import OfferedQos
 from coframe.bags.offered_qos import to_yaml
+from coframe.doctor import observe_recording
 
 RANGE_OF_IRON = b"""std_msgs/Header header
 uint8 radiation_type
@@ -142,6 +143,20 @@ def test_foxglove_transforms_in_mcap(tmp_path, name, encoding, encode):
         recordings.assert_same(recording.buffer)
         if encoding == "json":
             assert "timestamp" in str(next(recording.messages("/tf")).message)
+
+
+@pytest.mark.parametrize("name", [7, None, ["x"], "\ud800"])
+def test_frame_names_in_json_that_are_not_text_are_damage(tmp_path, name):
+    types = dict.fromkeys(["/tf", "/tf_static"], ("foxglove.FrameTransform", "", b"", "json"))
+    rows = messages(recordings.foxglove_json)
+    rows.insert(1, ("/tf", rows[0][1], recordings.foxglove_json("odom", name, coframe.Transform(), rows[0][1])))
+    path = recordings.write_mcap(tmp_path / "a.mcap", rows=rows, types=types)
+    with coframe.open_bag(path) as recording:
+        [problem] = recording.problems
+        assert problem.startswith("/tf: damaged messages; the first one: ")
+        assert "base" in " ".join(recording.buffer.frame_names())
+    [observation] = observe_recording(path).values()
+    assert observation.damaged_messages == 1
 
 
 @pytest.mark.parametrize("metadata", [True, False])

@@ -116,6 +116,13 @@ def test_a_broken_npz_file_is_an_error(tmp_path, header):
         read_trajectory(tmp_path / "a.npz")
 
 
+def test_an_npz_file_without_poses_is_an_error(tmp_path):
+    arrays = {"stamps": np.zeros(0, int), "translation": np.zeros((0, 3)), "quaternion": np.zeros((0, 4))}
+    np.savez(tmp_path / "a.npz", target="", source="", **arrays)
+    with pytest.raises(TrajectoryError, match=r"a\.npz contains no poses"):
+        read_trajectory(tmp_path / "a.npz")
+
+
 def test_a_small_npz_file_that_unpacks_to_a_large_one_is_refused(tmp_path):
     header = b"{'descr': '<f8', 'fortran_order': False, 'shape': (20000000, 3), }"
     npz(tmp_path / "a.npz", header, bytes(300_000_000))

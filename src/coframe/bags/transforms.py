@@ -122,6 +122,10 @@ def _decoded(decode: Callable[[bytes | memoryview], Iterator[_Stamped]], message
     for transform in transforms:
         if not _EARLIEST <= transform.stamp <= _LATEST:
             raise ValueError("a stamp is beyond the range of ROS times")
+        for name in (transform.parent, transform.child):
+            if not isinstance(name, str):  # JSON can contain anything
+                raise TypeError("a frame name is not text")
+            name.encode()  # fails for half of a surrogate pair, which is not a character
     return transforms
 
 

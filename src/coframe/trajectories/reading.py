@@ -158,7 +158,7 @@ def _read_npz(file: Path) -> Transform:
         _check_unpacked_size(file)
         with np.load(file) as data:
             target, source = (str(data[name]) or None for name in ("target", "source"))
-            return Transform(
+            poses = Transform(
                 data["translation"], data["quaternion"], target=target, source=source, stamp=data["stamps"]
             )
     except OSError:
@@ -168,6 +168,9 @@ def _read_npz(file: Path) -> Transform:
             f"{file} is not a trajectory: {error}",
             hint="An .npz file needs the arrays stamps, translation, quaternion, target and source.",
         ) from None
+    if not len(poses):
+        raise TrajectoryError(f"{file} contains no poses")
+    return poses
 
 
 def _check_unpacked_size(file: Path) -> None:
