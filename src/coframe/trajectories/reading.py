@@ -169,7 +169,7 @@ def _read_npz(file: Path) -> Transform:
             hint="An .npz file needs the arrays stamps, translation, quaternion, target and source.",
         ) from None
     if not len(poses):
-        raise TrajectoryError(f"{file} contains no poses")
+        raise TrajectoryError(f"{file} contains no poses", hint="Write it again, such as with coframe trajectory.")
     return poses
 
 
