@@ -113,7 +113,7 @@ def test_help_has_an_example(processes, command):
 
 
 def test_demo_shows_the_complete_tree_and_stops_its_nodes(processes):
-    processes.start("demo", "python", "-m", "coframe.cli", "demo", "--duration", "12", "--no-browser")
+    processes.start("demo", "python", "-m", "coframe.cli", "demo", "--duration", "20", "--no-browser")
     processes.start("other", "python", "-m", "coframe.lab.simulated_lidar")
     received = processes.observe(1.0, "/scan_base_frame:sensor_msgs/msg/PointCloud2:volatile")
     assert len(received["/scan_base_frame"]) > 1
