@@ -615,6 +615,8 @@ import rclpy, rosless
 from rclpy.action import ActionClient, ActionServer
 from tf2_msgs.action import LookupTransform
 
+FEEDBACK = "/robot/look/_action/feedback"
+
 def execute(goal_handle):
     goal_handle.publish_feedback(LookupTransform.Feedback())
     goal_handle.succeed()
@@ -630,13 +632,15 @@ with rclpy.init():
     server = ActionServer(node, LookupTransform, "look", execute)
     peer = rosless.Node(node.context.get_domain_id())
     client = ActionClient(node, LookupTransform, "look")
-    feedback = peer.subscribe(
-        "/robot/look/_action/feedback", "tf2_msgs/action/LookupTransform_FeedbackMessage", reliability="reliable"
-    )
+    feedback = peer.subscribe(FEEDBACK, "tf2_msgs/action/LookupTransform_FeedbackMessage", reliability="reliable")
     thread = threading.Thread(target=rclpy.spin, args=(node,))
     thread.start()
     deadline = time.monotonic() + 15
-    while node.count_subscribers("/robot/look/_action/feedback") < 2:
+    def both_found_each_other():
+        published = {topic.name for topic in peer.graph().topics if topic.publishers}
+        return server._ActionServer__feedback_publisher.get_subscription_count() == 2 and FEEDBACK in published
+
+    while not both_found_each_other():
         assert time.monotonic() < deadline
         time.sleep(0.01)
     client.wait_for_server()
