@@ -1,11 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
 """Parameters of other nodes: events, clients, and callbacks around a change."""
 
+import time
+
 import pytest
 
 import rcl_interfaces.msg
 import rclpy
 from rcl_interfaces.msg import ParameterDescriptor, ParameterEvent, SetParametersResult
+from rclpy import _parameter_limits
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.parameter import Parameter, parameter_dict_from_yaml_file, parameter_value_to_python
 from rclpy.parameter_client import AsyncParameterClient
@@ -112,6 +115,63 @@ def test_client_of_another_node(context, make_node, executor, wait_until, tmp_pa
     with pytest.raises(RuntimeError, match="does not contain any valid parameters"):
         parameter_dict_from_yaml_file(str(path), target_nodes=["/other"])
     served.destroy_node()
+
+
+@pytest.fixture
+def ask(context, make_node, executor):
+    """Return a function that creates a node and returns it with a function, which sends requests to it and waits."""
+    served = []
+
+    def create(**options):
+        served.append(rclpy.create_node("served", context=context, **options))
+        asker = make_node("asker")
+        for node in (served[0], asker):
+            executor.add_node(node)
+        client = AsyncParameterClient(asker, "served")
+        assert client.wait_for_services(10)
+
+        def send(request, *args):
+            future = getattr(client, request)(*args)
+            executor.spin_until_future_complete(future, timeout_sec=20)
+            return future.result()
+
+        return served[0], send
+
+    yield create
+    for node in served:
+        node.destroy_node()
+
+
+def test_other_nodes_cannot_add_parameters_without_limit(ask, monkeypatch):
+    node, send = ask(allow_undeclared_parameters=True)
+    monkeypatch.setattr(_parameter_limits, "MAX_PARAMETERS", 3)
+    monkeypatch.setattr(_parameter_limits, "MAX_BYTES", 4 << 20)
+    full = "Other nodes can set at most 3 parameters of a node, with 4 MiB."
+    results = send("set_parameters", [Parameter(f"p{i}", value=i) for i in range(5)]).results
+    assert [result.reason for result in results] == ["", "", "", full, full]
+    assert not node.has_parameter("p3")
+    assert send("set_parameters_atomically", [Parameter("p3", value=3)]).result.reason == full
+    assert send("set_parameters", [Parameter("p0", value=10)]).results[0].successful, "it is not a new one"
+    assert [result.successful for result in send("delete_parameters", ["p0"]).results] == [True]
+    assert send("set_parameters", [Parameter("p3", value=3)]).results[0].successful
+    assert send("set_parameters", [Parameter("p3", value="x" * (5 << 20))]).results[0].reason == full
+    assert node.get_parameter("p3").value == 3
+    long = send("set_parameters", [Parameter("x" * 300, value=3)]).results[0].reason
+    assert long == "The name of a parameter has more than 256 bytes, the limit."
+    assert node.declare_parameter("own", 1).value == 1, "the node itself has no limit"
+
+
+def test_a_request_with_many_names_is_answered_soon(ask):
+    node, send = ask()
+    for i in range(200):
+        node.declare_parameter(f"gain.joint_{i}", 0.0)
+    start = time.monotonic()
+    results = send("set_parameters", [Parameter(f"gain.joint_{i}x", value=0.0) for i in range(10_000)]).results
+    assert [result.successful for result in results] == [False] * 10_000
+    assert "Invalid access to undeclared parameter(s)" in results[0].reason
+    listed = send("list_parameters", [f"gain.axis_{i}" for i in range(100_000)] + ["gain"], 1).result.names
+    assert len(listed) == 200
+    assert time.monotonic() - start < 10
 
 
 def test_callbacks_before_and_after_a_change(node):

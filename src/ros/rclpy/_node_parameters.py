@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import threading
 import warnings
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Sequence, Set
 from typing import Any
 
 from coframe.formatting import did_you_mean
@@ -212,8 +212,9 @@ class NodeParameters:
             prefixes: Prefixes of the names, without the last dot. An empty list: all parameters.
             depth: Number of levels below a prefix that are included. 0: all levels.
         """
+        wanted = frozenset(prefixes)
         with self.__lock:
-            names = [name for name in self.__parameters if _is_listed(name, prefixes, depth)]
+            names = [name for name in self.__parameters if _is_listed(name, wanted, depth)]
         found = {name.rpartition(PARAMETER_SEPARATOR_STRING)[0] for name in names} - {""}
         return ListParametersResult(names=names, prefixes=sorted(found))
 
@@ -341,9 +342,13 @@ class NodeParameters:
             if not isinstance(parameter, Parameter):
                 error = TypeError(f"parameter must be instance of type '{Parameter!r}'")
                 raise _with_hint(error, f"Got {parameter!r}.")
-        unknown = [parameter.name for parameter in parameters if not self.has_parameter(parameter.name)]
-        if unknown and not self.__allow_undeclared:
+        unknown = self._Coframe__undeclared([parameter.name for parameter in parameters])
+        if unknown:
             raise _with_hint(ParameterNotDeclaredException(unknown), self.__suggestion(unknown[0]))
+
+    def _Coframe__undeclared(self, names: list[str]) -> list[str]:
+        """Return the names that are not declared; none if undeclared parameters are allowed."""
+        return [] if self.__allow_undeclared else [name for name in names if not self.has_parameter(name)]
 
     def __not_declared(self, name: str) -> ParameterNotDeclaredException:
         return _with_hint(ParameterNotDeclaredException(name), self.__suggestion(name))
@@ -418,13 +423,15 @@ def _warn_of_missing_default(name: str) -> None:
     )
 
 
-def _is_listed(name: str, prefixes: Sequence[str], depth: int) -> bool:
+def _is_listed(name: str, prefixes: Set[str], depth: int) -> bool:
     """Return whether a name has one of the prefixes and is at most `depth` levels below it (0: any level)."""
-    for prefix in prefixes or [""]:
-        start = prefix + PARAMETER_SEPARATOR_STRING if prefix else ""
-        if name != prefix and not name.startswith(start):
-            continue
-        rest = name.removeprefix(start)
-        if not depth or rest.count(PARAMETER_SEPARATOR_STRING) < depth:
+    separator = PARAMETER_SEPARATOR_STRING
+    is_wanted = not prefixes or name in prefixes or "" in prefixes
+    if is_wanted and (not depth or name.count(separator) < depth):
+        return True
+    end = name.find(separator, 1)
+    while end > 0:
+        if name[:end] in prefixes and (not depth or name.count(separator, end + 1) < depth):
             return True
+        end = name.find(separator, end + 1)
     return False

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
 from rcl_interfaces.msg import SetParametersResult
@@ -14,6 +15,7 @@ from rcl_interfaces.srv import (
     SetParameters,
     SetParametersAtomically,
 )
+from rclpy._parameter_limits import ParameterLimits
 from rclpy.exceptions import ParameterNotDeclaredException, ParameterUninitializedException
 from rclpy.parameter import Parameter
 from rclpy.qos import qos_profile_parameters
@@ -35,6 +37,7 @@ class ParameterService:
 
     def __init__(self, node: Node) -> None:
         self._node = node
+        self._limits = ParameterLimits(node.has_parameter)
         for srv_type, name, callback in (
             (DescribeParameters, "describe_parameters", self._describe),
             (GetParameters, "get_parameters", self._get),
@@ -77,19 +80,33 @@ class ParameterService:
         return response
 
     def _set(self, request: Any, response: Any) -> Any:
-        results = []
-        for message in request.parameters:
-            try:
-                results += self._node.set_parameters([Parameter.from_parameter_msg(message)])
-            except _NOT_SET as error:
-                results.append(SetParametersResult(successful=False, reason=str(error)))
-        response.results = results
+        self._limits.forget_deleted()
+        response.results = [
+            self._result([message], lambda parameters: self._node.set_parameters(parameters)[0])
+            for message in request.parameters
+        ]
         return response
 
     def _set_atomically(self, request: Any, response: Any) -> Any:
-        try:
-            parameters = [Parameter.from_parameter_msg(message) for message in request.parameters]
-            response.result = self._node.set_parameters_atomically(parameters)
-        except _NOT_SET as error:
-            response.result = SetParametersResult(successful=False, reason=str(error))
+        self._limits.forget_deleted()
+        response.result = self._result(request.parameters, self._node.set_parameters_atomically)
         return response
+
+    def _result(
+        self, messages: Sequence[Any], set_parameters: Callable[[list[Parameter[Any]]], SetParametersResult]
+    ) -> SetParametersResult:
+        fault = self._fault(messages)
+        if fault:
+            return SetParametersResult(successful=False, reason=fault)
+        try:
+            result = set_parameters([Parameter.from_parameter_msg(message) for message in messages])
+        except _NOT_SET as error:
+            return SetParametersResult(successful=False, reason=str(error))
+        if result.successful:
+            self._limits.add(messages)
+        return result
+
+    def _fault(self, messages: Sequence[Any]) -> str:
+        """Return why parameters cannot be set, before the node looks for similar names, which takes long for many."""
+        unknown = self._node._Coframe__undeclared([message.name for message in messages])
+        return str(ParameterNotDeclaredException(unknown)) if unknown else self._limits.fault(messages)
