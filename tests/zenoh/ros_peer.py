@@ -100,6 +100,23 @@ class Peer:
     def publish_without_attachment(self, name: str, ros_type: str, cdr: str) -> None:
         self.session.put(self.key(name, ros_type), bytes.fromhex(cdr))
 
+    def announce_many(self, name: str, count: int, length: int = 0) -> None:
+        """Announce publishers on many topics: /name0, /name1 and so on, with names of at least `length` characters."""
+        for number in range(count):
+            topic = f"{name}{number}_".ljust(length, "x")
+            self.token("MP", self.end(topic, "std_msgs/msg/String", "::,10:,:,:,,"))
+
+    def announce_nodes(self, count: int) -> None:
+        for number in range(count):
+            text = f"@ros2_lv/{self.domain}/{self.zid}/{number + 10}/0/NN/%/%/node{number}"
+            self.kept.append(self.session.liveliness().declare_token(text))
+
+    def leave(self) -> None:
+        """Remove all publishers and nodes, but not the first node."""
+        for kept in self.kept[2:]:
+            kept.undeclare()
+        del self.kept[2:]
+
     def skip(self, name: str, count: int) -> None:
         """Do as if messages had been lost."""
         self.sequences[name] += count

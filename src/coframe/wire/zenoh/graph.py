@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, Final
 from coframe.wire import names
 from coframe.wire.graph import DiscoveredEndpoint, Graph, NodeInfo
 from coframe.wire.zenoh import keys, library, tokens
+from coframe.wire.zenoh.token_limits import TokenLimits
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -19,10 +20,12 @@ if TYPE_CHECKING:
     from coframe.wire.names import Endpoint, Kind
     from coframe.wire.zenoh.tokens import Token
 
-# Tokens that wait to be processed. They must not be dropped, but a process that declares them without end must not fill
-# the memory.
-_MOST_PENDING: Final = 200_000
-_MOST_ENDPOINTS: Final = 100_000  # on the graph; further ones are not listed
+# A process that declares tokens without end must not fill the memory, but none may be dropped, because the token of a
+# node that leaves arrives once. The thread that receives them therefore processes them itself when nobody else does.
+_MOST_PENDING: Final = 10_000
+# Tokens in Zenoh's queue, which drops the oldest. A queue that blocks would stop a process that joins a graph with more
+# tokens, because Zenoh delivers all of them before it returns the queue. More than `token_limits.MAX_TOKENS`.
+_MOST_QUEUED: Final = 200_000
 
 
 class _Node:
@@ -60,7 +63,8 @@ class ZenohGraph(Graph):
     def __init__(self, session: zenoh.Session, domain: int, changed: _core.Event) -> None:
         super().__init__()
         module = library.load()
-        self._pending: deque[tuple[bool, str]] = deque(maxlen=_MOST_PENDING)  # (declared, token)
+        self._pending: deque[tuple[bool, str]] = deque()  # (declared, token)
+        self._limits = TokenLimits()
         self._members: dict[bytes, _Node] = {}  # by session and node
         self._topics: dict[tuple[bool, str], dict[int, DiscoveredEndpoint]] = {}  # by (is a writer, topic)
         self._changed = changed
@@ -68,7 +72,7 @@ class ZenohGraph(Graph):
         self._delete = module.SampleKind.DELETE
         self._user_data: dict[bytes, bytes] = {}  # by the identifier of the endpoint
         self._subscribers: list[Any] = [
-            session.liveliness().declare_subscriber(space, module.handlers.FifoChannel(_MOST_PENDING), history=True)
+            session.liveliness().declare_subscriber(space, module.handlers.RingChannel(_MOST_QUEUED), history=True)
             for space in (tokens.all_user_data(domain), tokens.all_tokens(domain))
         ]
         self._threads = [
@@ -87,6 +91,7 @@ class ZenohGraph(Graph):
 
     def add_own(self, token: str, *, declared: bool) -> None:
         """Process a token of this process at once; it also arrives from Zenoh, a little later."""
+        self._limits.add_own(token, declared=declared)
         self._pending.append((declared, token))
 
     def matching(self, endpoint: Endpoint, type_hash: str, *, writers: bool) -> dict[int, DiscoveredEndpoint]:
@@ -123,7 +128,10 @@ class ZenohGraph(Graph):
             while True:
                 sample = handler.recv()
                 while sample is not None:
-                    self._pending.append((sample.kind != self._delete, str(sample.key_expr)))
+                    text = str(sample.key_expr)[: tokens.MAX_BYTES + 1]  # longer ones are not valid
+                    self._pending.append((sample.kind != self._delete, text))
+                    if len(self._pending) >= _MOST_PENDING:
+                        self.refresh()
                     sample = handler.try_recv()
                 self._changed.set()
         except self._closed_error:
@@ -131,12 +139,14 @@ class ZenohGraph(Graph):
 
     def _take_changes(self) -> bool:
         touched: set[bytes] = set()
-        while self._pending:
+        for _ in range(len(self._pending)):
             declared, text = self._pending.popleft()
             if (token := tokens.decode_token(text)) is not None:
-                touched.add(self._apply(text, token, declared=declared))
+                touched |= self._apply(text, token, declared=declared)
             elif (user_data := tokens.decode_user_data(text)) is not None:
-                self._apply_user_data(*user_data, declared=declared)
+                self._apply_user_data(text, *user_data, declared=declared)
+            else:
+                self._limits.warn_of_invalid_token(text)
         for participant in touched:
             info = self._members[participant].info()
             if info is None:
@@ -146,39 +156,39 @@ class ZenohGraph(Graph):
                 self._nodes[participant] = [info]
         return bool(touched)
 
-    def _apply(self, text: str, token: Token, *, declared: bool) -> bytes:
-        """Process one token, and return the identifier of its node."""
+    def _apply(self, text: str, token: Token, *, declared: bool) -> set[bytes]:
+        """Process one token, and return the identifier of its node; nothing if it is not stored."""
+        if declared and not self._limits.add(text):
+            return set()
         participant = f"{token.session}/{token.node}".encode()
         node = self._members.setdefault(participant, _Node())
         if token.kind == tokens.NODE:
             node.token = token if declared else None
-            if not declared:
-                for left in node.endpoints.values():
-                    self._remove(left)
-                node.endpoints.clear()
         elif declared:
-            if len(self._writers) + len(self._readers) >= _MOST_ENDPOINTS:
-                return participant
             node.endpoints[text] = token
             for is_writer, end in _endpoints_of(token):
                 self._store(is_writer, end._replace(user_data=self._user_data.get(end.guid, b"")))
-        elif node.endpoints.pop(text, None) is not None:
-            self._remove(token)
-        return participant
+        if not declared:
+            for left in [text] if token.kind != tokens.NODE else [text, *node.endpoints]:
+                self._limits.remove(left)
+                if (endpoint := node.endpoints.pop(left, None)) is not None:
+                    self._remove(endpoint)
+        return {participant}
 
     def _store(self, is_writer: bool, end: DiscoveredEndpoint) -> None:
         handle = keys.handle_of(end.guid)
         (self._writers if is_writer else self._readers)[handle] = end
         self._topics.setdefault((is_writer, end.topic), {})[handle] = end
 
-    def _apply_user_data(self, gid: bytes, user_data: bytes, *, declared: bool) -> None:
+    def _apply_user_data(self, text: str, gid: bytes, user_data: bytes, *, declared: bool) -> None:
         """Store the user data of an endpoint, whose token may arrive earlier or later."""
-        if declared and len(self._user_data) < _MOST_PENDING:
-            self._user_data[gid] = user_data
-        else:
+        if not declared:
+            self._limits.remove(text)
             self._user_data.pop(gid, None)
-        if declared and (writer := self._writers.get(keys.handle_of(gid))) is not None:
-            self._store(True, writer._replace(user_data=user_data))
+        elif self._limits.add(text):
+            self._user_data[gid] = user_data
+            if (writer := self._writers.get(keys.handle_of(gid))) is not None:
+                self._store(True, writer._replace(user_data=user_data))
 
     def _remove(self, token: Token) -> None:
         for is_writer, end in _endpoints_of(token):

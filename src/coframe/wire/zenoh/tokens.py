@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Final, NamedTuple
 
+from coframe.wire.names import MAX_NAME
 from coframe.wire.qos import DEFAULT
 from coframe.wire.zenoh import keys
 from coframe.wire.zenoh.qos_text import decode_qos, encode_qos
@@ -30,7 +31,7 @@ _KINDS: Final = {PUBLISHER, SUBSCRIPTION, SERVICE, CLIENT}
 _NODE_CHUNKS: Final = 9
 _ENDPOINT_CHUNKS: Final = 13
 _BACKENDS: Final = "backends:cpu:"
-_MOST_BYTES: Final = 4096  # of a token; the longest of ROS have a fifth of this
+MAX_BYTES: Final = 4096  # of a token; the longest of ROS have a fifth of this
 
 
 class NodeToken(NamedTuple):
@@ -120,7 +121,7 @@ def user_data_token(domain: int, token: str, user_data: str) -> str:
 def decode_user_data(text: str) -> tuple[bytes, bytes] | None:
     """Return the identifier and the user data of an endpoint; None if the token has another form."""
     chunks = text.split("/")
-    if len(chunks) != 4 or chunks[0] != _USER_DATA_SPACE or len(text) > _MOST_BYTES:
+    if len(chunks) != 4 or chunks[0] != _USER_DATA_SPACE or len(text) > MAX_BYTES:
         return None
     try:
         return bytes.fromhex(chunks[2]), chunks[3].encode()
@@ -131,7 +132,7 @@ def decode_user_data(text: str) -> tuple[bytes, bytes] | None:
 def decode_token(text: str) -> Token | None:
     """Return the contents of a token; None if it is not valid."""
     chunks = text.split("/")
-    if len(text) > _MOST_BYTES or len(chunks) < _NODE_CHUNKS or not all(chunks) or chunks[0] != _SPACE:
+    if len(text) > MAX_BYTES or len(chunks) < _NODE_CHUNKS or not all(chunks) or chunks[0] != _SPACE:
         return None
     _, _, session, node, number, kind, _, namespace, name, *endpoint = chunks
     if not (_is_number(node) and _is_number(number)):
@@ -146,7 +147,8 @@ def decode_token(text: str) -> Token | None:
         if decoded is None or not topic.startswith("/"):
             return None
         qos = decoded
-    elif kind != NODE:
+    longest = max(len(part.encode()) for part in (session, namespace, name, topic, type_name, type_hash))
+    if longest > MAX_NAME or kind not in {NODE, *_KINDS}:
         return None
     return Token(
         session,

@@ -1,0 +1,65 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Limits of the graph, which any process of the network can fill with tokens."""
+
+from __future__ import annotations
+
+import logging
+from typing import Final
+
+from coframe.escaping import shown
+
+MAX_TOKENS: Final = 100_000  # nodes, endpoints and their user data, of other processes
+MAX_TOKEN_BYTES: Final = 64 << 20  # of their texts; the names of a token are parts of its text
+
+_logger = logging.getLogger("coframe.wire")
+
+
+class TokenLimits:
+    """The tokens that are stored, within limits of number and bytes. Those of this process do not count."""
+
+    def __init__(self) -> None:
+        self._own: set[str] = set()
+        self._stored: set[str] = set()
+        self._bytes = 0
+        self._warned: set[str] = set()
+
+    def add_own(self, text: str, *, declared: bool) -> None:
+        """Note that this process declares a token, or no longer."""
+        if declared:
+            self._own.add(text)
+        else:
+            self._own.discard(text)
+
+    def add(self, text: str) -> bool:
+        """Return whether a token may be stored. It counts until it is removed."""
+        if text in self._own or text in self._stored:
+            return True
+        if len(self._stored) >= MAX_TOKENS or self._bytes + len(text) > MAX_TOKEN_BYTES:
+            self._warn(
+                "full",
+                f"More than {MAX_TOKENS} nodes and endpoints, or {MAX_TOKEN_BYTES >> 20} MiB of their names, are on "
+                f"the graph. Further ones are not listed. Find out which process creates them.",
+            )
+            return False
+        self._stored.add(text)
+        self._bytes += len(text)
+        return True
+
+    def remove(self, text: str) -> None:
+        """Stop counting a token, which has left."""
+        if text in self._stored:
+            self._stored.remove(text)
+            self._bytes -= len(text)
+
+    def warn_of_invalid_token(self, text: str) -> None:
+        """Warn, the first time only, that a token is ignored."""
+        self._warn(
+            "invalid",
+            f"A node or an endpoint is not listed, because its liveliness token is not valid or contains too long a "
+            f"name: {shown(text)}. Further ones like it are not reported.",
+        )
+
+    def _warn(self, key: str, text: str) -> None:
+        if key not in self._warned:
+            self._warned.add(key)
+            _logger.warning("%s", text)
