@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import coframe
-from coframe.trajectories import READABLE_FORMATS, TrajectoryError, read_trajectory, write_trajectory
+from coframe.trajectories import READABLE_FORMATS, TrajectoryError, read_trajectory, reading, write_trajectory
 
 START = 1_700_000_000_123_456_789
 
@@ -121,6 +121,20 @@ def test_an_npz_file_without_poses_is_an_error(tmp_path):
     np.savez(tmp_path / "a.npz", target="", source="", **arrays)
     with pytest.raises(TrajectoryError, match=r"a\.npz contains no poses"):
         read_trajectory(tmp_path / "a.npz")
+
+
+@pytest.mark.parametrize("suffix", ["tum", "kitti", "npz"])
+def test_a_file_with_more_poses_than_the_limit_is_refused(tmp_path, monkeypatch, suffix):
+    monkeypatch.setattr(reading, "MAX_POSES", 100)
+    path = tmp_path / f"long.{suffix}"
+    for count in (100, 101):
+        poses = coframe.Transform(np.zeros((count, 3)), np.tile([0.0, 0, 0, 1], (count, 1)), stamp=np.arange(count))
+        write_trajectory(poses, path, suffix)
+        if count == 100:
+            assert read_trajectory(path).shape == (100,)
+    with pytest.raises(TrajectoryError, match=r"long\.\w+ has more than 100 poses, the limit") as caught:
+        read_trajectory(path)
+    assert "Split the file" in caught.value.hint
 
 
 def test_a_small_npz_file_that_unpacks_to_a_large_one_is_refused(tmp_path):
