@@ -9,6 +9,7 @@ import shutil
 import subprocess
 import sys
 import threading
+import tracemalloc
 import zlib
 from collections import Counter
 from pathlib import Path
@@ -26,7 +27,7 @@ from rosbags.interfaces import QosDurability
 from rosbags.rosbag2 import Reader
 
 import coframe
-from coframe.bags import OfferedQos, Writer, from_yaml, mcap_writer
+from coframe.bags import OfferedQos, Writer, from_yaml, latched_messages, mcap_writer
 from coframe.bags.mcap_writer import McapWriter
 from coframe.bags.offered_qos import to_yaml
 
@@ -245,6 +246,35 @@ def test_latched_messages_are_the_valid_ones(tmp_path):
         writer.write(writer.add_topic("/tf", TF), static("x"), START + SECOND)
     second = [data for topic, _, data in read_by_mcap(tmp_path / "run" / "run_1.mcap")[0] if topic != "/tf"]
     assert second == [static("b"), static("a", "c"), b"\0\1\0\0cut", b"\0\1\0\0two", b"\0\1\0\0new"]
+
+
+def test_latched_messages_have_a_limit(tmp_path, monkeypatch):
+    monkeypatch.setattr(latched_messages, "MAX_BYTES", 100)
+    latched = [OfferedQos(1, transient_local=True)]
+    with Writer(tmp_path / "run", max_duration="1s") as writer:
+        first, second = (writer.add_topic(name, "std_msgs/msg/String", offered_qos=latched) for name in ("/a", "/b"))
+        for publisher in range(3):
+            writer.write(first, b"%d" % publisher * 40, START, publisher=publisher)
+        writer.write(second, b"short", START)
+        assert writer.incomplete == ["/a"]
+        writer.write(first, b"0" * 30, START, publisher=0)
+        writer.write(first, b"3" * 20, START, publisher=3)
+        writer.write(first, b"tick", START + SECOND, publisher=4)
+    first, second = (read_by_mcap(tmp_path / "run" / f"run_{number}.mcap")[0] for number in range(2))
+    assert len(first) == 6, "all messages are recorded"
+    assert [data for _, _, data in second] == [b"1" * 40, b"0" * 30, b"3" * 20, b"short", b"tick"]
+
+
+def test_latched_messages_are_stored_only_if_a_second_file_can_follow(tmp_path):
+    latched = [OfferedQos(1, transient_local=True)]
+    with Writer(tmp_path / "run") as writer:
+        topic = writer.add_topic("/map", "std_msgs/msg/String", offered_qos=latched)
+        tracemalloc.start()
+        for publisher in range(30):
+            writer.write(topic, bytes(1_000_000), START, publisher=publisher)
+        writer.flush()
+        assert tracemalloc.get_traced_memory()[0] < 5_000_000
+        tracemalloc.stop()
 
 
 def test_a_file_is_readable_wherever_its_writer_was_killed(tmp_path):

@@ -13,6 +13,7 @@ import coframe
 from coframe.bags import OfferedQos, Writer
 from coframe.cli.app import app
 from coframe.messages import deserialize, find, serialize
+from coframe.recorder import topic_publishers
 from coframe.recorder.playback_clock import PlaybackClock
 from coframe.wire import QoS
 
@@ -245,6 +246,27 @@ def test_damaged_messages_are_skipped_and_reported(tmp_path, listen):
         assert len(player.problems) == 2
         assert all("damaged messages are skipped" in problem for problem in player.problems)
     assert words(received_words()) == ["a", "b"]
+
+
+def test_topics_beyond_the_limit_are_reported_and_transforms_come_first(tmp_path, listen, monkeypatch):
+    monkeypatch.setattr(topic_publishers, "MAX_TOPICS", 3)
+    with Writer(tmp_path / "run") as writer:
+        for number in range(5):
+            writer.write(writer.add_topic(f"/words{number}", STRING), text(f"{number}"), START)
+        for topic, at, data in recordings.messages()[:2]:
+            writer.write(writer.add_topic(topic, TF), data, at)
+    received = [listen(f"/words{number}") for number in range(5)]
+    moved = listen("/tf", TF)
+    with coframe.play(tmp_path / "run", delay=SETTLED) as player:
+        assert player.wait(20)
+        assert player.problems == ["4 topics are not replayed: 3 is the limit. Select topics."]
+    assert [len(samples()) for samples in received] == [1, 0, 0, 0, 0]
+    assert len(moved()) == 1
+
+
+def test_the_depth_of_a_latched_publisher_has_a_limit():
+    """DDS does not announce the depth to other processes."""
+    assert topic_publishers._combined_qos([QoS(depth=1 << 30, transient_local=True)]).depth == 1000
 
 
 def test_invalid_topic_names_are_skipped_and_reported(tmp_path, listen):

@@ -10,24 +10,44 @@ from coframe.errors import DecodeError
 from coframe.messages import deserialize, find
 
 if TYPE_CHECKING:
-    from collections.abc import Hashable
+    from collections.abc import Hashable, Iterable
 
-__all__ = ["LatchedMessage", "LatchedMessages"]
+__all__ = ["LatchedMessage", "LatchedMessages", "LatchedSpace"]
 
 _TF = "tf2_msgs/msg/TFMessage"
-_MAX_MESSAGES = 1000  # of one topic
+MAX_MESSAGES = 10_000
+MAX_BYTES = 64 << 20
+
+
+class LatchedSpace:
+    """How many messages and bytes all latched topics of a recording have, which must not fill the memory."""
+
+    def __init__(self) -> None:
+        self._messages = 0
+        self._bytes = 0
+
+    def take(self, size: int) -> bool:
+        """Take the space of a message with `size` bytes. Return False if there is not enough."""
+        if self._messages >= MAX_MESSAGES or self._bytes + size > MAX_BYTES:
+            return False
+        self._messages += 1
+        self._bytes += size
+        return True
+
+    def give_back(self, size: int) -> None:
+        """Give back the space of a message."""
+        self._messages -= 1
+        self._bytes -= size
 
 
 class LatchedMessage(NamedTuple):
     """A message that is still valid.
 
     Attributes:
-        keys: What the message describes: its child frames, or its publisher.
         data: The serialized message.
         published: When it was published, in nanoseconds.
     """
 
-    keys: frozenset[Hashable]
     data: bytes
     published: int
 
@@ -37,22 +57,59 @@ class LatchedMessages:
 
     A message of static transforms is valid until later messages have replaced all its child frames. On other topics,
     the last message of each publisher is valid.
+
+    Args:
+        topic: The topic.
+        ros_type: The type of its messages.
+        space: The space for the messages of all topics.
+
+    Attributes:
+        omitted: Number of messages for which there was no space.
     """
 
-    def __init__(self, topic: str, ros_type: str) -> None:
+    def __init__(self, topic: str, ros_type: str, space: LatchedSpace) -> None:
         self._is_static = is_static(topic) and ros_type == _TF
-        self.messages: list[LatchedMessage] = []
+        self._space = space
+        self._messages: dict[int, LatchedMessage] = {}
+        self._last: dict[Hashable, int] = {}  # the number of the last message that describes a frame or a publisher
+        self._described: dict[int, int] = {}  # how many of these a message is the last one of
+        self._count = 0
+        self.omitted = 0
+
+    @property
+    def messages(self) -> Iterable[LatchedMessage]:
+        """The valid messages."""
+        return self._messages.values()
 
     def add(self, data: bytes, published: int, publisher: Hashable) -> None:
         """Add a message, and remove those that it replaces."""
         keys = self._keys(data, publisher)
-        self.messages = [message for message in self.messages if not message.keys <= keys][1 - _MAX_MESSAGES :]
-        self.messages.append(LatchedMessage(keys, data, published))
+        for key in keys:
+            self._forget(key)
+        if not self._space.take(len(data)):
+            self.omitted += 1
+            return
+        self._count += 1
+        self._messages[self._count] = LatchedMessage(data, published)
+        self._described[self._count] = len(keys)
+        self._last.update(dict.fromkeys(keys, self._count))
+
+    def _forget(self, key: Hashable) -> None:
+        number = self._last.pop(key, None)
+        if number is None:
+            return
+        self._described[number] -= 1
+        if not self._described[number]:
+            del self._described[number]
+            self._space.give_back(len(self._messages.pop(number).data))
 
     def _keys(self, data: bytes, publisher: Hashable) -> frozenset[Hashable]:
-        if not self._is_static:
-            return frozenset([publisher])
-        try:
-            return frozenset(transform.child_frame_id for transform in deserialize(data, find(_TF)).transforms)
-        except DecodeError:
-            return frozenset()
+        """Return what a message describes: its child frames, or its publisher."""
+        if self._is_static:
+            try:
+                frames = frozenset(transform.child_frame_id for transform in deserialize(data, find(_TF)).transforms)
+            except DecodeError:
+                frames = frozenset()
+            if frames:
+                return frames
+        return frozenset([(publisher,)])  # a tuple, which is not equal to the name of a frame

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from coframe import time
 from coframe.bags.definitions import definition_of
-from coframe.bags.latched_messages import LatchedMessages
+from coframe.bags.latched_messages import LatchedMessages, LatchedSpace
 from coframe.bags.mcap_writer import McapWriter, compressor
 from coframe.bags.offered_qos import OfferedQos, to_yaml
 from coframe.bags.sqlite_writer import SqliteWriter
@@ -121,6 +121,8 @@ class Writer:
         compressor(compression)  # Raises before the folder is created.
         self._contents = _Contents()
         self._numbers: dict[tuple[str, str], int] = {}
+        self._is_split = max_size is not None or self._max_duration is not None
+        self._latched_space = LatchedSpace()
         self._closed = 0  # bytes of finished files
         self._first_size = 0  # bytes of the file before its own messages
         self._first_time: int | None = None
@@ -180,7 +182,7 @@ class Writer:
                     known,
                     definition_format if known else "",
                     to_yaml(offered_qos or ([OfferedQos(1, transient_local=True)] if latched else [])),
-                    LatchedMessages(name, ros_type) if latched else None,
+                    LatchedMessages(name, ros_type, self._latched_space) if latched and self._is_split else None,
                 )
             )
         return self._numbers[key]
@@ -237,6 +239,11 @@ class Writer:
     def files(self) -> int:
         """Number of files."""
         return len(self._contents.files)
+
+    @property
+    def incomplete(self) -> list[str]:
+        """Topics of which not all latched messages are repeated at the beginning of each file: there are too many."""
+        return [topic.name for topic in self._contents.topics if topic.latched and topic.latched.omitted]
 
     def close(self) -> None:
         """Write the index and the metadata, and wait until all is on the disk.

@@ -218,6 +218,9 @@ def _finish(recorder: Recorder) -> None:
         if recorder.writer.undescribed:
             types = ", ".join(recorder.writer.undescribed)
             warn(f"recorded without message definitions, so that other programs cannot decode them: {types}")
+        if recorder.writer.incomplete:
+            topics = ", ".join(recorder.writer.incomplete)
+            warn(f"the files do not begin with all latched messages, because there are too many: {topics}")
 
 
 def _bytes(option: str, text: str) -> int:

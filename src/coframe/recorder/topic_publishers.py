@@ -26,7 +26,10 @@ __all__ = ["TopicPublishers"]
 
 _TF = "tf2_msgs/msg/TFMessage"
 _DEPTH = 100  # messages that a publisher keeps until they are delivered
-_KEEP_ALL_DEPTH = 1000  # replaces "keep all", so that one hanging subscription does not block the replay
+# Replaces "keep all", so that one hanging subscription does not block the replay, and larger depths, because a latched
+# publisher stores that many messages.
+MAX_DEPTH = 1000
+MAX_TOPICS = 4_000
 
 
 class _ChannelPublisher(NamedTuple):
@@ -132,12 +135,20 @@ class TopicPublishers:
                 key = (channel.topic, channel.type)
                 channels.setdefault(key, channel)
                 offers.setdefault(key, []).extend(QoS(*profile) for profile in from_yaml(channel.offered_qos))
-        for key, channel in channels.items():
+        transforms_first = sorted(channels.items(), key=lambda item: item[0][1] != _TF)
+        for number, (key, channel) in enumerate(transforms_first):
+            if number >= MAX_TOPICS:
+                self._channels[key] = None
+                continue
             try:
                 self._channels[key] = self._channel_publisher(channel, offers[key])
             except (WireError, ValueError) as error:  # recordings can contain topic names that DDS does not allow
                 self._channels[key] = None
                 self.problems.append(f"{channel.topic} is not replayed: {error}")
+        if len(channels) > MAX_TOPICS:
+            self.problems.append(
+                f"{len(channels) - MAX_TOPICS} topics are not replayed: {MAX_TOPICS} is the limit. Select topics."
+            )
 
     def _channel_publisher(self, channel: Channel, offered: list[QoS]) -> _ChannelPublisher | None:
         converted = cdr_converter(channel)
@@ -187,7 +198,7 @@ def _combined_qos(offered: list[QoS]) -> QoS:
     if not offered:
         return QoS(depth=_DEPTH)
     latched = any(qos.transient_local for qos in offered)
-    depth = max(_KEEP_ALL_DEPTH if qos.keep_all else qos.depth for qos in offered)
+    depth = max(MAX_DEPTH if qos.keep_all else min(qos.depth, MAX_DEPTH) for qos in offered)
     return QoS(
         # On a latched topic, the depth is the number of messages that late-joining subscriptions receive.
         depth=depth if latched else max(depth, _DEPTH),

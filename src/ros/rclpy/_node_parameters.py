@@ -5,7 +5,8 @@ from __future__ import annotations
 
 import threading
 import warnings
-from collections.abc import Callable, Sequence, Set
+from collections.abc import Callable, Sequence
+from collections.abc import Set as AbstractSet
 from typing import Any
 
 from coframe.formatting import did_you_mean
@@ -423,7 +424,7 @@ def _warn_of_missing_default(name: str) -> None:
     )
 
 
-def _is_listed(name: str, prefixes: Set[str], depth: int) -> bool:
+def _is_listed(name: str, prefixes: AbstractSet[str], depth: int) -> bool:
     """Return whether a name has one of the prefixes and is at most `depth` levels below it (0: any level)."""
     separator = PARAMETER_SEPARATOR_STRING
     is_wanted = not prefixes or name in prefixes or "" in prefixes

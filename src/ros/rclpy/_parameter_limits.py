@@ -3,10 +3,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from coframe.messages import codec
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
 
 MAX_PARAMETERS = 10_000
 MAX_BYTES = 64 << 20  # of the names and values

@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """Parameter services, through which other nodes get and set the parameters of a node (`ros2 param`)."""
 
+# The modules of rclpy share attributes named `_Coframe__x`, the form of mangled names.
+# ruff: noqa: SLF001
+
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
 from rcl_interfaces.msg import SetParametersResult
@@ -21,6 +23,8 @@ from rclpy.parameter import Parameter
 from rclpy.qos import qos_profile_parameters
 
 if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
     from rclpy.node import Node
 
 
