@@ -23,6 +23,7 @@ from rclpy.action import (
     get_action_names_and_types,
     get_action_server_names_and_types_by_node,
 )
+from rclpy.action import server as action_server
 from rclpy.action._status import encode_entry, encode_statuses
 from rclpy.exceptions import RCLError
 from rclpy.executors import MultiThreadedExecutor, SingleThreadedExecutor
@@ -319,6 +320,56 @@ def test_results_expire(serve, connect, count, result_of, wait_until, fibonacci)
     goal_handle = result_of(client, client.send_goal_async(fibonacci.Goal(order=1)))
     status_of_result = lambda: result_of(client, goal_handle.get_result_async()).status  # noqa: E731
     wait_until(lambda: status_of_result() == GoalStatus.STATUS_UNKNOWN)
+
+
+@pytest.mark.parametrize("result_timeout", [900, -1])
+def test_the_server_forgets_the_first_finished_goals_at_the_limit(
+    serve, connect, count, result_of, fibonacci, monkeypatch, result_timeout
+):
+    monkeypatch.setattr(action_server, "MAX_GOALS", 3)
+    serve(count, result_timeout=result_timeout)
+    client = connect()
+    handles = []
+    for _ in range(5):
+        handles.append(result_of(client, client.send_goal_async(fibonacci.Goal(order=1))))
+        assert result_of(client, handles[-1].get_result_async()).status == GoalStatus.STATUS_SUCCEEDED
+    statuses = [result_of(client, handle.get_result_async()).status for handle in handles]
+    assert statuses == [GoalStatus.STATUS_UNKNOWN] * 2 + [GoalStatus.STATUS_SUCCEEDED] * 3
+
+
+def test_the_server_rejects_goals_and_requests_beyond_the_limit(
+    serve, connect, count, result_of, wait_until, fibonacci, monkeypatch, capfd
+):
+    monkeypatch.setattr(action_server, "MAX_GOALS", 2)
+    monkeypatch.setattr(action_server, "MAX_RESULT_REQUESTS", 3)
+    waiting = []
+    serve(count, handle_accepted_callback=waiting.append)
+    client = connect()
+    handles = [result_of(client, client.send_goal_async(fibonacci.Goal(order=1))) for _ in range(4)]
+    assert [handle.accepted for handle in handles] == [True, True, False, False]
+    results = [handles[0].get_result_async() for _ in range(5)]
+    wait_until(lambda: len(waiting[0]._Coframe__result_requests) == 3)
+    waiting[0].execute()
+    for result in results[:3]:
+        assert result_of(client, result).status == GoalStatus.STATUS_SUCCEEDED
+    assert result_of(client, client.send_goal_async(fibonacci.Goal(order=1))).accepted, "a goal has finished"
+    assert not any(result.done() for result in results[3:])
+    printed = capfd.readouterr().err
+    assert printed.count("Rejecting goals: 2 goals are not finished, the limit.") == 1
+    assert printed.count("Ignoring requests: 3 wait for the result of one goal.") == 1
+
+
+def test_a_damaged_status_message_is_ignored(serve, connect, count, result_of, fibonacci, capfd):
+    serve(count, handle_accepted_callback=lambda _: None)
+    client = connect()
+    handle = result_of(client, client.send_goal_async(fibonacci.Goal(order=1)))
+    good = codec.serialize(
+        GoalStatusArray(status_list=[GoalStatus(goal_info=GoalInfo(goal_id=handle.goal_id), status=2)])
+    )
+    for cdr in (good, good[:-3], b"\0\1\0\0\xff\xff\xff\xff"):
+        client._ActionClient__on_status(cdr)
+        assert handle.status == GoalStatus.STATUS_EXECUTING
+    assert capfd.readouterr().err.count("Ignoring damaged messages with the status of goals") == 1
 
 
 def test_two_clients(serve, connect, count, result_of, wait_until, fibonacci):

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 from action_msgs.msg import GoalStatus, GoalStatusArray
 from action_msgs.srv import CancelGoal
+from coframe.errors import DecodeError
 from coframe.messages import codec
 from rclpy.action._names import CANCEL_GOAL, FEEDBACK, FEEDBACK_QOS, GET_RESULT, SEND_GOAL, STATUS, resolve_action_name
 from rclpy.callback_groups import ReentrantCallbackGroup
@@ -132,6 +133,7 @@ class ActionClient:
         self.__ended: deque[bytes] = deque()  # the goals that have ended and whose feedback is still passed on
         self.__status_cdr: bytes | None = None
         self.__known_statuses: dict[bytes, int] = {}
+        self.__has_warned = False
 
         name, parts = resolve_action_name(node, action_name, "action client"), action_type.Impl
         # Internal callbacks run no user code, so they do not need to wait for callbacks of the user's group.
@@ -278,9 +280,18 @@ class ActionClient:
         The last message is decoded only on demand, because messages are frequent and contain all goals.
         """
         cdr, self.__status_cdr = self.__status_cdr, None
-        if cdr is not None:
+        if cdr is None:
+            return self.__known_statuses
+        try:
             statuses = codec.deserialize(cdr, GoalStatusArray).status_list
-            self.__known_statuses = {_key(goal.goal_info.goal_id): goal.status for goal in statuses}
+        except DecodeError as error:
+            if not self.__has_warned:
+                self.__has_warned = True
+                self._node.get_logger().warning(
+                    f"Ignoring damaged messages with the status of goals of the action {self._action_name}: {error}"
+                )
+            return self.__known_statuses
+        self.__known_statuses = {_key(goal.goal_info.goal_id): goal.status for goal in statuses}
         return self.__known_statuses
 
 

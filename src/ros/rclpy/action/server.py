@@ -7,12 +7,13 @@
 from __future__ import annotations
 
 import inspect
+import math
 import threading
 import time
 import traceback
 from collections import deque
 from enum import Enum
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Final
 
 from action_msgs.msg import GoalInfo, GoalStatus
 from action_msgs.srv import CancelGoal
@@ -52,6 +53,9 @@ __all__ = [
     "default_goal_callback",
     "default_handle_accepted_callback",
 ]
+
+MAX_GOALS: Final = 1_000  # whose status is published
+MAX_RESULT_REQUESTS: Final = 1_000  # that wait for the result of one goal
 
 
 class GoalResponse(Enum):
@@ -108,7 +112,8 @@ class ActionServer:
         cancel_service_qos_profile: QoS profile of the cancel service.
         feedback_pub_qos_profile: QoS profile of the feedback publisher.
         status_pub_qos_profile: QoS profile of the status publisher.
-        result_timeout: Time in seconds for which results are kept. Negative: no limit.
+        result_timeout: Time in seconds for which results are kept. Negative: no limit. The server stores at most 1000
+            goals; if they are more, it forgets the one that finished first, and rejects goals if none is finished.
 
     Raises:
         TypeError: The execute callback is not callable.
@@ -145,7 +150,8 @@ class ActionServer:
         self._lock = threading.RLock()
         self.__is_destroyed = False
         self.__goals: dict[bytes, ServerGoalHandle] = {}
-        self.__expiries: deque[tuple[float, bytes]] = deque()
+        self.__expiries: deque[tuple[float, bytes]] = deque()  # of the finished goals
+        self.__warned: set[str] = set()
         self.__to_execute: deque[tuple[Callable[[ServerGoalHandle], Any], ServerGoalHandle]] = deque()
 
         name, parts = resolve_action_name(node, action_name, "action server"), action_type.Impl
@@ -229,9 +235,9 @@ class ActionServer:
     # Goals
 
     async def __on_goal_request(self, request: Any, header: RequestHeader) -> None:
-        self.__forget_expired()
         goal_handle = None
-        if _key(request.goal_id) not in self.__goals and await self.__is_accepted(request.goal):
+        is_new = _key(request.goal_id) not in self.__goals
+        if is_new and self.__has_room() and await self.__is_accepted(request.goal):
             goal_handle = self.__add(request)
         response = self._action_type.Impl.SendGoalService.Response(accepted=goal_handle is not None)
         if goal_handle is not None:
@@ -241,6 +247,22 @@ class ActionServer:
         self._node.get_logger().debug(f"New goal {outcome}: {request.goal_id.uuid}")
         if goal_handle is not None:
             await _call(self.__handle_accepted_callback, goal_handle)
+
+    def __has_room(self) -> bool:
+        """Return whether a goal can be stored. At the limit, the goal that finished first is forgotten."""
+        self.__forget_expired()
+        with self._lock:
+            if len(self.__goals) >= MAX_GOALS and self.__expiries:
+                self.__goals.pop(self.__expiries.popleft()[1], None)
+            has_room = len(self.__goals) < MAX_GOALS
+        if not has_room:
+            self.__warn_once(f"Rejecting goals: {MAX_GOALS} goals are not finished, the limit.")
+        return has_room
+
+    def __warn_once(self, text: str) -> None:
+        if text not in self.__warned:
+            self.__warned.add(text)
+            self._node.get_logger().warning(text)
 
     async def __is_accepted(self, goal: Any) -> bool:
         response = await _call(self.__goal_callback, goal)
@@ -346,7 +368,10 @@ class ActionServer:
         with self._lock:
             goal_handle = self.__goals.get(_key(request.goal_id))
             if goal_handle is not None and goal_handle._Coframe__result_response is None:
-                goal_handle._Coframe__result_requests.append(header)
+                if len(goal_handle._Coframe__result_requests) < MAX_RESULT_REQUESTS:
+                    goal_handle._Coframe__result_requests.append(header)
+                else:
+                    self.__warn_once(f"Ignoring requests: {MAX_RESULT_REQUESTS} wait for the result of one goal.")
                 return
         # The default status of a response is UNKNOWN, which is the response for an unknown goal.
         unknown = self._action_type.Impl.GetResultService.Response()
@@ -360,8 +385,8 @@ class ActionServer:
             if goal_handle._Coframe__result_response is not None:
                 return
             goal_handle._Coframe__result_response = response
-            if self.__result_timeout >= 0:
-                self.__expiries.append((time.monotonic() + self.__result_timeout, _key(goal_handle.goal_id)))
+            expiry = time.monotonic() + self.__result_timeout if self.__result_timeout >= 0 else math.inf
+            self.__expiries.append((expiry, _key(goal_handle.goal_id)))
         for header in goal_handle._Coframe__result_requests:
             self.__result_service.send_response(response, header)
 
