@@ -2,8 +2,10 @@
 """Packages and their executables: declared in sources, installed, and built in; and ``coframe run``."""
 
 import os
+import signal
 import subprocess
 import sys
+import time
 
 import pytest
 
@@ -11,6 +13,7 @@ from coframe.errors import PackageError
 from coframe.packages import console_scripts
 from coframe.packages.executables import executables, find_executable
 from coframe.packages.finding import find_package, source_folders, use_sources_near
+from std_msgs.msg import String
 
 PROGRAM = """
 import sys
@@ -138,3 +141,27 @@ def test_declarations_of_console_scripts(tmp_path, name, text, scripts, root):
     found = console_scripts.read(tmp_path)
     assert "".join(sorted(found.scripts)) == scripts
     assert found.root == root
+
+
+@pytest.mark.parametrize("module", ["demo_nodes_py.talker", "demo_nodes_py.listener", "turtlesim.turtlesim_node"])
+def test_a_damaged_parameter_file_is_one_sentence(module, tmp_path):
+    write(tmp_path / "bad.yaml", "talker: [1")
+    command = [sys.executable, "-m", module, "--ros-args", "--params-file", str(tmp_path / "bad.yaml")]
+    ended = subprocess.run(command, capture_output=True, text=True, timeout=60, check=False)
+    assert ended.returncode == 1
+    assert "Couldn't parse params file" in ended.stderr
+    assert "Traceback" not in ended.stderr
+
+
+def test_the_listener_escapes_what_it_heard(make_node):
+    node = make_node("talker")
+    publisher = node.create_publisher(String, "chatter", 10)
+    command = [sys.executable, "-u", "-m", "demo_nodes_py.listener"]
+    with subprocess.Popen(command, stderr=subprocess.PIPE, text=True) as listener:
+        while not publisher.get_subscription_count():
+            time.sleep(0.01)
+        publisher.publish(String(data="\x1b[2Jhello"))
+        heard = listener.stderr.readline()
+        listener.send_signal(signal.SIGINT)
+    assert "hello" in heard
+    assert "\x1b" not in heard

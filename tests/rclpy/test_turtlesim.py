@@ -9,11 +9,13 @@ from typing import Any
 
 import pytest
 
+from action_msgs.msg import GoalStatus
 from geometry_msgs.msg import Twist
 from rclpy.action import ActionClient
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.parameter import Parameter
 from std_srvs.srv import Empty
+from turtlesim import turtlesim_node
 from turtlesim._canvas import SIZE_IN_METERS, Canvas, Pen
 from turtlesim.action import RotateAbsolute
 from turtlesim.msg import Color, Pose
@@ -117,6 +119,45 @@ def test_topics_and_services_of_the_tutorial(capfd: Any, tutorial: Tutorial) -> 
     ):
         level, _, text = expected.partition(" ")
         assert any(line.startswith(level) and line.endswith(text) for line in printed.splitlines()), expected
+
+
+@pytest.mark.parametrize("value", [float("nan"), float("inf"), 1e38])
+def test_absurd_numbers_do_not_end_the_node(capfd: Any, tutorial: Tutorial, value: float) -> None:
+    tutorial.until(lambda: tutorial.at(MIDDLE, MIDDLE, 0.0))
+    tutorial.until(tutorial.commands.get_subscription_count)
+    command = Twist()
+    command.linear.x = command.angular.z = value
+    tutorial.commands.publish(command)
+    tutorial.call(TeleportAbsolute, "turtle1/teleport_absolute", x=value, y=value, theta=value)
+    tutorial.call(TeleportRelative, "turtle1/teleport_relative", linear=value, angular=value)
+    assert tutorial.call(Spawn, "spawn", x=value, y=1.0, theta=0.0).name == ""
+    client = ActionClient(tutorial.client, RotateAbsolute, "turtle1/rotate_absolute")
+    tutorial.until(client.server_is_ready)
+    sent = client.send_goal_async(RotateAbsolute.Goal(theta=value))
+    tutorial.until(sent.done)
+    result = sent.result().get_result_async()
+    tutorial.until(result.done)
+    assert result.result().status == GoalStatus.STATUS_ABORTED
+    tutorial.poses.clear()
+    tutorial.until(lambda: tutorial.at(MIDDLE, MIDDLE, 0.0))
+    printed = capfd.readouterr().err
+    for expected in ("Ignoring a command of [turtle1]", "Ignoring a teleport", "Ignoring a rotation", "not below 1e6"):
+        assert expected in printed
+
+
+def test_turtles_with_bad_names_and_too_many_turtles_are_not_spawned(
+    capfd: Any, tutorial: Tutorial, monkeypatch: Any
+) -> None:
+    for name in ("a b", "1st", "a//b", "x" * 65, "\x1b[2J"):
+        assert tutorial.call(Spawn, "spawn", name=name).name == ""
+    monkeypatch.setattr(turtlesim_node, "MAX_TURTLES", 2)
+    assert [tutorial.call(Spawn, "spawn").name for _ in range(2)] == ["turtle2", ""]
+    printed = capfd.readouterr().err
+    assert "[a b] cannot be the name of a turtle: " in printed
+    assert "The name of a turtle has at most 64 characters" in printed
+    assert "There are 2 turtles, the limit" in printed
+    assert "\x1b" not in printed
+    tutorial.until(lambda: tutorial.at(MIDDLE, MIDDLE, 0.0))
 
 
 def test_rotations_are_completed_aborted_and_canceled(tutorial: Tutorial) -> None:

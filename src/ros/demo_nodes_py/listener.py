@@ -3,8 +3,8 @@
 
 from __future__ import annotations
 
-import rclpy
-from rclpy.executors import ExternalShutdownException
+from coframe.escaping import printable
+from coframe.nodes.program import program, spin_until_shutdown
 from rclpy.node import Node
 from std_msgs.msg import String
 
@@ -19,16 +19,12 @@ class Listener(Node):
         self.create_subscription(String, "chatter", self.__log, 10)
 
     def __log(self, message: String) -> None:
-        self.get_logger().info(f"I heard: [{message.data}]")
+        self.get_logger().info(f"I heard: [{printable(message.data)}]")
 
 
 def main(args: list[str] | None = None) -> None:
     """Run the node until shutdown."""
-    try:
-        with rclpy.init(args=args):
-            rclpy.spin(Listener())
-    except (KeyboardInterrupt, ExternalShutdownException):
-        pass
+    program("listener", args, lambda words, _: spin_until_shutdown(Listener, words, None))
 
 
 if __name__ == "__main__":

@@ -3,8 +3,7 @@
 
 from __future__ import annotations
 
-import rclpy
-from rclpy.executors import ExternalShutdownException
+from coframe.nodes.program import program, spin_until_shutdown
 from rclpy.node import Node
 from std_msgs.msg import String
 
@@ -29,11 +28,7 @@ class Talker(Node):
 
 def main(args: list[str] | None = None) -> None:
     """Run the node until shutdown."""
-    try:
-        with rclpy.init(args=args):
-            rclpy.spin(Talker())
-    except (KeyboardInterrupt, ExternalShutdownException):
-        pass
+    program("talker", args, lambda words, _: spin_until_shutdown(Talker, words, None))
 
 
 if __name__ == "__main__":

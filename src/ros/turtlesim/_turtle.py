@@ -19,11 +19,12 @@ if TYPE_CHECKING:
     from rclpy.action.server import ServerGoalHandle
     from rclpy.node import Node
 
-__all__ = ["Turtle"]
+__all__ = ["Turtle", "is_sensible"]
 
 _QUEUE = 7
 _TOLERANCE = 0.02  # radians, at which a rotation is complete
 _COMMAND_LIFETIME = Duration(seconds=1.0)
+_LARGEST = 1e6  # meters or radians, and per second
 
 
 class _Rotation(NamedTuple):
@@ -102,6 +103,8 @@ class Turtle:
             self._draw(before, canvas)
 
     def _on_command(self, message: Twist) -> None:
+        if not self._accepts("command", message.linear.x, message.linear.y, message.angular.z):
+            return
         self._last_command = self._node.get_clock().now()
         self._linear_x, self._angular = message.linear.x, message.angular.z
         if self._node.get_parameter("holonomic").value:
@@ -115,8 +118,16 @@ class Turtle:
         return response
 
     def _teleport(self, request: Any, response: Any) -> Any:
-        self._teleports.append(request)
+        if self._accepts("teleport", *(getattr(request, name) for name in request.get_fields_and_field_types())):
+            self._teleports.append(request)
         return response
+
+    def _accepts(self, what: str, *values: float) -> bool:
+        """Return whether all values are finite and not absurd; log it if they are not."""
+        accepted = is_sensible(*values)
+        if not accepted:
+            self._node.get_logger().error(f"Ignoring a {what} of [{self.name}]: {values} are not all below 1e6")
+        return accepted
 
     def _jump(self, request: TeleportAbsolute.Request | TeleportRelative.Request, canvas: Canvas) -> None:
         before = (self.x, self.y)
@@ -132,6 +143,9 @@ class Turtle:
 
     async def _rotate(self, handle: ServerGoalHandle) -> RotateAbsolute.Result:
         """Wait until `update` has completed the goal."""
+        if not self._accepts("rotation", handle.request.theta):
+            handle.abort()
+            return RotateAbsolute.Result()
         if self._rotation is not None:
             self._node.get_logger().warning(
                 "Rotation goal received before a previous goal finished. Aborting previous goal"
@@ -195,6 +209,11 @@ class Turtle:
         )
         r, g, b = canvas.color(self.x, self.y)
         self._colors.publish(Color(r=r, g=g, b=b))
+
+
+def is_sensible(*values: float) -> bool:
+    """Return whether all values are finite and small enough to calculate with."""
+    return all(abs(value) <= _LARGEST for value in values)  # False for NaN
 
 
 def _normalized(angle: float) -> float:

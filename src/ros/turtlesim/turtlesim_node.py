@@ -8,13 +8,16 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from coframe.escaping import printable, shown
 from coframe.nodes.program import program, spin_until_shutdown
 from rcl_interfaces.msg import IntegerRange, ParameterDescriptor
+from rclpy.exceptions import NameValidationException
 from rclpy.node import Node
+from rclpy.validate_topic_name import validate_topic_name
 from std_srvs.srv import Empty
 from turtlesim._canvas import SIZE_IN_METERS, Canvas
 from turtlesim._drawing import Drawing
-from turtlesim._turtle import Turtle
+from turtlesim._turtle import Turtle, is_sensible
 from turtlesim.srv import Kill, Spawn
 
 if TYPE_CHECKING:
@@ -22,6 +25,8 @@ if TYPE_CHECKING:
 
 __all__ = ["TurtleSim", "main"]
 
+MAX_TURTLES = 100
+_LONGEST_NAME = 64  # with its namespace; the names of its services are longer
 _STEP = 0.016  # seconds
 _BACKGROUND = {"background_r": ("Red", 0x45), "background_g": ("Green", 0x56), "background_b": ("Blue", 0xFF)}
 
@@ -60,9 +65,7 @@ class TurtleSim(Node):
         self.__spawn("", SIZE_IN_METERS / 2, SIZE_IN_METERS / 2, 0.0)
 
     def __spawn(self, name: str, x: float, y: float, theta: float) -> str:
-        """Return the name of the new turtle; "" if there is one with this name."""
-        if name in self.__turtles:
-            return ""
+        """Create a turtle, and return its name."""
         while not name or name in self.__turtles:
             self.__last_number += 1
             name = f"turtle{self.__last_number}"
@@ -71,15 +74,34 @@ class TurtleSim(Node):
         return name
 
     def __on_spawn(self, request: Spawn.Request, response: Spawn.Response) -> Spawn.Response:
-        response.name = self.__spawn(request.name, request.x, request.y, request.theta)
-        if not response.name:
-            self.get_logger().error(f"A turtle named [{request.name}] already exists")
+        fault = self.__fault(request)
+        if fault:
+            self.get_logger().error(fault)
+        else:
+            response.name = self.__spawn(request.name, request.x, request.y, request.theta)
         return response
+
+    def __fault(self, request: Spawn.Request) -> str:
+        """Return why a turtle cannot be spawned; "" if it can be."""
+        if request.name in self.__turtles:
+            return f"A turtle named [{shown(request.name)}] already exists"
+        if len(self.__turtles) >= MAX_TURTLES:
+            return f"There are {MAX_TURTLES} turtles, the limit"
+        if not is_sensible(request.x, request.y, request.theta):
+            return "A turtle cannot be spawned at a place or an angle that is not below 1e6"
+        if len(request.name) > _LONGEST_NAME:
+            return f"The name of a turtle has at most {_LONGEST_NAME} characters"
+        try:
+            if request.name:
+                validate_topic_name(request.name)
+        except NameValidationException as error:
+            return f"[{shown(request.name)}] cannot be the name of a turtle: {printable(str(error))}"
+        return ""
 
     def __kill(self, request: Kill.Request, response: Kill.Response) -> Kill.Response:
         turtle = self.__turtles.pop(request.name, None)
         if turtle is None:
-            self.get_logger().error(f"Tried to kill turtle [{request.name}], which does not exist")
+            self.get_logger().error(f"Tried to kill turtle [{shown(request.name)}], which does not exist")
         else:
             turtle.destroy()
         return response
