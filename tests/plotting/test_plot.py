@@ -15,6 +15,7 @@ from coframe.cli.app import app
 from coframe.plotting import Figure, PlotError, Series, evaluate
 from coframe.plotting.figure import COLOURS
 from coframe.plotting.html_page import MOST_POINTS, as_html
+from coframe.plotting.values import coordinate
 
 LATENCY = 20 * MS
 
@@ -167,6 +168,24 @@ def test_the_page_contains_everything(bag, tmp_path):
     assert [panel["title"] for panel in data["panels"]] == ["position [m]", "angle [rad]", "rate [Hz]"]
     assert data["panels"][2]["curves"][0]["y"][0] is None
     assert data["x"] == "time since 2023-11-14 22:13:20.000 UTC [s]"
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("kind", ["svg", "png", "html"])
+def test_values_too_large_to_draw_are_gaps(tmp_path, kind):
+    values = np.array([1e308, 1.0, -1e308, 2.0, np.inf, np.nan, 3.0, 1e299])
+    series = Series("far", START + np.arange(len(values)) * SECOND, values, "position [m]")
+    Figure("far", [series]).save(tmp_path / f"a.{kind}")
+    if kind == "html":
+        drawn = re.search(r'"y": (\[[^]]*\])', (tmp_path / "a.html").read_text())
+        assert json.loads(drawn[1]) == [None, 1.0, None, 2.0, None, None, 3.0, 1e299]
+    assert (tmp_path / f"a.{kind}").stat().st_size > 1000
+
+
+@pytest.mark.filterwarnings("error")
+def test_the_distance_of_a_frame_far_away():
+    far = coframe.Transform([[3e200, 4e200, 0.0], [1.7e308, 1.7e308, 0.0]], [[0.0, 0, 0, 1]] * 2)
+    np.testing.assert_allclose(coordinate(far, "distance"), [5e200, np.inf])
 
 
 def test_long_curves_keep_their_peaks():

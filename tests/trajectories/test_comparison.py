@@ -157,3 +157,18 @@ def test_statistics():
     data = compare_trajectories(reference, estimate).as_dict()
     assert data["ape"]["translation"]["sse"] == 50.0
     assert data["pairs"] == 4
+
+
+@pytest.mark.parametrize("alignment", ["none", "se3", "sim3"])
+def test_positions_too_large_to_calculate_with_are_an_error(alignment):
+    """LAPACK does not return for some matrices with infinite elements."""
+    far = np.full((20, 3), 1e308)
+    far[::2] *= -1
+    poses = [
+        coframe.Transform(positions, np.tile([0.0, 0, 0, 1], (20, 1)), stamp=np.arange(20) * SECOND)
+        for positions in (far, -far, np.random.default_rng(1).normal(size=(20, 3)) * 1e99)
+    ]
+    with pytest.raises(TrajectoryError, match=r"a position of 1e\+308 m; positions up to 1e\+100 m"):
+        compare_trajectories(poses[0], poses[1], align=alignment)
+    large = compare_trajectories(poses[2], poses[2], align=alignment)
+    assert large.ape.translation_statistics.max < 1e88

@@ -32,7 +32,7 @@ def as_html(figure: Figure) -> str:
         {
             "title": title,
             "curves": [
-                {"label": curve.label, "colour": next(colours), **_points(figure.x_values(curve), curve.values)}
+                {"label": curve.label, "colour": next(colours), **_points(figure.x_values(curve), curve.drawn)}
                 for curve in curves
             ],
         }

@@ -56,7 +56,7 @@ def as_image(figure: Figure, kind: str) -> bytes:
                 is_single = curve.values.size == 1
                 lines += axis.plot(
                     figure.x_values(curve),
-                    curve.values,
+                    curve.drawn,
                     color=next(colours),
                     linewidth=1.2,
                     marker="o" if is_single else None,

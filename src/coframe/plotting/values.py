@@ -44,7 +44,8 @@ def coordinate(poses: Transform, quantity: str) -> NDArray[np.float64]:
     if quantity in ANGLES:
         return poses.rpy[:, ANGLES.index(quantity)]
     if quantity == "distance":
-        return np.asarray(np.linalg.norm(poses.translation, axis=1))
+        with np.errstate(over="ignore"):  # hypot is infinite only if the distance is
+            return np.asarray(np.hypot.reduce(poses.translation, axis=1))
     return poses.translation[:, "xyz".index(quantity)]
 
 

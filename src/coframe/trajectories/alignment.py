@@ -17,6 +17,7 @@ if TYPE_CHECKING:
 __all__ = ["ALIGNMENTS", "Alignment", "align"]
 
 ALIGNMENTS = ("none", "se3", "sim3")
+MAX_POSITION = 1e100  # metres. Squares of larger numbers overflow, and LAPACK may never return for infinite values.
 
 
 class Alignment(NamedTuple):
@@ -51,14 +52,27 @@ def align(reference: Transform, estimate: Transform, *, with_scale: bool = False
         with_scale: Whether to estimate the scale as well, as for a monocular camera.
 
     Raises:
-        TrajectoryError: The positions do not determine the rotation: fewer than three, or all on one line.
+        TrajectoryError: The positions do not determine the rotation: fewer than three, or all on one line. Or a
+            position is above `MAX_POSITION`.
         ValueError: The shapes differ.
     """
     if reference.shape != estimate.shape or len(reference.shape) != 1:
         raise ValueError(f"The trajectories must have the same shape (N,), not {reference.shape} and {estimate.shape}.")
+    check_positions(reference)
+    check_positions(estimate)
     rotation, translation, scale = _umeyama(estimate.translation, reference.translation, with_scale)
     q = quaternion.from_matrix(rotation)
     return Alignment(Transform(translation, q, target=reference.target, source=estimate.target), scale)
+
+
+def check_positions(poses: Transform) -> None:
+    """Raise a TrajectoryError if a position is too large to calculate with."""
+    largest = float(np.abs(poses.translation).max(initial=0.0))
+    if largest > MAX_POSITION:
+        raise TrajectoryError(
+            f"A trajectory has a position of {largest:g} m; positions up to {MAX_POSITION:g} m can be compared",
+            hint="Check the unit and the rows of the files.",
+        )
 
 
 def _umeyama(

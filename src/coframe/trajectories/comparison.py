@@ -13,7 +13,7 @@ from coframe import quaternion
 from coframe.errors import TrajectoryError
 from coframe.formatting import count
 from coframe.time import SECOND, duration_ns
-from coframe.trajectories.alignment import ALIGNMENTS, Alignment, align
+from coframe.trajectories.alignment import ALIGNMENTS, Alignment, align, check_positions
 from coframe.trajectories.association import MAX_DIFFERENCE, associate
 
 if TYPE_CHECKING:
@@ -154,7 +154,8 @@ def compare_trajectories(
         delta: A number of poses, or text as for :func:`parse_delta`.
 
     Raises:
-        TrajectoryError: No stamps match, the alignment is not determined, or no two poses are ``delta`` apart.
+        TrajectoryError: No stamps match, the alignment is not determined, no two poses are ``delta`` apart, or a
+            position is too large to calculate with.
         ValueError: An argument is not valid.
 
     Example:
@@ -173,6 +174,7 @@ def compare_trajectories(
     for name, poses in (("reference", reference), ("estimate", estimate)):
         if len(poses.shape) != 1 or not len(poses):
             raise ValueError(f"The {name} must be a batch of shape (N,) with at least one pose, not {poses.shape}.")
+        check_positions(poses)
     chosen = _checked_delta(delta)
     reference, estimate = associate(reference, estimate, max_difference)
     alignment = None if align == "none" else _align(reference, estimate, align)
