@@ -153,7 +153,7 @@ def test_a_damaged_parameter_file_is_one_sentence(module, tmp_path):
     assert "Traceback" not in ended.stderr
 
 
-def test_the_listener_escapes_what_it_heard(make_node):
+def test_the_listener_escapes_what_it_received(make_node):
     node = make_node("talker")
     publisher = node.create_publisher(String, "chatter", 10)
     command = [sys.executable, "-u", "-m", "demo_nodes_py.listener"]
@@ -161,7 +161,7 @@ def test_the_listener_escapes_what_it_heard(make_node):
         while not publisher.get_subscription_count():
             time.sleep(0.01)
         publisher.publish(String(data="\x1b[2Jhello"))
-        heard = listener.stderr.readline()
+        received = listener.stderr.readline()
         listener.send_signal(signal.SIGINT)
-    assert "hello" in heard
-    assert "\x1b" not in heard
+    assert "hello" in received
+    assert "\x1b" not in received

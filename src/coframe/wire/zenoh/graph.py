@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from coframe.wire.zenoh.tokens import Token
 
 # A process that declares tokens without end must not fill the memory, but none may be dropped, because the token of a
-# node that leaves arrives once. The thread that receives them therefore processes them itself when nobody else does.
+# node that leaves arrives once. The thread that receives them therefore processes them itself if no other thread does.
 _MOST_PENDING: Final = 10_000
 # Tokens in Zenoh's queue, which drops the oldest. A queue that blocks would stop a process that joins a graph with more
 # tokens, because Zenoh delivers all of them before it returns the queue. More than `token_limits.MAX_TOKENS`.
