@@ -11,7 +11,7 @@ import coframe
 from coframe.bags import Writer, from_yaml
 from coframe.frame_names import renaming
 from coframe.messages import find, serialize
-from coframe.recorder import Recorder
+from coframe.recorder import Recorder, topic_subscriptions
 from coframe.recorder.frame_renaming import FrameRenamer
 from coframe.recorder.message_queue import Source
 from coframe.recorder.topic_subscriptions import TopicFilter
@@ -231,3 +231,16 @@ def test_recorded_transforms_give_the_same_lookups(participant, node, eventually
     for file in (tmp_path / "run").glob("*.mcap"):
         with coframe.open_bag(file) as bag:
             assert not np.isnan(bag.buffer.lookup("odom", "lidar").translation).any()
+
+
+def test_publishers_that_come_and_go_do_not_fill_the_memory(participant, node, eventually, tmp_path, monkeypatch):
+    monkeypatch.setattr(topic_subscriptions, "MAX_PUBLISHERS", 3)
+    with coframe.record(tmp_path / "run", topics=["/words"]) as recorder:
+        for i in range(6):
+            publisher = participant.publisher(node, "/words", STRING, QoS())
+            eventually(lambda publisher=publisher: publisher.matched)
+            publisher.write(text(f"{i}"))
+            eventually(lambda i=i: recorder.statistics.messages == i + 1)
+            publisher.close()
+        assert len(recorder._subscriptions._offers) <= 3
+    assert data_by_topic(tmp_path / "run") == {"/words": [text(f"{i}") for i in range(6)]}

@@ -23,6 +23,7 @@ __all__ = ["TopicFilter", "TopicSubscriptions"]
 _DEPTH = 1000  # messages that DDS queues while Python is busy
 _BATCH = 256  # messages
 _MAX_SUBSCRIPTIONS = 4000  # a typical graph has hundreds of topics
+MAX_PUBLISHERS = 100_000  # whose QoS is stored, and topics that cannot be recorded
 _HIDDEN = "/_"  # a name with a part that begins with an underscore is hidden, such as the topics of actions
 
 
@@ -129,6 +130,8 @@ class TopicSubscriptions:
         key = (topic, publisher.ros_type)
         offer = _Offer(*key, publisher.qos.reliable, publisher.qos.transient_local)
         self._offers[handle] = offer
+        while len(self._offers) > MAX_PUBLISHERS:  # Those that exist are added again by each refresh.
+            del self._offers[next(iter(self._offers))]
         if offer in self._refused or (offer not in self._readers and not self._subscribe(offer)):
             return
         offers = self._topic_offers.setdefault(key, [])
@@ -145,7 +148,8 @@ class TopicSubscriptions:
                     self._node, offer.topic, offer.type, qos, on_data=self._event, adapts=True
                 )
                 return True
-        self._refused.add(offer)
+        if len(self._refused) < MAX_PUBLISHERS:
+            self._refused.add(offer)
         return False
 
     def _accepts(self, offer: _Offer, publisher: int) -> bool:
