@@ -181,7 +181,7 @@ def _check_number(file: Path, poses: int) -> None:
     if poses > MAX_POSES:
         raise TrajectoryError(
             f"{file} has more than {MAX_POSES} poses, the limit",
-            hint="Split the file, or write it at a lower rate, such as with coframe trajectory --rate 100.",
+            hint="Split the file, or write it at a lower rate, such as with `coframe trajectory --rate 100`.",
         )
 
 
