@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """The graph from Zenoh's tokens has limits, which a process that announces anything cannot exceed."""
 
+import pytest
+
+from coframe.errors import WireError
 from coframe.messages import find
 from coframe.wire import Participant, QoS
 from coframe.wire.zenoh import graph, token_limits
@@ -66,3 +69,24 @@ def test_tokens_are_processed_in_a_process_that_never_asks_for_the_graph(
     assert len(participant._graph._pending) < 100
     ros_peer("leave")
     eventually(lambda: not topics(participant))
+
+
+@pytest.mark.parametrize(
+    ("topic", "ros_type"),
+    [("/" + "x" * 70_000, "std_msgs/msg/String"), ("/x", "std_msgs/msg/" + "X" * 70_000)],
+)
+def test_names_that_would_end_the_process_are_errors(participant, node, topic, ros_type):
+    """Zenoh aborts when it declares a key of 64 KiB."""
+    for create in (participant.raw_publisher, participant.raw_subscription):
+        with pytest.raises(WireError, match=r"has 70\d\d\d bytes\. The limit is 256 bytes"):
+            create(node, topic, ros_type, QoS())
+
+
+@pytest.mark.parametrize(
+    ("topic", "reason"),
+    [("/*", r"contains '\*'"), ("/a/$*", "contains"), ("/a#", "contains"), ("/\udcff", "not valid UTF-8")],
+)
+def test_names_that_zenoh_cannot_announce_are_errors(participant, node, topic, reason):
+    for create in (participant.raw_publisher, participant.raw_subscription):
+        with pytest.raises(WireError, match=reason):
+            create(node, topic, "std_msgs/msg/String", QoS())

@@ -5,6 +5,9 @@ from __future__ import annotations
 
 from typing import Literal, NamedTuple
 
+from coframe.errors import WireError
+from coframe.escaping import shown
+
 Kind = Literal["topic", "request", "reply"]
 
 MAX_NAME = 256  # bytes of the namespace or the name of a node, and of the DDS name of a topic or type
@@ -14,6 +17,19 @@ _AFFIXES: dict[Kind, tuple[str, str]] = {
     "request": ("rq", "Request"),
     "reply": ("rr", "Reply"),
 }
+
+
+def check_name(name: str) -> None:
+    """Raise a WireError if a name is too long or not valid UTF-8.
+
+    The DDS standard allows 256 bytes. Cyclone DDS and Zenoh end the process when they announce a name of 64 KiB.
+    """
+    if (size := len(name.encode(errors="surrogatepass"))) > MAX_NAME:
+        raise WireError(
+            f"The name {shown(name)!r} has {size} bytes. The limit is {MAX_NAME} bytes.", hint="Choose a shorter name."
+        )
+    if any("\ud800" <= c <= "\udfff" for c in name):  # in arguments of programs, for bytes that are not UTF-8
+        raise WireError(f"The name {shown(name)!r} is not valid UTF-8.", hint="Choose another name.")
 
 
 def dds_topic(name: str, kind: Kind = "topic") -> str:

@@ -109,11 +109,7 @@ class Participant(EndpointFactory, GraphQueries):
         if not namespace.startswith("/"):
             raise WireError(f"Namespace {namespace!r} is not absolute.", hint=f"Use '/{namespace}'.")
         for text in (namespace, name):
-            if len(text.encode()) > names.MAX_NAME:
-                raise WireError(
-                    f"The name {text[:20]!r}... has {len(text.encode())} bytes. The limit is {names.MAX_NAME} bytes.",
-                    hint="Choose a shorter name.",
-                )
+            names.check_name(text)
         node = GraphNode(self, namespace, name, has_parameters=has_parameters)
         with self._lock:
             self._nodes.append(node)

@@ -11,7 +11,9 @@ import weakref
 from typing import TYPE_CHECKING, Any, Final, TypeVar
 
 from coframe.errors import WireError
+from coframe.escaping import shown
 from coframe.wire import descriptors
+from coframe.wire.names import check_name
 from coframe.wire.type_hashes import type_hash_of_name
 from coframe.wire.zenoh import config, connecting, keys, library, tokens
 from coframe.wire.zenoh.endpoint import Place, ZenohEndpoint
@@ -32,6 +34,7 @@ if TYPE_CHECKING:
     from coframe.wire.names import Endpoint
     from coframe.wire.qos import QoS
 
+_NOT_IN_KEYS: Final = frozenset("*$?#")
 _DESCRIPTORS: Final = 64  # Zenoh uses about 20, and ends the process if it gets none
 
 OpenedT = TypeVar("OpenedT", bound=ZenohEndpoint)
@@ -170,6 +173,7 @@ class ZenohSession:
 
     def _subscription_place(self, node: GraphNode, endpoint: Endpoint, qos: QoS) -> Place:
         """Return the place of a subscription, which receives every definition of a type that is not known."""
+        _check_names(endpoint)
         type_hash = self._hash_of(endpoint)
         if not type_hash:
             _logger.warning(
@@ -217,6 +221,7 @@ class ZenohSession:
         return type_hash_of_name(keys.interface(endpoint)) or self.graph.known_hash(endpoint)
 
     def _required_hash(self, endpoint: Endpoint) -> str:
+        _check_names(endpoint)
         if type_hash := self._hash_of(endpoint):
             return type_hash
         raise WireError(
@@ -242,3 +247,14 @@ class ZenohSession:
         for guid in closed:
             self._identities.pop(guid, None)
         self._announced = open_endpoints
+
+
+def _check_names(endpoint: Endpoint) -> None:
+    """Raise a WireError if the name of the topic or the type cannot be announced over Zenoh."""
+    for name in (endpoint.dds_topic, endpoint.dds_type):
+        check_name(name)
+        if found := _NOT_IN_KEYS.intersection(name):
+            raise WireError(
+                f"The name {shown(name)!r} contains {min(found)!r}, which has a meaning of its own in Zenoh.",
+                hint="Choose another name.",
+            )
