@@ -146,7 +146,7 @@ def test_other_nodes_cannot_add_parameters_without_limit(ask, monkeypatch):
     node, send = ask(allow_undeclared_parameters=True)
     monkeypatch.setattr(_parameter_limits, "MAX_PARAMETERS", 3)
     monkeypatch.setattr(_parameter_limits, "MAX_BYTES", 4 << 20)
-    full = "Other nodes can set at most 3 parameters of a node, with 4 MiB."
+    full = "Other nodes can set at most 3 parameters of a node and 4 MiB in total."
     results = send("set_parameters", [Parameter(f"p{i}", value=i) for i in range(5)]).results
     assert [result.reason for result in results] == ["", "", "", full, full]
     assert not node.has_parameter("p3")
@@ -157,7 +157,10 @@ def test_other_nodes_cannot_add_parameters_without_limit(ask, monkeypatch):
     assert send("set_parameters", [Parameter("p3", value="x" * (5 << 20))]).results[0].reason == full
     assert node.get_parameter("p3").value == 3
     long = send("set_parameters", [Parameter("x" * 300, value=3)]).results[0].reason
-    assert long == "The name of a parameter has more than 256 bytes, the limit."
+    assert long == "The name of a new parameter has more than 256 bytes, the limit."
+    node.declare_parameter("y" * 300, 1)
+    send("delete_parameters", ["p1"])
+    assert send("set_parameters", [Parameter("y" * 300, value=2)]).results[0].successful, "the node declared it"
     assert node.declare_parameter("own", 1).value == 1, "the node itself has no limit"
 
 

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 MAX_PARAMETERS = 10_000
 MAX_BYTES = 64 << 20  # of the names and values
-MAX_NAME = 256  # bytes
+MAX_NAME = 256  # bytes of the name of a parameter that the node has not declared
 
 
 class ParameterLimits:
@@ -34,13 +34,14 @@ class ParameterLimits:
 
     def fault(self, messages: Sequence[Any]) -> str:
         """Return why the parameters of messages cannot be set; empty if they can be."""
-        if any(len(message.name.encode(errors="surrogatepass")) > MAX_NAME for message in messages):
-            return f"The name of a parameter has more than {MAX_NAME} bytes, the limit."
+        new = [message.name for message in messages if not self._has_parameter(message.name)]
+        if any(len(name.encode()) > MAX_NAME for name in new):
+            return f"The name of a new parameter has more than {MAX_NAME} bytes, the limit."
         sizes = _sizes(messages)
         number = len(self._sizes) + sum(name not in self._sizes for name in sizes)
         if number <= MAX_PARAMETERS and self._bytes + self._growth(sizes) <= MAX_BYTES:
             return ""
-        return f"Other nodes can set at most {MAX_PARAMETERS} parameters of a node, with {MAX_BYTES >> 20} MiB."
+        return f"Other nodes can set at most {MAX_PARAMETERS} parameters of a node and {MAX_BYTES >> 20} MiB in total."
 
     def add(self, messages: Sequence[Any]) -> None:
         """Count the parameters of messages, which were set."""
