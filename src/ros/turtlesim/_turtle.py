@@ -19,12 +19,12 @@ if TYPE_CHECKING:
     from rclpy.action.server import ServerGoalHandle
     from rclpy.node import Node
 
-__all__ = ["Turtle", "is_sensible"]
+__all__ = ["LARGEST", "Turtle", "is_in_range"]
 
 _QUEUE = 7
 _TOLERANCE = 0.02  # radians, at which a rotation is complete
 _COMMAND_LIFETIME = Duration(seconds=1.0)
-_LARGEST = 1e6  # meters or radians, and per second
+LARGEST = 1e6  # meters or radians, and per second
 
 
 class _Rotation(NamedTuple):
@@ -123,10 +123,12 @@ class Turtle:
         return response
 
     def _accepts(self, what: str, *values: float) -> bool:
-        """Return whether all values are finite and not absurd; log it if they are not."""
-        accepted = is_sensible(*values)
+        """Return whether all values are in range; log it if they are not."""
+        accepted = is_in_range(*values)
         if not accepted:
-            self._node.get_logger().error(f"Ignoring a {what} of [{self.name}]: {values} are not all below 1e6")
+            self._node.get_logger().error(
+                f"Ignoring a {what} of [{self.name}]: the values {values} must be finite and at most {LARGEST:g}"
+            )
         return accepted
 
     def _jump(self, request: TeleportAbsolute.Request | TeleportRelative.Request, canvas: Canvas) -> None:
@@ -211,9 +213,9 @@ class Turtle:
         self._colors.publish(Color(r=r, g=g, b=b))
 
 
-def is_sensible(*values: float) -> bool:
-    """Return whether all values are finite and small enough to calculate with."""
-    return all(abs(value) <= _LARGEST for value in values)  # False for NaN
+def is_in_range(*values: float) -> bool:
+    """Return whether all values are finite and at most `LARGEST`."""
+    return all(abs(value) <= LARGEST for value in values)  # False for NaN
 
 
 def _normalized(angle: float) -> float:

@@ -17,7 +17,7 @@ from rclpy.validate_topic_name import validate_topic_name
 from std_srvs.srv import Empty
 from turtlesim._canvas import SIZE_IN_METERS, Canvas
 from turtlesim._drawing import Drawing
-from turtlesim._turtle import Turtle, is_sensible
+from turtlesim._turtle import LARGEST, Turtle, is_in_range
 from turtlesim.srv import Kill, Spawn
 
 if TYPE_CHECKING:
@@ -87,8 +87,8 @@ class TurtleSim(Node):
             return f"A turtle named [{shown(request.name)}] already exists"
         if len(self.__turtles) >= MAX_TURTLES:
             return f"There are {MAX_TURTLES} turtles, the limit"
-        if not is_sensible(request.x, request.y, request.theta):
-            return "A turtle cannot be spawned at a place or an angle that is not below 1e6"
+        if not is_in_range(request.x, request.y, request.theta):
+            return f"The position and the angle of a turtle must be finite and at most {LARGEST:g}"
         if len(request.name) > _LONGEST_NAME:
             return f"The name of a turtle has at most {_LONGEST_NAME} characters"
         try:
