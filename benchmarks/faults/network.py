@@ -15,6 +15,7 @@ import random
 import select
 import struct
 import subprocess
+import sys
 import threading
 import time
 from dataclasses import dataclass
@@ -29,6 +30,8 @@ _TUNSETIFF = 0x400454CA
 _TAP, _NO_PACKET_INFORMATION = 0x0002, 0x1000
 _LARGEST_FRAME = 65536
 _IPV4_MULTICAST = bytes.fromhex("01005e")  # begin of the destination address
+_PATIENCE = 10.0  # seconds
+_SEND = "import socket, sys; socket.socket(type=socket.SOCK_DGRAM).sendto(b'', (sys.argv[1], 9))"  # the discard port
 _UP = "ip link set lo up && ip link set lo multicast on && echo up && exec cat"
 
 
@@ -91,6 +94,10 @@ class Host:
         """Return the command that runs a command on this host."""
         return ["nsenter", "--target", str(self._holder.pid), "--net", *command]
 
+    def output(self, *command: str) -> str:
+        """Run a command on this host, and return its output."""
+        return subprocess.run(self.command(*command), check=True, stdout=subprocess.PIPE, text=True).stdout
+
     def close(self) -> None:
         """Remove the namespace with its last process."""
         os.close(self.tap)
@@ -112,6 +119,15 @@ class Lan:
             self.hosts.append(Host(number))
         self._thread = threading.Thread(target=self._run, name="switch", daemon=True)
         self._thread.start()
+
+    def resolve(self) -> None:
+        """Let the hosts learn each other's link-layer addresses, as after any packet between them."""
+        for host, other in itertools.permutations(self.hosts, 2):
+            give_up = time.monotonic() + _PATIENCE
+            while "lladdr" not in host.output("ip", "neigh", "show", other.address):
+                if time.monotonic() > give_up:
+                    raise RuntimeError(f"{host.address} does not reach {other.address}")
+                host.output(sys.executable, "-c", _SEND, other.address)
 
     def close(self) -> None:
         """Stop the switch and remove the hosts."""

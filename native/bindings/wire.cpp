@@ -18,6 +18,7 @@
 #include "core/cdr.hpp"
 #include "wire/endpoint_reader.hpp"
 #include "wire/participant.hpp"
+#include "wire/participant_reader.hpp"
 #include "wire/reader.hpp"
 #include "wire/tap.hpp"
 #include "wire/tf_reader.hpp"
@@ -44,6 +45,7 @@ using PyParticipant = Closing<DomainParticipant>;
 using PyWriter = Closing<Writer>;
 using PyReader = Closing<Reader>;
 using PyEndpointReader = Closing<EndpointReader>;
+using PyParticipantReader = Closing<ParticipantReader>;
 using PyTap = Closing<Tap>;
 using PyTfReader = Closing<TfReader>;
 
@@ -170,6 +172,8 @@ void define_participant(nb::module_& wire) {
            nb::arg("user_data"), ReleaseGil())
       .def_prop_ro("entity", &PyParticipant::entity, "DDS's number for the participant; 0 after close.")
       .def_prop_ro("guid", [](const PyParticipant& self) { return to_bytes(guid_of(self)); })
+      .def("set_user_data", &PyParticipant::set_user_data, nb::arg("user_data"), ReleaseGil(),
+           "Replace the user data. If they differ, DDS announces the participant at once.")
       .def("close", &PyParticipant::close, ReleaseGil(), "End the participant and DDS's threads.");
 }
 
@@ -346,6 +350,12 @@ void define_readers(nb::module_& wire) {
            "Return the changes: tuples (handle, alive, guid, participant's guid, topic, type, "
            "(depth, reliable, transient_local, keep_all, manual_liveliness, deadline, lifespan, lease), user data).")
       .def("close", &PyEndpointReader::close, ReleaseGil());
+
+  nb::class_<PyParticipantReader>(wire, "ParticipantReader", "The participants found by DDS discovery.")
+      .def(nb::init<dds::Entity, std::shared_ptr<Event>>(), nb::arg("participant"), nb::arg("on_change"), ReleaseGil())
+      .def("take_new", &PyParticipantReader::take_new, ReleaseGil(),
+           "Return how many participants have appeared since the last call, one thread at a time.")
+      .def("close", &PyParticipantReader::close, ReleaseGil());
   wire.attr("DEADLINE_MISSED") = static_cast<std::size_t>(StatusEvents::kDeadlineMissed);
   wire.attr("LIVELINESS") = static_cast<std::size_t>(StatusEvents::kLiveliness);
   wire.attr("INCOMPATIBLE_QOS") = static_cast<std::size_t>(StatusEvents::kIncompatibleQos);

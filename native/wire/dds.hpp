@@ -117,6 +117,7 @@ using DataCallback = void (*)(Entity reader, void* argument);
 template <class Status>
 using StatusCallback = void (*)(Entity, Status, void* argument);
 
+inline constexpr Entity kParticipantTopic = 0x7fff0001;   // DDS_BUILTIN_TOPIC_DCPSPARTICIPANT
 inline constexpr Entity kPublicationTopic = 0x7fff0003;   // DDS_BUILTIN_TOPIC_DCPSPUBLICATION
 inline constexpr Entity kSubscriptionTopic = 0x7fff0004;  // DDS_BUILTIN_TOPIC_DCPSSUBSCRIPTION
 
@@ -157,6 +158,7 @@ inline constexpr Code kPreconditionNotMet = -4;
   X(void, dds_delete_listener, (Listener*))                                                                          \
   X(void, dds_lset_data_available, (Listener*, DataCallback))                                                        \
   X(Code, dds_set_listener, (Entity, const Listener*))                                                               \
+  X(Code, dds_set_qos, (Entity, const Qos*))                                                                         \
   X(Code, dds_lset_offered_deadline_missed_arg,                                                                      \
     (Listener*, StatusCallback<DeadlineMissedStatus>, void* argument, bool reset))                                   \
   X(Code, dds_lset_requested_deadline_missed_arg,                                                                    \

@@ -30,4 +30,9 @@ dds::Guid DomainParticipant::guid() const {
   return guid;
 }
 
+void DomainParticipant::set_user_data(const std::string& user_data) {
+  const QosPointer qos = make_qos(user_data);
+  dds::check(dds::functions().dds_set_qos(participant_, qos.get()), "change the participant's user data");
+}
+
 }  // namespace coframe

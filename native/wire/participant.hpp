@@ -22,6 +22,8 @@ class DomainParticipant {
   void close() noexcept;
   dds::Entity entity() const { return participant_; }
   dds::Guid guid() const;
+  // Replaces the user data. If they differ, DDS announces the participant at once.
+  void set_user_data(const std::string& user_data);
 
  private:
   dds::Entity domain_ = 0;  // 0: opened by another part of the process

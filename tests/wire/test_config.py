@@ -64,6 +64,22 @@ def test_static_peers():
     assert "AllowMulticast" not in config.cyclone_config({"ROS_AUTOMATIC_DISCOVERY_RANGE": "SUBNET"})
 
 
+@pytest.mark.parametrize(
+    ("environment", "at_start", "when_others_appear"),
+    [
+        ({}, False, False),
+        ({"ROS_AUTOMATIC_DISCOVERY_RANGE": "OFF", "ROS_STATIC_PEERS": "10.0.0.1"}, False, False),
+        ({"ROS_STATIC_PEERS": "localhost"}, False, False),
+        ({"ROS_STATIC_PEERS": "10.0.0.1"}, True, False),
+        ({"ROS_AUTOMATIC_DISCOVERY_RANGE": "SUBNET", "ROS_STATIC_PEERS": "10.0.0.1"}, True, False),
+        ({"ROS_AUTOMATIC_DISCOVERY_RANGE": "SUBNET"}, True, True),
+        ({"ROS_AUTOMATIC_DISCOVERY_RANGE": "SYSTEM_DEFAULT", "ROS_STATIC_PEERS": "10.0.0.1"}, True, True),
+    ],
+)
+def test_announcements_are_repeated_where_the_network_can_lose_them(environment, at_start, when_others_appear):
+    assert config.repetition(environment) == (at_start, when_others_appear)
+
+
 def test_a_peer_on_another_machine_disables_the_loopback_interface():
     xml = config.cyclone_config({"ROS_STATIC_PEERS": "10.0.0.1"})
     assert "NetworkInterface" not in xml

@@ -89,6 +89,7 @@ def test_transforms_of_another_process_fill_the_buffer(participant, node, child,
     assert buffer._changes == changes, "nothing is stored after close"
 
 
+@pytest.mark.dds_only("over Zenoh, the thread that receives is a thread of Python")
 def test_transforms_are_stored_while_python_is_busy(participant, node, child, eventually):
     buffer = coframe.Buffer()
     reader = participant.tf_reader(node, "/tf", buffer, static=False)

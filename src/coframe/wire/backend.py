@@ -156,6 +156,9 @@ class Session(Protocol):
     def announce(self, nodes: Sequence[GraphNode]) -> None:
         """Publish the nodes of this process with their endpoints."""
 
+    def repeat_announcement(self) -> int:
+        """Announce this process again if it is time to. Return the time until the next call in nanoseconds."""
+
     def adapt(self) -> str:
         """Adapt to a change of the graph. Return a warning, or "" if there is none."""
 

@@ -180,7 +180,9 @@ class Participant(EndpointFactory, GraphQueries):
     def _run_maintenance(self) -> None:
         seen = -1
         while not self._closing:
+            pause = SECOND
             try:
+                pause = self._session.repeat_announcement()
                 version = self._graph.refresh()
                 if version != seen:
                     self._graph_changed()
@@ -194,7 +196,7 @@ class Participant(EndpointFactory, GraphQueries):
                 # A warning callback raised, or an endpoint was closed in the meantime.
                 if not self._closing:
                     _logger.exception("The maintenance of the ROS graph failed. It is tried again in 1 s.")
-            self._wake.wait(SECOND)
+            self._wake.wait(pause)
 
     def _warn_of_naming_problems(self, readers: list[TfReader]) -> None:
         for reader in readers:

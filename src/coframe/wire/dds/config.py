@@ -7,7 +7,7 @@ import os
 import re
 import sys
 from html import escape
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from coframe.errors import WireError
 
@@ -100,6 +100,31 @@ def static_peers(environment: Mapping[str, str] = os.environ) -> list[str]:
     return [peer for peer in peers if peer]
 
 
+class Repetition(NamedTuple):
+    """When a participant announces itself again: after its start, and after it has found others."""
+
+    at_start: bool
+    when_others_appear: bool
+
+
+def repetition(environment: Mapping[str, str] = os.environ) -> Repetition:
+    """Return when announcements are repeated: where the network can lose them.
+
+    With static peers, an announcement is one datagram for each possible port of each peer, so that those of many
+    processes for each new one would be too many.
+
+    Raises:
+        WireError: An environment variable has an invalid value.
+    """
+    allowed = discovery_range(environment)
+    if allowed == "OFF":
+        return Repetition(at_start=False, when_others_appear=False)
+    peers = static_peers(environment) if allowed != "SYSTEM_DEFAULT" else []
+    if allowed == "LOCALHOST":
+        return Repetition(at_start=not _on_this_machine(peers), when_others_appear=False)
+    return Repetition(at_start=True, when_others_appear=not peers)
+
+
 def cyclone_config(environment: Mapping[str, str] = os.environ) -> str:
     """Return the configuration for Cyclone DDS. The user's CYCLONEDDS_URI is appended and overrides it.
 
@@ -115,7 +140,7 @@ def cyclone_config(environment: Mapping[str, str] = os.environ) -> str:
     elif allowed == "LOCALHOST":
         peers = static_peers(environment)
         discovery = _peers(["127.0.0.1", *peers])
-        if not all(_LOOPBACK.fullmatch(peer) for peer in peers):
+        if not _on_this_machine(peers):
             # A peer on another machine cannot be reached from the loopback interface.
             general += "<AllowMulticast>false</AllowMulticast>"
         else:
@@ -133,6 +158,10 @@ def cyclone_config(environment: Mapping[str, str] = os.environ) -> str:
     )
     user = environment.get("CYCLONEDDS_URI", "").strip()
     return f"{xml},{user}" if user else xml
+
+
+def _on_this_machine(peers: list[str]) -> bool:
+    return all(_LOOPBACK.fullmatch(peer) for peer in peers)
 
 
 def _peers(peers: list[str]) -> str:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, TypeVar
 from coframe import _core
 from coframe.errors import WireError
 from coframe.wire.dds import config, library, participants
+from coframe.wire.dds.announcements import Announcements, participant_user_data
 from coframe.wire.dds.discovery_info import ADAPTS, TOPIC, choose_gid_size, encode_info, gid_size, unseen_text
 from coframe.wire.dds.graph import DdsGraph
 from coframe.wire.dds.topics import create_topic
@@ -27,7 +28,6 @@ if TYPE_CHECKING:
 EndpointT = TypeVar("EndpointT")
 
 _GRAPH_TYPE = "rmw_dds_common::msg::dds_::ParticipantEntitiesInfo_"
-_ENCLAVE = "enclave=/;"  # the user data that every ROS participant has
 
 
 class DdsSession:
@@ -49,7 +49,8 @@ class DdsSession:
 
     def __init__(self, domain: int, changed: _core.Event) -> None:
         library.load()
-        self.native = participants.join(domain, config.cyclone_config(), _ENCLAVE)
+        self.native = participants.join(domain, config.cyclone_config(), participant_user_data())
+        self._announcements = Announcements(self.native, changed, config.repetition())
         self.gid_size = self._preferred_gid_size = gid_size(os.environ)
         self._announced: list[NodeInfo] = []
         self._info_writer = _core.Writer(
@@ -116,6 +117,10 @@ class DdsSession:
         self._announced = [node.info() for node in nodes]
         self._publish_nodes()
 
+    def repeat_announcement(self) -> int:
+        """Announce this process again if the network may have lost the first announcements."""
+        return self._announcements.send_due()
+
     def adapt(self) -> str:
         """Publish the nodes of this process in the form that the other participants can read."""
         others = self.graph.gid_sizes()
@@ -128,6 +133,7 @@ class DdsSession:
     def close(self) -> None:
         """Leave the domain."""
         self._info_writer.close()
+        self._announcements.close()
         self.graph.close()
         self.native.close()
 

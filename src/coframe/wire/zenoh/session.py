@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, Final, TypeVar
 
 from coframe.errors import WireError
 from coframe.escaping import shown
+from coframe.time import SECOND
 from coframe.wire import descriptors
 from coframe.wire.names import check_name
 from coframe.wire.type_hashes import type_hash_of_name
@@ -152,6 +153,10 @@ class ZenohSession:
                 self._declared[text] = self._session.liveliness().declare_token(text)
                 self.graph.add_own(text, declared=True)
             self._forget_closed(open_endpoints)
+
+    def repeat_announcement(self) -> int:
+        """Do nothing: Zenoh sends what the network has lost again."""
+        return SECOND
 
     def adapt(self) -> str:
         """Update the status of the endpoints, and announce those whose type has become known."""
