@@ -39,9 +39,7 @@ class Announcements:
 
     def __init__(self, participant: _core.DomainParticipant, changed: _core.Event, repetition: Repetition) -> None:
         self._participant = participant
-        self._others = (
-            _core.ParticipantReader(participant.entity, changed) if repetition.when_others_appear else None
-        )
+        self._others = _core.ParticipantReader(participant.entity, changed) if repetition.when_others_appear else None
         self._number = 0
         self._due = self._planned() if repetition.at_start else []
 
