@@ -18,7 +18,6 @@
 #include "core/cdr.hpp"
 #include "wire/endpoint_reader.hpp"
 #include "wire/participant.hpp"
-#include "wire/participant_reader.hpp"
 #include "wire/reader.hpp"
 #include "wire/tap.hpp"
 #include "wire/tf_reader.hpp"
@@ -45,7 +44,6 @@ using PyParticipant = Closing<DomainParticipant>;
 using PyWriter = Closing<Writer>;
 using PyReader = Closing<Reader>;
 using PyEndpointReader = Closing<EndpointReader>;
-using PyParticipantReader = Closing<ParticipantReader>;
 using PyTap = Closing<Tap>;
 using PyTfReader = Closing<TfReader>;
 
@@ -350,12 +348,6 @@ void define_readers(nb::module_& wire) {
            "Return the changes: tuples (handle, alive, guid, participant's guid, topic, type, "
            "(depth, reliable, transient_local, keep_all, manual_liveliness, deadline, lifespan, lease), user data).")
       .def("close", &PyEndpointReader::close, ReleaseGil());
-
-  nb::class_<PyParticipantReader>(wire, "ParticipantReader", "The participants found by DDS discovery.")
-      .def(nb::init<dds::Entity, std::shared_ptr<Event>>(), nb::arg("participant"), nb::arg("on_change"), ReleaseGil())
-      .def("take_new", &PyParticipantReader::take_new, ReleaseGil(),
-           "Return how many participants have appeared since the last call, one thread at a time.")
-      .def("close", &PyParticipantReader::close, ReleaseGil());
   wire.attr("DEADLINE_MISSED") = static_cast<std::size_t>(StatusEvents::kDeadlineMissed);
   wire.attr("LIVELINESS") = static_cast<std::size_t>(StatusEvents::kLiveliness);
   wire.attr("INCOMPATIBLE_QOS") = static_cast<std::size_t>(StatusEvents::kIncompatibleQos);

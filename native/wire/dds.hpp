@@ -117,7 +117,6 @@ using DataCallback = void (*)(Entity reader, void* argument);
 template <class Status>
 using StatusCallback = void (*)(Entity, Status, void* argument);
 
-inline constexpr Entity kParticipantTopic = 0x7fff0001;   // DDS_BUILTIN_TOPIC_DCPSPARTICIPANT
 inline constexpr Entity kPublicationTopic = 0x7fff0003;   // DDS_BUILTIN_TOPIC_DCPSPUBLICATION
 inline constexpr Entity kSubscriptionTopic = 0x7fff0004;  // DDS_BUILTIN_TOPIC_DCPSSUBSCRIPTION
 

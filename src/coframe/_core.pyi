@@ -1039,15 +1039,6 @@ class TransformStore:
     def stored_at(self) -> int:
         """When the newest message's transforms were stored, in nanoseconds of the steady clock; 0: never."""
 
-class ParticipantReader:
-    """The participants found by DDS discovery, including that of this process."""
-
-    def __init__(self, participant: int, on_change: Event) -> None: ...
-    def take_new(self) -> int:
-        """Return how many participants have appeared since the last call. One thread may call this at a time."""
-
-    def close(self) -> None: ...
-
 class EndpointReader:
     """The writers (PUBLICATIONS) or readers (SUBSCRIPTIONS) found by DDS discovery."""
 

@@ -7,14 +7,13 @@ import sys
 
 import pytest
 
-# Prints how many announcements of its own participant it has received after its start and after it has found another.
+# Prints how many announcements of its own participant it has received in the first 1.8 s.
 COUNT = """
-import socket, subprocess, sys, time
+import socket, time
 from coframe.wire import Participant
 
 DOMAIN = 1
 WRITER = bytes.fromhex("000100c2")  # of announcements
-OTHER = "from coframe.wire import Participant; Participant.get(1).add_node('/', 'other'); input()"
 
 receiver = socket.socket(type=socket.SOCK_DGRAM)
 receiver.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
@@ -23,26 +22,18 @@ group = socket.inet_aton("239.255.0.1") + socket.inet_aton("127.0.0.1")
 receiver.setsockopt(socket.IPPROTO_IP, socket.IP_ADD_MEMBERSHIP, group)
 receiver.settimeout(0.05)
 
-def announcements(seconds):
-    count = 0
-    end = time.monotonic() + seconds
-    while time.monotonic() < end:
-        try:
-            datagram = receiver.recv(65536)
-        except TimeoutError:
-            continue
-        count += datagram[8:20] == guid[:12] and WRITER in datagram[20:80]
-    return count
-
 joined = Participant.get(DOMAIN)
 guid = joined._session.native.guid
-print(announcements(1.8), flush=True)
-other = subprocess.Popen([sys.executable, "-c", OTHER], stdin=subprocess.PIPE)
-while ("/", "other") not in joined.nodes():
-    announcements(0.05)
-print(announcements(1.8), flush=True)
-other.communicate(b"\\n")
+count = 0
+end = time.monotonic() + 1.8
+while time.monotonic() < end:
+    try:
+        datagram = receiver.recv(65536)
+    except TimeoutError:
+        continue
+    count += datagram[8:20] == guid[:12] and WRITER in datagram[20:80]
 joined.close()
+print(count)
 """
 
 # Keeps a range of discovery that includes other machines on this one.
@@ -55,16 +46,15 @@ LOOPBACK = (
 
 @pytest.mark.skipif(sys.platform != "linux", reason="network namespaces are of Linux")
 @pytest.mark.parametrize(
-    ("environment", "after_start", "after_another"),
+    ("environment", "fewest", "most"),
     [
-        # Without repetition, one interval of 2 s contains up to two announcements at the start, and one later.
-        ({"ROS_AUTOMATIC_DISCOVERY_RANGE": "SUBNET", "CYCLONEDDS_URI": LOOPBACK}, (4, 6), (3, 5)),
-        ({"ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}, (0, 2), (0, 1)),
+        ({"ROS_AUTOMATIC_DISCOVERY_RANGE": "SUBNET", "CYCLONEDDS_URI": LOOPBACK}, 4, 5),
+        ({"ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}, 1, 2),
     ],
     ids=["network", "this machine only"],
 )
 @pytest.mark.dds_only("Zenoh sends again what is lost")
-def test_announcements_are_repeated_where_the_network_can_lose_them(network, environment, after_start, after_another):
+def test_announcements_are_repeated_where_the_network_can_lose_them(network, environment, fewest, most):
     done = subprocess.run(
         network.command(sys.executable, "-c", COUNT),
         env={**os.environ, **environment},
@@ -73,6 +63,4 @@ def test_announcements_are_repeated_where_the_network_can_lose_them(network, env
         timeout=60,
         check=True,
     )
-    first, later = map(int, done.stdout.split())
-    assert after_start[0] <= first <= after_start[1]
-    assert after_another[0] <= later <= after_another[1]
+    assert fewest <= int(done.stdout) <= most

@@ -7,7 +7,7 @@ import os
 import re
 import sys
 from html import escape
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from coframe.errors import WireError
 
@@ -100,29 +100,14 @@ def static_peers(environment: Mapping[str, str] = os.environ) -> list[str]:
     return [peer for peer in peers if peer]
 
 
-class Repetition(NamedTuple):
-    """When a participant announces itself again: after its start, and after it has found others."""
-
-    at_start: bool
-    when_others_appear: bool
-
-
-def repetition(environment: Mapping[str, str] = os.environ) -> Repetition:
-    """Return when announcements are repeated: where the network can lose them.
-
-    With static peers, an announcement is one datagram for each possible port of each peer, so that those of many
-    processes for each new one would be too many.
+def reaches_other_machines(environment: Mapping[str, str] = os.environ) -> bool:
+    """Return whether the discovery range includes other machines.
 
     Raises:
         WireError: An environment variable has an invalid value.
     """
     allowed = discovery_range(environment)
-    if allowed == "OFF":
-        return Repetition(at_start=False, when_others_appear=False)
-    peers = static_peers(environment) if allowed != "SYSTEM_DEFAULT" else []
-    if allowed == "LOCALHOST":
-        return Repetition(at_start=not _on_this_machine(peers), when_others_appear=False)
-    return Repetition(at_start=True, when_others_appear=not peers)
+    return allowed != "OFF" and (allowed != "LOCALHOST" or not _on_this_machine(static_peers(environment)))
 
 
 def cyclone_config(environment: Mapping[str, str] = os.environ) -> str:

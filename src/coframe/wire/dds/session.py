@@ -50,7 +50,7 @@ class DdsSession:
     def __init__(self, domain: int, changed: _core.Event) -> None:
         library.load()
         self.native = participants.join(domain, config.cyclone_config(), participant_user_data())
-        self._announcements = Announcements(self.native, changed, config.repetition())
+        self._announcements = Announcements(self.native, repeated=config.reaches_other_machines())
         self.gid_size = self._preferred_gid_size = gid_size(os.environ)
         self._announced: list[NodeInfo] = []
         self._info_writer = _core.Writer(
@@ -133,7 +133,6 @@ class DdsSession:
     def close(self) -> None:
         """Leave the domain."""
         self._info_writer.close()
-        self._announcements.close()
         self.graph.close()
         self.native.close()
 
