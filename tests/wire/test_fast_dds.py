@@ -99,6 +99,36 @@ def test_a_large_cloud_arrives(run):
     )
 
 
+def test_repeated_announcements_do_not_disturb(run, monkeypatch):
+    interface = '<NetworkInterface address="127.0.0.1" multicast="true"/>'
+    monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "SUBNET")  # where announcements are repeated
+    monkeypatch.setenv(
+        "CYCLONEDDS_URI",
+        f"<CycloneDDS><Domain><General><Interfaces>{interface}</Interfaces></General></Domain></CycloneDDS>",
+    )
+    run(
+        """
+        domain = domain_id()
+        fast = FastDds(domain)
+        fast.ask("guid", "reader", "rt/chatter", "std_msgs::msg::dds_::String_", "volatile")
+        participant = Participant.get()
+        text = find("std_msgs/msg/String")
+        publisher = participant.publisher(participant.add_node("/", "talker"), "/chatter", text, QoS())
+        eventually(lambda: publisher.matched and fast.ask("matched", "matched", "rt/chatter") == ["1"])
+        announced = time.monotonic() + 1.2
+        while time.monotonic() < announced:
+            assert publisher.matched == 1
+            assert fast.ask("matched", "matched", "rt/chatter") == ["1"]
+            time.sleep(0.02)
+        data = serialize(text(data="goodbye"))  # with its end a multiple of 4 bytes
+        publisher.write(data)
+        _, size, checksum, _ = fast.read("received")
+        assert (int(size), int(checksum)) == (len(data), sum(data))
+        participant.close()
+        """
+    )
+
+
 def test_late_static_transforms_arrive_before_why_answers(run):
     run(
         """
