@@ -120,7 +120,7 @@ def test_repeated_announcements_do_not_disturb(run, monkeypatch):
             assert publisher.matched == 1
             assert fast.ask("matched", "matched", "rt/chatter") == ["1"]
             time.sleep(0.02)
-        data = serialize(text(data="welcome"))  # with its end a multiple of 4 bytes
+        data = serialize(text(data="morning"))  # with its end a multiple of 4 bytes
         publisher.write(data)
         _, size, checksum, _ = fast.read("received")
         assert (int(size), int(checksum)) == (len(data), sum(data))
