@@ -28,6 +28,7 @@ from rclpy.action._status import encode_entry, encode_statuses
 from rclpy.exceptions import RCLError
 from rclpy.executors import MultiThreadedExecutor, SingleThreadedExecutor
 from rclpy.qos import DurabilityPolicy, QoSProfile
+from rclpy.serialization import serialize_message
 from rclpy.task import Future
 from std_srvs.srv import SetBool, Trigger
 from tf2_msgs.action import LookupTransform
@@ -337,6 +338,23 @@ def test_the_server_forgets_the_first_finished_goals_at_the_limit(
     assert statuses == [GoalStatus.STATUS_UNKNOWN] * 2 + [GoalStatus.STATUS_SUCCEEDED] * 3
 
 
+def test_the_goals_of_a_server_have_a_limit_of_bytes(serve, connect, count, result_of, fibonacci, monkeypatch):
+    waiting = []
+    serve(count, handle_accepted_callback=waiting.append)
+    client = connect()
+    goal = fibonacci.Goal(order=1)
+    size = len(serialize_message(goal))
+    monkeypatch.setattr(action_server, "MAX_GOAL_BYTES", size - 1)
+    first = result_of(client, client.send_goal_async(goal))
+    assert first.accepted, "a single goal may be larger"
+    monkeypatch.setattr(action_server, "MAX_GOAL_BYTES", 2 * size)
+    assert [result_of(client, client.send_goal_async(goal)).accepted for _ in range(2)] == [True, False]
+    waiting[0].execute()
+    assert result_of(client, first.get_result_async()).status == GoalStatus.STATUS_SUCCEEDED
+    assert result_of(client, client.send_goal_async(goal)).accepted
+    assert result_of(client, first.get_result_async()).status == GoalStatus.STATUS_UNKNOWN, "it is forgotten"
+
+
 def test_the_server_rejects_goals_and_requests_beyond_the_limit(
     serve, connect, count, result_of, wait_until, fibonacci, monkeypatch, capfd
 ):
@@ -356,7 +374,7 @@ def test_the_server_rejects_goals_and_requests_beyond_the_limit(
     assert result_of(client, client.send_goal_async(fibonacci.Goal(order=1))).accepted, "a goal has finished"
     assert not all(result.done() for result in results)
     printed = capfd.readouterr().err
-    assert printed.count("Rejecting goals: 2 goals are not finished, the limit.") == 1
+    assert printed.count("Rejecting goals: the goals that are not finished would be more than 2 or 64 MiB") == 1
     assert printed.count("Ignoring requests: 3 wait for the result of one goal.") == 1
 
 

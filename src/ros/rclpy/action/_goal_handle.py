@@ -57,6 +57,7 @@ class ServerGoalHandle:
         self._goal_request = goal_request
         self._status: int = GoalStatus.STATUS_ACCEPTED
         self._Coframe__status_entry = encode_entry(goal_info, self._status)
+        self._Coframe__size = 0  # bytes of the serialized request
         self.__is_execution_scheduled = False
         self._Coframe__cancel_request: Future[None] = Future()
         self._Coframe__result_response: Any = None

@@ -32,6 +32,7 @@ from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.constants import S_TO_NS
 from rclpy.exceptions import RCLError
 from rclpy.qos import QoSProfile, qos_profile_action_status_default, qos_profile_services_default
+from rclpy.serialization import serialize_message
 from rclpy.service import DeferredResponseService
 from rclpy.type_support import check_is_valid_action_type
 
@@ -55,6 +56,7 @@ __all__ = [
 ]
 
 MAX_GOALS: Final = 1_000  # whose status is published
+MAX_GOAL_BYTES: Final = 64 << 20  # of all these goals; a single one may be larger
 MAX_RESULT_REQUESTS: Final = 1_000  # that wait for the result of one goal
 
 
@@ -237,8 +239,9 @@ class ActionServer:
     async def __on_goal_request(self, request: Any, header: RequestHeader) -> None:
         goal_handle = None
         is_new = _key(request.goal_id) not in self.__goals
-        if is_new and self.__has_room() and await self.__is_accepted(request.goal):
-            goal_handle = self.__add(request)
+        size = len(serialize_message(request.goal))
+        if is_new and self.__has_room(size) and await self.__is_accepted(request.goal):
+            goal_handle = self.__add(request, size)
         response = self._action_type.Impl.SendGoalService.Response(accepted=goal_handle is not None)
         if goal_handle is not None:
             response.stamp = goal_handle._goal_info.stamp
@@ -248,16 +251,20 @@ class ActionServer:
         if goal_handle is not None:
             await _call(self.__handle_accepted_callback, goal_handle)
 
-    def __has_room(self) -> bool:
-        """Return whether a goal can be stored. At the limit, the goal that finished first is forgotten."""
+    def __has_room(self, size: int) -> bool:
+        """Return whether a goal of `size` bytes can be stored. At a limit, the goals that finished first are forgotten."""
         self.__forget_expired()
         with self._lock:
-            if len(self.__goals) >= MAX_GOALS and self.__expiries:
+            while not (has_room := self.__is_below_limits(size)) and self.__expiries:
                 self.__goals.pop(self.__expiries.popleft()[1], None)
-            has_room = len(self.__goals) < MAX_GOALS
         if not has_room:
-            self.__warn_once(f"Rejecting goals: {MAX_GOALS} goals are not finished, the limit.")
+            limits = f"{MAX_GOALS} or {MAX_GOAL_BYTES >> 20} MiB, the limits"
+            self.__warn_once(f"Rejecting goals: the goals that are not finished would be more than {limits}.")
         return has_room
+
+    def __is_below_limits(self, size: int) -> bool:
+        stored = sum(goal._Coframe__size for goal in self.__goals.values())
+        return not self.__goals or (len(self.__goals) < MAX_GOALS and stored + size <= MAX_GOAL_BYTES)
 
     def __warn_once(self, text: str) -> None:
         if text not in self.__warned:
@@ -270,13 +277,14 @@ class ActionServer:
             self._node.get_logger().warning("Goal request callback did not return a GoalResponse type. Rejecting goal.")
         return response is GoalResponse.ACCEPT
 
-    def __add(self, request: Any) -> ServerGoalHandle | None:
-        """Add a goal and return its handle.
+    def __add(self, request: Any, size: int) -> ServerGoalHandle | None:
+        """Add a goal of `size` bytes and return its handle.
 
         Return None if another thread added a goal with the same identifier first, or destroyed the server.
         """
         info = GoalInfo(goal_id=request.goal_id, stamp=self._node.get_clock().now().to_msg())
         goal_handle = ServerGoalHandle(self, info, request.goal)
+        goal_handle._Coframe__size = size
         with self._lock:
             if self.__is_destroyed or self.__goals.setdefault(_key(request.goal_id), goal_handle) is not goal_handle:
                 return None
