@@ -11,6 +11,7 @@ from coframe.messages import codec, find
 from coframe.wire import QoS, request_header
 from coframe.wire.qos import TF_STATIC_WRITER
 from coframe.wire.request_header import RequestHeader
+from coframe.wire.zenoh import services
 
 STRING = find("std_msgs/msg/String")
 TF_MESSAGE = find("tf2_msgs/msg/TFMessage")
@@ -179,6 +180,38 @@ def test_its_client_calls_our_service(participant, node, ros_peer, eventually):
     assert answer == response.hex()
     assert numbers(attachment) == (1, gid)
     assert participant.services() == {"/switch": ["std_srvs/srv/SetBool_Request", "std_srvs/srv/SetBool_Response"]}
+
+
+def test_requests_that_a_service_does_not_answer_are_bounded(
+    participant, node, ros_peer, eventually, monkeypatch, caplog
+):
+    monkeypatch.setattr(services, "KEEP_ALL", 5)
+    participant.publisher(node, "/switch", SET_BOOL.Response, SERVICE_QOS, kind="reply")
+    requests = participant.subscription(node, "/switch", SET_BOOL.Request, QoS(3), kind="request")
+    eventually(lambda: [token for token in ros_peer("tokens") if "/SS/" in token])
+    pending = requests._endpoint._table._requests
+    request = codec.serialize(SET_BOOL.Request(data=True))
+
+    def call(count):
+        for _ in range(count):
+            ros_peer("call", "/switch", "std_srvs/srv/SetBool", request.hex())
+
+    def waiting():
+        return [header.sequence for known in pending.values() for header in known]
+
+    call(7)
+    eventually(lambda: waiting() == [5, 6, 7])
+    assert [request_header.split(sample.data)[0].sequence for sample in requests.take()] == [5, 6, 7]
+    call(3)
+    eventually(lambda: waiting() == [6, 7, 8, 9, 10])
+    assert requests._endpoint.dropped == 5
+    assert [record.message for record in caplog.records] == [
+        "Requests of /switch are dropped: 3 wait for the node, or 5 for an answer."
+    ]
+    ros_peer("call", "/switch", "std_srvs/srv/SetBool", b"\x09\x09\0\0\1".hex())
+    eventually(lambda: "not a request of rmw_zenoh_cpp" in caplog.text)
+    assert waiting() == [6, 7, 8, 9, 10]
+
 
 
 def test_a_killed_node_leaves_the_graph(participant, ros_peer, eventually):

@@ -21,8 +21,9 @@ class RequestHeader(NamedTuple):
 
 
 def join(header: RequestHeader, cdr: bytes) -> bytes:
-    """Return a serialized little-endian message with the header inserted."""
-    return cdr[:ENCAPSULATION_SIZE] + _LITTLE.pack(*header) + cdr[ENCAPSULATION_SIZE:]
+    """Return a serialized message with the header inserted, in the byte order of the message."""
+    layout = _BIG if byte_order(cdr) == ">" else _LITTLE
+    return cdr[:ENCAPSULATION_SIZE] + layout.pack(*header) + cdr[ENCAPSULATION_SIZE:]
 
 
 def split(data: bytes) -> tuple[RequestHeader, bytes] | None:

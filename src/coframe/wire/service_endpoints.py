@@ -10,7 +10,7 @@ from coframe.wire.endpoints import RawPublisher, Sample, Subscription
 if TYPE_CHECKING:
     from coframe.wire.backend import BackendReader, BackendWriter
     from coframe.wire.endpoints import GraphNode
-    from coframe.wire.graph import DiscoveredEndpoint, Graph
+    from coframe.wire.graph import Graph
     from coframe.wire.names import Endpoint
     from coframe.wire.qos import QoS
 
@@ -59,8 +59,3 @@ class ServiceSubscription(Subscription):
     def _is_understood(self, sample: Sample) -> bool:
         writer = self._graph.writer(sample.writer)
         return writer is None or not self._graph.foreign_services(writer.guid)
-
-
-def _understanding(graph: Graph, handles: set[int], endpoints: dict[int, DiscoveredEndpoint]) -> int:
-    """Return how many of the matched endpoints send requests and replies in the same form as this process."""
-    return sum(handle in handles and not graph.foreign_services(end.guid) for handle, end in endpoints.items())

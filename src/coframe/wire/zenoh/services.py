@@ -14,6 +14,7 @@ from collections import deque
 from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
 from coframe import _core
+from coframe.messages.encapsulation import byte_order
 from coframe.wire import request_header
 from coframe.wire.request_header import RequestHeader
 from coframe.wire.zenoh import config, keys, library
@@ -46,7 +47,7 @@ class ServiceTable:
     def __init__(self) -> None:
         self._lock = threading.Lock()
         self._replies: dict[str, list[ReplyReader]] = {}  # by the key of the service
-        self._requests: dict[tuple[str, RequestHeader], _Request] = {}
+        self._requests: dict[str, dict[RequestHeader, _Request]] = {}  # by the same key; oldest first
 
     def add_reader(self, reader: ReplyReader) -> None:
         """Pass the replies of a service to a reader as well."""
@@ -69,24 +70,29 @@ class ServiceTable:
         for reader in readers:
             reader.push(message, sent, writer)
 
-    def store_request(self, key: str, header: RequestHeader, request: _Request) -> bool:
-        """Store a request until it is answered. Return False if it is pending already, or too many are."""
+    def store_request(self, key: str, header: RequestHeader, request: _Request) -> _Request | None:
+        """Store a request until it is answered.
+
+        Return the request that will not be answered: this one if it is pending already, the oldest one of the service
+        if too many are, else None.
+        """
         with self._lock:
-            if (key, header) in self._requests or len(self._requests) >= KEEP_ALL:
-                return False
-            self._requests[key, header] = request
-            return True
+            pending = self._requests.setdefault(key, {})
+            if header in pending:
+                return request
+            pending[header] = request
+            return pending.pop(next(iter(pending))) if len(pending) > KEEP_ALL else None
 
     def take_request(self, key: str, header: RequestHeader) -> _Request | None:
         """Return a request and forget it; None if it is not pending."""
         with self._lock:
-            return self._requests.pop((key, header), None)
+            return self._requests.get(key, {}).pop(header, None)
 
     def forget_service(self, key: str) -> None:
         """End the requests of a service that is closed."""
         with self._lock:
-            left = [self._requests.pop(known) for known in list(self._requests) if known[0] == key]
-        for request in left:
+            left = self._requests.pop(key, {})
+        for request in left.values():
             request.query.drop()
 
 
@@ -96,18 +102,24 @@ class _Queue(ZenohEndpoint):
     def __init__(self, place: Place, qos: QoS, on_data: _core.Event | None) -> None:
         super().__init__(place.graph, place.endpoint, place.type_hash, place.guid, on_data)
         self.key = place.key_list[0]
-        self._queue: deque[tuple[bytes, int, int]] = deque(maxlen=queue_length(qos))
+        self._queue: deque[tuple[bytes, int, int]] = deque()
+        self._queue_lock = threading.Lock()
+        self._longest = queue_length(qos)
         self._on_data = on_data
 
-    def push(self, message: bytes, sent: int, writer: int) -> None:
-        """Queue a message; drop the oldest one if the queue is full."""
-        self._queue.append((message, sent, writer))
+    def push(self, message: bytes, sent: int, writer: int) -> bytes | None:
+        """Queue a message. If the queue is full, remove the oldest one and return it."""
+        with self._queue_lock:
+            removed = self._queue.popleft()[0] if len(self._queue) >= self._longest else None
+            self._queue.append((message, sent, writer))
         if self._on_data is not None:
             self._on_data.set()
+        return removed
 
     def take(self, limit: int) -> list[tuple[bytes, int, int]]:
         """Return up to `limit` messages, oldest first."""
-        return [self._queue.popleft() for _ in range(min(limit, len(self._queue)))]
+        with self._queue_lock:
+            return [self._queue.popleft() for _ in range(min(limit, len(self._queue)))]
 
     @property
     def pending(self) -> bool:
@@ -128,13 +140,18 @@ class ReplyReader(_Queue):
 
 
 class RequestReader(_Queue):
-    """The subscription to requests of a service: a queryable."""
+    """The subscription to requests of a service: a queryable.
+
+    Attributes:
+        dropped: How many requests were dropped because too many waited.
+    """
 
     def __init__(self, place: Place, qos: QoS, on_data: _core.Event | None, table: ServiceTable) -> None:
         super().__init__(place, qos, on_data)
         module = library.load()
         self._closed_error = module.ZError
         self._table = table
+        self.dropped = 0
         ring = module.handlers.RingChannel(ring_length(qos))
         self._queryable: Any = place.session.declare_queryable(self.key, ring, complete=True)
         self._thread = threading.Thread(target=self._run, name=f"coframe{place.endpoint.name}", daemon=True)
@@ -157,16 +174,39 @@ class RequestReader(_Queue):
     def _receive(self, query: Any) -> None:
         header = None if query.attachment is None else keys.decode_attachment(query.attachment.to_bytes())
         data = b"" if query.payload is None else query.payload.to_bytes()
-        if header is None or len(data) < ENCAPSULATION_SIZE:
+        if header is None or byte_order(data) is None:
             _logger.warning("A request of %s is ignored: it is not a request of rmw_zenoh_cpp.", self.endpoint.name)
             query.drop()
             return
         writer = keys.handle_of(header.gid)
         identity = RequestHeader(writer, header.sequence)
-        if self._table.store_request(self.key, identity, _Request(query, header.sequence, header.gid)):
-            self.push(request_header.join(identity, data), header.sent, writer)
+        request = _Request(query, header.sequence, header.gid)
+        unanswered = self._table.store_request(self.key, identity, request)
+        if unanswered is not request:
+            self._drop(unanswered)
+            self._drop(self._removed_by(request_header.join(identity, data), header.sent, writer))
         else:
             query.drop()
+
+    def _removed_by(self, message: bytes, sent: int, writer: int) -> _Request | None:
+        """Queue a request, and return the one that is removed for it, if any."""
+        removed = self.push(message, sent, writer)
+        parts = None if removed is None else request_header.split(removed)
+        return None if parts is None else self._table.take_request(self.key, parts[0])
+
+    def _drop(self, request: _Request | None) -> None:
+        """End a request without an answer."""
+        if request is None:
+            return
+        request.query.drop()
+        self.dropped += 1
+        if self.dropped == 1:
+            _logger.warning(
+                "Requests of %s are dropped: %d wait for the node, or %d for an answer.",
+                self.endpoint.name,
+                self._longest,
+                KEEP_ALL,
+            )
 
 
 class _Sender(ZenohEndpoint):
