@@ -436,6 +436,7 @@ def test_changing_transform_published_as_static(only):
         ((0, 0, 0, 0), "the rotation was not set", Severity.ERROR),
         ((0, 0, float("nan"), 1), "NaN", Severity.ERROR),
         ((0, 0, 0.5, 1), "is not normalized", Severity.ERROR),
+        ((0, 0, 1e308, 0), "its length is off by up to 1e+308", Severity.ERROR),
         ((0, 0.707, 0, 0.707), "not exactly normalized", Severity.NOTE),
     ],
 )
@@ -461,6 +462,7 @@ def test_jump(only):
         ("camera", (0.1, 0, 0), yaw(90.0), "yaw = 90 radians"),
         ("camera", (0.1, 0, 0), rpy(-45.0, 0, 0), "roll = -45 radians"),
         ("camera", (100, 0, 300), yaw(0), "was 316.2 mm intended"),
+        ("camera", (1e308, 0, 1e308), yaw(0), "the frames are 1.414e+308 m apart"),
         ("camera_optical_frame", (0.1, 0, 0), yaw(0), "is named optical, but is not rotated"),
     ],
 )

@@ -3,6 +3,7 @@
 
 import json
 import re
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -13,7 +14,7 @@ from typer.testing import CliRunner
 import coframe
 from coframe.cli.app import app
 from coframe.plotting import Figure, PlotError, Series, evaluate
-from coframe.plotting.figure import COLOURS
+from coframe.plotting.figure import COLOURS, LARGEST_DRAWN
 from coframe.plotting.html_page import MOST_POINTS, as_html
 from coframe.plotting.values import coordinate
 
@@ -230,3 +231,8 @@ def test_a_browser_shows_the_page_without_a_network(bag, tmp_path):
         page.wait_for_function("plots.every(plot => plot.scales.x.max - plot.scales.x.min > 3.9)")
         assert errors == []
         browser.close()
+
+
+def test_the_page_draws_the_same_values():
+    page = (Path(__file__).parents[2] / "viewer" / "src" / "plots" / "curve.ts").read_text(encoding="utf-8")
+    assert float(re.search(r"const LARGEST_DRAWN = (\S+);", page)[1]) == LARGEST_DRAWN

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
@@ -131,7 +132,7 @@ class Edge:
     @cached_property
     def length(self) -> float:
         """The distance between the two frames in the last row, in metres."""
-        return float(_lengths(self.values[-1:, :3])[0])
+        return math.hypot(*self.values[-1, :3].tolist())  # without the overflow of squares
 
     @cached_property
     def angle(self) -> float:

@@ -46,7 +46,6 @@ def find(observation: Observation) -> Iterator[Finding]:
         "{count} of {all} transforms contain NaN or infinity; tf2 rejects them",
         "Find the division by zero or the field that was not set, and check before publishing: "
         "if all(map(math.isfinite, values)): broadcaster.sendTransform(t)",
-        off,
     )
     yield from _kind(
         transforms,
@@ -55,7 +54,6 @@ def find(observation: Observation) -> Iterator[Finding]:
         "{count} of {all} transforms have the quaternion 0, 0, 0, 0, which means that the rotation was not set; tf2 "
         "rejects them",
         "Set it: t.transform.rotation.w = 1.0",
-        off,
     )
     yield from _kind(
         transforms,
@@ -64,7 +62,6 @@ def find(observation: Observation) -> Iterator[Finding]:
         "{count} of {all} transforms have a quaternion that is not normalized: its length is off by up to {off:.3g}; "
         "tf2 rejects them",
         f"Check the order x, y, z, w, and {_NORMALIZE}.",
-        off,
         explained=True,
     )
     yield from _kind(
@@ -74,7 +71,6 @@ def find(observation: Observation) -> Iterator[Finding]:
         "{count} of {all} quaternions are not exactly normalized: their length is off by up to {off:.2g}; tf2 accepts "
         "them",
         f"Use more digits (0.70710678 instead of 0.707), or {_NORMALIZE}.",
-        off,
         "The error grows along the chain, and other programs accept less than the half percent that tf2 accepts.",
     )
 
@@ -85,7 +81,6 @@ def _kind(
     severity: Severity,
     text: str,
     fix: str,
-    off: NDArray[np.float64],
     harm: str = "",
     *,
     explained: bool = False,
@@ -95,15 +90,21 @@ def _kind(
         own = rows[transforms.edge[rows] == number]
         parent, child = transforms.pair(number)
         cause = likely_cause(transforms.values[own, 3:]) if explained else None
-        worst = float(off[own].max()) if np.isfinite(off[own]).all() else float("nan")
+        every = int(np.count_nonzero(transforms.edge == number))
+        described = text.format(count=len(own), all=every, off=_largest_deviation(transforms.values[own, 3:]))
         yield Finding(
             code=CODE,
             severity=severity,
-            text=text.format(count=len(own), all=int(np.count_nonzero(transforms.edge == number)), off=worst)
-            + (f"; {cause.text}" if cause else ""),
+            text=f"{described}; {cause.text}" if cause else described,
             fix=cause.fix if cause else fix,
             harm=harm,
             edge=(parent.lstrip("/"), child.lstrip("/")),
             first_stamp=int(transforms.stamp[own[0]]),
             publishers=transforms.publishers_of(own),
         )
+
+
+def _largest_deviation(quaternions: NDArray[np.float64]) -> float:
+    """Return by how much the length of a quaternion differs from 1 at most, (N, 4), without the overflow of squares."""
+    x, y, z, w = quaternions.T
+    return float(np.abs(np.hypot(np.hypot(x, y), np.hypot(z, w)) - 1.0).max())

@@ -24,6 +24,7 @@ CODE = "TF021"
 _ROUND_DEGREES = (30, 45, 60, 90, 120, 135, 150, 180, 270)
 _CLOSE = 2e-4  # radians
 _FAR = 10.0  # metres between two frames of a robot
+_TOO_FAR = 1e6  # metres; it would be a kilometre in millimetres
 _WORLDS = ("world", "map", "odom", "earth", "utm", "ecef", "enu", "global", "ned")
 
 
@@ -59,6 +60,10 @@ def _degrees(edge: Edge) -> Iterator[Finding]:
 def _millimetres(edge: Edge) -> Iterator[Finding]:
     names = {edge.parent.rpartition("/")[2].lower(), edge.child.rpartition("/")[2].lower()}
     if edge.length < _FAR or any(name.startswith(world) for name in names for world in _WORLDS):
+        return
+    if edge.length > _TOO_FAR:
+        distance = f"the frames are {edge.length:.4g} m apart"
+        yield _finding(edge, distance, "Check the values of the translation; they are in metres.")
         return
     x, y, z = (edge.values[-1, :3] / 1000).tolist()
     yield _finding(

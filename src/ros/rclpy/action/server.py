@@ -252,7 +252,7 @@ class ActionServer:
             await _call(self.__handle_accepted_callback, goal_handle)
 
     def __has_room(self, size: int) -> bool:
-        """Return whether a goal of `size` bytes can be stored. At a limit, the goals that finished first are forgotten."""
+        """Return whether a goal of `size` bytes can be stored; forget the goals that finished first if necessary."""
         self.__forget_expired()
         with self._lock:
             while not (has_room := self.__is_below_limits(size)) and self.__expiries:
