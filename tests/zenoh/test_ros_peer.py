@@ -213,7 +213,6 @@ def test_requests_that_a_service_does_not_answer_are_bounded(
     assert waiting() == [6, 7, 8, 9, 10]
 
 
-
 def test_a_killed_node_leaves_the_graph(participant, ros_peer, eventually):
     ros_peer("publish", "/chatter", "std_msgs/msg/String", "::,10:,:,:,,", "0001000001000000" + "00")
     eventually(lambda: ("/", "talker") in participant.nodes() and "/chatter" in participant.topics())
