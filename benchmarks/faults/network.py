@@ -15,7 +15,6 @@ import random
 import select
 import struct
 import subprocess
-import sys
 import threading
 import time
 from dataclasses import dataclass
@@ -29,9 +28,8 @@ if TYPE_CHECKING:
 _TUNSETIFF = 0x400454CA
 _TAP, _NO_PACKET_INFORMATION = 0x0002, 0x1000
 _LARGEST_FRAME = 65536
+_ARP = bytes.fromhex("0806")  # the type of a frame, after two addresses of 6 bytes
 _IPV4_MULTICAST = bytes.fromhex("01005e")  # begin of the destination address
-_PATIENCE = 10.0  # seconds
-_SEND = "import socket, sys; socket.socket(type=socket.SOCK_DGRAM).sendto(b'', (sys.argv[1], 9))"  # the discard port
 _UP = "ip link set lo up && ip link set lo multicast on && echo up && exec cat"
 
 
@@ -41,6 +39,7 @@ class Impairment:
 
     Attributes:
         loss: The probability that a frame is lost.
+        arp: Whether ARP frames can be lost, too. Linux repeats a lost ARP request once per second.
         delay: The delay in seconds.
         duplicates: The probability that a frame is delivered twice.
         reordered: The probability that a frame is overtaken: it is delivered up to 50 ms later.
@@ -49,6 +48,7 @@ class Impairment:
     """
 
     loss: float = 0.0
+    arp: bool = False
     delay: float = 0.0
     duplicates: float = 0.0
     reordered: float = 0.0
@@ -59,8 +59,9 @@ class Impairment:
         """Yield the delay of each delivery of one frame, in seconds."""
         if self.cut or (not self.multicast and frame.startswith(_IPV4_MULTICAST)):
             return
+        loss = 0.0 if frame[12:14] == _ARP and not self.arp else self.loss
         for _ in range(1 + (chance.random() < self.duplicates)):
-            if chance.random() >= self.loss:
+            if chance.random() >= loss:
                 yield self.delay + (chance.uniform(0.0, 0.05) if chance.random() < self.reordered else 0.0)
 
 
@@ -94,10 +95,6 @@ class Host:
         """Return the command that runs a command on this host."""
         return ["nsenter", "--target", str(self._holder.pid), "--net", *command]
 
-    def output(self, *command: str) -> str:
-        """Run a command on this host, and return its output."""
-        return subprocess.run(self.command(*command), check=True, stdout=subprocess.PIPE, text=True).stdout
-
     def close(self) -> None:
         """Remove the namespace with its last process."""
         os.close(self.tap)
@@ -119,15 +116,6 @@ class Lan:
             self.hosts.append(Host(number))
         self._thread = threading.Thread(target=self._run, name="switch", daemon=True)
         self._thread.start()
-
-    def resolve(self) -> None:
-        """Let the hosts learn each other's link-layer addresses, as after any packet between them."""
-        for host, other in itertools.permutations(self.hosts, 2):
-            give_up = time.monotonic() + _PATIENCE
-            while "lladdr" not in host.output("ip", "neigh", "show", other.address):
-                if time.monotonic() > give_up:
-                    raise RuntimeError(f"{host.address} does not reach {other.address}")
-                host.output(sys.executable, "-c", _SEND, other.address)
 
     def close(self) -> None:
         """Stop the switch and remove the hosts."""
