@@ -307,7 +307,7 @@ def test_nothing_is_left_when_the_last_one_leaves(domain_id):
 ENDING = """
 import os, sys
 from coframe import _core
-segment = _core.Segment.open(sys.argv[1], "1-one", 10**10)
+segment = _core.Segment.open(sys.argv[1], "232-one", 10**10)
 assert segment.try_to_write()
 buffer = _core.Buffer(10**10)
 segment.write(buffer)
@@ -319,8 +319,8 @@ os._exit(0)
 def test_transforms_of_programs_that_have_ended_are_not_used(tmp_path):
     folder = tmp_path / "shared"
     subprocess.run([sys.executable, "-c", ENDING, folder], check=True)
-    assert len(memory_of(1, folder)) == 1
-    segment = _core.Segment.open(str(folder), "1-one", 10**10)
+    assert len(memory_of(232, folder)) == 1
+    segment = _core.Segment.open(str(folder), "232-one", 10**10)
     buffer = coframe.Buffer()
     assert segment.follow(buffer)
     assert buffer.frame_names() == []
@@ -328,14 +328,14 @@ def test_transforms_of_programs_that_have_ended_are_not_used(tmp_path):
 
 
 def test_memory_of_programs_that_have_ended_is_removed(tmp_path, domain_id, monkeypatch):
-    folder = tmp_path / "shared"
+    folder = tmp_path / "shared"  # with memory of domain 232, which no test uses
     monkeypatch.setattr(shared_transforms, "_FOLDER", str(folder))
     subprocess.run([sys.executable, "-c", ENDING, folder], check=True)
-    used = _core.Segment.open(str(folder), "1-used", 10**10)
-    assert len(memory_of(1, folder)) == 2
+    used = _core.Segment.open(str(folder), "232-used", 10**10)
+    assert len(memory_of(232, folder)) == 2
     with coframe.connect("one", domain=domain_id, shared=True) as ros:
         assert ros._shared.writes
-        assert [file.name.startswith("1-used") for file in memory_of(1, folder)] == [True]
+        assert [file.name.startswith("232-used") for file in memory_of(232, folder)] == [True]
     used.close()
 
 
