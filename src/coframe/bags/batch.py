@@ -34,6 +34,7 @@ if TYPE_CHECKING:
 __all__ = ["ENGINES", "QueryResult", "query_recording", "query_recordings"]
 
 _METADATA_KEY = b"coframe"
+_REPORT_KEY = b"coframe.report"  # the number of missing poses, and the problems
 
 
 class QueryResult(NamedTuple):
@@ -127,14 +128,15 @@ def query_recordings(
 def _query(bag: str, query: TrajectoryQuery, folder: Path) -> QueryResult:
     fingerprint = _fingerprint(bag, query)
     part = folder / f"{Path(bag).stem}-{hashlib.sha256(bag.encode()).hexdigest()[:12]}.parquet"
-    if (poses := _existing_poses(part, fingerprint)) is not None:
-        return QueryResult(bag, poses, kept=True)
+    if (kept := _existing(part, bag, fingerprint)) is not None:
+        return kept
     options: Any = {"namespace": query.namespace, "tf_topics": query.tf_topics}
     with open_bag(bag, **options, prefix=query.prefix, keep=query.keep) as recording:
         found, missing = query.run(recording)
         problems = tuple(recording.problems)
-    _write(part, bag, found, fingerprint)
-    return QueryResult(bag, len(found) if found.shape else 1, missing, problems)
+    result = QueryResult(bag, len(found) if found.shape else 1, missing, problems)
+    _write(part, found, result, fingerprint)
+    return result
 
 
 def _fingerprint(bag: str, query: TrajectoryQuery) -> bytes:
@@ -145,27 +147,32 @@ def _fingerprint(bag: str, query: TrajectoryQuery) -> bytes:
     return json.dumps({"query": asdict(query), "state": state}, sort_keys=True).encode()
 
 
-def _existing_poses(part: Path, fingerprint: bytes) -> int | None:
-    """Return the number of poses in the file of an earlier run; None if it does not exist or is out of date."""
+def _existing(part: Path, bag: str, fingerprint: bytes) -> QueryResult | None:
+    """Return the result in the file of an earlier run; None if it does not exist or is out of date."""
     if not part.exists():
         return None
     try:
         metadata = importlib.import_module("pyarrow.parquet").read_metadata(part)
     except Exception:  # noqa: BLE001 - a damaged file is written again
         return None
-    return int(metadata.num_rows) if (metadata.metadata or {}).get(_METADATA_KEY) == fingerprint else None
+    stored = metadata.metadata or {}
+    if stored.get(_METADATA_KEY) != fingerprint or _REPORT_KEY not in stored:
+        return None
+    missing, problems = json.loads(stored[_REPORT_KEY])
+    return QueryResult(bag, int(metadata.num_rows), missing, tuple(problems), kept=True)
 
 
-def _write(part: Path, bag: str, poses: Transform, fingerprint: bytes) -> None:
+def _write(part: Path, poses: Transform, result: QueryResult, fingerprint: bytes) -> None:
     arrow: Any = importlib.import_module("pyarrow")
     parquet: Any = importlib.import_module("pyarrow.parquet")
     values = np.concatenate([np.atleast_2d(poses.translation), np.atleast_2d(poses.quaternion)], axis=1)
     stamps = np.zeros(1, dtype=np.int64) if poses.stamps is None else poses.stamps
-    columns = {"bag": arrow.array([bag] * len(values)).dictionary_encode(), "stamp_ns": stamps}
+    columns = {"bag": arrow.array([result.bag] * len(values)).dictionary_encode(), "stamp_ns": stamps}
     columns |= dict(zip(POSE_COLUMNS, values.T.copy(), strict=True))
     temporary = part.with_name(f"_{part.name}.{os.getpid()}")  # readers of datasets ignore names with this prefix
     try:
-        parquet.write_table(arrow.table(columns).replace_schema_metadata({_METADATA_KEY: fingerprint}), temporary)
+        metadata = {_METADATA_KEY: fingerprint, _REPORT_KEY: json.dumps([result.missing, result.problems])}
+        parquet.write_table(arrow.table(columns).replace_schema_metadata(metadata), temporary)
         temporary.replace(part)
     except OSError as error:
         reason = os.strerror(error.errno) if error.errno else str(error)
