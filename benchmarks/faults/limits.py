@@ -158,7 +158,6 @@ def _no_port_dds() -> Measurement:
 def _participants_130() -> Measurement:
     with processes(ROS_AUTOMATIC_DISCOVERY_RANGE="SUBNET") as started:
         started.start("python", "-c", IDLE, str(_PARTICIPANTS - 2)).line()
-        time.sleep(2 * SETTLING)  # until the processes have found each other; two cores are busy with it
         talker = started.node("talker", ROBOTS[0], RATE)
         listener = started.node("listener", ROBOTS[0])
         listener.started = time.monotonic()

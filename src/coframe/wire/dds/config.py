@@ -35,8 +35,7 @@ _RECEIVE_BUFFERS = "<ReceiveBufferSize>256KiB</ReceiveBufferSize>"
 # A lost message is sent again after a heartbeat of its writer and the answer of its reader, any of which may be lost
 # too. With Cyclone DDS's own intervals of 100 ms, messages are given up at 30 % loss, because a writer of transforms
 # keeps only the last 100 messages. The writer sends heartbeats only while answers are outstanding, and doubles the
-# interval up to the maximum: with 500 ms instead of 2 s, the heartbeats of 130 processes that discover each other keep
-# two cores busy for up to a quarter of a minute.
+# interval up to the maximum: the longer that is, the sooner many processes that discover each other have done so.
 _RETRANSMISSION = (
     '<NackDelay>10ms</NackDelay><HeartbeatInterval min="5ms" minsched="10ms" max="2s">20ms</HeartbeatInterval>'
 )
