@@ -1,0 +1,54 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Python processes that run modules of coframe: how they are started.
+
+``python -m MODULE`` puts the current folder first on `sys.path`: a file ``json.py`` or ``types.py`` in it would be imported
+instead of the standard library's. The processes here import only from where this process is installed.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+__all__ = ["python_command", "python_environment"]
+
+_START = str(Path(__file__).with_name("start.py"))
+# What would make a process without a terminal wait for input, or run a file at its start or end.
+_OMITTED = ("PYTHONINSPECT", "PYTHONSTARTUP")
+_PATH = "PYTHONPATH"
+
+
+def python_command(module: str, *arguments: str) -> list[str]:
+    """Return the command that runs a module as ``python -m`` does, but without the current folder on its path.
+
+    Start it with :func:`python_environment`.
+
+    Args:
+        module: The full name of a module of coframe.
+        arguments: The words after it.
+    """
+    return [sys.executable, _START, module, *arguments]
+
+
+def python_environment(base: Mapping[str, str] | None = None) -> dict[str, str]:
+    """Return the environment for such a process.
+
+    An empty element of PYTHONPATH, as in ``PYTHONPATH=/opt/packages:``, means the current folder, and is removed. Relative
+    elements become absolute, so that they name the same folders in every process.
+
+    Args:
+        base: The variables to start from. None: those of this process.
+    """
+    environment = dict(os.environ if base is None else base)
+    for name in _OMITTED:
+        environment.pop(name, None)
+    if _PATH in environment:
+        elements = [str(Path(element).absolute()) for element in environment.pop(_PATH).split(os.pathsep) if element]
+        if elements:
+            environment[_PATH] = os.pathsep.join(elements)
+    return environment
