@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """Parameters of nodes: their types, and the command line that a node is started with."""
 
+import enum
 import re
 from pathlib import Path
 
+import numpy as np
 import pytest
 import yaml
 
@@ -14,6 +16,15 @@ from launch.utilities import visit_all_entities_and_collect_futures
 from launch_ros.actions import Node, PushRosNamespace, SetParameter, SetParametersFromFile, SetRemap, SetUseSimTime
 from launch_ros.descriptions import Parameter, ParameterFile, ParameterValue
 from launch_ros.utilities import evaluate_parameter_dict, normalize_parameter_dict, prefix_namespace
+
+
+class Mode(enum.IntEnum):
+    FAST = 2
+
+
+class Frame(str, enum.Enum):
+    BASE = "base_link"
+
 
 CONFIGURATIONS = {"five": "5", "half": "0.5", "yes": "true", "word": "hello", "list": "[1, 2]", "quoted": "'5'"}
 
@@ -35,6 +46,14 @@ CONFIGURATIONS = {"five": "5", "half": "0.5", "yes": "true", "word": "hello", "l
         ([1, 2.5], [1.0, 2.5]),
         ([[LaunchConfiguration("word"), "1"], [TextSubstitution(text="x")]], ["hello1", "x"]),
         ((True, False), [True, False]),
+        (Mode.FAST, 2),
+        ([Mode.FAST, 3], [2, 3]),
+        (Frame.BASE, "base_link"),
+        ([Frame.BASE, "map"], ["base_link", "map"]),
+        (np.int32(5), 5),
+        (np.float32(0.5), 0.5),
+        ([np.int64(5), np.int64(6)], [5, 6]),
+        (np.bool_(True), True),
         (ParameterValue(LaunchConfiguration("five"), value_type=str), "5"),
         (ParameterValue(LaunchConfiguration("five"), value_type=float), 5.0),
         (ParameterValue(["[", LaunchConfiguration("five"), "]"], value_type=list[int]), [5]),

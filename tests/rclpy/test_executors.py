@@ -5,6 +5,7 @@ import contextlib
 import threading
 import time
 
+import numpy as np
 import pytest
 
 import rclpy
@@ -381,6 +382,17 @@ def test_shutdown_waits_for_running_callbacks(node, pool):
     assert pool.shutdown(timeout_sec=10)
     assert ended == [1]
     thread.join(10)
+
+
+@pytest.mark.parametrize("timeout", [np.int32(3), np.float32(3), np.int8(3)])
+def test_timeouts_of_numpy_types(context, node, timeout):
+    """The product of a small type and 1e9 is negative or an error, so that spin_once would not wait."""
+    executor = SingleThreadedExecutor(context=context)
+    executor.add_node(node)
+    calls = []
+    node.create_timer(0.2, lambda: calls.append(1))
+    executor.spin_once(timeout_sec=timeout)
+    assert calls == [1]
 
 
 def test_rate_keeps_the_frequency(node):

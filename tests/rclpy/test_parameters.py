@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Parameters of nodes."""
 
+import enum
+
+import numpy as np
 import pytest
 
 from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescriptor, SetParametersResult
@@ -13,7 +16,8 @@ from rclpy.exceptions import (
     ParameterNotDeclaredException,
     ParameterUninitializedException,
 )
-from rclpy.parameter import Parameter, get_parameter_value, parameter_value_to_python
+from rclpy.parameter import Parameter, ParameterMsg, get_parameter_value, parameter_value_to_python
+from rclpy.serialization import deserialize_message, serialize_message
 
 VALUES = [
     (True, Parameter.Type.BOOL),
@@ -34,6 +38,65 @@ def test_types_of_values_and_conversion_to_messages(value, kind):
     parameter = Parameter("p", value=value)
     assert parameter.type_ is kind
     assert Parameter.from_parameter_msg(parameter.to_parameter_msg()) == parameter
+
+
+class Mode(enum.IntEnum):
+    SLOW = 1
+    FAST = 2
+
+
+class Frame(str, enum.Enum):
+    BASE = "base_link"
+
+
+@pytest.mark.parametrize(
+    ("value", "kind", "plain"),
+    [
+        (Mode.FAST, Parameter.Type.INTEGER, 2),
+        ([Mode.FAST, 3], Parameter.Type.INTEGER_ARRAY, [2, 3]),
+        (Frame.BASE, Parameter.Type.STRING, "base_link"),
+        ((Frame.BASE,), Parameter.Type.STRING_ARRAY, ["base_link"]),
+        (np.bool_(True), Parameter.Type.BOOL, True),
+        (np.int8(-3), Parameter.Type.INTEGER, -3),
+        (np.uint64(2**63 - 1), Parameter.Type.INTEGER, 2**63 - 1),
+        (np.float32(0.5), Parameter.Type.DOUBLE, 0.5),
+        (np.float64(0.1), Parameter.Type.DOUBLE, 0.1),
+        ([np.int32(2), 3], Parameter.Type.INTEGER_ARRAY, [2, 3]),
+        ((np.float32(0.5), np.float64(0.1)), Parameter.Type.DOUBLE_ARRAY, [0.5, 0.1]),
+        ([np.bool_(True), False], Parameter.Type.BOOL_ARRAY, [True, False]),
+        ([np.str_("a")], Parameter.Type.STRING_ARRAY, ["a"]),
+    ],
+)
+def test_enumerations_and_numpy_scalars_as_values(node, value, kind, plain):
+    assert Parameter.Type.from_parameter_value(value) is kind
+    declared = node.declare_parameter("p", value)
+    assert declared.type_ is kind
+    assert Parameter("p", kind, value) == declared
+    received = deserialize_message(serialize_message(declared.to_parameter_msg()), ParameterMsg)
+    assert parameter_value_to_python(received.value) == plain
+    assert node.set_parameters([Parameter("p", value=plain)])[0].successful
+
+
+@pytest.mark.parametrize(
+    "value", [np.uint64(2**63), [np.uint64(2**63)], 2**63, np.datetime64("2026-01-01"), np.timedelta64(1, "s"), 1j]
+)
+def test_numbers_that_do_not_fit_are_refused(value):
+    with pytest.raises(TypeError, match=r"not .*one of the allowed types"):
+        Parameter("p", value=value)
+    with pytest.raises(ValueError, match="do not agree"):
+        Parameter("p", Parameter.Type.INTEGER, value)
+
+
+def test_numpy_array_as_a_value_is_refused_with_the_conversion():
+    with pytest.raises(TypeError) as raised:
+        Parameter("p", value=np.zeros(3))
+    assert "tolist()" in raised.value.hint
+
+
+def test_parameters_in_sets_and_dictionaries():
+    first, same, other = Parameter("p", value=1), Parameter("p", value=1), Parameter("p", value=2)
+    assert {first, same, other} == {first, other}
+    assert {first: "a"}[same] == "a"
 
 
 def test_values_of_unsupported_types():

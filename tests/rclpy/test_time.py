@@ -1,6 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """Time and Duration: values, arithmetic and comparisons."""
 
+import enum
+from decimal import Decimal
+from fractions import Fraction
+
+import numpy as np
 import pytest
 
 import builtin_interfaces.msg
@@ -13,6 +18,29 @@ def test_seconds_and_nanoseconds_are_added():
     assert Time(seconds=1.5, nanoseconds=7).nanoseconds == 1_500_000_007
     assert Time(seconds=3, nanoseconds=4).seconds_nanoseconds() == (3, 4)
     assert Duration(seconds=-1, nanoseconds=1).nanoseconds == -999_999_999
+
+
+class Seconds(enum.IntEnum):
+    THREE = 3
+
+
+SMALL = [Seconds.THREE, np.int8(3), np.uint8(3), np.int32(3), np.float16(3), np.float32(3)]
+
+
+@pytest.mark.parametrize("three", [*SMALL, np.uint64(3), np.array(3), Decimal(3), Fraction(3)])
+def test_numbers_of_any_type(three):
+    """The product of an int32 and 1e9 would not fit into 32 bits."""
+    assert Duration(seconds=three, nanoseconds=three).nanoseconds == 3_000_000_003
+    assert Time(seconds=three, nanoseconds=three).nanoseconds == 3_000_000_003
+
+
+@pytest.mark.parametrize("value", ["5", b"5", [5], (5,), bytearray(1), np.str_("5"), np.datetime64("2026-01-01")])
+@pytest.mark.parametrize("kind", [Time, Duration])
+def test_values_that_are_not_numbers(kind, value):
+    """A list would otherwise be repeated a billion times."""
+    for argument in ("seconds", "nanoseconds"):
+        with pytest.raises(TypeError, match="Expected a number, got"):
+            kind(**{argument: value})
 
 
 def test_default_clock_type_is_system_time():

@@ -259,7 +259,7 @@ def wait_until_ready(
     event = Event()
     participant.watch_graph(event)
     try:
-        with context._Coframe__set_on_shutdown(event):
+        with context._Coframe__shutdown.wakes(event):
             while context.ok() and not is_ready():
                 remaining = _MATCH_CHECK_PERIOD_NS if deadline is None else deadline - time.monotonic_ns()
                 if remaining <= 0:

@@ -218,13 +218,18 @@ class Clock:
             event.set()
 
         any_progress = JumpThreshold(min_forward=Duration(nanoseconds=1), min_backward=None)
-        with context._Coframe__set_on_shutdown(event), self.create_jump_callback(any_progress, post_callback=on_jump):
+        with context._Coframe__shutdown.wakes(event), self.create_jump_callback(any_progress, post_callback=on_jump):
             while context.ok() and not source_changes:
                 remaining = until.nanoseconds - self._Coframe__now_ns()
                 if remaining <= 0:
                     return True
                 event.wait(None if self._Coframe__is_simulated else remaining)
         return False
+
+    def _Coframe__jump_sets(self, event: Event) -> JumpHandle:
+        """Return a context manager within which each change of simulated time, in either direction, sets the event."""
+        any_change = JumpThreshold(min_forward=Duration(nanoseconds=1), min_backward=Duration(nanoseconds=-1))
+        return self.create_jump_callback(any_change, post_callback=lambda _: event.set())
 
     @property
     def _Coframe__is_simulated(self) -> bool:
@@ -284,7 +289,9 @@ class ROSClock(Clock):
             self.__jump(TimeJump(ClockChange.ROS_TIME_NO_CHANGE, delta), override)
 
     def __jump(self, jump: TimeJump, apply: Callable[[], None]) -> None:
-        handles = [handle for handle in self._Coframe__jump_handles if handle._threshold._Coframe__is_met_by(jump)]
+        # A copy, because other threads register callbacks at the same time.
+        registered = tuple(self._Coframe__jump_handles)
+        handles = [handle for handle in registered if handle._threshold._Coframe__is_met_by(jump)]
         for handle in handles:
             if handle._pre_callback is not None:
                 handle._pre_callback()

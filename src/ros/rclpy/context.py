@@ -11,18 +11,18 @@ import os
 import sys
 import threading
 import weakref
-from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 from coframe._core import Event
 from rclpy import _arguments
 from rclpy import logging as ros_logging
 from rclpy._absent import Handle
+from rclpy._interruption import Interruption
 from rclpy._wakeup import Wakeup
 from rclpy.exceptions import RCLError, RCLInvalidROSArgsError, _with_hint
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Callable
     from types import TracebackType
 
     from typing_extensions import Self
@@ -46,7 +46,7 @@ class Context:
         self.__is_ok = False
         self._Coframe__was_shut_down_by_signal = False
         self.__shutdown_callbacks: list[Callable[[], Callable[[], object] | None]] = []
-        self.__events: set[Event] = set()
+        self._Coframe__shutdown = Interruption()
         self._Coframe__wakeup = Wakeup()
         # Set when publishers must not publish anymore, for native code.
         self._Coframe__closed = Event()
@@ -149,24 +149,12 @@ class Context:
                 self._Coframe__closed.set()
             _running.remove(self)
         self._Coframe__wakeup.set()
-        for event in tuple(self.__events):
-            event.set()
+        self._Coframe__shutdown.set()
         callbacks, self.__shutdown_callbacks = self.__shutdown_callbacks, []
         for reference in callbacks:
             if (callback := reference()) is not None:
                 callback()
         return True
-
-    @contextmanager
-    def _Coframe__set_on_shutdown(self, event: Event) -> Iterator[None]:
-        """Set the event if the context is shut down within the block."""
-        self.__events.add(event)
-        if not self.__is_ok:
-            event.set()
-        try:
-            yield
-        finally:
-            self.__events.discard(event)
 
     def _Coframe__get_participant(self) -> Participant:
         """Return the DDS participant. The caller closes it."""

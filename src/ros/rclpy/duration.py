@@ -6,6 +6,7 @@ from __future__ import annotations
 from typing import Final
 
 import builtin_interfaces.msg
+from rclpy._numbers import require_number
 from rclpy.constants import S_TO_NS
 
 INT64_LIMIT: Final = 2**63
@@ -19,6 +20,7 @@ class Duration:
         nanoseconds: Nanoseconds, added to the seconds.
 
     Raises:
+        TypeError: An argument is not a number.
         OverflowError: The sum does not fit into 64 bits.
     """
 
@@ -91,17 +93,6 @@ class Duration:
         if not isinstance(msg, builtin_interfaces.msg.Duration):
             raise TypeError("Must pass a builtin_interfaces.msg.Duration object")
         return cls(seconds=msg.sec, nanoseconds=msg.nanosec)
-
-
-def require_number(value: float) -> float:
-    """Return `value` unchanged if it is not a string.
-
-    Raises:
-        TypeError: `value` is a string. Multiplying it by `S_TO_NS` would repeat it a billion times.
-    """
-    if isinstance(value, str):
-        raise TypeError(f"Expected a number, got the string {value!r}. Convert it with float(...) first.")
-    return value
 
 
 Infinite: Final = Duration(nanoseconds=INT64_LIMIT - 1)

@@ -16,6 +16,7 @@ from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from typing import TYPE_CHECKING, Any, Final, Protocol
 
+from rclpy._numbers import require_number
 from rclpy.constants import S_TO_NS
 from rclpy.exceptions import NotInitializedException, RCLError, ROSInterruptException
 from rclpy.task import Future, Task
@@ -515,7 +516,7 @@ class MultiThreadedExecutor(Executor):
 def _deadline(timeout_sec: float | None) -> int | None:
     if timeout_sec is None or timeout_sec < 0:
         return None
-    return time.monotonic_ns() + int(timeout_sec * S_TO_NS)
+    return time.monotonic_ns() + int(require_number(timeout_sec) * S_TO_NS)
 
 
 async def await_or_execute(callback: Callable[..., Any], *args: Any) -> Any:

@@ -7,15 +7,20 @@ import array
 from enum import Enum, IntEnum
 from typing import Any, Final, Generic, TypeVar
 
+import numpy as np
+
 from rcl_interfaces.msg import Parameter as ParameterMsg
 from rcl_interfaces.msg import ParameterType, ParameterValue
 from rclpy import _yaml
+from rclpy._numbers import to_python
 from rclpy.exceptions import _with_hint
 
 T = TypeVar("T")
 
 PARAMETER_SEPARATOR_STRING: Final = "."
-_INT64: Final = range(-(2**63), 2**63)
+# A comparison, because `in range(...)` searches the whole range for an IntEnum.
+_MIN_INT64: Final = -(2**63)
+_MAX_INT64: Final = 2**63 - 1
 
 
 class Parameter(Generic[T]):
@@ -24,7 +29,7 @@ class Parameter(Generic[T]):
     Args:
         name: Name of the parameter.
         type_: Type of the parameter. None: the type of the value.
-        value: Value of the parameter.
+        value: Value of the parameter. NumPy's numbers and booleans are converted to Python's.
 
     Raises:
         TypeError: `type_` is not a Parameter.Type, or the value is not of a parameter type.
@@ -56,38 +61,41 @@ class Parameter(Generic[T]):
             Raises:
                 TypeError: The value is not of a parameter type.
             """
+            value = _to_python(parameter_value)
             for kind in cls:
-                if kind.check(parameter_value):
+                if kind.check(value):
                     return kind
             is_list = isinstance(parameter_value, list | tuple | array.array)
             error = TypeError(
                 f"The given value is not {'a list of ' * is_list}one of the allowed types '{parameter_value}'."
             )
-            raise _with_hint(
-                error, "Use a bool, int, float or str, or a list of one of these types or of bytes of length 1."
-            )
+            hint = "Use a bool, int, float or str, or a list of one of these types or of bytes of length 1."
+            if isinstance(parameter_value, np.ndarray):
+                hint = "Convert the NumPy array with its method tolist()."
+            raise _with_hint(error, hint)
 
         def check(self, parameter_value: Any) -> bool:
             """Return whether a Python value has this parameter type."""
-            value = parameter_value
+            value = _to_python(parameter_value)
             if self is Parameter.Type.NOT_SET:
                 return value is None
             if self in _ITEM_TYPES:
                 return _is_sequence_of(_ITEM_TYPES[self], value)
             if self is Parameter.Type.INTEGER:
-                return isinstance(value, int) and not isinstance(value, bool) and value in _INT64
+                return _is_integer(value)
             return isinstance(value, _SCALAR_TYPES[self])
 
     def __init__(self, name: str, type_: Parameter.Type | None = None, value: T | None = None) -> None:
+        converted = _to_python(value)
         if type_ is None:
-            type_ = Parameter.Type.from_parameter_value(value)
+            type_ = Parameter.Type.from_parameter_value(converted)
         if not isinstance(type_, Parameter.Type):
             raise TypeError(f"type must be an instance of '{Parameter.Type!r}'")
-        if not type_.check(value):
+        if not type_.check(converted):
             raise ValueError(f"Type '{type_}' and value '{value}' do not agree")
         self._name = name
         self._type_ = type_
-        self._value: Any = value
+        self._value = converted
 
     @classmethod
     def from_parameter_msg(cls, param_msg: ParameterMsg) -> Parameter[Any]:
@@ -128,7 +136,8 @@ class Parameter(Generic[T]):
             return NotImplemented
         return self.to_parameter_msg() == other.to_parameter_msg()
 
-    __hash__ = None  # type: ignore[assignment]
+    def __hash__(self) -> int:
+        return hash((self.name, self.type_))
 
     def __repr__(self) -> str:
         return f"Parameter(name={self.name!r}, type_={self.type_!s}, value={self.value!r})"
@@ -146,6 +155,7 @@ _ITEM_TYPES: Final[dict[Parameter.Type, type]] = {
     Parameter.Type.DOUBLE_ARRAY: float,
     Parameter.Type.STRING_ARRAY: str,
 }
+_PYTHON_TYPES: Final = frozenset({bool, int, float, str, type(None)})
 _VALUE_FIELDS: Final = {kind: f"{kind.name.lower()}_value" for kind in Parameter.Type if kind.value}
 
 
@@ -155,8 +165,21 @@ def _is_sequence_of(kind: type, value: Any) -> bool:
     if kind is bytes:
         return all(isinstance(item, bytes) and len(item) == 1 for item in value)
     if kind is int:
-        return all(isinstance(item, int) and not isinstance(item, bool) and item in _INT64 for item in value)
+        return all(map(_is_integer, value))
     return all(isinstance(item, kind) for item in value)
+
+
+def _is_integer(value: Any) -> bool:
+    return isinstance(value, int) and not isinstance(value, bool) and _MIN_INT64 <= value <= _MAX_INT64
+
+
+def _to_python(value: Any) -> Any:
+    """Return NumPy's numbers and booleans as Python's, also in a list; any other value itself."""
+    if type(value) in _PYTHON_TYPES:  # The usual case, and much faster.
+        return value
+    if isinstance(value, list | tuple) and any(issubclass(kind, np.generic) for kind in {*map(type, value)}):
+        return [to_python(item) for item in value]
+    return to_python(value)
 
 
 def get_parameter_value(string_value: str) -> ParameterValue:

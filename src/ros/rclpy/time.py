@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING, overload
 
 import builtin_interfaces.msg
 from rclpy._clock_type import ClockType
+from rclpy._numbers import require_number
 from rclpy.constants import S_TO_NS
-from rclpy.duration import INT64_LIMIT, Duration, require_number
+from rclpy.duration import INT64_LIMIT, Duration
 
 if TYPE_CHECKING:
     from typing_extensions import Self
@@ -27,7 +28,7 @@ class Time:
         clock_type: The type of the clock that this time belongs to.
 
     Raises:
-        TypeError: `clock_type` is not a ClockType.
+        TypeError: `clock_type` is not a ClockType, or a time is not a number.
         ValueError: Seconds or nanoseconds are negative.
         OverflowError: The sum does not fit into 64 bits.
     """
@@ -39,9 +40,10 @@ class Time:
     ) -> None:
         if not isinstance(clock_type, ClockType):
             raise TypeError("Clock type must be a ClockType enum")
-        if require_number(seconds) < 0:
+        seconds, nanoseconds = require_number(seconds), require_number(nanoseconds)
+        if seconds < 0:
             raise ValueError("Seconds value must not be negative")
-        if require_number(nanoseconds) < 0:
+        if nanoseconds < 0:
             raise ValueError("Nanoseconds value must not be negative")
         total = int(seconds * S_TO_NS) + int(nanoseconds)
         if total >= INT64_LIMIT:

@@ -10,10 +10,11 @@ import threading
 import time
 from typing import TYPE_CHECKING, Any
 
+from coframe._core import Event
 from rclpy._absent import Handle
 from rclpy._destroyable import destroyed
+from rclpy._interruption import Interruption
 from rclpy.exceptions import RCLError, ROSInterruptException
-from rclpy.time import Time
 from rclpy.utilities import get_default_context
 
 if TYPE_CHECKING:
@@ -54,7 +55,7 @@ class Timer:
         self.__context = context or get_default_context()
         self.__period_ns = int(timer_period_ns)
         self.__is_canceled = False
-        self.__is_destroyed = False
+        self._Coframe__destruction = Interruption()
         self.__lock = threading.Lock()
         self._Coframe__ended_periods = 0
         self.__start()
@@ -76,7 +77,7 @@ class Timer:
 
     def destroy(self) -> None:
         """Destroy the timer. Prefer `Node.destroy_timer`."""
-        self.__is_destroyed = True
+        self._Coframe__destruction.set()
 
     def cancel(self) -> None:
         """Stop the callbacks until `reset()`."""
@@ -115,7 +116,7 @@ class Timer:
         return not self._Coframe__is_stopped and self._Coframe__until_next_ns() <= 0
 
     def __check_not_destroyed(self) -> None:
-        if self.__is_destroyed:
+        if self._Coframe__destruction.is_set:
             raise destroyed("The timer")
 
     def _Coframe__until_next_ns(self) -> int:
@@ -130,7 +131,7 @@ class Timer:
 
     @property
     def _Coframe__is_stopped(self) -> bool:
-        return self.__is_canceled or self.__is_destroyed
+        return self.__is_canceled or self._Coframe__destruction.is_set
 
     def _Coframe__now_ns(self) -> int:
         return self.__clock._Coframe__now_ns() if self._Coframe__is_simulated else time.monotonic_ns()
@@ -182,29 +183,37 @@ class Rate:
         self.__timer = timer
         self.__context = context
         self.__ended_periods = timer._Coframe__ended_periods
+        self.__was_destroyed_alone = False
 
     def sleep(self) -> None:
-        """Sleep until the end of the current period.
+        """Sleep until the end of the current period, or until the rate is destroyed.
 
         Raises:
-            ROSInterruptException: The context was shut down.
-            RuntimeError: The rate was destroyed.
+            ROSInterruptException: The context was shut down, or the node was destroyed.
+            RuntimeError: The rate was destroyed before.
         """
-        timer, ended = self.__timer, self.__ended_periods
-        while True:
-            if not self.__context.ok():
-                raise ROSInterruptException
-            if timer._Coframe__is_stopped:
-                raise RuntimeError("Rate cannot sleep because it has been destroyed")
-            if timer._Coframe__ended_periods != ended or timer._Coframe__end_period():
-                break
-            if (remaining := timer._Coframe__until_next_ns()) > 0:
-                clock = timer.clock
-                # A Time must not be negative, and now + remaining never is.
-                until = Time(nanoseconds=clock._Coframe__now_ns() + remaining, clock_type=clock.clock_type)
-                clock._Coframe__sleep(until, self.__context)
+        timer, context, ended, event = self.__timer, self.__context, self.__ended_periods, Event()
+        if context.ok() and timer._Coframe__is_stopped:
+            raise RuntimeError("Rate cannot sleep because it has been destroyed")
+        with (
+            context._Coframe__shutdown.wakes(event),
+            timer._Coframe__destruction.wakes(event),
+            timer.clock._Coframe__jump_sets(event),
+        ):
+            while True:
+                if not context.ok():
+                    raise ROSInterruptException
+                has_ended = timer._Coframe__ended_periods != ended or timer._Coframe__end_period()
+                if has_ended or self.__was_destroyed_alone:
+                    break
+                if timer._Coframe__is_stopped:
+                    raise ROSInterruptException
+                if (remaining := timer._Coframe__until_next_ns()) > 0:
+                    event.wait(None if timer._Coframe__is_simulated else remaining)
         self.__ended_periods = timer._Coframe__ended_periods
 
     def destroy(self) -> None:
         """Destroy the rate. Prefer `Node.destroy_rate`."""
+        # A node that is destroyed has destroyed the timer before.
+        self.__was_destroyed_alone |= not self.__timer._Coframe__destruction.is_set
         self.__timer.destroy()

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from coframe._core import Event
 from coframe.messages import codec
+from rclpy._numbers import require_number
 from rclpy.constants import S_TO_NS
 from rclpy.qos import QoSProfile, as_qos_profile
 
@@ -38,14 +39,14 @@ def wait_for_message(
     Returns:
         (True, message), or (False, None) after a timeout or the shutdown of the context.
     """
-    deadline = None if time_to_wait < 0 else time.monotonic_ns() + int(time_to_wait * S_TO_NS)
+    deadline = None if time_to_wait < 0 else time.monotonic_ns() + int(require_number(time_to_wait) * S_TO_NS)
     event = Event()
     name, qos = node.resolve_topic_name(topic), as_qos_profile(qos_profile)._Coframe__to_wire()
     subscription = node._Coframe__participant.subscription(
         node._Coframe__graph_node, name, msg_type, qos, on_data=event
     )
     try:
-        with node.context._Coframe__set_on_shutdown(event):
+        with node.context._Coframe__shutdown.wakes(event):
             while node.context.ok():
                 if samples := subscription.take(limit=1):
                     return True, codec.deserialize(samples[0].data, msg_type)

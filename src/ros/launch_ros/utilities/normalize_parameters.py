@@ -60,12 +60,13 @@ def normalize_parameter_dict(
 
 
 def _normalized_value(value: Any, name: Any) -> Any:
+    value = _plain(value)
     if isinstance(value, ParameterValue | str | bool | int | float | bytes):
         return value  # A plain text stays a text, even if it looks like a number.
     if isinstance(value, Substitution):
         return [value]
     if isinstance(value, Sequence) or hasattr(value, "tolist"):
-        items = value.tolist() if hasattr(value, "tolist") else list(value)
+        items = value.tolist() if hasattr(value, "tolist") else [_plain(item) for item in value]
         if any(isinstance(item, Substitution) for item in items) and all(
             isinstance(item, str | Substitution) for item in items
         ):
@@ -75,6 +76,18 @@ def _normalized_value(value: Any, name: Any) -> Any:
         f"the value of the parameter {name!r} has the type {type(value).__name__}; allowed are bool, int, float, str, "
         "bytes, sequences of one of them, and substitutions"
     )
+
+
+def _plain(value: Any) -> Any:
+    """Return an IntEnum, a scalar of NumPy or another subclass as the type that YAML can represent."""
+    if getattr(value, "ndim", None) == 0:
+        value = value.item()
+    kinds: tuple[type[Any], ...] = (int, float, bytes)
+    for kind in kinds:
+        if isinstance(value, kind) and not isinstance(value, bool):
+            return kind(value)
+    # str() would return the name of a member of an enumeration.
+    return str.__str__(value) if isinstance(value, str) else value
 
 
 def _as_one_type(items: list[Any], name: Any) -> list[Any]:

@@ -11,6 +11,7 @@ import time
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Final
 
+from rclpy._numbers import require_number
 from rclpy.constants import S_TO_NS
 from rclpy.exceptions import _with_hint
 from rclpy.impl.console import Record, console
@@ -43,7 +44,7 @@ class _CallSite:
             return False
         clock: Clock | None = self.options.get("throttle_time_source_type")
         now = time.time_ns() if clock is None else clock.now().nanoseconds
-        period = int(self.options.get("throttle_duration_sec", 0) * S_TO_NS)
+        period = int(require_number(self.options.get("throttle_duration_sec", 0)) * S_TO_NS)
         # A clock that jumped back starts a new period.
         if self.last_ns is not None and self.last_ns <= now < self.last_ns + period:
             return False
