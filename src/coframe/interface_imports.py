@@ -1,31 +1,34 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Import of users' interface packages: ``from my_msgs.msg import Num`` without a build step.
+"""Import of coframe's ROS packages after all others, and of users' interface packages without a build step.
 
-Python asks the finders on `sys.meta_path` for each module. Two of them are for interface packages. The first handles
-``my_msgs.msg`` before Python takes the folder of the definitions for a package without code. The last is only asked for
-packages that are found nowhere else, so other imports cost nothing and a real ROS takes precedence.
+The file ``coframe_ros.pth`` puts the folder of coframe's ROS packages on `sys.path` when Python starts, and adds one
+condition to the finder of that folder, which Python asks for each package that it has not found in an earlier one. It
+calls `find_last` in this module if the name is one of coframe's ROS packages, or if ``X.msg``, ``X.srv`` or
+``X.action`` of the missing package X is being imported: Python has a lock for each module during its import. All other
+imports, also those that fail, load no module of coframe and read no file.
 
-The file ``coframe_ros.pth`` adds both when Python starts, as two functions of one line each that import this module
-when they are needed. `install` adds them where there is no such file.
+`install` adds finders to `sys.meta_path` as soon as a ROS package of coframe or a user's interface package is imported.
+They only make modules from definitions: no Python code is imported from a folder that is not on `sys.path`.
 """
 
 from __future__ import annotations
 
 import re
 import sys
+from functools import partial
 from importlib.machinery import ModuleSpec, PathFinder
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from coframe.ros_folders import foreign_packages
+from coframe.ros_folders import folders_after_ros, foreign_packages, imported_packages, is_coframes
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Sequence
     from types import ModuleType
 
-__all__ = ["find_module", "find_package", "install"]
+__all__ = ["find_last", "find_module", "find_package", "install"]
 
-_FINDER = "CoframeInterfaces"  # The class name of the finders, here and in coframe_ros.pth.
+_FINDER = "CoframeInterfaces"  # the class name of the finders
 _KINDS = ("msg", "srv", "action")
 _PACKAGE = re.compile(r"[a-z](?:_?[a-z0-9])*")
 _LOOKS_LIKE_INTERFACES = re.compile(r".*_(?:msgs?|srvs?|actions?|interfaces?)")
@@ -39,83 +42,115 @@ def install() -> None:
     sys.meta_path.append(_finder(find_package))
 
 
+def find_last(name: str, own: ModuleSpec | None) -> ModuleSpec | None:
+    """Find a package that Python has not found in the folders before that of coframe's ROS packages.
+
+    Args:
+        name: The name of the package.
+        own: Coframe's ROS package with this name, if there is one.
+    """
+    if own is None:
+        install()
+        return find_package(name)
+    if any(map(is_coframes, imported_packages())):
+        return own
+    # A virtual environment with --system-site-packages has the system's folders after its own.
+    later = PathFinder.find_spec(name, folders_after_ros(sys.path))
+    return own if later is None or later.loader is None else later
+
+
 def find_module(name: str, path: Sequence[str] | None = None, _target: object = None) -> ModuleSpec | None:
-    """Find ``my_msgs.msg``, ``my_msgs.srv`` or ``my_msgs.action``.
+    """Find ``my_msgs.msg``, ``my_msgs.srv`` or ``my_msgs.action``, or ``my_msgs.msg._num`` as rosidl names its modules.
 
     Args:
         name: The full name of any module that is being imported.
         path: The folders of its parent package.
     """
-    package, _, kind = name.partition(".")
+    package, _, rest = name.partition(".")
+    kind, _, definition = rest.partition(".")
     if kind not in _KINDS:
         return None
     spec = PathFinder.find_spec(name, path)
     if spec is not None and spec.has_location:
         return spec  # A module with code: of a real ROS, of coframe, or of the user.
+    if definition:
+        return _spec(name, _DefinitionLoader()) if re.fullmatch(r"_[a-z0-9_]+", definition) else None
     if _is_foreign():
         return None
-    above = [Path(entry) for entry in path or ()]  # Where Python has found the package, if its folder has no code.
-    for folder in filter(None, [_folder_of(package), *above]):
-        if any(file.startswith(f"{kind}/") for file in _definitions(folder)):
-            return _spec(name, _KindLoader(folder))
-    return None
+    return _guarded(partial(_find_kind, package, kind, list(path or ())))
 
 
 def find_package(name: str, path: Sequence[str] | None = None, _target: object = None) -> ModuleSpec | None:
-    """Find an interface package that no other finder has found, or ``my_msgs.msg._num`` as rosidl names its modules.
+    """Find an interface package that no other finder has found, while one of its modules is imported.
 
     Args:
         name: The full name of the module.
         path: None for a package.
     """
-    if path is not None:
-        _, _, rest = name.partition(".")
-        return _spec(name, _DefinitionLoader()) if re.fullmatch(r"(msg|srv|action)\._[a-z0-9_]+", rest) else None
-    if not _PACKAGE.fullmatch(name) or name in sys.stdlib_module_names or _is_foreign():
+    if path is not None or not _PACKAGE.fullmatch(name) or name in sys.stdlib_module_names or _is_foreign():
         return None
-    folder = _folder_of(name)
-    if folder is not None:
-        return _spec(name, _PackageLoader(folder))
-    if _LOOKS_LIKE_INTERFACES.fullmatch(name) and _is_import():
-        from coframe.interfaces.sources import ENVIRONMENT, sources  # noqa: PLC0415 - as in _folder_of
+    return _guarded(partial(_find_package, name)) if _is_wanted(name) else None
 
-        searched = dict.fromkeys(str(source.folder) for source in sources())
-        raise ModuleNotFoundError(
-            f"No module named {name!r}. coframe does not contain this package, and found no definitions of it in "
-            f"{', '.join(searched)}. If you have its .msg, .srv or .action files, run `coframe interfaces add FOLDER`, "
-            f"or set {ENVIRONMENT} to the folder of the package or of its workspace.",
-            name=name,
-        )
+
+def _find_package(name: str) -> ModuleSpec | None:
+    from coframe.interfaces.sources import find_folder  # noqa: PLC0415 - this module is imported with every ROS package
+
+    if find_folder(name) is not None:
+        return _spec(name, _PackageLoader())
+    if _LOOKS_LIKE_INTERFACES.fullmatch(name):
+        raise ModuleNotFoundError(_advice(name), name=name)
     return None
 
 
-def _folder_of(package: str) -> Path | None:
-    from coframe.interfaces.sources import find_folder  # noqa: PLC0415 - this module is imported with every ROS package
+def _find_kind(package: str, kind: str, above: list[str]) -> ModuleSpec | None:
+    from coframe.interfaces.definition_files import definitions_in  # noqa: PLC0415 - as in _find_package
+    from coframe.interfaces.ownership import is_own  # noqa: PLC0415
+    from coframe.interfaces.sources import find_folder  # noqa: PLC0415
 
-    return find_folder(package)
+    # The folders above are where Python has found the package, if its folder has no code.
+    found = [find_folder(package), *(Path(folder) for folder in above if is_own(Path(folder)))]
+    for folder in filter(None, found):
+        if any(file.startswith(f"{kind}/") for file in definitions_in(folder)):
+            return _spec(f"{package}.{kind}", _KindLoader(folder))
+    return None
+
+
+def _advice(name: str) -> str:
+    from coframe.interfaces.sources import ENVIRONMENT, sources  # noqa: PLC0415 - as in _find_package
+    from coframe.interfaces.workspace import is_search_off  # noqa: PLC0415
+
+    missing = f"No module named {name!r}. coframe does not contain this package, and "
+    if is_search_off():
+        return f"{missing}searches no other one, because Python was started with -I, -P or PYTHONSAFEPATH."
+    searched = ", ".join(dict.fromkeys(str(source.folder) for source in sources())) or "any folder: none is searched"
+    return (
+        f"{missing}found no definitions of it in {searched}. If you have its .msg, .srv or .action files, run "
+        f"`coframe interfaces add FOLDER`, or set {ENVIRONMENT} to the folder of the package or of its workspace."
+    )
+
+
+def _is_wanted(package: str) -> bool:
+    """Return whether a module with messages, services or actions of the package is being imported."""
+    importing = vars(sys.modules["_frozen_importlib"]).get("_module_locks", {})
+    return any(f"{package}.{kind}" in importing for kind in _KINDS)
+
+
+def _guarded(find: Callable[[], ModuleSpec | None]) -> ModuleSpec | None:
+    """Search, and report any other error than ImportError: programs expect no other one from an import."""
+    try:
+        return find()
+    except ImportError:
+        raise
+    except Exception as error:  # noqa: BLE001
+        from coframe.interfaces.problems import report  # noqa: PLC0415 - as in _find_package
+
+        report(f"the search for interface packages failed: {type(error).__name__}: {error}")
+        return None
 
 
 def _is_foreign() -> bool:
     """Return whether a ROS installation provides rclpy, which has no use for coframe's classes."""
     return bool(foreign_packages(tuple(sys.path)))
-
-
-def _definitions(folder: Path) -> dict[str, Path]:
-    from coframe.interfaces.definition_files import definitions_in  # noqa: PLC0415
-
-    return definitions_in(folder)
-
-
-def _is_import() -> bool:
-    """Return whether an import statement asks; ``importlib.util.find_spec`` returns None for a missing module."""
-    frame = sys._getframe(1)  # noqa: SLF001 - the import system has no other way to tell
-    while frame.f_back is not None:
-        if frame.f_code.co_name == "_find_and_load_unlocked":
-            return True
-        if frame.f_code.co_filename.endswith("util.py>") or frame.f_globals.get("__name__") == "importlib.util":
-            return False
-        frame = frame.f_back
-    return False
 
 
 def _spec(name: str, loader: Any) -> ModuleSpec:
@@ -134,15 +169,11 @@ class _Loader:
 
 
 class _PackageLoader(_Loader):
-    """Loader of ``my_msgs``."""
-
-    def __init__(self, folder: Path) -> None:
-        self._folder = folder
+    """Loader of ``my_msgs``, a package without folders: Python code next to definitions is not imported."""
 
     def exec_module(self, module: ModuleType) -> None:
-        """Let the modules of a package that has Python code as well be found in the folder with its name."""
+        """Describe the package."""
         module.__doc__ = f"ROS package {module.__name__}."
-        module.__path__ = [str(self._folder / module.__name__)]
 
 
 class _KindLoader(_Loader):

@@ -4,10 +4,15 @@
 from __future__ import annotations
 
 import functools
+import sys
 from pathlib import Path
-from typing import Final
+from typing import TYPE_CHECKING, Final
 
 from coframe.existence import is_file
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+    from types import ModuleType
 
 # The packages that share message classes and nodes. Packages that only use them, such as tf2_sensor_msgs, are not here:
 # they work with the side that provides these.
@@ -37,9 +42,28 @@ def ros_folder() -> Path:
     return inside if inside.is_dir() else package.parent / "ros"
 
 
-@functools.lru_cache(maxsize=1)  # Each of coframe's ROS packages calls this when it is imported.
+def is_coframes(module: ModuleType) -> bool:
+    """Return whether a module was imported from the folder of coframe's ROS packages."""
+    return module.__file__ is not None and Path(module.__file__).resolve().is_relative_to(ros_folder())
+
+
+def imported_packages() -> list[ModuleType]:
+    """Return the packages of `PACKAGES` that this process has imported, from any folder."""
+    return [sys.modules[name] for name in PACKAGES if getattr(sys.modules.get(name), "__file__", None)]
+
+
+def folders_after_ros(path: Iterable[str]) -> list[str]:
+    """Return the folders of a search path that come after that of coframe's ROS packages; [] if it is not there."""
+    entries = list(path)
+    return entries[_position(entries) + 1 :]
+
+
+@functools.lru_cache(maxsize=4)  # Each of coframe's ROS packages calls this when it is imported.
 def foreign_packages(path: tuple[str, ...]) -> dict[str, str]:
     """Find the ROS packages that would be imported from another folder than coframe's.
+
+    Folders after coframe's count if they have a complete ROS 2: coframe's packages are found after all others.
+    Otherwise, they have packages of ROS 1, such as Debian's, which do not belong to any rclpy.
 
     Args:
         path: Folders in search order, such as `sys.path`.
@@ -47,13 +71,21 @@ def foreign_packages(path: tuple[str, ...]) -> dict[str, str]:
     Returns:
         The folder of each such package, by package name.
     """
-    home = ros_folder()
+    entries = list(path)
+    before, after = _packages_in(entries[: _position(entries)]), _packages_in(folders_after_ros(entries))
+    return {**after, **before} if "rclpy" in after else before
+
+
+def _packages_in(path: Iterable[str]) -> dict[str, str]:
     found: dict[str, str] = {}
     for entry in path:
-        folder = Path(entry or ".")
-        if folder.resolve() == home:
-            break
         for package in PACKAGES:
-            if is_file(folder / package / "__init__.py"):
-                found.setdefault(package, str(folder))
+            if is_file(Path(entry or ".") / package / "__init__.py"):
+                found.setdefault(package, entry or ".")
     return found
+
+
+def _position(path: list[str]) -> int:
+    """Return the index of the folder of coframe's ROS packages, or the length of the path."""
+    home = ros_folder()
+    return next((index for index, entry in enumerate(path) if Path(entry or ".").resolve() == home), len(path))

@@ -7,10 +7,11 @@ The exception is tf2, which `coframe.ros2` replaces in a ROS installation.
 from __future__ import annotations
 
 import sys
+from pathlib import Path
 from typing import Final
 
 from coframe import interface_imports
-from coframe.ros_folders import foreign_packages
+from coframe.ros_folders import foreign_packages, imported_packages, is_coframes
 
 TF2_PACKAGES: Final = ("tf2_py", "tf2_ros")
 
@@ -43,6 +44,8 @@ def check(importing: str, path: list[str] | None = None) -> None:
         return
     found = foreign_packages(tuple(sys.path if path is None else path))
     if not found:
+        if path is None:
+            _check_imported(importing)
         interface_imports.install()
         return
     names = ", ".join(sorted(found))
@@ -52,3 +55,15 @@ def check(importing: str, path: list[str] | None = None) -> None:
         "of a ROS installation cannot be mixed. Source a complete ROS 2 to import all of them from there, or remove "
         "this folder from PYTHONPATH to import all of them from coframe."
     )
+
+
+def _check_imported(importing: str) -> None:
+    """Raise ImportError if ROS packages of other folders are in use, such as Debian's of ROS 1."""
+    others = [module for module in imported_packages() if not is_coframes(module)]
+    if others:
+        names = ", ".join(module.__name__ for module in others)
+        folders = ", ".join(sorted({str(Path(module.__file__ or "").parent.parent) for module in others}))
+        raise ImportError(
+            f"cannot import coframe's {importing}: {names} was imported from {folders}, and packages of coframe and of "
+            f"a ROS installation cannot be mixed. Import {importing} first: then all of them come from coframe."
+        )

@@ -25,6 +25,7 @@ def _workspace(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Any:
         (folder / name).parent.mkdir(parents=True, exist_ok=True)
         (folder / name).write_text(text)
     monkeypatch.chdir(tmp_path)
+    monkeypatch.syspath_prepend(Path(sys.executable).parent)  # as for an installed command
     for variable in ("XDG_CONFIG_HOME", "XDG_CACHE_HOME"):
         monkeypatch.setenv(variable, str(tmp_path / variable))
     for variable in ("COFRAME_INTERFACES", "AMENT_PREFIX_PATH"):
@@ -42,8 +43,7 @@ def run(*words: str) -> Any:
 
 def test_added_folders_are_listed_and_removed(tmp_path: Path) -> None:
     result = run("list")
-    assert "No packages of yours were found" in result.stdout
-    assert f"\n  {tmp_path}\n" in result.stdout
+    assert result.stdout.startswith("No packages of yours were found. Searched: no folder\n")
     assert "visualization_msgs" in result.stdout
     result = run("add", "ws/src")
     assert (result.exit_code, result.stderr) == (0, "")

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """XML and YAML launch files: elements, attributes, and errors that name them."""
 
-import sys
 from pathlib import Path
 
 import pytest
 
+from coframe.python_children import python_command
 from launch import LaunchContext
 from launch.actions import IncludeLaunchDescription, OpaqueFunction
 from launch.frontend import Entity, expose_action
@@ -110,7 +110,7 @@ def test_all_elements(parse, tmp_path, capfd, monkeypatch, text):
     assert node.node_name == "/rover/inner/n"
     command = node.cmd
     module = command.index("demo_nodes_py.talker:main")
-    assert command[:module] == [sys.executable, "-m", "coframe.packages.entry_point"]
+    assert command[:module] == python_command("coframe.entry_point")
     assert command[module + 1 : module + 5] == ["--x", "a b", "6", "--ros-args"]
     assert "common:=1.5" in command
     assert "use_sim_time:=False" in command

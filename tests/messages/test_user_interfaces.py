@@ -86,9 +86,9 @@ def define(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Callable[..., Any
     return written
 
 
-def test_all_kinds_of_definitions_are_imported(tmp_path: Path) -> None:
+def test_all_kinds_of_definitions_are_imported(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     write(tmp_path / "ws/src/group/any_folder", FILES)
-    os.chdir(tmp_path / "ws")
+    monkeypatch.syspath_prepend(tmp_path / "ws")
     from demo_msgs.action import Num as CountTo
     from demo_msgs.msg import Nothing, Num, Part
     from demo_msgs.msg._num import Num as ByFile
@@ -392,12 +392,20 @@ def test_the_sources_are_searched_in_order(tmp_path: Path, monkeypatch: pytest.M
         registry.classes.pop("demo_msgs/msg/Num", None)
         return int(find("demo_msgs/msg/Num")().n)
 
+    monkeypatch.delenv("COFRAME_PACKAGE_PATH", raising=False)
     with pytest.raises(LookupError, match="no package demo_msgs"):
         number()
     monkeypatch.setenv("AMENT_PREFIX_PATH", str(tmp_path / "prefix"))
     assert number() == 4
     (tmp_path / "ws/src/robot/robot").mkdir(parents=True)
     monkeypatch.chdir(tmp_path / "ws/src/robot/robot")
+    monkeypatch.delenv("AMENT_PREFIX_PATH")
+    with pytest.raises(LookupError, match="no package demo_msgs"):  # A program does not import from this folder.
+        number()
+    monkeypatch.setenv("COFRAME_PACKAGE_PATH", str(tmp_path / "ws/src"))
+    assert number() == 3
+    monkeypatch.delenv("COFRAME_PACKAGE_PATH")
+    monkeypatch.syspath_prepend(tmp_path / "ws/src/robot/robot")
     assert number() == 3
     set_added_paths([tmp_path / "added"])
     assert number() == 2
@@ -428,14 +436,21 @@ def test_a_script_next_to_the_definitions_needs_no_other_import(tmp_path: Path) 
         import importlib.util, sys
         print(Part(), Add.Request().part.c)
         print(importlib.util.find_spec("moon_msgs"), importlib.util.find_spec("moon"))
-        try:
-            import moon
-        except ModuleNotFoundError as error:
-            print(error)
-        import moon_msgs
+        for name in ("moon", "moon_msgs", "demo_msgs.helpers"):
+            try:
+                __import__(name)
+            except ModuleNotFoundError as error:
+                print(error)
+        import moon_msgs.msg
         """,
     )
-    assert done.stdout.splitlines() == ["demo_msgs.msg.Part(c=7) 7", "None None", "No module named 'moon'"]
+    assert done.stdout.splitlines() == [
+        "demo_msgs.msg.Part(c=7) 7",
+        "None None",
+        "No module named 'moon'",
+        "No module named 'moon_msgs'",
+        "No module named 'demo_msgs.helpers'",
+    ]
     assert "ModuleNotFoundError: No module named 'moon_msgs'. coframe does not contain this package" in done.stderr
     assert f"found no definitions of it in {tmp_path}" in done.stderr
     assert "coframe interfaces add FOLDER" in done.stderr
@@ -474,18 +489,3 @@ def test_a_module_with_code_wins(tmp_path: Path, monkeypatch: pytest.MonkeyPatch
     write(tmp_path / "other_msgs", {"msg/Num.msg": "uint8 n\n"})
     monkeypatch.syspath_prepend(str(tmp_path / "code"))
     assert importlib.import_module("other_msgs.msg").whose == "theirs"
-
-
-def test_the_finders_find_nothing_where_coframe_cannot_be_imported():
-    """As in isolated builds of pip: Python runs the .pth files of the environment, but cannot import its packages."""
-    code = """
-import sys
-from importlib.util import find_spec
-base = sys.base_prefix, sys.base_exec_prefix
-sys.path[:] = [folder for folder in sys.path if folder.startswith(base) and "site-packages" not in folder]
-sys.meta_path[:] = [finder for finder in sys.meta_path if "ScikitBuild" not in type(finder).__name__]
-assert any(type(finder).__name__ == "CoframeInterfaces" for finder in sys.meta_path)
-print(find_spec("coframe"), find_spec("no_such_package"))
-"""
-    ended = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
-    assert ended.stdout == "None None\n", ended.stderr

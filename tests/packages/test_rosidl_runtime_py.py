@@ -187,7 +187,7 @@ def test_lists_of_interfaces(tmp_path, monkeypatch):
         path.parent.mkdir(parents=True)
         path.write_text("bool a" if path.suffix == ".msg" else "---\n")
     monkeypatch.setenv("AMENT_PREFIX_PATH", str(tmp_path))
-    monkeypatch.chdir(tmp_path)  # The definitions in this repository are not those of a user.
+    monkeypatch.syspath_prepend(tmp_path)  # The definitions in this repository are not those of a user.
     packages.forget()
     assert get_interfaces(["hand_msgs"]) == {"hand_msgs": ["msg/Grip", "srv/Close"]}
     assert "hand_msgs" in rosidl_runtime_py.get_interface_packages()

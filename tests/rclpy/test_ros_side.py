@@ -35,10 +35,17 @@ def test_documentation_quotes_the_error(tmp_path):
     assert f"ImportError: {caught.value}".replace(str(tmp_path), "/opt/ros/humble/lib/python3.10/site-packages") in page
 
 
-def test_packages_after_coframes_are_ignored(tmp_path):
+def test_a_complete_ros_after_coframe_takes_precedence_and_single_packages_do_not(tmp_path):
+    path = [str(ros_folders.ros_folder()), str(tmp_path)]
+    for name in ("tf2_ros", "geometry_msgs"):  # as Debian's of ROS 1
+        (tmp_path / name).mkdir()
+        (tmp_path / name / "__init__.py").touch()
+    ros_side.check("rclpy", path)
     (tmp_path / "rclpy").mkdir()
     (tmp_path / "rclpy" / "__init__.py").touch()
-    ros_side.check("rclpy", [str(ros_folders.ros_folder()), str(tmp_path)])
+    ros_folders.foreign_packages.cache_clear()
+    with pytest.raises(ImportError, match=r"tf2_nav_msgs: geometry_msgs, rclpy, tf2_ros would be imported"):
+        ros_side.check("tf2_nav_msgs", path)
 
 
 def test_directories_without_code_are_ignored(tmp_path):

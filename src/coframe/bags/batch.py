@@ -7,20 +7,18 @@ pickled, so that it runs in processes of this machine, on Dask, on Ray or on any
 
 from __future__ import annotations
 
-import concurrent.futures
 import hashlib
 import importlib
 import json
-import multiprocessing
 import os
-import signal
-from contextlib import contextmanager, suppress
+from contextlib import suppress
 from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from coframe.bags.batch_processes import run_jobs
 from coframe.bags.recording import open_bag
 from coframe.errors import RecordingError
 from coframe.trajectories.formats import POSE_COLUMNS
@@ -188,61 +186,10 @@ _Job = tuple[str, "TrajectoryQuery", str]
 
 
 def _in_processes(jobs: list[_Job], workers: int | None) -> Iterator[QueryResult]:
-    """Run jobs in a pool; jobs that were running when a process died are run again, one per process.
-
-    No more jobs than processes are submitted at a time, because a process that dies breaks all submitted jobs.
-    """
     workers = min(workers or os.cpu_count() or 1, max(len(jobs), 1))
-    waiting = list(reversed(jobs))
-    while waiting:
-        interrupted = yield from _in_pool(waiting, workers)
-        # One of these jobs killed its process. A process of its own for each job shows which one.
-        for job in interrupted:
-            if (yield from _in_pool([job], 1)):
-                yield QueryResult(job[0], error="The process died, perhaps because it ran out of memory.")
-
-
-def _in_pool(waiting: list[_Job], workers: int) -> Any:
-    """Run jobs from the end of the list; return those that were running when a process died."""
-    context = multiprocessing.get_context("spawn")
-    with concurrent.futures.ProcessPoolExecutor(workers, context, initializer=_end_at_interrupt) as pool:
-        running: dict[concurrent.futures.Future[QueryResult], _Job] = {}
-        try:
-            while waiting or running:
-                while waiting and len(running) < workers:
-                    with _interrupts_blocked():
-                        running[pool.submit(query_recording, *waiting[-1])] = waiting[-1]
-                    waiting.pop()
-                done, _ = concurrent.futures.wait(running, return_when=concurrent.futures.FIRST_COMPLETED)
-                for future in done:
-                    result = future.result()
-                    del running[future]
-                    yield result
-        except concurrent.futures.process.BrokenProcessPool:
-            return list(running.values())
-        finally:
-            pool.shutdown(wait=False, cancel_futures=True)
-    return []
-
-
-@contextmanager
-def _interrupts_blocked() -> Iterator[None]:
-    """Block SIGINT while processes start; they inherit this, so that Ctrl-C prints no traceback while they import."""
-    if not hasattr(signal, "pthread_sigmask"):  # Windows
-        yield
-        return
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
-    try:
-        yield
-    finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, before)
-
-
-def _end_at_interrupt() -> None:
-    """End this process at Ctrl-C without a traceback; the parent process reports the interruption."""
-    signal.signal(signal.SIGINT, signal.SIG_DFL)
-    if hasattr(signal, "pthread_sigmask"):
-        signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})
+    for job, result in run_jobs(jobs, workers):
+        died = QueryResult(job[0], error="The process died, perhaps because it ran out of memory.")
+        yield died if result is None else result
 
 
 def _on_dask(jobs: list[_Job], workers: int | None) -> Iterator[QueryResult]:

@@ -14,6 +14,7 @@ from coframe.errors import InterfaceError
 from coframe.formatting import count, listed
 from coframe.interfaces.sources import ENVIRONMENT, Source, package_folders, sources
 from coframe.interfaces.user_folders import added_paths, set_added_paths, settings_file, stub_folder
+from coframe.interfaces.workspace import add_start
 from coframe.messages.packages import find_package, forget, load_package, shipped_names
 from coframe.messages.registry import find
 from coframe.messages.stub_files import write_stubs
@@ -26,6 +27,10 @@ __all__ = ["interfaces"]
 
 FolderArgument = Annotated[
     Path, typer.Argument(metavar="FOLDER", help="Folder of a package, or a folder with packages, such as a src folder.")
+]
+ProgramFolder = Annotated[
+    Path | None,
+    typer.Argument(metavar="[FOLDER]", help="Folder of a program: also show what the program finds there."),
 ]
 interfaces = typer.Typer(
     cls=PlainGroup,
@@ -44,27 +49,29 @@ def _interfaces() -> None:
 
 
 @interfaces.command("list", cls=PlainCommand, short_help="Show your packages and where they were found; check them.")
-def list_packages() -> None:
+def list_packages(folder: ProgramFolder = None) -> None:
     """Show your interface packages, where they were found, and what is wrong with their definitions.
 
-    The exit code is 1 if a definition is invalid.
+    Programs also find packages next to them and in their workspace: give the FOLDER of the program. The exit code is 1
+    if a definition is invalid.
 
-    Example: coframe interfaces list
+    Example: coframe interfaces list .
     """
+    _search_from(folder)
     errors: list[InterfaceError] = []
     found: dict[str, Path] = {}
     for source in sources():
-        for name, folder in _packages_in(source).items():
+        for name, path in _packages_in(source).items():
             if name in found:
                 continue
-            found[name] = folder
-            typer.echo(printable(f"{name}: {_content(load_package(name, folder))}, in {folder} ({source.origin})"))
-            errors += _invalid(load_package(name, folder))
+            found[name] = path
+            typer.echo(printable(f"{name}: {_content(load_package(name, path))}, in {path} ({source.origin})"))
+            errors += _invalid(load_package(name, path))
     if not found:
-        typer.echo("No packages of yours were found. These folders were searched:")
-        for folder in dict.fromkeys(source.folder for source in sources()):
-            typer.echo(printable(f"  {folder}"))
-        typer.echo(f"Add others with `coframe interfaces add FOLDER`, or set {ENVIRONMENT}.")
+        searched = list(dict.fromkeys(printable(f"\n  {source.folder}") for source in sources()))
+        typer.echo("No packages of yours were found. Searched:" + ("".join(searched) or " no folder"))
+        typer.echo(f"Show those of a program with `coframe interfaces list FOLDER`, or set {ENVIRONMENT}.")
+        typer.echo("Add a folder for all programs and commands with `coframe interfaces add FOLDER`.")
     typer.echo(f"coframe contains {', '.join(name for name in shipped_names() if name not in found)}.")
     _report(errors)
 
@@ -138,6 +145,8 @@ def remove(path: FolderArgument) -> None:
 
 @interfaces.command(cls=PlainCommand, short_help="Write stubs, so that editors know your messages.")
 def stubs(
+    folder: ProgramFolder = None,
+    *,
     output: Annotated[
         Path | None,
         typer.Option(metavar="FOLDER", help="Folder to write; default: a folder of the user's cache."),
@@ -148,15 +157,27 @@ def stubs(
     Pylance and pyright search a folder named typings in the project without any setting. Run the command again after
     you have changed a definition.
 
-    Example: coframe interfaces stubs --output typings
+    Example: coframe interfaces stubs . --output typings
     """
+    _search_from(folder)
     found: dict[str, Path] = {}
     for source in sources():
-        for name, folder in _packages_in(source).items():
-            found.setdefault(name, folder)
+        for name, path in _packages_in(source).items():
+            found.setdefault(name, path)
     if not found:
-        fail("no packages of yours were found", "See where they are searched with `coframe interfaces list`.")
+        fail(
+            "no packages of yours were found",
+            "Give the folder of the program that uses them: coframe interfaces stubs FOLDER.",
+        )
     _report(_write_stubs([load_package(name, found[name]) for name in sorted(found)], output or stub_folder()))
+
+
+def _search_from(folder: Path | None) -> None:
+    if folder is None:
+        return
+    if not folder.expanduser().is_dir():
+        fail(f"no folder {folder}")
+    add_start(folder.expanduser())
 
 
 def _packages_in(source: Source) -> dict[str, Path]:

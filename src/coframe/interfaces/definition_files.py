@@ -6,13 +6,18 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING, NamedTuple
 
+from coframe.existence import exists
+from coframe.interfaces.ownership import is_own
+from coframe.interfaces.problems import report
+from coframe.regular_files import read_regular
+
 if TYPE_CHECKING:
     from pathlib import Path
 
-__all__ = ["KINDS", "Definition", "definitions_in", "has_definitions", "package_name", "read"]
+__all__ = ["KINDS", "Definition", "definitions_in", "has_definitions", "is_own_package", "package_name", "read"]
 
 KINDS = ("msg", "srv", "action")
-_LARGEST = 1 << 18  # bytes of one file; the largest of public packages have 20 000
+MAX_BYTES = 1 << 18  # of one file; the largest of public packages have 20 000
 _PACKAGE_NAME = re.compile(r"[a-z](?:_?[a-z0-9])*")
 _NAME_ELEMENT = re.compile(r"<name>\s*([\w-]+)\s*</name>")
 
@@ -53,9 +58,7 @@ def read(path: Path) -> Definition:
     from coframe.errors import InterfaceError  # noqa: PLC0415 - it imports the native core
 
     try:
-        if path.stat().st_size > _LARGEST:
-            raise InterfaceError(f"the file is larger than {_LARGEST} bytes", file=str(path))
-        return Definition(path.read_text("utf-8-sig"), str(path))
+        return Definition(read_regular(path, MAX_BYTES).decode("utf-8-sig").replace("\r\n", "\n"), str(path))
     except OSError as error:
         raise InterfaceError(f"cannot be read: {error.strerror}", file=str(path)) from None
     except UnicodeDecodeError as error:
@@ -64,14 +67,22 @@ def read(path: Path) -> Definition:
 
 def package_name(folder: Path) -> str | None:
     """Return the name of the package in a folder: that of its ``package.xml``, or of the folder; None if invalid."""
-    name = folder.name
-    try:
-        with (folder / "package.xml").open(encoding="utf-8", errors="replace") as file:
-            match = _NAME_ELEMENT.search(file.read(_LARGEST))
+    name, manifest = folder.name, folder / "package.xml"
+    if exists(manifest):
+        try:
+            match = _NAME_ELEMENT.search(read_regular(manifest, MAX_BYTES).decode("utf-8", "replace"))
+        except OSError as error:
+            report(f"{manifest} is skipped in the search for interface packages: {error.strerror}")
+            return None
         name = match[1] if match else name
-    except OSError:
-        pass
     return name if _PACKAGE_NAME.fullmatch(name) else None
+
+
+def is_own_package(folder: Path) -> bool:
+    """Return whether a package and all its definitions belong to the user; report what does not."""
+    kinds = [folder / kind for kind in KINDS if exists(folder / kind)]
+    manifest = [path for path in [folder / "package.xml"] if exists(path)]
+    return all(map(is_own, [folder, *manifest, *kinds, *definitions_in(folder).values()]))
 
 
 def _files(folder: Path, kind: str) -> list[Path]:

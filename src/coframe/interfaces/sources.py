@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Where users' interface packages are found.
 
-In this order: the paths in ``COFRAME_INTERFACES``, the paths added with ``coframe interfaces add``, the workspace of
-the running script and of the current directory, and the prefixes of a sourced ROS workspace (``AMENT_PREFIX_PATH``).
+In this order: the paths in ``COFRAME_INTERFACES``, the paths added with ``coframe interfaces add``, the folder of the
+program and its workspace, the source folders of ``coframe run`` and ``coframe launch`` (``COFRAME_PACKAGE_PATH``), and
+the prefixes of a sourced ROS workspace (``AMENT_PREFIX_PATH``). With -I, -P or PYTHONSAFEPATH, nowhere.
 """
 
 from __future__ import annotations
@@ -12,9 +13,9 @@ import os
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
-from coframe.interfaces.definition_files import has_definitions, package_name
+from coframe.interfaces.definition_files import has_definitions, is_own_package, package_name
 from coframe.interfaces.user_folders import added_paths
-from coframe.interfaces.workspace import start_folders, workspace_root
+from coframe.interfaces.workspace import is_search_off, start_folders, workspace_root
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
@@ -23,8 +24,9 @@ __all__ = ["ENVIRONMENT", "Source", "find_folder", "forget", "package_folders", 
 
 ENVIRONMENT = "COFRAME_INTERFACES"
 _PREFIXES = "AMENT_PREFIX_PATH"
-_MOST_FOLDERS = 5_000  # per source; a search must end, also where a link or a mistyped path leads to a whole disk
-_DEEPEST = 8
+_PACKAGE_PATH = "COFRAME_PACKAGE_PATH"
+_MAX_FOLDERS = 5_000  # per source; a search must end, also where a link or a mistyped path leads to a whole disk
+_MAX_DEPTH = 8
 _SKIPPED = {"build", "install", "log", "node_modules", "__pycache__", "venv", "site-packages", "msg", "srv", "action"}
 _IGNORE_MARKERS = {"COLCON_IGNORE", "AMENT_IGNORE", "CATKIN_IGNORE"}
 
@@ -38,28 +40,33 @@ class Source(NamedTuple):
         origin: Why it is searched, in words for the user.
         folder: The folder.
         depth: How many levels below the folder packages can be.
+        named: Whether the user has named it: then it may belong to another user.
     """
 
     origin: str
     folder: Path
     depth: int
+    named: bool = True
 
 
 def sources() -> list[Source]:
     """Return all folders in which packages are searched, in order."""
-    variables = tuple(os.environ.get(name, "") for name in (ENVIRONMENT, _PREFIXES))
+    if is_search_off():
+        return []
+    variables = tuple(os.environ.get(name, "") for name in (ENVIRONMENT, _PACKAGE_PATH, _PREFIXES))
     return _sources(tuple(start_folders()), *variables)
 
 
 @functools.lru_cache(maxsize=16)
-def _sources(starts: tuple[Path, ...], given: str, prefixes: str) -> list[Source]:
-    found = [Source(ENVIRONMENT, path, _DEEPEST) for path in _paths(given)]
-    found += [Source("coframe interfaces add", path, _DEEPEST) for path in added_paths()]
+def _sources(starts: tuple[Path, ...], given: str, package_path: str, prefixes: str) -> list[Source]:
+    found = [Source(ENVIRONMENT, path, _MAX_DEPTH) for path in _paths(given)]
+    found += [Source("coframe interfaces add", path, _MAX_DEPTH) for path in added_paths()]
     for start in starts:
-        found.append(Source("folder of the script", start, 1))
+        found.append(Source("folder of the program", start, 1, named=False))
         root = workspace_root(start)
         if root is not None:
-            found.append(Source("workspace", root, _DEEPEST))
+            found.append(Source("workspace", root, _MAX_DEPTH, named=False))
+    found += [Source(_PACKAGE_PATH, path, _MAX_DEPTH, named=False) for path in _paths(package_path)]
     found += [Source(_PREFIXES, path / "share", 1) for path in _paths(prefixes)]
     first: dict[tuple[Path, int], Source] = {}
     for source in found:
@@ -101,7 +108,8 @@ def _index(source: Source) -> dict[str, Path]:
     if key not in _indexes:
         index: dict[str, Path] = {}
         for folder in _package_candidates(source.folder, source.depth):
-            name = package_name(folder) if has_definitions(folder) else None
+            usable = has_definitions(folder) and (source.named or is_own_package(folder))
+            name = package_name(folder) if usable else None
             if name is not None:
                 index.setdefault(name, folder)
         _indexes[key] = index
@@ -110,7 +118,7 @@ def _index(source: Source) -> dict[str, Path]:
 
 def _package_candidates(root: Path, depth: int) -> Iterator[Path]:
     """Yield folders that may be packages, level by level; the folders inside a package are not searched."""
-    level, left = [root], _MOST_FOLDERS
+    level, left = [root], _MAX_FOLDERS
     for _ in range(depth + 1):
         below: list[Path] = []
         for folder in level:

@@ -7,6 +7,13 @@ import os
 import sys
 from pathlib import Path
 
+from coframe.complete_files import write_complete
+from coframe.existence import exists
+from coframe.interfaces.problems import report
+from coframe.regular_files import read_regular
+
+MAX_BYTES = 1 << 20  # of the settings file
+
 __all__ = ["added_paths", "set_added_paths", "settings_file", "stub_folder"]
 
 
@@ -21,19 +28,26 @@ def stub_folder() -> Path:
 
 
 def added_paths() -> list[Path]:
-    """Return the paths that the user has added."""
-    try:
-        lines = settings_file().read_text("utf-8").splitlines()
-    except (OSError, UnicodeDecodeError):
+    """Return the paths that the user has added; report lines that cannot be paths, as a power loss leaves them."""
+    file = settings_file()
+    if not exists(file):
         return []
-    return [Path(line) for line in lines if line.strip()]
+    try:
+        lines = os.fsdecode(read_regular(file, MAX_BYTES)).splitlines()
+    except OSError as error:
+        report(f"{file} is skipped: {error.strerror}")
+        return []
+    damaged = [line for line in lines if "\0" in line]
+    if damaged:
+        report(f"{file} is damaged: {len(damaged)} of its lines are skipped. Run: coframe interfaces add FOLDER")
+    return [Path(line) for line in lines if line.strip() and line not in damaged]
 
 
 def set_added_paths(paths: list[Path]) -> None:
     """Write the paths that the user has added."""
     file = settings_file()
     file.parent.mkdir(parents=True, exist_ok=True)
-    file.write_text("".join(f"{path}\n" for path in paths), encoding="utf-8")
+    write_complete(file, "".join(f"{path}\n" for path in paths).encode("utf-8", "surrogateescape"))
 
 
 def _folder(xdg: str, windows: str, linux: str, macos: str) -> Path:

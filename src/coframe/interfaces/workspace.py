@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The workspace around a script: the folder that contains the packages it belongs to."""
+"""The workspace around a program: the folder that contains the packages it belongs to."""
 
 from __future__ import annotations
 
@@ -8,24 +8,63 @@ import os
 import sys
 from itertools import islice
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from coframe.existence import exists, is_file
 
-__all__ = ["start_folders", "workspace_root"]
+if TYPE_CHECKING:
+    from collections.abc import Iterator
 
-_MOST_LEVELS = 12
-_MOST_ENTRIES = 200
+__all__ = ["add_start", "is_search_off", "start_folders", "workspace_root"]
+
+_MAX_LEVELS = 12
+_MAX_ENTRIES = 200
+# Folders of an environment with programs and libraries, below its prefix and below `local` on Debian.
+_INSTALLED = ("bin", "Scripts", "lib", "lib64", "libexec", "Lib")
+
+
+_added: list[Path] = []
+
+
+def add_start(folder: Path) -> None:
+    """Let the search begin in another folder as well, as for a program in it."""
+    _added.append(folder.absolute())
+
+
+def is_search_off() -> bool:
+    """Return whether -I, -P or PYTHONSAFEPATH keep Python from importing from the folder of the program."""
+    if sys.flags.isolated or getattr(sys.flags, "safe_path", False):
+        return True
+    # Python 3.10 does not know the variable.
+    return sys.version_info < (3, 11) and not sys.flags.ignore_environment and bool(os.environ.get("PYTHONSAFEPATH"))
 
 
 def start_folders() -> list[Path]:
-    """Return the folder of the running script and the current directory."""
-    folders: list[Path] = []
+    """Return the folders from which Python imports the program: that of the script, or the current one of a session.
+
+    An installed command, such as pytest, does not import from the current folder, so it has none.
+    """
+    return list(dict.fromkeys([*_added, *(folder for folder in _program_folders() if not _is_installed(folder))]))
+
+
+def _program_folders() -> Iterator[Path]:
     script = getattr(sys.modules.get("__main__"), "__file__", None)
-    if script and not Path(script).absolute().is_relative_to(sys.prefix):  # A command such as pytest is not the script.
-        folders.append(Path(script).absolute().parent)
-    with contextlib.suppress(OSError):  # The current directory may have been deleted.
-        folders.append(Path.cwd())
-    return list(dict.fromkeys(folders))
+    if script:
+        yield Path(script).absolute().parent
+    with contextlib.suppress(OSError):  # The current folder may have been deleted.
+        if sys.path and sys.path[0]:
+            yield Path(sys.path[0]).absolute()
+        if "" in sys.path:
+            yield Path.cwd()
+
+
+def _is_installed(folder: Path) -> bool:
+    for prefix in (sys.prefix, sys.base_prefix, os.path.expanduser("~/.local")):  # noqa: PTH111 - as in workspace_root
+        if folder.is_relative_to(prefix):
+            first = [part for part in folder.relative_to(prefix).parts if part != "local"][:1]
+            if first and first[0] in _INSTALLED:
+                return True
+    return False
 
 
 def workspace_root(start: Path) -> Path | None:
@@ -37,7 +76,7 @@ def workspace_root(start: Path) -> Path | None:
     src: Path | None = None
     project: Path | None = None
     home = Path(os.path.expanduser("~"))  # noqa: PTH111 - Path.home() fails where there is no home directory
-    for folder in [start, *start.parents][:_MOST_LEVELS]:
+    for folder in [start, *start.parents][:_MAX_LEVELS]:
         if folder in {home, Path(folder.anchor)}:
             break
         if folder.name == "src" and _has_packages(folder):
@@ -61,6 +100,6 @@ def _has_packages(folder: Path) -> bool:
 
 def _first_folders(folder: Path) -> list[Path]:
     try:
-        return [path for path in islice(folder.iterdir(), _MOST_ENTRIES) if path.is_dir()]
+        return [path for path in islice(folder.iterdir(), _MAX_ENTRIES) if path.is_dir()]
     except OSError:
         return []

@@ -3,13 +3,12 @@
 
 from __future__ import annotations
 
-import os
 import subprocess
-import sys
 import time
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
+from coframe.python_children import python_command, python_environment
 from coframe.temporary_folders import temporary_folder
 
 if TYPE_CHECKING:
@@ -76,7 +75,9 @@ class Launcher:
 
     def __init__(self, commands: tuple[NodeCommand, ...] = COMPLETE_LAB, *, domain: int | None = None) -> None:
         self._commands = commands
-        self._environment = {**os.environ} if domain is None else {**os.environ, "ROS_DOMAIN_ID": str(domain)}
+        self._environment = python_environment()
+        if domain is not None:
+            self._environment["ROS_DOMAIN_ID"] = str(domain)
         self._processes: dict[str, subprocess.Popen[bytes]] = {}
         self._folder = temporary_folder("coframe-lab-")
 
@@ -133,7 +134,7 @@ class Launcher:
         arguments = ("--ros-args", *command.arguments) if command.arguments else ()
         with self._log(command.name).open("wb") as log:
             return subprocess.Popen(  # noqa: S603 - runs only modules of coframe
-                [sys.executable, "-m", "coframe.lab.run_node", module, *arguments],
+                python_command("coframe.lab.run_node", module, *arguments),
                 stdin=subprocess.PIPE,
                 stdout=log,
                 stderr=log,

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Run a node that stops when its launcher stops: ``python -m coframe.lab.run_node MODULE ...``.
+"""Run the node in the module that the first argument names; it stops when its launcher stops.
 
 The launcher holds the other end of the standard input. It is closed when the launcher exits, even if it is killed.
 """

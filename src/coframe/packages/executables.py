@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import os
 import re
-import sys
 from typing import TYPE_CHECKING, NamedTuple
 
 from coframe.errors import PackageError
@@ -13,6 +12,7 @@ from coframe.formatting import did_you_mean
 from coframe.packages import builtin, console_scripts
 from coframe.packages.finding import Package, candidates, find_package
 from coframe.packages.folders import crawl
+from coframe.python_children import python_command, python_environment
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -22,7 +22,7 @@ __all__ = ["Executable", "executables", "find_executable"]
 
 # install(PROGRAMS scripts/a.py DESTINATION lib/${PROJECT_NAME}) in a CMakeLists.txt
 _INSTALLED_PROGRAMS = re.compile(r"install\s*\(\s*PROGRAMS\s+(.*?)\s+DESTINATION\s+\"?lib/", re.DOTALL | re.IGNORECASE)
-_ENTRY_POINT = (sys.executable, "-m", "coframe.packages.entry_point")
+_ENTRY_POINT = tuple(python_command("coframe.entry_point"))
 _MOST_NAMES = 30  # in an error message
 _MAX_DEPTH = 4
 
@@ -44,7 +44,7 @@ class Executable(NamedTuple):
 
     def environment(self, base: Mapping[str, str] | None = None) -> dict[str, str]:
         """Return the environment to start it with; `base` is the environment of this process if None."""
-        environment = dict(os.environ if base is None else base)
+        environment = python_environment(base)
         if self.python_path:
             present = environment.get("PYTHONPATH", "")
             environment["PYTHONPATH"] = os.pathsep.join([*self.python_path, *([present] if present else [])])
@@ -140,7 +140,7 @@ def _programs_of_cmake(package: Path) -> list[str]:
 def _command_of(file: Path) -> tuple[str, ...]:
     """Return the command of a script; a Python file needs neither the executable bit nor a first line with #!."""
     if file.suffix == ".py" or _has_python_shebang(file):
-        return (sys.executable, str(file))
+        return (*_ENTRY_POINT, str(file))
     return (str(file),)
 
 

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Python processes that run modules of coframe: how they are started.
 
-``python -m MODULE`` puts the current folder first on `sys.path`: a file ``json.py`` or ``types.py`` in it would be imported
-instead of the standard library's. The processes here import only from where this process is installed.
+``python -m MODULE`` puts the current folder first on `sys.path`: a file ``json.py`` or ``types.py`` in it would be
+imported instead of the standard library's. The processes here do not import from the current folder.
 """
 
 from __future__ import annotations
@@ -38,8 +38,8 @@ def python_command(module: str, *arguments: str) -> list[str]:
 def python_environment(base: Mapping[str, str] | None = None) -> dict[str, str]:
     """Return the environment for such a process.
 
-    An empty element of PYTHONPATH, as in ``PYTHONPATH=/opt/packages:``, means the current folder, and is removed. Relative
-    elements become absolute, so that they name the same folders in every process.
+    An empty element of PYTHONPATH, as in ``PYTHONPATH=/opt/packages:``, means the current folder, and is removed.
+    Relative elements become absolute, so that they name the same folders in every process.
 
     Args:
         base: The variables to start from. None: those of this process.

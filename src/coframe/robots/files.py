@@ -98,7 +98,7 @@ def expand_xacro(
 
 def _expanded(request: dict[str, Any]) -> dict[str, Any]:
     """Return the answer of a process that expands a file: Python expressions in it can take any time and memory."""
-    command = [sys.executable, str(_PROCESS)]
+    command = [sys.executable, "-I", str(_PROCESS)]
     try:
         done = subprocess.run(  # noqa: S603 - the command contains nothing from the file
             command, input=json.dumps(request).encode(), capture_output=True, timeout=MAX_SECONDS, check=False

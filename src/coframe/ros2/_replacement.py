@@ -6,11 +6,10 @@ from __future__ import annotations
 import os
 import sys
 from importlib.machinery import PathFinder
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from coframe import ros_side
-from coframe.ros_folders import foreign_packages, ros_folder
+from coframe.ros_folders import foreign_packages, is_coframes, ros_folder
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -27,7 +26,7 @@ def install() -> None:
     if ros_side.tf2_is_replaced() or not foreign_packages(tuple(sys.path)):
         return
     for name in ros_side.TF2_PACKAGES:
-        if (module := sys.modules.get(name)) is not None and not _is_coframes(module):
+        if (module := sys.modules.get(name)) is not None and not is_coframes(module):
             raise ImportError(
                 f"coframe.ros2 replaces {name}, but {name} is already imported from {module.__file__}. "
                 "Import coframe.ros2 before tf2_ros and before packages that import it, such as tf2_geometry_msgs, "
@@ -37,10 +36,6 @@ def install() -> None:
     os.environ.setdefault("ROS_AUTOMATIC_DISCOVERY_RANGE", "SUBNET")
     ros_side.allow_tf2()
     sys.meta_path.insert(0, _Finder())
-
-
-def _is_coframes(module: ModuleType) -> bool:
-    return module.__file__ is not None and Path(module.__file__).resolve().is_relative_to(ros_folder())
 
 
 class _Finder:

@@ -39,7 +39,7 @@ _ABSENT = {
 _PLAY_OPTIONS = {"-l": "--loop", "-p": "--start-paused", "-d": "--delay"}
 _STORAGE_OPTIONS = {"-s", "--storage"}  # coframe detects the storage of a recording, and records MCAP
 _OWN_SCRIPT = b"coframe.cli.ros2.executable"  # in the executables that `coframe ros2 install` writes
-_SCRIPT_SIZE = 1000  # bytes of an executable to read: those of coframe are shorter
+_SCRIPT_SIZE = 10_000  # bytes of an executable to read: those of coframe contain two paths
 
 
 def ros2() -> None:

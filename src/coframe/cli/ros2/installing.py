@@ -11,7 +11,6 @@ import contextlib
 import importlib.metadata
 import os
 import site
-import sys
 import sysconfig
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -21,6 +20,7 @@ import typer
 from coframe.cli.help_format import PlainCommand, PlainGroup
 from coframe.cli.output import fail, printable
 from coframe.cli.ros2.executable import is_own_script, real_executable
+from coframe.python_children import python_command
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -86,10 +86,9 @@ def _folder() -> Path:
 
 def _script(name: str) -> str:
     """Return the text of an executable; the path of Python may contain spaces and may be long."""
-    code = f"from coframe.cli.ros2.executable import {name}; {name}()"
-    if os.name == "nt":
-        return f'@"{sys.executable}" -c "{code}" %*\n'
-    return f'#!/bin/sh\nexec "{sys.executable}" -c "{code}" "$@"\n'
+    words = python_command("coframe.entry_point", f"coframe.cli.ros2.executable:{name}")
+    command = " ".join(f'"{word}"' for word in words)
+    return f"@{command} %*\n" if os.name == "nt" else f'#!/bin/sh\nexec {command} "$@"\n'
 
 
 def _add_to_record(path: Path) -> None:

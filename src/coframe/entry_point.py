@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Run a console script that is not installed: ``python -m coframe.packages.entry_point MODULE:FUNCTION ...``.
+"""Run a console script that is not installed, ``MODULE:FUNCTION``, or a Python file; the first argument names it.
 
 A process that a launch has started ends with its launcher, even if that is killed.
 """
@@ -10,10 +10,14 @@ import ctypes
 import functools
 import importlib
 import os
+import runpy
 import signal
 import sys
 import threading
 import time
+from pathlib import Path
+
+from coframe import interface_imports
 
 __all__ = ["LAUNCHER", "main"]
 
@@ -24,11 +28,14 @@ _CHECK = 1.0  # seconds
 
 
 def main() -> object:
-    """Call the function in the first argument; the script sees its own file and arguments in ``sys.argv``."""
+    """Run what the first argument names; the program sees its own file and arguments in ``sys.argv``."""
     if os.environ.get(LAUNCHER) == str(os.getppid()):
         _end_with_launcher()
     del sys.argv[0]
-    del sys.path[0]  # The current folder, which an installed console script does not have on its path either.
+    interface_imports.install()  # A package can have both Python code and messages.
+    if Path(sys.argv[0]).is_absolute():
+        _run_file(sys.argv[0])
+        return None
     module_name, _, function = sys.argv[0].partition(":")
     # Ctrl-C during the imports ends the process at once: there is nothing to clean up, and no traceback to read.
     handler = signal.getsignal(signal.SIGINT)
@@ -39,6 +46,12 @@ def main() -> object:
     sys.argv[0] = module.__file__ or module_name
     call = functools.reduce(getattr, function.split("."), module)
     return call()  # type: ignore[operator]
+
+
+def _run_file(file: str) -> None:
+    """Run a Python file as ``python FILE`` does, with its folder first on `sys.path`."""
+    sys.path.insert(0, str(Path(file).parent))
+    runpy.run_path(file, run_name="__main__")
 
 
 def _end_with_launcher() -> None:

@@ -1,0 +1,27 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What was wrong with folders and files in a search for interface packages: one line for each, on the standard error.
+
+The search is part of imports, so nothing is raised, and no warning, which a program can turn into an error.
+"""
+
+from __future__ import annotations
+
+import sys
+from contextlib import suppress
+
+from coframe.escaping import one_line
+
+__all__ = ["report"]
+
+MAX_PROBLEMS = 20  # of a process; a folder can have any number of them
+
+_reported: set[str] = set()
+
+
+def report(problem: str) -> None:
+    """Print a problem, the first time only."""
+    if problem in _reported or len(_reported) >= MAX_PROBLEMS:
+        return
+    _reported.add(problem)
+    with suppress(OSError, ValueError, AttributeError):  # The standard error is closed, or there is none.
+        sys.stderr.write(f"coframe: {one_line(problem)}\n")
