@@ -73,6 +73,21 @@ class AtMost:
 
 
 @dataclass(frozen=True)
+class AddsAtMost:
+    """coframe's result must not exceed the other one by more than a limit."""
+
+    limit: float
+
+    def reached(self, result: "Result") -> bool | None:
+        if not result.theirs:
+            return None
+        return Spread.of(result.ours).median - Spread.of(result.theirs).median <= self.limit
+
+    def text(self, row: "Row") -> str:
+        return f"adds ≤ {row.unit(self.limit)}"
+
+
+@dataclass(frozen=True)
 class GrowsAtMost:
     """coframe's result must be at most this many times the other one."""
 
