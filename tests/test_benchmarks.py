@@ -8,6 +8,7 @@ import pytest
 from benchmarks import __main__ as bench
 from benchmarks import report
 from benchmarks.measuring import (
+    AddsAtMost,
     AtMost,
     Effort,
     GrowsAtMost,
@@ -237,7 +238,8 @@ TARGETS = [
     ("lookup at an old time, D=1, n=1e6", "the same, n=100", GrowsAtMost(2)),
     ("lookup at increasing times, D=1, n=1e6", "the same, n=100", GrowsAtMost(2)),
     ("memory per stored transform", "floor: NumPy arrays", AtMost(80)),
-    ("import coframe after numpy", "floor: import numpy", AtMost(60_000_000)),
+    ("start a program that does not use coframe", "without coframe", AddsAtMost(500_000)),
+    ("import coframe after numpy, use Buffer", "floor: import numpy", AtMost(60_000_000)),
     ("rclpy.init() and a node", "floor: a bare DDS participant", AtMost(60_000_000)),
     ("idle node with a TransformListener, spin(), CPU of one core", "floor: a bare DDS participant", AtMost(0.5)),
     ("idle node, spin_once(timeout_sec=0.5) in a loop, CPU of one core", "floor: a bare DDS participant", AtMost(0.5)),
