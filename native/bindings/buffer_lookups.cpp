@@ -11,6 +11,7 @@
 #include "bindings/failure.hpp"
 #include "bindings/fast_call.hpp"
 #include "bindings/transform.hpp"
+#include "core/unfinished_change.hpp"
 
 namespace coframe::bindings {
 
@@ -48,6 +49,7 @@ bool wait_for_shared(const Buffer& core, LookupQuery& query, std::int64_t timeou
 // Tries at once, then waits without the GIL for an insertion that makes the lookup succeed.
 bool lookup_by_name_waiting(BufferObject& self, LookupQuery& query, std::int64_t timeout_ns, LookupResult& result,
                             Failure& failure) {
+  const ChangeTimeout limit(timeout_ns);
   if (self.core->lookup_by_name(query, result, failure)) return true;
   if (timeout_ns <= 0) return false;
   if (self.core->following()) return wait_for_shared(*self.core, query, timeout_ns, result, failure);
@@ -134,6 +136,7 @@ PyObject* lookup_general(PyObject* object, PyObject* const* arguments, Py_ssize_
     BufferObject& self = buffer_of(object);
     // Invalid values are rejected even if the arguments are not needed.
     const std::int64_t timeout = to_duration(handle_or_none(values[3]));
+    const ChangeTimeout limit(timeout);
     std::optional<Extrapolation> extrapolation = extrapolation_of(handle_or_none(values[4]), is_true(values[5]));
     // A lookup that succeeds at once needs neither waiting nor extrapolation.
     PlainQuery query;
@@ -173,6 +176,7 @@ PyObject* can_transform_general(PyObject* object, PyObject* const* arguments, Py
   return guarded([&] {
     BufferObject& self = buffer_of(object);
     const std::int64_t timeout = to_duration(handle_or_none(values[3]));
+    const ChangeTimeout limit(timeout);
     PlainQuery plain;
     if (plain.read(self.frame(values[0]), self.frame(values[1]), values[2]) && check_cached_path(self, plain)) {
       return Py_NewRef(Py_True);

@@ -7,7 +7,7 @@
 #include <memory>
 
 #include "bindings/message_codec.hpp"
-#include "wire/event.hpp"
+#include "core/event.hpp"
 #include "wire/writer.hpp"
 
 namespace coframe::bindings {

@@ -6,6 +6,7 @@
 
 #include "bindings/bindings.hpp"
 #include "bindings/fast_call.hpp"
+#include "core/unfinished_change.hpp"
 
 namespace coframe::bindings {
 
@@ -18,9 +19,9 @@ struct Object {
 };
 
 PyTypeObject* failure_class = nullptr;  // both for as long as the process lives
-std::array<PyObject*, 6> exceptions{};  // in the order of Raised
+std::array<PyObject*, 7> exceptions{};  // in the order of Raised
 
-enum Raised { kTransform, kLookup, kConnectivity, kExtrapolation, kInvalidArgument, kDecode };
+enum Raised { kTransform, kLookup, kConnectivity, kExtrapolation, kInvalidArgument, kDecode, kTimeout };
 
 const char* code_name(ErrorCode code) {
   switch (code) {
@@ -156,7 +157,8 @@ nb::object make_failure(FailureObject&& failure) {
 
 void register_errors(const nb::module_& errors) {
   constexpr std::array kNames{"TransformException",     "LookupException",          "ConnectivityException",
-                              "ExtrapolationException", "InvalidArgumentException", "DecodeError"};
+                              "ExtrapolationException", "InvalidArgumentException", "DecodeError",
+                              "TimeoutException"};
   for (std::size_t i = 0; i < kNames.size(); ++i) exceptions[i] = nb::object(errors.attr(kNames[i])).release().ptr();
 }
 
@@ -185,7 +187,16 @@ void raise_decode_error(const DecodeFailure& failure) {
   throw nb::python_error();
 }
 
+void set_unfinished_change(const char* text) { PyErr_SetString(exceptions[kTimeout], text); }
+
 void define_failure(nb::module_& module) {
+  nb::register_exception_translator([](const std::exception_ptr& thrown, void*) {
+    try {
+      std::rethrow_exception(thrown);
+    } catch (const UnfinishedChange& error) {
+      set_unfinished_change(error.what());
+    }
+  });
   const nb::object type = nb::steal(PyType_FromSpec(&failure_spec));
   if (!type.is_valid()) throw nb::python_error();
   module.attr("Failure") = type;

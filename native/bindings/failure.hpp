@@ -29,5 +29,7 @@ std::string text_of(const FailureObject& failure);
 // than the lookup.
 nb::object raise_failure(FailureObject&& failure);
 [[noreturn]] void raise_decode_error(const DecodeFailure& failure);
+// Sets the exception for UnfinishedChange.
+void set_unfinished_change(const char* text);
 
 }  // namespace coframe::bindings

@@ -9,6 +9,9 @@
 #include <cstddef>
 #include <exception>
 
+#include "bindings/failure.hpp"
+#include "core/unfinished_change.hpp"
+
 namespace coframe::bindings {
 
 namespace nb = nanobind;
@@ -79,6 +82,8 @@ PyObject* guarded(Body&& body) {
     error.restore();
   } catch (const nb::builtin_exception& error) {
     PyErr_SetString(error.type() == nb::exception_type::type_error ? PyExc_TypeError : PyExc_ValueError, error.what());
+  } catch (const UnfinishedChange& error) {
+    set_unfinished_change(error.what());
   } catch (const std::exception& error) {
     PyErr_SetString(PyExc_RuntimeError, error.what());
   }

@@ -64,9 +64,9 @@ class IdentityCache {
 
   static Number read(const Entry& entry, PyObject* name) {
     if constexpr (kFreeThreaded) {
-      const std::uint64_t revision = entry.revision.start_reading();
+      const std::uint64_t revision = entry.revision.number();
       const Number number = read_unguarded(entry, name);
-      return entry.revision.unchanged(revision) ? number : 0;
+      return revision % 2 == 0 && entry.revision.unchanged(revision) ? number : 0;
     } else {
       return read_unguarded(entry, name);
     }

@@ -135,6 +135,7 @@ unsigned Buffer::insert_many(const Track& track, bool is_static, AuthorityId aut
     const Track block{track.parent, track.child, count, is_sorted ? track.stamps + first : stamps.data(),
                       is_sorted ? track.poses + 7 * first : poses.data()};
     std::vector<Inserted> inserted;
+    const ForkSafeScope scope;
     {
       const std::lock_guard lock(writing_);
       if (const unsigned refusal = refusal_.load()) return refuse(refusal, track.count - first);

@@ -37,6 +37,7 @@
 #include "core/batch.hpp"
 #include "core/cdr.hpp"
 #include "core/follower.hpp"
+#include "core/fork_guard.hpp"
 #include "core/light_mutex.hpp"
 #include "core/lookup.hpp"
 #include "core/query.hpp"
@@ -219,7 +220,7 @@ class Buffer {
       if (!tree_.read_only()) break;
       pause_reading(attempt);
     }
-    const std::lock_guard lock(writing_);
+    const ForkSafeLock lock(writing_);
     return read();
   }
 

@@ -3,6 +3,8 @@
 
 #include <thread>
 
+#include "core/fork_guard.hpp"
+
 #ifdef __unix__
 #include <unistd.h>
 #endif
@@ -49,10 +51,13 @@ void ChangeFollower::run() {
   for (;;) {
     try {
       tree_.access()->wait_for_change(changes_, kLongestWait);
-      if (!stopped_) notify();
+      if (!stopped_) {
+        const ForkSafeScope scope;
+        notify();
+      }
     } catch (...) {  // the writer is suspended: the next change is handled later
     }
-    const std::lock_guard lock(mutex_);
+    const ForkSafeLock lock(mutex_);
     if (!stopped_ && !queue_.empty()) continue;
     running_ = false;
     ended_.notify_all();

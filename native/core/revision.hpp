@@ -3,9 +3,7 @@
 // writer.
 #pragma once
 
-#include <chrono>
 #include <cstdint>
-#include <thread>
 
 #include "core/atomic.hpp"
 
@@ -13,12 +11,8 @@ namespace coframe {
 
 class Revision {
  public:
-  // Waits while a change is in progress. What is read from now on is consistent if unchanged() returns true afterwards.
-  std::uint64_t start_reading() const {
-    const std::uint64_t now = number_.load(std::memory_order_acquire);
-    return now % 2 == 0 ? now : wait_for_writer();
-  }
-  // Returns an odd number while a change is in progress.
+  // Returns an odd number while a change is in progress. What is read after an even one is consistent if unchanged()
+  // returns true afterwards.
   std::uint64_t number() const { return number_.load(std::memory_order_acquire); }
   bool unchanged(std::uint64_t since) const {
     std::atomic_thread_fence(std::memory_order_acquire);
@@ -47,23 +41,8 @@ class Revision {
   // Before there are readers: starts at an even number that no other revision is likely to have.
   void start_at(std::uint64_t number) { number_.store(number & ~std::uint64_t{1}, std::memory_order_relaxed); }
 
-  // A writer that was descheduled in the middle needs the processor to continue.
-  static void step_back(int turn) {
-    if (turn < 50) return;
-    if (turn < 500) return std::this_thread::yield();
-    std::this_thread::sleep_for(std::chrono::microseconds(50));
-  }
-
  private:
   void raise(std::memory_order order) { number_.store(number_.load(std::memory_order_relaxed) + 1, order); }
-
-  std::uint64_t wait_for_writer() const {
-    for (int turn = 0;; ++turn) {
-      const std::uint64_t now = number_.load(std::memory_order_acquire);
-      if (now % 2 == 0) return now;
-      step_back(turn);
-    }
-  }
 
   Atomic<std::uint64_t> number_{0};  // an odd number while a change is in progress
 };

@@ -7,7 +7,9 @@
 #include <cstdint>
 #include <cstdio>
 
+#include "core/back_off.hpp"
 #include "core/error.hpp"
+#include "core/unfinished_change.hpp"
 
 namespace coframe {
 
@@ -212,10 +214,11 @@ std::uint64_t Tree::wait_for_writer() const {
   for (int turn = 0;; ++turn) {
     const std::uint64_t now = data().revision.number();
     if (now % 2 == 0) return now;
-    Revision::step_back(turn);
-    if (access() && turn > kPatience && turn % 16 == 0) {
-      access()->complete_change((std::chrono::steady_clock::now() - start) / std::chrono::nanoseconds(1));
-    }
+    back_off(turn);
+    if (turn < kPatience || turn % 16 != 0 || (access() && access()->complete_change())) continue;
+    if ((std::chrono::steady_clock::now() - start) / std::chrono::nanoseconds(1) < ChangeTimeout::current()) continue;
+    throw UnfinishedChange(access() ? access()->unfinished_change()
+                                    : "a thread of this process is suspended in the middle of a change of the buffer");
   }
 }
 

@@ -70,6 +70,7 @@ class Tree {
   const Atomic<std::uint64_t>& changes() const { return data().changes; }
 
   // Waits while a change is in progress. What is read from now on is consistent if unchanged() returns true afterwards.
+  // Throws UnfinishedChange if the change does not end.
   std::uint64_t start_reading() const {
     const std::uint64_t now = data().revision.number();
     return now % 2 == 0 ? now : wait_for_writer();

@@ -79,9 +79,11 @@ void initialize(TreeData& data, Memory& memory, Stamp cache_length, std::uint64_
 class SharedAccess {
  public:
   virtual ~SharedAccess() = default;
-  // For a reader that has waited for the end of a change: completes it if its writer has died. Throws if the writer
-  // lives, but has been suspended for too long.
-  virtual void complete_change(std::int64_t waited_ns) = 0;
+  // For a reader that has waited for the end of a change: completes it if its writer has died. Returns false if the
+  // writer lives.
+  virtual bool complete_change() = 0;
+  // Says whose change does not end, and what to do.
+  virtual std::string unfinished_change() const = 0;
   // Waits until the number of changes is not `seen`, until a call of wake(), or until `timeout_ns` has passed.
   virtual void wait_for_change(std::uint64_t seen, std::int64_t timeout_ns) = 0;
   virtual void wake() = 0;

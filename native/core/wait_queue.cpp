@@ -2,9 +2,10 @@
 #include "core/wait_queue.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <limits>
 #include <utility>
+
+#include "core/fork_guard.hpp"
 
 namespace coframe {
 
@@ -32,7 +33,7 @@ void Mailbox::put(Token token) {
     tokens_.push_back(token);
     count_.store(tokens_.size());
   }
-  arrived_.notify_one();
+  arrived_.set();
 }
 
 std::vector<Token> Mailbox::take() {
@@ -42,8 +43,8 @@ std::vector<Token> Mailbox::take() {
 }
 
 bool Mailbox::wait_for(std::int64_t timeout_ns) {
-  std::unique_lock lock(mutex_);
-  return arrived_.wait_for(lock, std::chrono::nanoseconds(timeout_ns), [this] { return !tokens_.empty(); });
+  if (empty()) arrived_.wait(timeout_ns);
+  return !empty();
 }
 
 Wait::Wait(const LookupQuery& query, std::shared_ptr<Mailbox> mailbox, Token token)
@@ -59,17 +60,14 @@ Wait::Wait(const LookupQuery& query, std::shared_ptr<Mailbox> mailbox, Token tok
 }
 
 bool Wait::wait_for(std::int64_t timeout_ns) {
-  std::unique_lock lock(mutex_);
-  return ready_.wait_for(lock, std::chrono::nanoseconds(timeout_ns), [this] { return done(); });
+  if (!done()) ready_.wait(timeout_ns);
+  return done();
 }
 
 void Wait::complete(const LookupResult& result) {
-  {
-    const std::lock_guard lock(mutex_);
-    result_ = result;
-    done_.store(true, std::memory_order_release);
-    ready_.notify_all();
-  }
+  result_ = result;
+  done_.store(true, std::memory_order_release);
+  ready_.set();
   if (mailbox_) mailbox_->put(token_);
 }
 
@@ -88,22 +86,27 @@ void Watch::note(FrameId child) {
 }
 
 void WaitQueue::on_add(std::function<void()> call) {
-  const std::lock_guard lock(mutex_);
+  const ForkSafeLock lock(mutex_);
   on_add_ = std::move(call);
   if (on_add_ && !empty()) on_add_();
 }
 
 void WaitQueue::add(const std::shared_ptr<Wait>& wait) {
-  const std::lock_guard lock(mutex_);
+  const ForkSafeLock lock(mutex_);
   waits_.emplace(wait.get(), wait);
   entries_.fetch_add(1);
   waiting_.fetch_add(1);
   if (on_add_) on_add_();
-  complete_or_enqueue(wait, false);
+  try {
+    complete_or_enqueue(wait, false);
+  } catch (...) {
+    forget(wait);
+    throw;
+  }
 }
 
 void WaitQueue::remove(const std::shared_ptr<Wait>& wait) {
-  const std::lock_guard lock(mutex_);
+  const ForkSafeLock lock(mutex_);
   dequeue(wait);
   forget(wait);
 }
@@ -115,7 +118,7 @@ void WaitQueue::forget(const std::shared_ptr<Wait>& wait) {
 }
 
 void WaitQueue::add(const std::shared_ptr<Watch>& watch) {
-  const std::lock_guard lock(mutex_);
+  const ForkSafeLock lock(mutex_);
   entries_.fetch_add(1);
   if (on_add_) on_add_();
   if (watch->child_.empty()) {
@@ -129,7 +132,7 @@ void WaitQueue::add(const std::shared_ptr<Watch>& watch) {
 }
 
 void WaitQueue::remove(const std::shared_ptr<Watch>& watch) {
-  const std::lock_guard lock(mutex_);
+  const ForkSafeLock lock(mutex_);
   entries_.fetch_sub(1);
   if (watch->child_.empty()) {
     remove_unordered(watches_of_all_, watch);
@@ -154,7 +157,7 @@ void WaitQueue::attach_to_frame(const std::shared_ptr<Watch>& watch) {
 
 void WaitQueue::notify(const Inserted& inserted) {
   if (inserted.rewired && waiting_.load() > 0) {
-    const std::lock_guard lock(mutex_);
+    const ForkSafeLock lock(mutex_);
     Waits all;
     for (const auto& [_, wait] : waits_) {
       if (wait->condition_.name.empty()) all.push_back(wait);
@@ -167,7 +170,7 @@ void WaitQueue::notify(const Inserted& inserted) {
 }
 
 void WaitQueue::on_insertion(FrameId child) {
-  const std::lock_guard lock(mutex_);
+  const ForkSafeLock lock(mutex_);
   for (const auto& watch : watches_of_all_) watch->note(child);
   const auto waiters = by_frame_.find(child);
   if (waiters == by_frame_.end()) return;
@@ -181,7 +184,7 @@ void WaitQueue::on_insertion(FrameId child) {
 }
 
 void WaitQueue::on_new_names() {
-  const std::lock_guard lock(mutex_);
+  const ForkSafeLock lock(mutex_);
   Waits helped;
   std::vector<std::shared_ptr<Watch>> watches;
   for (const auto& [name, waiters] : by_name_) {

@@ -5,7 +5,6 @@
 
 #include <array>
 #include <atomic>
-#include <condition_variable>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -16,6 +15,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/event.hpp"
 #include "core/query.hpp"
 #include "core/tree.hpp"
 
@@ -23,21 +23,21 @@ namespace coframe {
 
 using Token = std::uint64_t;
 
-// A queue of tokens from waits and watches that no thread blocks on. Any thread may put and take.
+// A queue of tokens from waits and watches that no thread blocks on. Any thread may put and take, one may wait.
 class Mailbox {
  public:
   void put(Token token);
   // Returns and removes the tokens.
   std::vector<Token> take();
-  // Waits until there is a token. Returns false when `timeout_ns` has passed without one.
+  // Waits until there is a token. Returns false when `timeout_ns` has passed without one, or earlier.
   bool wait_for(std::int64_t timeout_ns);
   bool empty() const { return count_.load() == 0; }
 
  private:
   std::atomic<std::size_t> count_{0};
+  Event arrived_;
   std::mutex mutex_;
-  std::condition_variable arrived_;
-  std::vector<Token> tokens_;
+  std::vector<Token> tokens_;  // guarded by mutex_
 };
 
 // Which insertion may make a waiting lookup succeed.
@@ -56,7 +56,7 @@ class Wait {
   Wait& operator=(const Wait&) = delete;
 
   const LookupQuery& query() const { return query_; }
-  // Waits for the result. Returns false when `timeout_ns` has passed without one.
+  // Waits for the result, in one thread. Returns false when `timeout_ns` has passed without one, or earlier.
   bool wait_for(std::int64_t timeout_ns);
   bool done() const { return done_.load(std::memory_order_acquire); }
   const LookupResult& result() const { return result_; }  // valid once done()
@@ -71,8 +71,7 @@ class Wait {
   Token token_;
   LookupResult result_;
   std::atomic<bool> done_{false};
-  std::mutex mutex_;
-  std::condition_variable ready_;
+  Event ready_;
   WaitCondition condition_;  // guarded by the queue's mutex
 };
 

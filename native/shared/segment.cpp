@@ -27,6 +27,7 @@
 #include <thread>
 #include <utility>
 
+#include "core/fork_guard.hpp"
 #include "core/tree.hpp"
 
 namespace coframe {
@@ -58,23 +59,33 @@ std::uint64_t layout() {
   throw SegmentError(what + ": " + std::system_category().message(errno));
 }
 
+class File;
+
+struct OpenFiles {
+  std::mutex mutex;
+  std::set<File*> files;
+};
+// Never destroyed, and not created on first use: a thread that forks could find it half created.
+OpenFiles& open_files = *new OpenFiles;
+
 // A file that is closed at the end of its scope, and in forked children: locks end when the last copy is closed.
 class File {
  public:
   File() = default;
   explicit File(int number) : number_(number) {
     if (number < 0) return;
-    const std::lock_guard lock(mutex());
-    all().insert(this);
+    const ForkSafeLock lock(open_files.mutex);
+    open_files.files.insert(this);
   }
-  File(File&& other) noexcept : File(other.release()) {}
+  File(File&& other) noexcept { *this = std::move(other); }
   File& operator=(File&& other) noexcept {
+    const ForkSafeScope scope;
     const int number = other.release();
     close();
     File copy(number);
     std::swap(copy.number_, number_);
-    const std::lock_guard lock(mutex());
-    if (number_ >= 0) all().insert(this);
+    const ForkSafeLock lock(open_files.mutex);
+    if (number_ >= 0) open_files.files.insert(this);
     return *this;
   }
   ~File() { close(); }
@@ -82,9 +93,12 @@ class File {
   int number() const { return number_; }
   explicit operator bool() const { return number_ >= 0; }
   void close() {
+    const ForkSafeScope scope;
     const int number = release();
     if (number >= 0) ::close(number);
   }
+  // In a forked child, where no other thread exists.
+  void forget() { ::close(std::exchange(number_, -1)); }
   bool lock(int operation) const {
     while (flock(number_, operation | LOCK_NB) != 0) {
       if (errno != EINTR) return false;
@@ -99,32 +113,18 @@ class File {
   }
 
  private:
-  static std::mutex& mutex() {
-    static std::mutex& mutex = *new std::mutex;
-    return mutex;
-  }
-  static std::set<File*>& all() {
-    static std::set<File*>& files = *new std::set<File*>;
-    static const bool guarded = [] {
-      pthread_atfork([] { mutex().lock(); }, [] { mutex().unlock(); },
-                     [] {
-                       for (File* file : all()) ::close(std::exchange(file->number_, -1));
-                       all().clear();
-                       mutex().unlock();
-                     });
-      return true;
-    }();
-    (void)guarded;
-    return files;
-  }
   int release() {
-    const std::lock_guard lock(mutex());
-    all().erase(this);
+    const ForkSafeLock lock(open_files.mutex);
+    open_files.files.erase(this);
     return std::exchange(number_, -1);
   }
 
   int number_ = -1;
 };
+
+[[maybe_unused]] const int closes_in_children = pthread_atfork(nullptr, nullptr, [] {
+  for (File* file : std::exchange(open_files.files, {})) file->forget();
+});
 
 // A part of the address space.
 class Mapping {
@@ -208,7 +208,9 @@ void make_private_folder(const std::string& folder) {
   }
 }
 
+// In a scope, because a child process must not inherit a file before it is registered.
 File open_file(const std::string& path, int flags, mode_t mode = 0) {
+  const ForkSafeScope scope;
   return File(::open(path.c_str(), flags | O_CLOEXEC | O_NOFOLLOW, mode));
 }
 
@@ -237,7 +239,7 @@ class LinuxSegment final : public Segment {
   SharedTreeData reader() override;
 
   bool try_to_write() override {
-    const std::lock_guard lock(mutex_);
+    const ForkSafeLock lock(mutex_);
     if (writer_lock_) return true;
     if (!memory_file_) return false;
     // Opened before it is locked: those that wait for the end of the pipe never see a writer without it.
@@ -250,7 +252,7 @@ class LinuxSegment final : public Segment {
   SharedTreeData writer() override { return map_writable(true); }
 
   void stop_writing() override {
-    const std::lock_guard lock(mutex_);
+    const ForkSafeLock lock(mutex_);
     writer_lock_.close();
   }
 
@@ -272,7 +274,7 @@ class LinuxSegment final : public Segment {
   std::size_t used() const override { return mapping_->header().used.load(); }
 
   void close() override {
-    const std::lock_guard lock(mutex_);
+    const ForkSafeLock lock(mutex_);
     interrupt();
     if (!memory_file_) return;
     // The last one removes the memory.
@@ -361,11 +363,13 @@ class Access final : public SharedAccess {
   Access(std::shared_ptr<LinuxSegment> segment, std::shared_ptr<Mapping> mapping)
       : segment_(std::move(segment)), mapping_(std::move(mapping)) {}
 
-  void complete_change(std::int64_t waited_ns) override {
-    constexpr std::int64_t kLong = 2'000'000'000;
-    if (segment_->complete_change_of_dead_writer() || waited_ns < kLong) return;
-    throw std::runtime_error("process " + std::to_string(segment_->writer_process()) +
-                             ", which writes the shared transforms, is suspended in the middle of a change");
+  bool complete_change() override { return segment_->complete_change_of_dead_writer(); }
+
+  std::string unfinished_change() const override {
+    const std::string process = std::to_string(segment_->writer_process());
+    return "process " + process +
+           ", which writes the shared transforms, is suspended in the middle of a change; continue it (kill -CONT " +
+           process + ") or end it";
   }
 
   void wait_for_change(std::uint64_t seen, std::int64_t timeout_ns) override {

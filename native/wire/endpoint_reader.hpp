@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "core/event.hpp"
 #include "wire/data_reader.hpp"
-#include "wire/event.hpp"
 #include "wire/qos.hpp"
 
 namespace coframe {

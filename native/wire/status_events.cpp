@@ -3,6 +3,8 @@
 
 #include <utility>
 
+#include "core/fork_guard.hpp"
+
 namespace coframe {
 namespace {
 
@@ -41,7 +43,7 @@ template <StatusEvents::Kind kind, class Status>
 void StatusEvents::on_status(dds::Entity, Status status, void* self) noexcept {
   auto& events = *static_cast<StatusEvents*>(self);
   {
-    const std::lock_guard lock(events.mutex_);
+    const ForkSafeLock lock(events.mutex_);
     StatusEvents::Counts counts = status_counts(status);
     if (auto& before = events.changed_[kind]) add_status_changes(counts, *before, status);
     events.changed_[kind] = counts;

@@ -8,8 +8,8 @@
 #include <mutex>
 #include <optional>
 
+#include "core/event.hpp"
 #include "wire/dds.hpp"
-#include "wire/event.hpp"
 
 namespace coframe {
 

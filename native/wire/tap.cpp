@@ -5,6 +5,8 @@
 #include <chrono>
 #include <utility>
 
+#include "core/fork_guard.hpp"
+
 namespace coframe {
 namespace {
 
@@ -31,7 +33,6 @@ void Tap::on_data(dds::Entity reader, void* self) noexcept {
 
 void Tap::drain(dds::Entity reader) {
   const std::int64_t arrived = now();
-  const std::lock_guard lock(mutex_);
   const auto keep = [&](const dds::Sample& sample) {
     if (messages_.ends.size() >= limits_.messages || messages_.bytes.size() >= limits_.size) {
       ++missed_;
@@ -44,17 +45,21 @@ void Tap::drain(dds::Entity reader) {
     messages_.writers.push_back(sample.info().publication_handle);
     messages_.ends.push_back(messages_.bytes.size());
   };
-  while (dds::take(reader, dds::kBatch, keep) == dds::kBatch) {
+  const auto drain_batch = [&] {
+    const ForkSafeLock lock(mutex_);
+    return dds::take(reader, dds::kBatch, keep);
+  };
+  while (drain_batch() == dds::kBatch) {
   }
 }
 
 Tap::Messages Tap::take() {
-  const std::lock_guard lock(mutex_);
+  const ForkSafeLock lock(mutex_);
   return std::exchange(messages_, {});
 }
 
 std::uint64_t Tap::missed() {
-  const std::lock_guard lock(mutex_);
+  const ForkSafeLock lock(mutex_);
   return missed_;
 }
 

@@ -22,11 +22,13 @@ void TfReader::on_data(dds::Entity reader, void* self) noexcept {
 }
 
 void TfReader::drain(dds::Entity reader) {
-  TransformStore::Ingest ingest(store_);
-  const auto add = [&ingest](const dds::Sample& sample) {
-    ingest.add(sample.info().publication_handle, sample.bytes());
+  const auto drain_batch = [&] {
+    TransformStore::Ingest ingest(store_);  // also while samples are taken, so that they stay in their order
+    return dds::take(reader, dds::kBatch, [&ingest](const dds::Sample& sample) {
+      ingest.add(sample.info().publication_handle, sample.bytes());
+    });
   };
-  while (dds::take(reader, dds::kBatch, add) == dds::kBatch) {
+  while (drain_batch() == dds::kBatch) {
   }
 }
 

@@ -5,8 +5,8 @@
 #include <memory>
 #include <string>
 
+#include "core/event.hpp"
 #include "wire/data_reader.hpp"
-#include "wire/event.hpp"
 #include "wire/qos.hpp"
 #include "wire/transform_store.hpp"
 

@@ -28,29 +28,29 @@ TransformStore::TransformStore(std::shared_ptr<Buffer> buffer, bool is_static, c
 }
 
 void TransformStore::name_writer(Writer writer, const std::string& authority) {
-  const std::lock_guard lock(mutex_);
+  const ForkSafeLock lock(mutex_);
   Source& source = source_of(writer);
   buffer_->rename(source.stream, authority);
   source.named = true;
 }
 
 void TransformStore::forget_writer(Writer writer) {
-  const std::lock_guard lock(mutex_);
+  const ForkSafeLock lock(mutex_);
   sources_.erase(writer);
 }
 
 void TransformStore::writer_left(Writer writer) {
-  const std::lock_guard lock(mutex_);
+  const ForkSafeLock lock(mutex_);
   if (published_) published_->leave(writer);
 }
 
 void TransformStore::settle_statics() {
-  const std::lock_guard lock(mutex_);
+  const ForkSafeLock lock(mutex_);
   if (published_) published_->settle();
 }
 
 std::vector<TransformStore::WriterStatistics> TransformStore::writers() const {
-  const std::lock_guard lock(mutex_);
+  const ForkSafeLock lock(mutex_);
   std::vector<WriterStatistics> all;
   for (const auto& [writer, source] : sources_) {
     all.push_back(

@@ -15,8 +15,9 @@
 
 #include "core/arrival_period.hpp"
 #include "core/buffer.hpp"
+#include "core/event.hpp"
+#include "core/fork_guard.hpp"
 #include "core/stamp_delay.hpp"
-#include "wire/event.hpp"
 #include "wire/published_statics.hpp"
 
 namespace coframe {
@@ -35,7 +36,7 @@ class TransformStore {
     NameProblems name_problems;
   };
 
-  // Stores messages as long as it exists; one at a time.
+  // Stores messages as long as it exists; one at a time. A scope of ForkSafeScope.
   class Ingest {
    public:
     explicit Ingest(TransformStore& store) : store_(store), lock_(store.mutex_) {}
@@ -48,7 +49,7 @@ class TransformStore {
 
    private:
     TransformStore& store_;
-    const std::lock_guard<std::mutex> lock_;
+    const ForkSafeLock<std::mutex> lock_;
   };
 
   // `authority` is stored as the source of every transform until `name_writer` is called. With a `renaming` (may be

@@ -58,6 +58,7 @@ void Writer::forward(const void* data, std::size_t size) const {
 }
 
 dds::Code Writer::pass_on(std::span<const dds::IoVector> parts, std::size_t size) const {
+  dds::functions();  // throws in a forked child, where another thread may have held the lock
   const std::lock_guard lock(closing_);
   const dds::Entity entity = entity_;
   return entity > 0 ? dds::write(entity, type_, parts, size) : dds::kBadParameter;

@@ -44,6 +44,7 @@ class _Wait:
 class _Watch:
     native: _core.Watch
     on_change: Callable[[list[str]], object]
+    of_user: bool
 
 
 class Dispatcher:
@@ -55,6 +56,7 @@ class Dispatcher:
     """
 
     def __init__(self) -> None:
+        self._tokens = itertools.count(_WAKE_UP + 1)  # Never starts again: functions to cancel outlive `reset`.
         self.reset()
         _all.add(self)
 
@@ -63,7 +65,6 @@ class Dispatcher:
         self._mailbox = _core.Mailbox()
         # The locks are reentrant, because finalizers and signal handlers can run while a thread holds one.
         self._lock = threading.RLock()  # Guards the attributes below; no callback is called while it is held.
-        self._tokens = itertools.count(_WAKE_UP + 1)
         self._entries: dict[int, _Wait | _Watch] = {}
         self._deadlines: list[tuple[int, int]] = []  # A heap of (monotonic time in nanoseconds, token).
         self._thread: threading.Thread | None = None
@@ -79,6 +80,10 @@ class Dispatcher:
         entries.clear()
         if thread is not None:
             thread.join(_EXIT_TIMEOUT)
+
+    def user_watches(self) -> int:
+        """Return the number of watches that the user of the buffer has registered."""
+        return sum(isinstance(entry, _Watch) and entry.of_user for entry in self._entries.values())
 
     @property
     def is_idle(self) -> bool:
@@ -108,14 +113,19 @@ class Dispatcher:
             self._end_if_answered(token)  # The token may have been taken before its entry existed.
         return lambda: self._remove(token)
 
-    def watch(self, start: StartWatch, on_change: Callable[[list[str]], object]) -> Cancel:
+    def watch(self, start: StartWatch, on_change: Callable[[list[str]], object], *, of_user: bool = False) -> Cancel:
         """Call `on_change` with the child frames of the edges that have changed, after every change.
+
+        Args:
+            start: Starts the native watch.
+            on_change: Called with the frames.
+            of_user: Whether the user of the buffer has registered it; forked children then log that it is not called.
 
         Returns:
             A function that cancels the watch.
         """
         token = next(self._tokens)
-        self._add(token, _Watch(start(self._mailbox, token), on_change), None)
+        self._add(token, _Watch(start(self._mailbox, token), on_change, of_user), None)
         self._mailbox.put(token)  # The token may have been taken before its entry existed.
         return lambda: self._remove(token)
 
@@ -256,8 +266,17 @@ _exiting = threading.Event()  # Threads started during the exit may never run, a
 
 
 def _reset_all() -> None:
-    for dispatcher in list(_all):
+    """Drop all waits and watches in a forked child."""
+    dispatchers = list(_all)
+    callbacks = sum(dispatcher.user_watches() for dispatcher in dispatchers)
+    for dispatcher in dispatchers:
         dispatcher.reset()
+    if callbacks:
+        _log.warning(
+            "Callbacks of Buffer.on_change that were registered before a fork are not called in the forked process "
+            "%d, because their thread exists only in its parent. Call on_change() in this process to register them.",
+            os.getpid(),
+        )
 
 
 def _end_all() -> None:

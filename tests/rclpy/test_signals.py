@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Ends of programs: SIGINT, SIGTERM, shutdown in other threads, and missing shutdowns."""
 
+import os
 import signal
 
 import pytest
@@ -199,3 +200,84 @@ def test_command_line_reaches_the_node(ready):
     assert script.end() == 0
     assert script.output == "ready /c/b 2\n"
     assert "[DEBUG]" in script.errors
+
+
+forks = pytest.mark.skipif(not hasattr(os, "fork"), reason="the system has no fork()")
+FORK = """
+import contextlib, os, signal, sys, warnings
+warnings.simplefilter("ignore", DeprecationWarning)  # Python 3.12 warns of what these tests are about
+"""
+
+
+@forks
+def test_sigterm_ends_a_forked_process_and_not_its_parent(ready):
+    script = ready(f"""{FORK}{NODE}
+reader, writer = os.pipe()
+child = os.fork()
+if child == 0:
+    os.write(writer, b"x")
+    time.sleep(60)
+os.read(reader, 1)
+os.kill(child, signal.SIGTERM)
+assert os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) == -signal.SIGTERM
+print("ready")
+with contextlib.suppress(ExternalShutdownException):
+    rclpy.spin(node)
+print("end")
+""")
+    script.process.send_signal(signal.SIGTERM)
+    assert script.end() == 0
+    assert script.output.split() == ["ready", "end"]
+
+
+@forks
+def test_a_forked_process_can_handle_signals_itself(ready):
+    script = ready(f"""{FORK}
+import rclpy
+from rclpy.signals import SignalHandlerOptions, get_current_signal_handlers_options
+rclpy.init()
+child = os.fork()
+if child == 0:
+    assert get_current_signal_handlers_options() == SignalHandlerOptions.NO
+    rclpy.shutdown()
+    rclpy.init()
+    assert get_current_signal_handlers_options() == SignalHandlerOptions.ALL
+    os.kill(os.getpid(), signal.SIGTERM)
+    os._exit(0 if not rclpy.ok() else 1)
+assert os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) == 0
+assert rclpy.ok()
+print("ready")
+""")
+    assert script.end() == 0
+
+
+@forks
+def test_pools_of_forked_processes_end_next_to_a_listener(ready):
+    script = ready(f"""{FORK}{NODE}
+import multiprocessing
+from geometry_msgs.msg import TransformStamped
+from tf2_ros import Buffer, StaticTransformBroadcaster, TransformBroadcaster, TransformListener
+buffer = Buffer()
+listener = TransformListener(buffer, node, spin_thread=True)
+broadcaster = TransformBroadcaster(node)
+
+def publish():
+    while rclpy.ok():
+        message = TransformStamped(child_frame_id="base")
+        message.header.frame_id, message.header.stamp = "odom", node.get_clock().now().to_msg()
+        broadcaster.sendTransform([message] * 100)
+        time.sleep(0.001)
+
+def look_up(number):
+    return buffer.lookup_transform("odom", "base", rclpy.time.Time()).child_frame_id
+
+threading.Thread(target=publish, daemon=True).start()
+while not buffer.can_transform("odom", "base", rclpy.time.Time()):
+    time.sleep(0.01)
+for _ in range(5):
+    with multiprocessing.get_context("fork").Pool(4) as pool:
+        assert pool.map_async(look_up, range(8), chunksize=1).get(30) == ["base"] * 8
+print("ready")
+os._exit(0)
+""")
+    assert script.end() == 0

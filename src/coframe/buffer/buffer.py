@@ -222,7 +222,8 @@ class Buffer(many_lookups.Buffer):
         """Call ``callback`` when the edge between ``child`` and its parent receives a new sample.
 
         The calls come from a separate thread, one after another and with no lock held, so the callback may use the
-        buffer. Samples that arrive during a call lead to one more call.
+        buffer. Samples that arrive during a call lead to one more call. In a process that is forked later, this
+        thread does not exist and the callback is not called, which the process logs once; it can register its own.
 
         Args:
             callback: Called with the current state of the edge.
@@ -237,7 +238,7 @@ class Buffer(many_lookups.Buffer):
                 callback(edge)
 
         start = lambda mailbox, token: _core.watch(self, mailbox, token, child or "")  # noqa: E731 - one expression
-        return CallbackHandle(self._dispatcher.watch(start, report))
+        return CallbackHandle(self._dispatcher.watch(start, report, of_user=True))
 
     def snapshot(self) -> Buffer:
         """Return a frozen copy of the buffer as it is now; the samples are shared, not copied."""

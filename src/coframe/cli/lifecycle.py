@@ -13,6 +13,7 @@ import typer
 
 from coframe.cli.output import fail
 from coframe.errors import CoframeError
+from coframe.signal_handlers import SignalHandlers
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -30,7 +31,9 @@ def run_until_interrupted() -> Iterator[None]:
     """End the block quietly on Ctrl-C, SIGTERM and a closed terminal; report errors of the library with exit code 1."""
     # nohup sets SIGHUP to be ignored, and it stays so.
     handled = [number for number in _END_SIGNALS if signal.getsignal(number) is not signal.SIG_IGN]
-    previous = {number: signal.signal(number, _interrupt) for number in handled}
+    handlers = SignalHandlers()
+    for number in handled:
+        handlers.install(number, _interrupt)
     try:
         yield
     except KeyboardInterrupt:
@@ -41,8 +44,7 @@ def run_until_interrupted() -> Iterator[None]:
         # After a loop, tf2's text lists all frames, one per line.
         fail(str(error).partition("\nFrame ")[0], error.hint)
     finally:
-        for number, handler in previous.items():
-            signal.signal(number, handler)
+        handlers.restore()
 
 
 @contextlib.contextmanager

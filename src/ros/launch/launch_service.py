@@ -12,6 +12,7 @@ import traceback
 from typing import TYPE_CHECKING, Any
 
 import launch.logging
+from coframe.signal_handlers import SignalHandlers
 from launch.event_handlers import OnIncludeLaunchDescription, OnShutdown
 from launch.events import IncludeLaunchDescription, Shutdown
 from launch.launch_context import LaunchContext
@@ -209,18 +210,16 @@ class LaunchService:
         numbers = [getattr(signal, name) for name in names if hasattr(signal, name)]
         # nohup sets SIGHUP to be ignored, and it stays so.
         numbers = [number for number in numbers if signal.getsignal(number) is not signal.SIG_IGN]
-        previous = {
-            number: signal.signal(number, lambda n, _: loop.call_soon_threadsafe(self.__on_signal, n))
-            for number in numbers
-        }
+        handlers = SignalHandlers()
+        for number in numbers:
+            handlers.install(number, lambda n, _: loop.call_soon_threadsafe(self.__on_signal, n))
         wake = asyncio.ensure_future(_wake_regularly()) if os.name == "nt" else None
         try:
             yield
         finally:
             if wake is not None:
                 wake.cancel()
-            for number, handler in previous.items():
-                signal.signal(number, handler)
+            handlers.restore()
 
 
 async def _wake_regularly() -> None:

@@ -9,6 +9,7 @@ import threading
 from enum import IntFlag
 from typing import TYPE_CHECKING, Any
 
+from coframe.signal_handlers import SignalHandlers
 from rclpy.context import _shut_down_by_signal
 from rclpy.exceptions import ROSInterruptException
 from rclpy.executors import ExternalShutdownException
@@ -30,7 +31,7 @@ class SignalHandlerOptions(IntFlag):
 _EXPECTED = (KeyboardInterrupt, ExternalShutdownException, ROSInterruptException)
 
 _options = SignalHandlerOptions.NO
-_previous_handlers: dict[int, Any] = {}
+_handlers = SignalHandlers()
 _was_signalled = False
 _previous_hooks: tuple[Callable[..., Any], Callable[..., Any]] | None = None
 
@@ -38,10 +39,12 @@ _previous_hooks: tuple[Callable[..., Any], Callable[..., Any]] | None = None
 def install_signal_handlers(options: SignalHandlerOptions = SignalHandlerOptions.ALL) -> None:
     """Install handlers that shut down all contexts. The previous handlers are still called.
 
+    Processes that are forked from this one have the previous handlers only: SIGTERM ends them.
+
     Python allows this only in the main thread. In other threads, this function does nothing.
     """
     global _options  # noqa: PLW0603 - Signal handlers belong to the process.
-    if threading.current_thread() is not threading.main_thread() or _options:
+    if threading.current_thread() is not threading.main_thread() or get_current_signal_handlers_options():
         return
     _options = options
     for option, number in (
@@ -49,7 +52,7 @@ def install_signal_handlers(options: SignalHandlerOptions = SignalHandlerOptions
         (SignalHandlerOptions.SIGTERM, signal.SIGTERM),
     ):
         if option in options and option:
-            _previous_handlers[number] = signal.signal(number, _handle)
+            _handlers.install(number, _handle)
     if options:
         _install_hooks()
 
@@ -60,25 +63,22 @@ def uninstall_signal_handlers() -> None:
     if threading.current_thread() is not threading.main_thread():
         return
     _options = SignalHandlerOptions.NO
-    for number, handler in _previous_handlers.items():
-        if signal.getsignal(number) is _handle:
-            signal.signal(number, handler)
-    _previous_handlers.clear()
+    _handlers.restore()
     if not _was_signalled:
         _uninstall_hooks()
 
 
 def get_current_signal_handlers_options() -> SignalHandlerOptions:
     """Return the signals that shut down the contexts."""
-    return _options
+    return _options if _handlers.active else SignalHandlerOptions.NO
 
 
 def _handle(number: int, frame: FrameType | None) -> None:
     global _was_signalled  # noqa: PLW0603
     _was_signalled = True
     _shut_down_by_signal()
-    previous = _previous_handlers.get(number)
-    if callable(previous):
+    previous = _handlers.previous(number)
+    if previous is not None:
         previous(number, frame)
 
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "wire/event.hpp"
+#include "core/event.hpp"
 
 #include <chrono>
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A flag that threads wait for: set by DDS threads and by Python, consumed by one waiter at a time.
+// A flag that threads wait for: set by DDS threads and by Python, consumed by one waiter at a time. On Linux it has no
+// lock, so a forked child can use an event that other threads of its parent use.
 #pragma once
 
 #include <cstdint>
