@@ -15,7 +15,7 @@ ADDED_NS = 500_000
 # What a program without coframe does: its imports succeed and fail. Printed is the processor time of the whole process.
 OTHER_PROGRAM = """
 import copy, json, time
-for name in ("simplejson", "apport_python_hook", "nobody_msgs"):
+for name in ("simplejson", "apport_python_hook", "absent_msgs"):
     try:
         __import__(name)
     except ImportError:
