@@ -2,7 +2,6 @@
 """ROS 2's transform system (tf2) for Python: any frame, any time, on any machine."""
 
 import importlib
-import warnings
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -98,7 +97,6 @@ _PUBLIC_MODULES = {
     "tree_drawing",
     "viewer",
 }
-_RENAMED = {"Subscription": "CallbackHandle"}
 
 
 # The other names are imported together on first use: the command line shows its help without NumPy.
@@ -127,7 +125,7 @@ def __getattr__(name: str) -> Any:
     """Import a function or module of the public interface on first use."""
     if name == "__version__":
         return importlib.import_module("importlib.metadata").version("coframe")
-    if name in __all__ or name in _RENAMED:
+    if name in __all__:
         _import_core()
     if name in _LAZY:
         return _publish(name, getattr(importlib.import_module(_LAZY[name]), name))
@@ -135,10 +133,6 @@ def __getattr__(name: str) -> Any:
         return globals()[name]
     if name in _PUBLIC_MODULES or f"coframe.{name}" in _CORE:
         return importlib.import_module(f"coframe.{name}")
-    if name in _RENAMED:
-        new = _RENAMED[name]
-        warnings.warn(f"coframe.{name} was renamed to coframe.{new}", DeprecationWarning, stacklevel=2)
-        return globals()[new]
     raise AttributeError(f"module 'coframe' has no attribute {name!r}")
 
 

@@ -311,12 +311,3 @@ def test_scans_of_a_moving_sensor_are_deskewed(tmp_path):
         (cloud,) = clouds
         np.testing.assert_allclose(xyz(cloud.points), np.array(expected), rtol=0, atol=1e-5)  # the message has float32
         assert clouds.points_skipped == {"are out of range": 6}
-
-
-def test_old_names_of_attributes_warn(path):
-    with coframe.open_bag(path) as recording:
-        clouds = Clouds(recording, "/points", "map")
-        with pytest.warns(DeprecationWarning, match="Clouds.skipped"):
-            assert clouds.left_out is clouds.skipped
-        with pytest.warns(DeprecationWarning, match="Clouds.points_skipped"):
-            assert clouds.points_left_out is clouds.points_skipped

@@ -203,9 +203,3 @@ def test_nothing_is_overwritten(tmp_path):
     assert not (tmp_path / "new").exists()
     assert fix(source, tmp_path / "new", "--compression", "zip")[0] == 2
     assert source.read_bytes() == (tmp_path / "b.mcap").read_bytes() == before
-
-
-@pytest.mark.parametrize(("old", "new"), [("mend", "repair"), ("answer_all", "query_recordings")])
-def test_old_names_of_functions_warn(old, new):
-    with pytest.warns(DeprecationWarning, match=f"coframe.bags.{new}"):
-        assert getattr(coframe.bags, old) is getattr(coframe.bags, new)

@@ -173,12 +173,6 @@ def test_public_classes_and_functions_can_be_pickled():
             assert pickle.loads(pickle.dumps(thing)) is thing
 
 
-def test_the_old_name_of_the_callback_handle_is_deprecated():
-    with pytest.warns(DeprecationWarning, match="renamed to coframe.CallbackHandle"):
-        assert coframe.Subscription is coframe.CallbackHandle
-    assert "Subscription" not in dir(coframe)
-
-
 def library_modules():
     modules = (module.name for module in pkgutil.walk_packages([str(PACKAGE)], "coframe."))
     return [name for name in modules if not re.search(r"generated|__main__|\.ros\b|_core|\.lab\b|\.cli\b", name)]

@@ -1,9 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Recordings without ROS: rosbag2 (MCAP, SQLite) and bags of ROS 1."""
 
-import warnings
-from typing import Any
-
 from coframe.bags.bag_repair import RepairReport, repair
 from coframe.bags.batch import QueryResult, query_recording, query_recordings
 from coframe.bags.cloud_files import CLOUD_FORMATS, write_clouds
@@ -48,23 +45,6 @@ __all__ = [
     "write_clouds",
     "write_trajectory",
 ]
-
-_OLD_NAMES = {
-    "Answer": "QueryResult",
-    "Mended": "RepairReport",
-    "Question": "TrajectoryQuery",
-    "answer": "query_recording",
-    "answer_all": "query_recordings",
-    "mend": "repair",
-}
-
-
-def __getattr__(name: str) -> Any:
-    """Return what an old name stands for, with a DeprecationWarning."""
-    if name not in _OLD_NAMES:
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    warnings.warn(f"coframe.bags.{name} is now coframe.bags.{_OLD_NAMES[name]}", DeprecationWarning, stacklevel=2)
-    return globals()[_OLD_NAMES[name]]
 
 
 def __dir__() -> list[str]:

@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import warnings
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 import numpy as np
@@ -136,18 +135,6 @@ class Clouds:
         if self._stop is not None:
             chosen &= self._stamps < time.stamp_ns(self._stop)
         return int(np.count_nonzero(chosen))
-
-    @property
-    def left_out(self) -> dict[str, int]:
-        """The old name of :attr:`skipped`."""
-        warnings.warn("Clouds.left_out is now Clouds.skipped", DeprecationWarning, stacklevel=2)
-        return self.skipped
-
-    @property
-    def points_left_out(self) -> dict[str, int]:
-        """The old name of :attr:`points_skipped`."""
-        warnings.warn("Clouds.points_left_out is now Clouds.points_skipped", DeprecationWarning, stacklevel=2)
-        return self.points_skipped
 
     def __iter__(self) -> Iterator[Cloud]:
         self._reset()

@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 import math
-import warnings
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -169,22 +168,6 @@ class JointStates:
             field([None if j.velocity is None else j.velocity * f.factor for j, f in pairs]),
             field([j.effort for j, _ in pairs]),
         )
-
-    def take(
-        self,
-        names: Sequence[str],
-        positions: Sequence[float] = (),
-        velocities: Sequence[float] = (),
-        efforts: Sequence[float] = (),
-    ) -> None:
-        """Call :meth:`update`, whose former name this is."""
-        warnings.warn("JointStates.take() is deprecated: use JointStates.update()", DeprecationWarning, stacklevel=2)
-        self.update(names, positions, velocities, efforts)
-
-    def told(self) -> JointStateFields:
-        """Call :meth:`fields`, whose former name this is."""
-        warnings.warn("JointStates.told() is deprecated: use JointStates.fields()", DeprecationWarning, stacklevel=2)
-        return self.fields()
 
     def _last_leader(self, name: str, followers: Mapping[str, _Follower]) -> _Follower:
         """Return the free joint that a joint follows, directly or indirectly; the joint itself if it is free."""

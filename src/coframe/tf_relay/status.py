@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import warnings
 from typing import TYPE_CHECKING, NamedTuple
 
 from coframe.formatting import count
@@ -46,14 +45,6 @@ class RelayedEdge(NamedTuple):
     conflicts: int
     newest: int
     age: float
-
-    @property
-    def rival(self) -> str:
-        """The former name of `conflicting_robot`."""
-        warnings.warn(
-            "RelayedEdge.rival is deprecated: use RelayedEdge.conflicting_robot", DeprecationWarning, stacklevel=2
-        )
-        return self.conflicting_robot
 
 
 class NotRelayed(NamedTuple):

@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import warnings
 from dataclasses import dataclass
 from itertools import groupby
 from typing import TYPE_CHECKING
@@ -39,12 +38,6 @@ class Frame:
     edges: tuple[EdgeFigures, ...]
     other_edges: tuple[EdgeFigures, ...]
     silence: int | None
-
-    @property
-    def links(self) -> tuple[EdgeFigures, ...]:
-        """The old name of :attr:`edges`."""
-        warnings.warn("Frame.links is deprecated: use Frame.edges", DeprecationWarning, stacklevel=2)
-        return self.edges
 
     @property
     def is_root(self) -> bool:
