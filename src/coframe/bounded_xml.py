@@ -6,10 +6,12 @@ from __future__ import annotations
 from typing import IO, TYPE_CHECKING, Any
 from xml.etree import ElementTree as ET
 
+from coframe.regular_files import read_regular
+
 if TYPE_CHECKING:
     import os
 
-__all__ = ["read_xml"]
+__all__ = ["MAX_BYTES", "read_xml"]
 
 MAX_BYTES = 16 << 20
 MAX_DEPTH = 100
@@ -23,15 +25,14 @@ def read_xml(file: str | os.PathLike[str] | IO[Any]) -> ET.Element:
 
     Raises:
         ValueError: It is not XML, defines entities, or exceeds a limit.
-        OSError: It cannot be read.
+        OSError: The file at the path cannot be read, is not a regular file, or exceeds the limit of its size.
     """
     if hasattr(file, "read"):
         text = file.read(MAX_BYTES + 1)
+        if len(text) > MAX_BYTES:
+            raise ValueError(f"it has more than {MAX_BYTES >> 20} MiB, the limit")
     else:
-        with open(file, "rb") as opened:  # noqa: PTH123 - a path of any kind
-            text = opened.read(MAX_BYTES + 1)
-    if len(text) > MAX_BYTES:
-        raise ValueError(f"it has more than {MAX_BYTES >> 20} MiB, the limit")
+        text = read_regular(file, MAX_BYTES)
     if ("<!ENTITY" if isinstance(text, str) else b"<!ENTITY") in text:
         raise ValueError("it defines entities, which are not allowed because they can expand without limit")
     parser = ET.XMLParser(target=_Builder())  # noqa: S314 - entities are refused above

@@ -1,9 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Files from outside, by one rule: open, check that it is a regular file, and read at most a limit.
+"""Files from outside, by one rule: check that it is a regular file, open it, and read at most a limit.
 
 A path can name something else: a named pipe, whose opening waits for a writer; a device such as ``/dev/zero``, which
-never ends; a socket. A link can lead to each of them, and the size of a sparse file says nothing about its content. The
-open file is checked, because a path can change between a check and the opening.
+never ends; a socket. A link can lead to each of them. A regular file can be sparse: a terabyte that takes an hour to
+read, of which the disk stores a page.
+
+The path is checked first, because opening can already do something: start a watchdog, or release the writer of a pipe.
+The open file is checked as well, because a path can change between the two.
 """
 
 from __future__ import annotations
@@ -16,16 +19,30 @@ from typing import TYPE_CHECKING, BinaryIO, Final
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-__all__ = ["check_regular", "open_regular", "read_regular"]
+__all__ = ["UnsuitableFileError", "check_regular", "open_regular", "read_regular", "read_regular_text", "reading_hint"]
 
 # Without O_NONBLOCK, opening a named pipe would wait for a writer. It changes nothing for regular files.
 _FLAGS: Final = os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_CLOEXEC", 0) | getattr(os, "O_BINARY", 0)
 _KINDS: Final[tuple[tuple[Callable[[int], bool], str], ...]] = (
-    (stat.S_ISFIFO, "a named pipe"),
-    (stat.S_ISSOCK, "a socket"),
-    (stat.S_ISCHR, "a device"),
-    (stat.S_ISBLK, "a device"),
+    (stat.S_ISDIR, "it is a folder, not a file"),
+    (stat.S_ISFIFO, "it is a named pipe, not a regular file; write its content to a file first"),
+    (stat.S_ISSOCK, "it is a socket, not a regular file"),
+    (stat.S_ISCHR, "it is a device, not a regular file"),
+    (stat.S_ISBLK, "it is a device, not a regular file"),
 )
+# A sparse file is smaller than this, or the disk stores a part of it that is plausible for disks that compress.
+MAX_SPARSE: Final = 64 << 20  # bytes
+MAX_SPARSE_RATIO: Final = 1000  # of its size to the bytes on the disk
+_BLOCK: Final = 512  # bytes, the unit of st_blocks
+_MIN_STORED: Final = 8 * _BLOCK  # some file systems state nothing or a block for files that they store elsewhere
+_UNNAMED_PIPES: Final = ("/dev/", "/proc/")  # a shell passes the output of a program as /dev/fd/63 or /dev/stdin
+
+
+class UnsuitableFileError(OSError, ValueError):
+    """A file of another kind, or with more bytes than the limit; ``strerror`` says what it is."""
+
+    def __str__(self) -> str:
+        return f"{self.filename} cannot be read: {self.strerror}"
 
 
 def open_regular(path: str | os.PathLike[str]) -> BinaryIO:
@@ -35,9 +52,14 @@ def open_regular(path: str | os.PathLike[str]) -> BinaryIO:
         path: The file, or a link to it.
 
     Raises:
-        OSError: There is no such file, it cannot be read, or it is not a regular file; the text says what it is.
+        UnsuitableFileError: It is not a regular file, nearly all of it is a hole, or the path is not valid.
+        OSError: There is no such file, or it cannot be read.
     """
-    return open(path, "rb", opener=_open)  # noqa: PTH123, SIM115 - pathlib has no opener, and the caller closes it
+    try:
+        _check(os.stat(path), path)  # noqa: PTH116 - a path of any kind
+        return open(path, "rb", opener=_open)  # pathlib has no opener
+    except ValueError:  # a NUL, or a character that file names cannot have
+        raise UnsuitableFileError(errno.EINVAL, "its name is not valid", os.fspath(path)) from None
 
 
 def read_regular(path: str | os.PathLike[str], max_bytes: int) -> bytes:
@@ -48,34 +70,77 @@ def read_regular(path: str | os.PathLike[str], max_bytes: int) -> bytes:
         max_bytes: The largest size that is read.
 
     Raises:
-        OSError: The file cannot be read, is not a regular file, or is larger than `max_bytes`.
+        UnsuitableFileError: It is not a regular file, or is larger than `max_bytes`.
+        OSError: The file cannot be read.
     """
     with open_regular(path) as file:
         content = file.read(max_bytes + 1)
+    if content is None:  # files of the kernel, which wait for events
+        raise UnsuitableFileError(errno.EAGAIN, "it has no content yet", os.fspath(path))
     if len(content) > max_bytes:
-        raise OSError(errno.EFBIG, f"larger than {max_bytes} bytes", os.fspath(path))
+        raise _too_large(path, max_bytes)
     return content
 
 
-def check_regular(path: str | os.PathLike[str]) -> None:
-    """Raise OSError if a library that opens files by their names could not read a regular file there.
+def read_regular_text(path: str | os.PathLike[str], max_bytes: int, encoding: str = "utf-8") -> str:
+    r"""Return the text of a regular file, whose lines may also end with ``\r\n``.
+
+    Args:
+        path: The file, or a link to it.
+        max_bytes: The largest size that is read.
+        encoding: The encoding.
 
     Raises:
-        OSError: As for :func:`open_regular`.
+        UnsuitableFileError: It is not a regular file, or is larger than `max_bytes`.
+        OSError: The file cannot be read.
+        UnicodeDecodeError: It is not text in this encoding.
     """
-    open_regular(path).close()
+    return read_regular(path, max_bytes).decode(encoding).replace("\r\n", "\n").replace("\r", "\n")
+
+
+def check_regular(path: str | os.PathLike[str], max_bytes: int | None = None) -> None:
+    """Raise OSError if a library that opens files by their names should not open this one.
+
+    Args:
+        path: The file, or a link to it.
+        max_bytes: The largest size; None for a library that does not read all of the file.
+
+    Raises:
+        UnsuitableFileError: It is not a regular file, or is larger than `max_bytes`.
+        OSError: The file cannot be read.
+    """
+    with open_regular(path) as file:
+        if max_bytes is not None and os.fstat(file.fileno()).st_size > max_bytes:
+            raise _too_large(path, max_bytes)
+
+
+def reading_hint(error: OSError) -> str:
+    """Return what to do about a file that cannot be read; "" if the text of the error says it."""
+    return "" if isinstance(error, UnsuitableFileError) else "Check the path and the permission to read it."
+
+
+def _too_large(path: str | os.PathLike[str], max_bytes: int) -> UnsuitableFileError:
+    limit = f"{max_bytes >> 20} MiB" if max_bytes >= 1 << 20 else f"{max_bytes} bytes"
+    return UnsuitableFileError(errno.EFBIG, f"it has more than {limit}, the limit", os.fspath(path))
 
 
 def _open(path: str, _flags: int) -> int:
     descriptor = os.open(path, _FLAGS)
     try:
-        mode = os.fstat(descriptor).st_mode
-        if stat.S_ISDIR(mode):
-            raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR), path)
-        if not stat.S_ISREG(mode):
-            kind = next((name for has, name in _KINDS if has(mode)), "something else")
-            raise OSError(errno.EINVAL, f"{kind}, not a regular file", path)
+        _check(os.fstat(descriptor), path)
     except BaseException:
         os.close(descriptor)
         raise
     return descriptor
+
+
+def _check(found: os.stat_result, path: str | os.PathLike[str]) -> None:
+    if not stat.S_ISREG(found.st_mode):
+        kind = next((text for has, text in _KINDS if has(found.st_mode)), "it is not a regular file")
+        if os.fspath(path).startswith(_UNNAMED_PIPES):
+            kind = kind.replace("named pipe", "pipe")
+        raise UnsuitableFileError(errno.EINVAL, kind, os.fspath(path))
+    stored = getattr(found, "st_blocks", 0) * _BLOCK
+    if stored >= _MIN_STORED and found.st_size > max(MAX_SPARSE, MAX_SPARSE_RATIO * stored):
+        reason = f"it is a sparse file: the disk stores only {stored} of its {found.st_size} bytes"
+        raise UnsuitableFileError(errno.EFBIG, reason, os.fspath(path))

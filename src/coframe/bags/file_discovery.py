@@ -7,11 +7,12 @@ The first bytes of a file decide its format. Names and metadata.yaml only help t
 from __future__ import annotations
 
 import difflib
+import errno
 import importlib
 import re
 from contextlib import suppress
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, BinaryIO, NamedTuple
 
 from coframe.bags import mcap_file, ros1_file, sqlite_file
 from coframe.bags.compressed_messages import UnpackedMessages
@@ -20,6 +21,7 @@ from coframe.bounded_yaml import read_yaml
 from coframe.errors import RecordingError
 from coframe.existence import is_file
 from coframe.formatting import listed
+from coframe.regular_files import UnsuitableFileError, open_regular, read_regular, reading_hint
 from coframe.temporary_folders import temporary_folder
 
 if TYPE_CHECKING:
@@ -41,6 +43,7 @@ _SUFFIXES = (".mcap", ".db3", ".bag")
 _METADATA = "metadata.yaml"
 _UNPACKED_PIECE = 1 << 20  # bytes
 _LARGEST_METADATA = 16 << 20
+_MAX_EXPANSION = 16 << 20  # bytes; data that cannot be compressed grows by less than that
 _ROS1_DATE = re.compile(r"[_-]?\d{4}(-\d\d){5}$", re.ASCII)
 
 
@@ -71,7 +74,7 @@ def open_files(path: Path, problems: Problems, closing: ExitStack) -> OpenedFile
     except OSError as error:
         raise RecordingError(
             f"{path} cannot be read: {error.strerror or error}",
-            hint=_existing_instead(path) or "Check the path and the permission to read it.",
+            hint=_existing_instead(path) or reading_hint(error),
         ) from None
     if not found:
         reasons = problems.sentences()
@@ -122,13 +125,13 @@ def _inner_recordings(folder: Path) -> str:
 
 def _candidates(folder: Path, metadata: dict[str, Any], problems: Problems) -> list[Path]:
     """Return the files of a folder that may be part of the recording: those in the metadata first, then others."""
-    existing = sorted((file for file in folder.iterdir() if file.is_file() and _is_candidate(file)), key=_natural)
+    existing = sorted((file for file in folder.iterdir() if _is_candidate(file, problems)), key=_natural)
     listed: list[Path] = []
     for name in _listed(metadata):
         file = folder / Path(name).name
         same = [other for other in existing if other.name in {file.name, f"{file.name}.zstd"}]
         listed += same
-        if not same:
+        if not same and not file.exists():
             problems.add(f"{_METADATA} lists {Path(name).name}, which does not exist")
     others = [file for file in existing if file not in listed]
     # The order of these files does not matter, because messages are sorted by time.
@@ -138,14 +141,26 @@ def _candidates(folder: Path, metadata: dict[str, Any], problems: Problems) -> l
     return list(dict.fromkeys([*listed, *others]))
 
 
-def _is_candidate(file: Path) -> bool:
-    try:
-        with file.open("rb") as opened:
-            start = opened.read(16)
-    except FileNotFoundError:  # A running recorder renames its metadata between the listing and this line.
-        return False
+def _is_candidate(file: Path, problems: Problems) -> bool:
     suffixes = [suffix for suffix in file.suffixes if suffix != ".zstd"]
-    return any(start.startswith(magic) for magic in _READERS) or bool(suffixes and suffixes[-1] in _SUFFIXES)
+    is_named_so = bool(suffixes and suffixes[-1] in _SUFFIXES)
+    try:
+        start = _beginning(file)
+    except UnsuitableFileError as error:
+        if is_named_so and not file.is_dir():
+            problems.add(f"{file.name} cannot be read: {error.strerror}")
+        return False
+    except OSError as error:
+        # A running recorder renames its metadata between the listing and this line. Links can lead to themselves.
+        if error.errno in {errno.ENOENT, errno.ELOOP}:
+            return False
+        raise
+    return is_named_so or any(start.startswith(magic) for magic in _READERS)
+
+
+def _beginning(file: Path) -> bytes:
+    with open_regular(file) as opened:
+        return opened.read(16)
 
 
 def _natural(file: Path) -> list[tuple[int, int, str]]:
@@ -157,8 +172,7 @@ def _natural(file: Path) -> list[tuple[int, int, str]]:
 
 
 def _open(file: Path, problems: Problems, closing: ExitStack) -> Storage | None:
-    with file.open("rb") as opened:
-        start = opened.read(16)
+    start = _beginning(file)
     if start.startswith(_ZSTD):
         file, start = _unpacked(file, problems, closing)
     for magic, reader in _READERS.items():
@@ -189,32 +203,49 @@ def _unpacked(file: Path, problems: Problems, closing: ExitStack) -> tuple[Path,
     target = folder / file.name.removesuffix(".zstd")
     budget = unpacked_budget(file.stat().st_size)
     # A damaged file yields a truncated one, and reading that reports the damage.
-    with file.open("rb") as packed, target.open("wb") as whole, suppress(zstandard.ZstdError):
-        reader = zstandard.ZstdDecompressor().stream_reader(packed)
+    with open_regular(file) as packed, target.open("wb") as whole, suppress(zstandard.ZstdError):
+        source = _PackedFile(packed, whole)
+        reader = zstandard.ZstdDecompressor().stream_reader(source)
         while piece := reader.read(_UNPACKED_PIECE):
             if whole.tell() + len(piece) > budget:
                 problems.add(f"{file.name} unpacks to more than {budget} bytes, the limit; the rest was not read")
                 break
             whole.write(piece)
-    with target.open("rb") as opened:
-        return target, opened.read(16)
+        if source.is_implausible:
+            problems.add(f"{file.name} is damaged: {packed.tell()} bytes unpack to only {whole.tell()}")
+    return target, _beginning(target)
+
+
+class _PackedFile:
+    """A compressed file that ends where its bytes have unpacked to fewer: empty blocks can fill a file."""
+
+    def __init__(self, packed: BinaryIO, whole: BinaryIO) -> None:
+        self._packed = packed
+        self._whole = whole
+
+    @property
+    def is_implausible(self) -> bool:
+        return self._packed.tell() > self._whole.tell() + _MAX_EXPANSION
+
+    def read(self, size: int) -> bytes:
+        return b"" if self.is_implausible else self._packed.read(size)
 
 
 def _metadata(file: Path, problems: Problems) -> dict[str, Any]:
     """Return the contents of metadata.yaml; empty if it is missing or damaged, because it is not required."""
-    if not file.is_file():
-        return {}
+    found: dict[str, Any] = {}
     try:
-        with file.open("rb") as opened:
-            text = opened.read(_LARGEST_METADATA + 1)
+        text = read_regular(file, _LARGEST_METADATA)
         found = dict(read_yaml(text, _LARGEST_METADATA)["rosbag2_bagfile_information"])
+    except FileNotFoundError:
+        pass
+    except UnsuitableFileError as error:
+        problems.add(f"{_METADATA} cannot be read: {error.strerror}; the files were read without it")
     except ModuleNotFoundError:
         problems.add(f"{_METADATA} was not read: the package PyYAML is not installed")
-        found = {}
     except (ValueError, TypeError, KeyError) as error:
         reason = " ".join(str(error).split())[:200]
         problems.add(f"{_METADATA} is damaged ({reason}); the files were read without it")
-        found = {}
     return found
 
 

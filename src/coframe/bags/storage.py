@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, BinaryIO, ClassVar, NamedTuple
 
 from coframe.bags.compression import LARGEST, DamagedError
+from coframe.regular_files import open_regular
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -145,7 +146,7 @@ class ChunkedStorage(Storage):
 
     def __init__(self, path: Path, problems: Problems) -> None:
         super().__init__(path, problems)
-        self._file: BinaryIO = path.open("rb")
+        self._file: BinaryIO = open_regular(path)
         self._lock = threading.Lock()
         self._chunks: list[int] = []  # offsets in the file
         self._unpacked_end = 0  # offset of the last chunk that was counted

@@ -11,8 +11,10 @@ import typer
 
 from coframe.cli.output import fail
 from coframe.errors import PackageError
+from coframe.existence import exists, is_dir
 from coframe.formatting import did_you_mean
 from coframe.packages.finding import find_package, use_sources_near
+from coframe.regular_files import check_regular, reading_hint
 
 if TYPE_CHECKING:
     from launch import LaunchDescription
@@ -78,7 +80,11 @@ def launch(
 def _launch_file(package_or_file: str, words: list[str]) -> Path:
     """Return the path of the launch file; remove its name from the words if the first one is a package."""
     file = Path(package_or_file)
-    if file.is_file():
+    if exists(file) and not is_dir(file):
+        try:
+            check_regular(file)
+        except OSError as error:
+            fail(f"{package_or_file} cannot be read: {error.strerror}", reading_hint(error))
         return file.resolve()
     if os.sep in package_or_file or package_or_file.endswith(_SUFFIXES):
         siblings = [each.name for each in file.parent.iterdir()] if file.parent.is_dir() else []

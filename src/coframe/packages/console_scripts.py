@@ -9,11 +9,15 @@ import re
 import sys
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from coframe.regular_files import read_regular_text
+
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
     from pathlib import Path
 
 __all__ = ["PythonPackage", "read"]
+
+MAX_BYTES = 1 << 18  # of a file
 
 _SCRIPT = re.compile(r"\s*([\w.\-]+)\s*=\s*([\w.]+\s*:\s*[\w.]+)\s*(?:\[.*\])?\s*", re.ASCII)
 
@@ -39,8 +43,8 @@ def read(package: Path) -> PythonPackage:
     root = ""
     for name, reader in (("pyproject.toml", _pyproject), ("setup.cfg", _setup_cfg), ("setup.py", _setup_py)):
         try:
-            found = reader((package / name).read_text(encoding="utf-8"))
-        except (OSError, ValueError, SyntaxError, RecursionError, configparser.Error):
+            found = reader(read_regular_text(package / name, MAX_BYTES))
+        except (OSError, ValueError, SyntaxError, RecursionError, MemoryError, configparser.Error):
             continue
         scripts |= found.scripts
         files += found.files

@@ -13,6 +13,7 @@ from coframe.packages import builtin, console_scripts
 from coframe.packages.finding import Package, candidates, find_package
 from coframe.packages.folders import crawl
 from coframe.python_children import python_command, python_environment
+from coframe.regular_files import open_regular, read_regular_text
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -21,7 +22,7 @@ if TYPE_CHECKING:
 __all__ = ["Executable", "executables", "find_executable"]
 
 # install(PROGRAMS scripts/a.py DESTINATION lib/${PROJECT_NAME}) in a CMakeLists.txt
-_INSTALLED_PROGRAMS = re.compile(r"install\s*\(\s*PROGRAMS\s+(.*?)\s+DESTINATION\s+\"?lib/", re.DOTALL | re.IGNORECASE)
+_INSTALL = re.compile(r"\binstall\s*\(([^()]*)\)", re.IGNORECASE)
 _ENTRY_POINT = tuple(python_command("coframe.entry_point"))
 _MOST_NAMES = 30  # in an error message
 _MAX_DEPTH = 4
@@ -130,11 +131,21 @@ def _has_modules(package: Path) -> bool:
 
 def _programs_of_cmake(package: Path) -> list[str]:
     try:
-        text = (package / "CMakeLists.txt").read_text(encoding="utf-8")
+        text = read_regular_text(package / "CMakeLists.txt", console_scripts.MAX_BYTES)
     except (OSError, UnicodeDecodeError):
         return []
     text = re.sub(r"#.*", "", text)
-    return [word.strip('"') for match in _INSTALLED_PROGRAMS.finditer(text) for word in match[1].split()]
+    installed = [[word.strip('"') for word in match[1].split()] for match in _INSTALL.finditer(text)]
+    return [program for words in installed for program in _installed_programs(words)]
+
+
+def _installed_programs(words: list[str]) -> list[str]:
+    """Return the programs among the arguments of install() that are installed below lib."""
+    keys = [word.upper() for word in words]
+    if keys[:1] != ["PROGRAMS"] or "DESTINATION" not in keys:
+        return []
+    end = keys.index("DESTINATION")
+    return words[1:end] if "".join(words[end + 1 : end + 2]).startswith("lib/") else []
 
 
 def _command_of(file: Path) -> tuple[str, ...]:
@@ -145,5 +156,6 @@ def _command_of(file: Path) -> tuple[str, ...]:
 
 
 def _has_python_shebang(file: Path) -> bool:
-    with file.open("rb") as stream:
-        return stream.readline(200).startswith(b"#!") and b"python" in file.read_bytes()[:200].splitlines()[0]
+    with open_regular(file) as stream:
+        first = stream.readline(200)
+    return first.startswith(b"#!") and b"python" in first

@@ -14,6 +14,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from coframe.errors import RobotDescriptionError
+from coframe.regular_files import check_regular, read_regular, reading_hint
+from coframe.robots.document import MAX_BYTES
 from coframe.robots.urdf import parse_urdf
 from coframe.robots.xacro_process import MAX_OUTPUT, MAX_SECONDS
 
@@ -48,12 +50,10 @@ def load(
     file = Path(path)
     expands = file.suffix == ".xacro"
     try:
-        text = expand_xacro(file, arguments, packages) if expands else file.read_bytes()
+        text = expand_xacro(file, arguments, packages) if expands else read_regular(file, MAX_BYTES)
     except OSError as error:
         reason = error.strerror or type(error).__name__
-        raise RobotDescriptionError(
-            f"cannot be read: {reason}", file=str(file), hint="Check the path and the permissions of the file."
-        ) from None
+        raise RobotDescriptionError(f"cannot be read: {reason}", file=str(file), hint=reading_hint(error)) from None
     try:
         robot = parse_urdf(text)
     except RobotDescriptionError as error:
@@ -81,6 +81,7 @@ def expand_xacro(
     if importlib.util.find_spec("xacro") is None:
         reason = "the file is xacro, and the package xacro is not installed"
         raise RobotDescriptionError(reason, file=str(path), hint="pip install 'coframe[robots]'")
+    check_regular(path)
     answer = _expanded(
         {
             "path": os.fspath(path),

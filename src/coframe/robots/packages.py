@@ -10,6 +10,7 @@ from urllib.parse import unquote
 from coframe.errors import PackageError
 from coframe.existence import is_dir
 from coframe.packages.folders import crawl, listed, named, package_around
+from coframe.regular_files import UnsuitableFileError, check_regular
 
 if TYPE_CHECKING:
     import os
@@ -86,11 +87,14 @@ class Packages:
                 raise PackageError(
                     f"{url!r} is outside {root}", hint=f"Only files inside the package can be read. {_SEARCHED}"
                 )
-            if not real.is_file():
-                raise PackageError(
-                    f"{url!r} does not exist: there is no file {real}",
-                    hint=f"Check the spelling, and whether this is the right copy of the package. {_SEARCHED}",
-                )
+            check_regular(real)
+        except FileNotFoundError:
+            raise PackageError(
+                f"{url!r} does not exist: there is no file {real}",
+                hint=f"Check the spelling, and whether this is the right copy of the package. {_SEARCHED}",
+            ) from None
+        except UnsuitableFileError as error:
+            raise PackageError(f"{url!r}: {error}", hint=_SEARCHED) from None
         except (OSError, ValueError, RuntimeError) as error:  # circular links, NUL characters, names that are too long
             raise PackageError(f"{url!r} is not a valid file name: {error}", hint=_SEARCHED) from None
         return real

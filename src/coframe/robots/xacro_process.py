@@ -9,19 +9,23 @@ for ``$(find PACKAGE)``, because that takes longer than the rest.
 from __future__ import annotations
 
 import contextlib
+import importlib.util
+import io
 import json
 import os
 import sys
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Callable, Mapping
 
 __all__ = ["MAX_MEMORY", "MAX_OUTPUT", "MAX_SECONDS"]
 
 MAX_SECONDS = 20.0
 MAX_MEMORY = 2 << 30  # bytes
 MAX_OUTPUT = 64 << 20  # characters of a URDF
+_REGULAR_FILES = Path(__file__).parents[1] / "regular_files.py"
 
 
 def _answer(request: Mapping[str, Any]) -> dict[str, Any]:
@@ -33,8 +37,9 @@ def _answer(request: Mapping[str, Any]) -> dict[str, Any]:
 
         return str(Packages(request["path"], request["packages"]).find(name))
 
-    # xacro has no public hook for $(find PACKAGE), which otherwise requires an installed ROS.
+    # xacro has no public hook for $(find PACKAGE), which otherwise requires an installed ROS, and none for its files.
     substitution_args._eval_find = find  # noqa: SLF001
+    xacro.open = _file_reader()
     try:
         text = xacro.process_file(request["path"], mappings=request["arguments"]).toprettyxml(indent="  ")
     except OSError as error:
@@ -50,6 +55,16 @@ def _answer(request: Mapping[str, Any]) -> dict[str, Any]:
     if len(text) > MAX_OUTPUT:
         return {"error": f"the expanded file has more than {MAX_OUTPUT >> 20} MiB, the limit"}
     return {"text": text}
+
+
+def _file_reader() -> Callable[[str], io.StringIO]:
+    """Return a function that opens the file and all that it includes in place of `open`."""
+    spec = importlib.util.spec_from_file_location("regular_files", _REGULAR_FILES)
+    assert spec is not None
+    assert spec.loader is not None
+    module = importlib.util.module_from_spec(spec)  # without the package coframe, whose import takes longer
+    spec.loader.exec_module(module)
+    return lambda path: io.StringIO(module.read_regular_text(path, MAX_OUTPUT))
 
 
 def _main() -> None:

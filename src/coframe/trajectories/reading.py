@@ -4,16 +4,18 @@
 from __future__ import annotations
 
 import decimal
+import io
 import re
 import zipfile
 from array import array
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, BinaryIO
 
 import numpy as np
 
 from coframe.errors import InvalidArgumentException, TrajectoryError
+from coframe.regular_files import open_regular
 from coframe.time import SECOND
 from coframe.trajectories.formats import POSE_COLUMNS
 from coframe.transform import Transform
@@ -68,11 +70,12 @@ def read_trajectory(path: str | os.PathLike[str], format_: str | None = None) ->
         raise ValueError(f"No format named {format_!r} that can be read. Formats: {', '.join(READABLE_FORMATS)}.")
     file = Path(path)
     try:
-        with file.open("rb") as stream:
+        with open_regular(file) as stream:
             is_zip = stream.read(2) == b"PK"
-        if format_ == "npz" or (format_ is None and is_zip):
-            return _read_npz(file)
-        with file.open(encoding="utf-8-sig") as text:
+            stream.seek(0)
+            if format_ == "npz" or (format_ is None and is_zip):
+                return _read_npz(file, stream)
+            text = io.TextIOWrapper(stream, encoding="utf-8-sig")
             return _read_text(file, iter(partial(text.readline, MAX_LINE + 1), ""), format_)
     except OSError as error:
         raise TrajectoryError(f"{file} cannot be read: {error.strerror or error}") from None
@@ -156,10 +159,10 @@ def _nanoseconds(text: str, unit: int) -> int:
     return int(time.to_integral_value())
 
 
-def _read_npz(file: Path) -> Transform:
+def _read_npz(file: Path, stream: BinaryIO) -> Transform:
     try:
-        _check_unpacked_size(file)
-        with np.load(file) as data:
+        _check_unpacked_size(stream)
+        with np.load(stream) as data:
             target, source = (str(data[name]) or None for name in ("target", "source"))
             poses = Transform(
                 data["translation"], data["quaternion"], target=target, source=source, stamp=data["stamps"]
@@ -185,8 +188,9 @@ def _check_number(file: Path, poses: int) -> None:
         )
 
 
-def _check_unpacked_size(file: Path) -> None:
-    with zipfile.ZipFile(file) as archive:
+def _check_unpacked_size(stream: BinaryIO) -> None:
+    with zipfile.ZipFile(stream) as archive:
         size = sum(member.file_size for member in archive.infolist())
+    stream.seek(0)
     if size > MAX_UNPACKED:
         raise ValueError(f"it unpacks to {size} bytes; the limit is {MAX_UNPACKED}")

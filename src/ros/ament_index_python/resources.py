@@ -6,6 +6,7 @@ from typing import Literal
 
 from ament_index_python.constants import RESOURCE_INDEX_SUBFOLDER
 from ament_index_python.search_paths import get_search_paths
+from coframe.regular_files import read_regular_text
 
 __all__ = [
     "InvalidResourceNameError",
@@ -16,6 +17,8 @@ __all__ = [
     "has_resource",
     "name_is_invalid",
 ]
+
+MAX_BYTES = 16 << 20
 
 
 class InvalidResourceTypeNameError(ValueError):
@@ -45,7 +48,7 @@ def get_resource(resource_type: str, resource_name: str) -> tuple[str, str]:
         raise LookupError(f"Could not find the resource '{resource_name}' of type '{resource_type}'")
     path = Path(prefix, RESOURCE_INDEX_SUBFOLDER, resource_type, resource_name)
     try:
-        return path.read_text(encoding="utf-8"), prefix
+        return read_regular_text(path, MAX_BYTES), prefix
     except OSError as error:
         raise OSError(f"Could not open the resource '{resource_name}' of type '{resource_type}':\n{error}") from error
 

@@ -6,6 +6,8 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from coframe.bounded_yaml import MAX_BYTES
+from coframe.regular_files import read_regular_text
 from launch.frontend.substitution_grammar import parse_text
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 from launch.utilities.type_utils import normalize_typed_substitution, perform_typed_substitution
@@ -117,7 +119,7 @@ class ParameterFile:
         """Return the path; with substitutions in the file, that of a copy in which they are performed."""
         path = Path(perform_substitutions(context, self.__param_file))
         if perform_typed_substitution(context, self.__allow_substs, bool) and path.is_file():
-            text = perform_substitutions(context, parse_text(path.read_text(encoding="utf-8")))
+            text = perform_substitutions(context, parse_text(read_regular_text(path, MAX_BYTES)))
             path = write_temporary_file(text)
         self.__evaluated = path
         return path

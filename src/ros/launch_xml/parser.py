@@ -6,6 +6,7 @@ from __future__ import annotations
 from typing import Any
 
 from coframe.bounded_xml import read_xml
+from coframe.regular_files import UnsuitableFileError
 from launch.frontend import Parser as BaseParser
 from launch_xml.entity import Entity
 
@@ -24,6 +25,8 @@ class Parser(BaseParser):
         """
         try:
             return Entity(read_xml(file)), cls()
+        except UnsuitableFileError:  # Its text has the path.
+            raise
         except ValueError as error:
             raise ValueError(f"{getattr(file, 'name', file)}: {error}") from None
 

@@ -3,9 +3,10 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Any
 
+from coframe.bounded_yaml import MAX_BYTES
+from coframe.regular_files import read_regular_text
 from launch.frontend import Parser as BaseParser
 from launch.utilities.yaml_loading import load_yaml
 from launch_yaml.entity import Entity
@@ -24,7 +25,7 @@ class Parser(BaseParser):
             ValueError: The file is not YAML, or has no root.
         """
         name = getattr(file, "name", file)
-        text = file.read() if hasattr(file, "read") else Path(file).read_text(encoding="utf-8")
+        text = file.read() if hasattr(file, "read") else read_regular_text(file, MAX_BYTES)
         tree = load_yaml(text)
         if not isinstance(tree, dict) or len(tree) != 1:
             raise ValueError(f"{name}: expected one root 'launch:'")

@@ -4,10 +4,10 @@
 from __future__ import annotations
 
 import re
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 from coframe.bounded_yaml import MAX_BYTES, compose_yaml
+from coframe.regular_files import read_regular
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -83,8 +83,7 @@ def load_parameters(path: str) -> Iterator[tuple[str, str, Any]]:
         ValueError: It is not a parameter file, exceeds a limit, or PyYAML is not installed.
     """
     try:
-        with Path(path).open("rb") as file:
-            root = compose_yaml(file.read(MAX_BYTES + 1))
+        root = compose_yaml(read_regular(path, MAX_BYTES))
     except ImportError:
         raise ValueError("reading it needs PyYAML: pip install pyyaml") from None
     yield from _nodes(_python_of(root), "")

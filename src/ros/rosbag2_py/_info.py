@@ -10,6 +10,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from coframe.bags import Recording, RecordingError, open_bag
+from coframe.bounded_yaml import MAX_BYTES, read_yaml
+from coframe.regular_files import read_regular
 from rosbag2_py._options import TopicMetadata
 
 if TYPE_CHECKING:
@@ -123,8 +125,8 @@ class MetadataIo:
     def read_metadata(self, uri: str) -> BagMetadata:
         """Return what the metadata.yaml of a folder contains."""
         try:
-            text = (Path(uri) / "metadata.yaml").read_text("utf-8")
-            return _from_yaml(_yaml().safe_load(text)["rosbag2_bagfile_information"], Path(uri))
+            text = read_regular(Path(uri) / "metadata.yaml", MAX_BYTES)
+            return _from_yaml(read_yaml(text)["rosbag2_bagfile_information"], Path(uri))
         except Exception as error:
             raise RuntimeError(f"Exception on parsing info file: {error}") from error
 

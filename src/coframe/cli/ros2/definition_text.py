@@ -62,16 +62,18 @@ def _parts(name: str) -> tuple[str, str, str]:
 
 def _definition(package: str, kind: str, name: str) -> str:
     """Return the text of a definition: of coframe or of the user's packages, or from the file of a sourced ROS."""
-    from coframe.messages.packages import find_package  # noqa: PLC0415 - slow import
+    from coframe.interfaces.definition_files import read  # noqa: PLC0415 - slow import
+    from coframe.messages.packages import find_package  # noqa: PLC0415
     from rosidl_runtime_py import get_interface_path  # noqa: PLC0415
 
     found = find_package(package)
     if found is not None and name in found.names(kind):
         return found.definition(kind, name).text
     try:
-        return Path(get_interface_path(f"{package}/{kind}/{name}")).read_text(encoding="utf-8", errors="replace")
+        path = Path(get_interface_path(f"{package}/{kind}/{name}"))
     except (LookupError, OSError):
         if found is None:
             fail(f"Unknown package '{package}'", "coframe interface packages shows all packages with types.")
         whole = f"{package}/{kind}/{name}"
         fail(f"Unknown type '{whole}'", near_types(whole) or f"coframe interface package {package} shows its types.")
+    return read(path).text

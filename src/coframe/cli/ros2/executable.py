@@ -9,6 +9,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+from coframe.regular_files import open_regular
+
 __all__ = ["is_own_script", "real_executable", "ros2", "rviz2"]
 
 _COMMANDS = (
@@ -111,7 +113,7 @@ def real_executable(name: str) -> Path | None:
 def is_own_script(path: Path) -> bool:
     """Return whether a file is an executable of coframe, or cannot be read."""
     try:
-        with path.open("rb") as file:
+        with open_regular(path) as file:
             content = file.read(_SCRIPT_SIZE)
     except OSError:
         return True  # It cannot be run either.

@@ -5,8 +5,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from coframe.bounded_yaml import MAX_BYTES
 from coframe.cli.output import fail
 from coframe.cli.ros2.values import yaml_value
+from coframe.regular_files import read_regular_text
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -98,7 +100,7 @@ def parameters_of_file(file: Path, node_name: str, *, use_wildcard: bool) -> dic
         use_wildcard: Whether parameters below /** count.
     """
     try:
-        content = yaml_value(file.read_text(encoding="utf-8"), str(file))
+        content = yaml_value(read_regular_text(file, MAX_BYTES), str(file))
     except OSError as error:
         fail(f"cannot read {file}: {error.strerror}")
     except UnicodeDecodeError:

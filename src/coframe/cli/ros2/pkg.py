@@ -3,15 +3,18 @@
 
 from __future__ import annotations
 
+import io
 from pathlib import Path
 from typing import Annotated, Any
 
 import typer
 
+from coframe.bounded_xml import MAX_BYTES, read_xml
 from coframe.cli.help_format import PlainCommand, PlainGroup
 from coframe.cli.lifecycle import run_to_completion
 from coframe.cli.output import fail, printable
 from coframe.cli.ros2.new_package import NewPackage, write_package
+from coframe.regular_files import read_regular, reading_hint
 
 __all__ = ["pkg"]
 
@@ -160,15 +163,20 @@ def xml(
         from coframe.packages import finding  # noqa: PLC0415 - slow import
 
         manifest = finding.find_package(package_name).share / "package.xml"
-        if not manifest.is_file():
+        try:
+            content = read_regular(manifest, MAX_BYTES)
+        except FileNotFoundError:
             fail(f"Package {package_name} has no package.xml.", "It is a package of coframe itself.")
-        text = manifest.read_text(encoding="utf-8", errors="replace")
+        except OSError as error:
+            fail(f"{manifest} cannot be read: {error.strerror}", reading_hint(error))
         if tag is None:
-            print(printable(text))
+            print(printable(content.decode("utf-8", "replace")))
             return
-        from xml.etree import ElementTree as ET  # noqa: PLC0415 - only for --tag
-
-        values = [element.text or "" for element in ET.fromstring(text).iter(tag)]  # noqa: S314 - the user's own file
+        try:
+            root = read_xml(io.BytesIO(content))
+        except ValueError as error:
+            fail(f"{manifest}: {error}")
+        values = [element.text or "" for element in root.iter(tag)]
         if not values:
             fail(f"The manifest of {package_name} has no element <{tag}>.")
         print(printable("\n".join(values)))

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, NamedTuple, cast
 import numpy as np
 
 from coframe.errors import ViewerError
+from coframe.regular_files import read_regular
 from coframe.time import SECOND
 from coframe.viewer.protocol.encoding import relative_to
 from coframe.viewer.protocol.replay_block import ReplayBlock
@@ -206,13 +207,10 @@ def _robots(content: ReplayContent) -> list[Robot]:
         for reference, url in message["meshes"].items():
             try:
                 file = content.meshes.file(url.removeprefix("/mesh/"))
-                size = file.stat().st_size
-                if size <= left:
-                    kind = MESH_TYPES[file.suffix.lower()]
-                    files[reference] = f"data:{kind};base64,{base64.b64encode(file.read_bytes()).decode()}"
-                    left -= size
-                else:
-                    missing += 1
+                mesh = read_regular(file, left)
+                kind = MESH_TYPES[file.suffix.lower()]
+                files[reference] = f"data:{kind};base64,{base64.b64encode(mesh).decode()}"
+                left -= len(mesh)
             except (MeshError, OSError):
                 missing += 1
         problems = [f"{missing} meshes did not fit into this replay"] if missing else []

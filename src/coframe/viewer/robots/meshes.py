@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from urllib.parse import quote, unquote, urlsplit
 
 from coframe.errors import CoframeError
+from coframe.regular_files import check_regular
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
@@ -166,10 +167,14 @@ def _resolved(path: Path) -> Path:
 def _check_file(file: Path, reference: str) -> None:
     if file.suffix.lower() not in MESH_TYPES:
         raise MeshError(f"{_shown(reference)} is not a mesh or texture. Known extensions: {', '.join(MESH_TYPES)}")
-    if not _is_file(file):
+    try:
+        check_regular(file)
+    except FileNotFoundError:
         is_package = reference.startswith("package://")
         hint = ". Is the right copy of the package in a folder of COFRAME_PACKAGE_PATH?" if is_package else ""
-        raise MeshError(f"file {_shown(reference)} not found{hint}")
+        raise MeshError(f"file {_shown(reference)} not found{hint}") from None
+    except OSError as error:
+        raise MeshError(f"{_shown(reference)} cannot be read: {error.strerror}") from None
     if (size := file.stat().st_size) > LARGEST_FILE:
         raise MeshError(f"{_shown(reference)} has {size >> 20} MB; at most {LARGEST_FILE >> 20} MB are served")
 

@@ -8,8 +8,9 @@ import re
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from coframe.errors import ViewerError
+from coframe.regular_files import read_regular_text, reading_hint
 from coframe.viewer.protocol.server_messages import RvizConfiguration, RvizGlobalOptions, UnknownRvizPart
-from coframe.viewer.rviz.reading import read_yaml, yaml_module
+from coframe.viewer.rviz.reading import MAX_FILE_BYTES, read_yaml, yaml_module
 from coframe.viewer.rviz.tools import merge_tools, read_tools
 from coframe.viewer.rviz.values import OWN_KEYS, is_number, plain, plain_class, set_topic, topic_of, update
 
@@ -115,10 +116,10 @@ class RvizConfig:
             ViewerError: The file cannot be read or is not a configuration of RViz, or PyYAML is missing.
         """
         try:
-            text = file.read_text(encoding="utf-8")
+            text = read_regular_text(file, MAX_FILE_BYTES)
         except OSError as error:
-            hint = "Check the path and the permission to read it."
-            raise ViewerError(f"{file} cannot be read: {error.strerror or error}", hint=hint) from None
+            reason = error.strerror or type(error).__name__
+            raise ViewerError(f"{file} cannot be read: {reason}", hint=reading_hint(error)) from None
         except UnicodeDecodeError:
             raise ViewerError(f"{file} is not a text file", hint="Is it an .rviz file?") from None
         return cls.parse(text, str(file))

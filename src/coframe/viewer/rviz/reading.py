@@ -8,7 +8,7 @@ from typing import Any
 from coframe import bounded_yaml
 from coframe.errors import ViewerError
 
-__all__ = ["read_yaml", "yaml_module"]
+__all__ = ["MAX_FILE_BYTES", "read_yaml", "yaml_module"]
 
 MAX_FILE_BYTES = 1 << 20
 

@@ -10,11 +10,14 @@ from html import escape
 from typing import TYPE_CHECKING
 
 from coframe.errors import WireError
+from coframe.regular_files import UnsuitableFileError, check_regular
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
 MAX_PARTICIPANT_INDEX = 99
+MAX_BYTES = 16 << 20  # of a configuration file
+_FILE = "file://"
 
 # Large messages are sent in fragments, and a reader requests up to 256 lost ones at a time. Fragments about as large as
 # the datagrams of Cyclone DDS (14720 bytes) need a tenth of the requests: Fast DDS receives 40 MB in 1 s, not in 12 s.
@@ -115,7 +118,7 @@ def cyclone_config(environment: Mapping[str, str] = os.environ) -> str:
     """Return the configuration for Cyclone DDS. The user's CYCLONEDDS_URI is appended and overrides it.
 
     Raises:
-        WireError: An environment variable has an invalid value.
+        WireError: An environment variable has an invalid value, or names a file that is not a regular one.
     """
     allowed = discovery_range(environment)
     general, internal = _SIZES, _RETRANSMISSION
@@ -143,7 +146,20 @@ def cyclone_config(environment: Mapping[str, str] = os.environ) -> str:
         "</Domain></CycloneDDS>"
     )
     user = environment.get("CYCLONEDDS_URI", "").strip()
+    _check_files(user)
     return f"{xml},{user}" if user else xml
+
+
+def _check_files(user: str) -> None:
+    """Raise WireError if Cyclone DDS would wait for a file in CYCLONEDDS_URI, or read one that never ends."""
+    for part in map(str.strip, user.split(",")):
+        if part.startswith(_FILE) or (part and "<" not in user):
+            try:
+                check_regular(part.removeprefix(_FILE), MAX_BYTES)
+            except UnsuitableFileError as error:
+                raise WireError(f"CYCLONEDDS_URI: {error}.") from None
+            except OSError:
+                continue  # Cyclone DDS names a missing file.
 
 
 def _on_this_machine(peers: list[str]) -> bool:

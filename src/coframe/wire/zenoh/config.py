@@ -7,10 +7,10 @@ import json
 import logging
 import os
 import re
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 from coframe.errors import WireError
+from coframe.regular_files import UnsuitableFileError, check_regular, reading_hint
 from coframe.wire.zenoh import library
 
 if TYPE_CHECKING:
@@ -23,6 +23,7 @@ ROUTER_FILE: Final = "ZENOH_ROUTER_CONFIG_URI"
 OVERRIDE: Final = "ZENOH_CONFIG_OVERRIDE"
 ROUTER_CHECK: Final = "ZENOH_ROUTER_CHECK_ATTEMPTS"
 DEFAULT_ROUTER: Final = "tcp/localhost:7447"
+MAX_BYTES: Final = 16 << 20  # of a configuration, and of each file that it names
 
 _COMMON: Final[dict[str, Any]] = {
     "scouting/multicast/enabled": False,
@@ -56,6 +57,8 @@ _LOOPBACK_DISCOVERY: Final[dict[str, Any]] = {
     "scouting/multicast/enabled": True,
     "scouting/multicast/interface": "127.0.0.1",
 }
+
+_FILE_KEYS: Final = ("_certificate", "_private_key", "_file")
 
 _logger = logging.getLogger("coframe.wire")
 
@@ -175,15 +178,37 @@ def _config(file: str, variable: str, defaults: Mapping[str, Any], environment: 
             config.insert_json5(path, text)
         except module.ZError as error:
             _logger.warning("%s: %s=%s is skipped: %s.", OVERRIDE, path, text, reason_of(error))
+    _check_named_files(config)
     return config
 
 
+def _check_named_files(config: zenoh.Config) -> None:
+    """Raise WireError if Zenoh would wait for a file that the configuration names, such as a certificate."""
+    credentials = {
+        **(json.loads(config.get_json("transport/link/tls")) or {}),
+        **(json.loads(config.get_json("transport/auth/usrpwd")) or {}),
+    }
+    for key, file in credentials.items():
+        if isinstance(file, str) and key.endswith(_FILE_KEYS):
+            try:
+                check_regular(file, MAX_BYTES)
+            except UnsuitableFileError as error:
+                raise WireError(f"The Zenoh configuration has the {key} {error}.") from None
+            except OSError:
+                continue  # Zenoh names a missing file.
+
+
 def _from_file(module: Any, file: str, variable: str) -> zenoh.Config:
-    if not Path(file).is_file():
+    try:
+        check_regular(file, MAX_BYTES)
+    except FileNotFoundError:
         raise WireError(
             f"There is no file {file}, which {variable} names.",
             hint="Name a configuration file of Zenoh (JSON5), or leave it out to use the defaults of ROS 2.",
-        )
+        ) from None
+    except OSError as error:
+        reason = error.strerror or type(error).__name__
+        raise WireError(f"The Zenoh configuration {file} cannot be read: {reason}.", hint=reading_hint(error)) from None
     try:
         config: zenoh.Config = module.Config.from_file(file)
     except module.ZError as error:

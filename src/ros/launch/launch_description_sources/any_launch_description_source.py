@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from coframe.formatting import did_you_mean
+from coframe.regular_files import check_regular
 from launch.frontend.parser import Parser
 from launch.invalid_launch_file_error import InvalidLaunchFileError
 from launch.launch_description_source import LaunchDescriptionSource
@@ -41,13 +42,16 @@ def get_launch_description_from_any_launch_file(
 
     Raises:
         FileNotFoundError: There is no such file; the text lists similar names.
+        OSError: The file cannot be read, or is not a regular file.
         InvalidLaunchFileError: No parser can read the file.
     """
     path = Path(launch_file_path)
-    if not path.is_file():
+    try:
+        check_regular(path)
+    except FileNotFoundError:
         siblings = [each.name for each in path.parent.iterdir()] if path.parent.is_dir() else []
         guess = did_you_mean(path.name, siblings, most=2)
-        raise FileNotFoundError(f"No launch file {launch_file_path}. {guess}".rstrip())
+        raise FileNotFoundError(f"No launch file {launch_file_path}. {guess}".rstrip()) from None
     if path.suffix == ".py":
         return get_launch_description_from_python_launch_file(launch_file_path)
     if parser.is_filename_valid(launch_file_path):

@@ -7,6 +7,7 @@ from importlib.machinery import SourceFileLoader
 from importlib.util import module_from_spec, spec_from_loader
 from typing import TYPE_CHECKING
 
+from coframe.regular_files import read_regular
 from launch.invalid_launch_file_error import InvalidLaunchFileError
 from launch.launch_description import LaunchDescription
 from launch.launch_description_source import LaunchDescriptionSource
@@ -22,6 +23,8 @@ __all__ = [
     "get_launch_description_from_python_launch_file",
     "load_python_launch_file_as_module",
 ]
+
+MAX_BYTES = 16 << 20
 
 
 class InvalidPythonLaunchFileError(InvalidLaunchFileError):
@@ -42,9 +45,14 @@ class PythonLaunchDescriptionSource(LaunchDescriptionSource):
         return get_launch_description_from_python_launch_file(location)
 
 
+class _LaunchFileLoader(SourceFileLoader):
+    def get_data(self, path: str) -> bytes:
+        return read_regular(path, MAX_BYTES)
+
+
 def load_python_launch_file_as_module(python_launch_file_path: str) -> ModuleType:
     """Run a Python launch file and return its module."""
-    loader = SourceFileLoader("python_launch_file", python_launch_file_path)
+    loader = _LaunchFileLoader("python_launch_file", python_launch_file_path)
     spec = spec_from_loader(loader.name, loader)
     assert spec is not None
     module = module_from_spec(spec)

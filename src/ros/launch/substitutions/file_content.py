@@ -3,9 +3,10 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from coframe.bounded_yaml import MAX_BYTES
+from coframe.regular_files import read_regular_text
 from launch.frontend.arguments import check_arguments
 from launch.frontend.expose import expose_substitution
 from launch.substitution import Substitution
@@ -47,6 +48,6 @@ class FileContent(Substitution):
         """Return the text."""
         path = perform_substitutions(context, self.__path)
         try:
-            return Path(path).read_text(encoding="utf-8")
+            return read_regular_text(path, MAX_BYTES)
         except (OSError, UnicodeDecodeError) as error:
             raise SubstitutionFailure(f"Failed to open substitution file: {path}: {error}") from error
