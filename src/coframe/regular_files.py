@@ -58,6 +58,8 @@ def open_regular(path: str | os.PathLike[str]) -> BinaryIO:
     try:
         _check(os.stat(path), path)  # noqa: PTH116 - a path of any kind
         return open(path, "rb", opener=_open)  # pathlib has no opener
+    except OSError:
+        raise
     except ValueError:  # a NUL, or a character that file names cannot have
         raise UnsuitableFileError(errno.EINVAL, "its name is not valid", os.fspath(path)) from None
 
