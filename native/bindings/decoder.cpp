@@ -130,12 +130,12 @@ nb::object get_array(char code, std::size_t count, const nb::object& dtype, CdrI
 
 }  // namespace
 
-nb::object MessageCodec::decode(std::span<const std::uint8_t> data) const {
+nb::object MessageCodec::decode(std::span<const std::uint8_t> data, std::size_t max_rest) const {
   const bool is_little_endian = data.size() >= CdrInput::kHeaderSize && data[0] == 0 && data[1] == 1;
   if (std::endian::native != std::endian::little || !is_little_endian) return nb::none();
   CdrInput in(data.data(), data.size());
   nb::object message = get_message(in);
-  return message.is_valid() ? message : nb::none();
+  return message.is_valid() && in.remaining() <= max_rest ? message : nb::none();
 }
 
 nb::object MessageCodec::get_message(CdrInput& in) const {

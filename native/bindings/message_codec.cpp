@@ -44,11 +44,13 @@ void define_message_codec(nb::module_& module) {
            "Return the CDR of a message, or None if Python code has to serialize it.")
       .def(
           "decode",
-          [](const MessageCodec& self, nb::handle data) {
+          [](const MessageCodec& self, nb::handle data, std::size_t max_rest) {
             const Memory memory(data, PyBUF_SIMPLE);
-            return self.decode({memory.data<const std::uint8_t>(), memory.size()});
+            return self.decode({memory.data<const std::uint8_t>(), memory.size()}, max_rest);
           },
-          nb::arg("data"), "Return the message in CDR bytes, or None if Python code has to read it.");
+          nb::arg("data"), nb::arg("max_rest") = SIZE_MAX,
+          "Return the message in CDR bytes, or None if Python code has to read it, or if more than `max_rest` bytes "
+          "follow it.");
 }
 
 }  // namespace coframe::bindings

@@ -25,8 +25,8 @@ class MessageCodec {
 
   // Returns the CDR of a message; None if Python code has to serialise it.
   nb::object encode(nb::handle message) const;
-  // Returns the message in CDR bytes; None if Python code has to read it.
-  nb::object decode(std::span<const std::uint8_t> data) const;
+  // Returns the message in CDR bytes; None if Python code has to read it, or if more than `max_rest` bytes follow it.
+  nb::object decode(std::span<const std::uint8_t> data, std::size_t max_rest = SIZE_MAX) const;
 
   // Writes a message. Returns false if Python code has to serialise it.
   bool put_message(PyObject* message, Output& out) const;

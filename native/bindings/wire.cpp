@@ -3,6 +3,7 @@
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/shared_ptr.h>
 #include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
 
 #include <cstring>
 #include <memory>
@@ -131,6 +132,12 @@ nb::tuple take_tapped(PyTap& tap) {
                         array_bytes(tapped.arrived), array_bytes(tapped.sent), array_bytes(tapped.writers));
 }
 
+// The names come from the network and need not be valid UTF-8.
+nb::str to_text(const std::string& name) {
+  return nb::steal<nb::str>(
+      PyUnicode_DecodeUTF8(name.data(), static_cast<Py_ssize_t>(name.size()), "backslashreplace"));
+}
+
 nb::list take_endpoints(PyEndpointReader& reader) {
   std::vector<EndpointChange> changes;
   {
@@ -139,14 +146,11 @@ nb::list take_endpoints(PyEndpointReader& reader) {
   }
   nb::list list;
   for (const EndpointChange& change : changes) {
-    // Names come from the network and need not be valid UTF-8.
-    const auto text = [](const std::string& name) {
-      return nb::steal<nb::str>(
-          PyUnicode_DecodeUTF8(name.data(), static_cast<Py_ssize_t>(name.size()), "backslashreplace"));
-    };
+    nb::list partitions;
+    for (const std::string& partition : change.qos.partitions) partitions.append(to_text(partition));
     list.append(nb::make_tuple(change.handle, change.alive, to_bytes(change.guid), to_bytes(change.participant),
-                               text(change.topic), text(change.type), to_tuple(change.qos),
-                               nb::bytes(change.user_data.data(), change.user_data.size())));
+                               to_text(change.topic), to_text(change.type), to_tuple(change.qos),
+                               nb::bytes(change.user_data.data(), change.user_data.size()), nb::tuple(partitions)));
   }
   return list;
 }
@@ -346,7 +350,8 @@ void define_readers(nb::module_& wire) {
            nb::arg("on_change"), ReleaseGil())
       .def("take", &take_endpoints,
            "Return the changes: tuples (handle, alive, guid, participant's guid, topic, type, "
-           "(depth, reliable, transient_local, keep_all, manual_liveliness, deadline, lifespan, lease), user data).")
+           "(depth, reliable, transient_local, keep_all, manual_liveliness, deadline, lifespan, lease), user data, "
+           "partitions). An endpoint that is not alive has only the handle and the guid.")
       .def("close", &PyEndpointReader::close, ReleaseGil());
   wire.attr("DEADLINE_MISSED") = static_cast<std::size_t>(StatusEvents::kDeadlineMissed);
   wire.attr("LIVELINESS") = static_cast<std::size_t>(StatusEvents::kLiveliness);
@@ -377,7 +382,8 @@ void define_wire(nb::module_& wire) {
       .def(
           "__init__",
           [](QosProfile* self, std::int32_t depth, bool reliable, bool transient_local, bool keep_all,
-             bool manual_liveliness, std::int64_t deadline, std::int64_t lifespan, std::int64_t lease) {
+             bool manual_liveliness, std::int64_t deadline, std::int64_t lifespan, std::int64_t lease,
+             std::vector<std::string> partitions) {
             new (self) QosProfile{.depth = depth,
                                   .reliable = reliable,
                                   .transient_local = transient_local,
@@ -385,11 +391,12 @@ void define_wire(nb::module_& wire) {
                                   .manual_liveliness = manual_liveliness,
                                   .deadline_ns = deadline,
                                   .lifespan_ns = lifespan,
-                                  .lease_ns = lease};
+                                  .lease_ns = lease,
+                                  .partitions = std::move(partitions)};
           },
           nb::arg("depth"), nb::arg("reliable"), nb::arg("transient_local"), nb::arg("keep_all"),
           nb::arg("manual_liveliness") = false, nb::arg("deadline") = kInfinite, nb::arg("lifespan") = kInfinite,
-          nb::arg("lease") = kInfinite);
+          nb::arg("lease") = kInfinite, nb::arg("partitions") = std::vector<std::string>{});
   define_participant(wire);
   define_writer(wire);
   define_readers(wire);

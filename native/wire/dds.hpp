@@ -187,6 +187,8 @@ inline constexpr Code kPreconditionNotMet = -4;
   X(void, dds_qset_history, (Qos*, std::int32_t kind, std::int32_t depth))                                           \
   X(void, dds_qset_reliability, (Qos*, std::int32_t kind, std::int64_t max_blocking_ns))                             \
   X(void, dds_qset_ignorelocal, (Qos*, std::int32_t kind))                                                           \
+  X(void, dds_qset_partition, (Qos*, std::uint32_t count, const char** names))                                       \
+  X(bool, dds_qget_partition, (const Qos*, std::uint32_t* count, char*** names))                                     \
   X(void, dds_qset_data_representation, (Qos*, std::uint32_t count, const std::int16_t* values))                     \
   X(void, dds_qset_durability_service,                                                                               \
     (Qos*, std::int64_t cleanup_delay_ns, std::int32_t history_kind, std::int32_t history_depth,                     \

@@ -7,6 +7,20 @@
 namespace coframe {
 namespace {
 
+std::vector<std::string> read_partitions(const dds::Qos* qos) {
+  const dds::Functions& f = dds::functions();
+  std::uint32_t count = 0;
+  char** names = nullptr;
+  if (!f.dds_qget_partition(qos, &count, &names) || names == nullptr) return {};
+  const std::unique_ptr<void, void (*)(void*)> list(names, f.dds_free);
+  std::vector<std::string> partitions;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const std::unique_ptr<void, void (*)(void*)> name(names[i], f.dds_free);
+    partitions.emplace_back(names[i]);
+  }
+  return partitions;
+}
+
 QosProfile read_qos(const dds::Qos* qos) {
   const dds::Functions& f = dds::functions();
   std::int32_t durability = dds::kVolatile;
@@ -31,7 +45,8 @@ QosProfile read_qos(const dds::Qos* qos) {
           .manual_liveliness = liveliness != dds::kAutomatic,
           .deadline_ns = deadline,
           .lifespan_ns = lifespan,
-          .lease_ns = lease};
+          .lease_ns = lease,
+          .partitions = read_partitions(qos)};
 }
 
 std::string read_user_data(const dds::Qos* qos) {
@@ -44,7 +59,7 @@ std::string read_user_data(const dds::Qos* qos) {
 
 EndpointChange read_change(const dds::BuiltinEndpoint& endpoint, const dds::SampleInfo& info) {
   if (!info.valid_data || info.instance_state != dds::kAliveInstance) {
-    return {.handle = info.instance_handle, .alive = false};
+    return {.handle = info.instance_handle, .alive = false, .guid = endpoint.key};
   }
   return {.handle = info.instance_handle,
           .alive = true,

@@ -15,7 +15,7 @@ namespace coframe {
 
 struct EndpointChange {
   dds::Handle handle;  // equals the publication_handle of a writer's samples
-  bool alive;          // false: it has disappeared, and only the handle is set
+  bool alive;          // false: it has disappeared, and only the handle and the GUID are set
   dds::Guid guid{};
   dds::Guid participant{};
   std::string topic{};

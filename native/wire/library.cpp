@@ -81,6 +81,14 @@ void check_policies(const Functions& f) {
   expect(f.dds_qget_deadline(qos.get(), &duration) && duration == 10, "dds_qget_deadline");
   f.dds_qset_lifespan(qos.get(), 11);
   expect(f.dds_qget_lifespan(qos.get(), &duration) && duration == 11, "dds_qget_lifespan");
+  const char* partition = "robot1";
+  std::uint32_t count = 0;
+  char** names = nullptr;
+  f.dds_qset_partition(qos.get(), 1, &partition);
+  expect(f.dds_qget_partition(qos.get(), &count, &names) && count == 1 && std::strcmp(names[0], partition) == 0,
+         "dds_qget_partition");
+  f.dds_free(names[0]);
+  f.dds_free(names);
   constexpr char user_data[] = "enclave=/;";
   f.dds_qset_userdata(qos.get(), user_data, sizeof user_data);
   void* data = nullptr;

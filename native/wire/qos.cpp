@@ -31,6 +31,11 @@ QosPointer make_qos(const QosProfile& profile, const std::string& user_data) {
     // Late joiners receive as many messages as the writer's history holds.
     f.dds_qset_durability_service(qos.get(), 0, history, depth, dds::kUnlimited, dds::kUnlimited, dds::kUnlimited);
   }
+  if (!profile.partitions.empty()) {
+    std::vector<const char*> names;
+    for (const std::string& partition : profile.partitions) names.push_back(partition.c_str());
+    f.dds_qset_partition(qos.get(), static_cast<std::uint32_t>(names.size()), names.data());
+  }
   const std::int16_t representation = dds::kXcdr1;
   f.dds_qset_data_representation(qos.get(), 1, &representation);
   return qos;

@@ -6,6 +6,7 @@
 #include <limits>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "wire/dds.hpp"
 
@@ -20,8 +21,9 @@ struct QosProfile {
   bool keep_all;
   bool manual_liveliness = false;  // the publisher asserts its liveliness itself
   std::int64_t deadline_ns = kInfinite;
-  std::int64_t lifespan_ns = kInfinite;  // of a writer's messages
-  std::int64_t lease_ns = kInfinite;     // the time without a sign of life after which a writer counts as lost
+  std::int64_t lifespan_ns = kInfinite;   // of a writer's messages
+  std::int64_t lease_ns = kInfinite;      // the time without a sign of life after which a writer counts as lost
+  std::vector<std::string> partitions{};  // empty: the default partition
 };
 
 using QosPointer = std::unique_ptr<dds::Qos, void (*)(dds::Qos*)>;

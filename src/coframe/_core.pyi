@@ -455,8 +455,13 @@ class MessageCodec:
     def encode(self, message: Any) -> bytes | None:
         """Return the CDR of a message, or None if Python code has to serialize it."""
 
-    def decode(self, data: Any) -> Any:
-        """Return the message in CDR bytes, or None if Python code has to read it."""
+    def decode(self, data: Any, max_rest: int = ...) -> Any:
+        """Return the message in CDR bytes, or None if Python code has to read it.
+
+        Args:
+            data: The bytes.
+            max_rest: The number of bytes that may follow the message. If there are more, None is returned.
+        """
 
 class Event:
     """A flag that DDS threads and Python set, and for which one thread waits without the GIL."""
@@ -775,6 +780,7 @@ class QosProfile:
         deadline: int = ...,
         lifespan: int = ...,
         lease: int = ...,
+        partitions: list[str] = ...,
     ) -> None: ...
 
 DEADLINE_MISSED: int
@@ -1043,7 +1049,13 @@ class EndpointReader:
     """The writers (PUBLICATIONS) or readers (SUBSCRIPTIONS) found by DDS discovery."""
 
     def __init__(self, participant: int, topic: int, on_change: Event) -> None: ...
-    def take(self) -> list[tuple[int, bool, bytes, bytes, str, str, tuple[int, bool, bool, bool], bytes]]:
-        """Return the changes: (handle, alive, guid, participant's guid, topic, type, four QoS policies, user data)."""
+    def take(
+        self,
+    ) -> list[tuple[int, bool, bytes, bytes, str, str, tuple[int, bool, bool, bool], bytes, tuple[str, ...]]]:
+        """Return the changes.
+
+        They are (handle, alive, guid, participant's guid, topic, type, QoS policies, user data, partitions). An
+        endpoint that is not alive has only the handle and the guid.
+        """
 
     def close(self) -> None: ...

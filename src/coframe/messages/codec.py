@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import struct
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any, Final, TypeVar
 
 from coframe.errors import DecodeError
 from coframe.messages.decoding import decoding
@@ -18,10 +18,13 @@ if TYPE_CHECKING:
 
     from coframe.messages.compiler import Plan
 
+MAX_PADDING: Final = 3
+"""The most bytes after a message that DDS adds: it sends multiples of 4 bytes."""
+
 M = TypeVar("M", bound=Message)
 
 _native_encodings: dict[type, Callable[[Any], bytes | None]] = {}
-_native_decodings: dict[type, Callable[[Any], Any]] = {}
+_native_decodings: dict[type, Callable[..., Any]] = {}
 _encodings: dict[type, Plan] = {}
 _decodings: dict[tuple[type, bytes], Plan] = {}
 
@@ -68,15 +71,33 @@ def deserialize(data: bytes, cls: type[M]) -> M:
     return _deserialize_in_python(bytes(data), cls) if message is None else message
 
 
-def _deserialize_in_python(data: bytes, cls: type[M]) -> M:
+def deserialize_whole(data: bytes, cls: type[M]) -> M:
+    """Return the message as `deserialize`, but accept at most `MAX_PADDING` bytes after its end.
+
+    Raises:
+        DecodeError: The bytes are not a message of this class, or are longer.
+        TypeError: ``cls`` is not a message class.
+    """
+    decode = _native_decodings.get(cls) or _new_native_decoding(cls)
+    message: M | None = decode(data, MAX_PADDING)
+    return _deserialize_in_python(bytes(data), cls, MAX_PADDING) if message is None else message
+
+
+def _deserialize_in_python(data: bytes, cls: type[M], max_rest: int | None = None) -> M:
     """Read what the native codec leaves, and report what is wrong with the bytes."""
     if len(data) < HEADER_SIZE:
         raise _header_error(_message_class(cls), data)
     plan = _decodings.get((cls, data[:2])) or _new_decoding(cls, data)
     try:
-        message: M = plan.run(data)
+        message: M
+        message, end = plan.run(data)
     except (struct.error, ValueError) as error:
         raise _decode_error(error, plan, data, cls) from None
+    if max_rest is not None and len(data) - end > max_rest:
+        raise DecodeError(
+            f"{cls.ROS_TYPE}: the message ends at byte {end} of {len(data)}",
+            hint="The bytes contain a message of another type, or of another version of this one.",
+        )
     return message
 
 
@@ -86,9 +107,9 @@ def _new_native_encoding(cls: type) -> Callable[[Any], bytes | None]:
     return _native_encodings[cls]
 
 
-def _new_native_decoding(cls: type) -> Callable[[Any], Any]:
+def _new_native_decoding(cls: type) -> Callable[..., Any]:
     codec = native_codec(_message_class(cls))
-    _native_decodings[cls] = codec.decode if codec else lambda _: None
+    _native_decodings[cls] = codec.decode if codec else lambda *_: None
     return _native_decodings[cls]
 
 

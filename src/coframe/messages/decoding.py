@@ -28,12 +28,15 @@ from coframe.messages.registry import find
 
 
 def decoding(cls: Any, order: Order) -> Plan:
-    """Compile ``run(data)`` for messages of the class in one byte order; its variable ``pos`` is the offset."""
+    """Compile ``run(data)`` for messages of the class in one byte order; its variable ``pos`` is the offset.
+
+    It returns the message and its end.
+    """
     return Plan(_Decoder(cls, order))
 
 
 class _Decoder(Compiler):
-    """Compiler for ``run(data)``, which returns the message in data that begins with the encapsulation header."""
+    """Compiler for ``run(data)``, which returns the message after the encapsulation header of the data, and its end."""
 
     def __init__(self, cls: Any, order: Order) -> None:
         super().__init__(cls, order, "def run(data):")
@@ -42,7 +45,7 @@ class _Decoder(Compiler):
         self.emit("view = memoryview(data)")
         self._message(cls, "m")
         self.flush()
-        self.emit("return m")
+        self.emit("return m, pos")
 
     def flush(self) -> None:
         if (taken := self.take_run()) is None:

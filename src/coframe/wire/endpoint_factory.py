@@ -63,11 +63,11 @@ class EndpointFactory:
         Raises:
             WireError: The middleware cannot create the publisher.
         """
-        endpoint = Endpoint(topic, names.ros_type_of(message_type), kind)
-        checked = kind == "topic" and endpoint.ros_type == TF_MESSAGE
-        native = self._session.writer(node, endpoint, qos, user_data=user_data, checked=checked, on_change=on_change)
         if kind != "topic":
-            return ServicePublisher(native, node, endpoint, qos, self._graph)
+            return self.service_publisher(node, topic, message_type, qos, kind)
+        endpoint = Endpoint(topic, names.ros_type_of(message_type))
+        checked = endpoint.ros_type == TF_MESSAGE
+        native = self._session.writer(node, endpoint, qos, user_data=user_data, checked=checked, on_change=on_change)
         return Publisher(native, node, endpoint, qos, on_mismatch=on_mismatch)
 
     def subscription(
@@ -99,11 +99,54 @@ class EndpointFactory:
         Raises:
             WireError: The middleware cannot create the subscription.
         """
-        endpoint = Endpoint(topic, names.ros_type_of(message_type), kind)
-        native = self._session.reader(node, endpoint, qos, on_data)
         if kind != "topic":
-            return ServiceSubscription(native, node, endpoint, qos, self._graph)
+            return self.service_subscription(node, topic, message_type, qos, kind, on_data)
+        endpoint = Endpoint(topic, names.ros_type_of(message_type))
+        native = self._session.reader(node, endpoint, qos, on_data)
         return Subscription(native, node, endpoint, qos, adapts=adapts, on_mismatch=on_mismatch)
+
+    def service_publisher(
+        self, node: GraphNode, service: str, message_type: type, qos: QoS, kind: Kind
+    ) -> ServicePublisher:
+        """Create a publisher of requests or replies of `node`.
+
+        Args:
+            node: The node that owns the publisher.
+            service: The fully qualified name of the service.
+            message_type: The class of the requests or replies. They are written after the 16-byte ROS header.
+            qos: The offered quality of service.
+            kind: "request" or "reply".
+
+        Raises:
+            WireError: The middleware cannot create the publisher.
+        """
+        endpoint = Endpoint(service, names.ros_type_of(message_type), kind)
+        return ServicePublisher(self._session.writer(node, endpoint, qos), node, endpoint, qos, self._graph)
+
+    def service_subscription(
+        self,
+        node: GraphNode,
+        service: str,
+        message_type: type,
+        qos: QoS,
+        kind: Kind,
+        on_data: _core.Event | None = None,
+    ) -> ServiceSubscription:
+        """Create a subscription of `node` to requests or replies.
+
+        Args:
+            node: The node that owns the subscription.
+            service: The fully qualified name of the service.
+            message_type: The class of the requests or replies.
+            qos: The requested quality of service.
+            kind: "request" or "reply".
+            on_data: An event that is set whenever messages arrive.
+
+        Raises:
+            WireError: The middleware cannot create the subscription.
+        """
+        endpoint = Endpoint(service, names.ros_type_of(message_type), kind)
+        return ServiceSubscription(self._session.reader(node, endpoint, qos, on_data), node, endpoint, qos, self._graph)
 
     def raw_publisher(self, node: GraphNode, topic: str, ros_type: str, qos: QoS) -> RawPublisher:
         """Create a publisher of `node` for serialized messages of any type.

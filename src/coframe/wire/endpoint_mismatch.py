@@ -7,6 +7,7 @@ import time
 from typing import TYPE_CHECKING
 
 from coframe.wire import names
+from coframe.wire.foreign_services import foreign_services_text
 from coframe.wire.warn_once import LAST_WARNING, MAX_WARNINGS
 
 if TYPE_CHECKING:
@@ -91,7 +92,7 @@ def mismatch_text(
             "no messages will arrive. Use the same message type, or another topic name."
         )
     if reason == "services":
-        return _services_text(own, middleware, who)
+        return foreign_services_text(own.topic, middleware, node, is_writer=own.is_writer)
     if reason == "other":
         what = _OTHER_POLICIES.get(own.refused_policy, f"definition of {own_type}")
         return (
@@ -104,18 +105,6 @@ def mismatch_text(
     else:
         problem = f"offers {offered} on {topic}, but this subscription requests {requested}"
     return f"{who} {problem}: no messages will arrive. {advice}"
-
-
-def _services_text(own: LocalEndpoint, used: str, who: str) -> str:
-    """Return the warning for a node whose middleware sends requests and replies in another way."""
-    service = names.any_ros_name(own.topic)
-    serves = names.ros_topic(own.topic, "reply" if own.is_writer else "request") is not None
-    effect = "its calls of {} do not arrive" if serves else "its service {} cannot be called"
-    return (
-        f"{who} uses {used}, so {effect.format(service)}: services, actions and parameters need the same middleware on "
-        f"both sides, and coframe uses Cyclone DDS. Start that node with RMW_IMPLEMENTATION=rmw_cyclonedds_cpp. "
-        "Topics and transforms work."
-    )
 
 
 class MismatchMonitor:

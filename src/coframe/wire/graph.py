@@ -60,6 +60,7 @@ class DiscoveredEndpoint(NamedTuple):
     qos: QoS
     user_data: bytes = b""
     type_hash: str = ""
+    partitions: tuple[str, ...] = ()
 
 
 class Graph:
@@ -88,6 +89,21 @@ class Graph:
         """Return the middleware of an endpoint if it sends requests in another form than this process; "" if not."""
         del guid
         return ""
+
+    def ignores_services(self, peer: DiscoveredEndpoint) -> bool:
+        """Return whether an endpoint with foreign services ignores the requests and replies of this process."""
+        del peer
+        return False
+
+    def foreign_writer(self, handle: int) -> str:
+        """Return what `foreign_services` returns for a writer, given its handle; it may have left."""
+        writer = self.writer(handle)
+        return "" if writer is None else self.foreign_services(writer.guid)
+
+    @property
+    def version(self) -> int:
+        """The number that `refresh` has returned last."""
+        return self._version
 
     def refresh(self) -> int:
         """Process pending discovery messages and return a version number that increases with every change."""

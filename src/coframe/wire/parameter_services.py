@@ -13,14 +13,15 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from coframe import _core
 from coframe.errors import CoframeError, DecodeError
 from coframe.time import SECOND
-from coframe.wire import names
+from coframe.wire import names, request_header
 from coframe.wire.qos import QoS
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterable
 
-    from coframe.wire.endpoints import GraphNode, Publisher, Subscription
+    from coframe.wire.endpoints import GraphNode
     from coframe.wire.participant import Participant
+    from coframe.wire.service_endpoints import ServicePublisher, ServiceSubscription
 
 _logger = logging.getLogger("coframe.wire")
 
@@ -39,8 +40,8 @@ class _Service(NamedTuple):
     """A service of one node."""
 
     srv_type: Any
-    requests: Subscription
-    replies: Publisher
+    requests: ServiceSubscription
+    replies: ServicePublisher
 
 
 class ParameterServices:
@@ -80,9 +81,9 @@ class ParameterServices:
 
         for service, type_name in _TYPES.items():
             srv_type, topic = find(f"rcl_interfaces/srv/{type_name}"), f"{node.full_name}/{service}"
-            replies = self._participant.publisher(node, topic, srv_type.Response, _QOS, kind="reply")
-            requests = self._participant.subscription(
-                node, topic, srv_type.Request, _QOS, on_data=self._event, kind="request"
+            replies = self._participant.service_publisher(node, topic, srv_type.Response, _QOS, "reply")
+            requests = self._participant.service_subscription(
+                node, topic, srv_type.Request, _QOS, "request", self._event
             )
             with self._lock:
                 self._services.append(_Service(srv_type, requests, replies))
@@ -105,17 +106,14 @@ class ParameterServices:
 
 
 def _answer(service: _Service) -> None:
-    from coframe.messages.codec import deserialize, serialize  # noqa: PLC0415 - importing coframe.wire must be cheap
-    from coframe.wire import request_header  # noqa: PLC0415
+    # Importing coframe.wire must be cheap.
+    from coframe.messages.codec import deserialize_whole, serialize  # noqa: PLC0415
 
-    for sample in service.requests.take() if service.requests.pending() else ():
-        parts = request_header.split(sample.data)
-        if parts is None:
-            continue
-        header, cdr = parts
+    for header, cdr, writer in service.requests.take_messages() if service.requests.pending() else ():
         try:
-            request = deserialize(cdr, service.srv_type.Request)
-        except DecodeError:
+            request = deserialize_whole(cdr, service.srv_type.Request)
+        except DecodeError as error:
+            service.requests.ignore(writer, f"is invalid ({error})")
             continue
         service.replies.write(request_header.join(header, serialize(_response(service.srv_type, request))))
 

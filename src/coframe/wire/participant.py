@@ -21,8 +21,10 @@ from coframe.wire.endpoint_factory import EndpointFactory
 from coframe.wire.endpoint_mismatch import MismatchMonitor
 from coframe.wire.endpoints import GraphNode, LocalEndpoint
 from coframe.wire.graph_queries import GraphQueries
+from coframe.wire.ignored_messages import IgnoredMessageMonitor
 from coframe.wire.parameter_services import ParameterServices
 from coframe.wire.rejected_transforms import RejectedTransformMonitor
+from coframe.wire.service_endpoints import ServicePublisher
 from coframe.wire.static_broadcaster import SharedStaticPublisher, StaticBroadcaster
 from coframe.wire.tf_reader import TfReader
 from coframe.wire.warn_once import WarnOnce
@@ -55,6 +57,7 @@ class Participant(EndpointFactory, GraphQueries):
         self._graph = self._session.graph
         self._mismatches = MismatchMonitor(self._graph, self._warn)
         self._rejections = RejectedTransformMonitor(self._graph, self._warn)
+        self._ignored_messages = IgnoredMessageMonitor(self._warn)
         self._warn_once = WarnOnce(self._warn)
         self._parameter_services = ParameterServices(self)
         self._watchers: list[_core.Event] = []
@@ -189,7 +192,12 @@ class Participant(EndpointFactory, GraphQueries):
                 if version != seen or self._mismatches.waiting:
                     self._mismatches.check(self._endpoints())
                 seen = version
-                readers = [endpoint for endpoint in self._endpoints() if isinstance(endpoint, TfReader)]
+                endpoints = self._endpoints()
+                for endpoint in endpoints:
+                    if isinstance(endpoint, ServicePublisher):
+                        endpoint.report_unreachable()
+                self._ignored_messages.check(endpoints)
+                readers = [endpoint for endpoint in endpoints if isinstance(endpoint, TfReader)]
                 self._rejections.check(readers)
                 self._warn_of_naming_problems(readers)
             except Exception:

@@ -1,44 +1,144 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Publishers and subscriptions of requests and replies, for nodes whose middleware sends services in the same way."""
+"""Publishers and subscriptions of requests and replies, for nodes whose middleware sends services in the same form."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
+from coframe.errors import WireError
+from coframe.wire import names, request_header
 from coframe.wire.endpoints import RawPublisher, Sample, Subscription
+from coframe.wire.foreign_services import foreign_services_text
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from coframe.wire.backend import BackendReader, BackendWriter
     from coframe.wire.endpoints import GraphNode
-    from coframe.wire.graph import Graph
+    from coframe.wire.graph import DiscoveredEndpoint, Graph
     from coframe.wire.names import Endpoint
     from coframe.wire.qos import QoS
+    from coframe.wire.request_header import RequestHeader
+
+
+class RefusedRequestError(WireError):
+    """A request was not sent, because the server would not understand it."""
+
+
+class ServiceMessage(NamedTuple):
+    """A received request or reply: its header, the message without the header, and the handle of the writer."""
+
+    header: RequestHeader
+    cdr: bytes
+    writer: int
+
+
+class _Peers(NamedTuple):
+    """The endpoints on the other side of an endpoint.
+
+    Attributes:
+        understood: The number of matched endpoints that send requests and replies in the same form.
+        foreign: An endpoint that uses another form, whether it is matched or not; None if there is none.
+        receiver: The same for an endpoint that may receive what this process publishes.
+    """
+
+    understood: int
+    foreign: DiscoveredEndpoint | None
+    receiver: DiscoveredEndpoint | None
+
+    @property
+    def refusing(self) -> DiscoveredEndpoint | None:
+        """The endpoint because of which no request can be sent; None if requests can be sent."""
+        return self.receiver if self.understood else self.foreign
+
+
+def _peers(graph: Graph, handles: frozenset[int], found: dict[int, DiscoveredEndpoint]) -> _Peers:
+    understood, foreign, receiver = 0, None, None
+    for handle, peer in found.items():
+        if not graph.foreign_services(peer.guid):
+            understood += handle in handles
+            continue
+        foreign = peer
+        if not graph.ignores_services(peer):
+            receiver = peer
+    return _Peers(understood, foreign, receiver)
 
 
 class ServicePublisher(RawPublisher):
-    """A publisher of requests or replies."""
+    """A publisher of requests or replies.
+
+    Attributes:
+        on_unreachable: Called with a sentence while the only servers are ones that do not understand the requests, on
+            the maintenance thread of the participant.
+    """
+
+    on_unreachable: Callable[[str], object] | None = None
 
     def __init__(self, native: BackendWriter, node: GraphNode, endpoint: Endpoint, qos: QoS, graph: Graph) -> None:
         self._graph = graph
+        self._sends_requests = endpoint.kind == "request"
+        self._known: tuple[int, frozenset[int], _Peers] | None = None
         super().__init__(native, node, endpoint, qos)
 
     @property
     def matched(self) -> int:
-        """The number of matched subscriptions that understand the messages."""
-        handles = self.matched_handles()
-        if not handles:
-            return 0
-        readers = self._graph.readers(self.topic)
-        return sum(
-            handle in handles and not self._graph.foreign_services(reader.guid) for handle, reader in readers.items()
-        )
+        """The number of matched subscriptions that understand the messages; 0 if no request can be sent."""
+        peers = self._peers()
+        return 0 if self._sends_requests and peers.refusing else peers.understood
+
+    @property
+    def refusal(self) -> str:
+        """Why no request can be sent: the warning about a server that would misread it; "" if there is none."""
+        peer = self._peers().refusing
+        return "" if peer is None else self._text(peer)
+
+    def write(self, cdr: bytes) -> None:
+        """Publish a request or a reply.
+
+        Raises:
+            RefusedRequestError: A server on the graph would take the request for another one. If another server
+                understands it, and the first one does not receive it, it is sent.
+            WireError: As for `Publisher.write`.
+        """
+        if self._sends_requests and (reason := self.refusal):
+            raise RefusedRequestError(reason)
+        super().write(cdr)
+
+    def report_unreachable(self) -> None:
+        """Call `on_unreachable` if there are only servers that do not understand the requests."""
+        if self.on_unreachable is not None:
+            peers = self._peers()
+            if peers.foreign is not None and not peers.understood:
+                self.on_unreachable(self._text(peers.foreign))
+
+    def _peers(self) -> _Peers:
+        handles = frozenset(self.matched_handles())
+        known = self._known
+        if known is not None and known[:2] == (self._graph.version, handles):
+            return known[2]
+        version = self._graph.refresh()
+        peers = _peers(self._graph, handles, self._graph.readers(self.topic))
+        self._known = version, handles, peers
+        return peers
+
+    def _text(self, peer: DiscoveredEndpoint) -> str:
+        middleware = self._graph.foreign_services(peer.guid)
+        return foreign_services_text(self.topic, middleware, self._graph.owner(peer.guid), is_writer=True)
 
 
 class ServiceSubscription(Subscription):
-    """A subscription to requests or replies."""
+    """A subscription to requests or replies.
+
+    Attributes:
+        ignored: The number of messages that were ignored because they are not requests or replies of the service.
+    """
 
     def __init__(self, native: BackendReader, node: GraphNode, endpoint: Endpoint, qos: QoS, graph: Graph) -> None:
         self._graph = graph
+        self._what = "requests" if endpoint.kind == "request" else "replies"
+        self.ignored = 0
+        self._reported = 0
+        self._last_ignored = (0, "")
         super().__init__(native, node, endpoint, qos)
 
     @property
@@ -47,15 +147,45 @@ class ServiceSubscription(Subscription):
         handles = self.matched_handles()
         if not handles:
             return 0
-        writers = self._graph.writers(self.topic)
-        return sum(
-            handle in handles and not self._graph.foreign_services(writer.guid) for handle, writer in writers.items()
-        )
+        return _peers(self._graph, frozenset(handles), self._graph.writers(self.topic)).understood
 
     def take(self, limit: int = 100) -> list[Sample]:
         """Return up to `limit` queued messages that can be understood, oldest first, without waiting."""
-        return [sample for sample in super().take(limit) if self._is_understood(sample)]
+        return [sample for sample in super().take(limit) if not self._graph.foreign_writer(sample.writer)]
 
-    def _is_understood(self, sample: Sample) -> bool:
-        writer = self._graph.writer(sample.writer)
-        return writer is None or not self._graph.foreign_services(writer.guid)
+    def take_messages(self, limit: int = 100) -> list[ServiceMessage]:
+        """Return the same without their headers. Messages without a header are ignored."""
+        messages = []
+        for sample in self.take(limit):
+            parts = request_header.split(sample.data)
+            if parts is None:
+                self.ignore(sample.writer, f"has {len(sample.data)} bytes without a CDR header and a request header")
+            else:
+                messages.append(ServiceMessage(*parts, sample.writer))
+        return messages
+
+    def ignore(self, writer: int, reason: str) -> None:
+        """Count a message that was ignored.
+
+        Args:
+            writer: The handle of its writer.
+            reason: What is wrong with it, as a phrase: "has 3 bytes too many".
+        """
+        self.ignored += 1
+        self._last_ignored = writer, reason
+
+    def take_warning(self) -> str:
+        """Return a warning about the messages that were ignored since the last call; "" if there are none."""
+        count = self.ignored - self._reported
+        if not count:
+            return ""
+        self._reported += count
+        handle, reason = self._last_ignored
+        writer = self._graph.writer(handle)
+        node = None if writer is None else self._graph.owner(writer.guid)
+        what = self._what if count > 1 else self._what.replace("ies", "y").removesuffix("s")
+        return (
+            f"Ignored {count} {what} of {names.any_ros_name(self.topic)}{f' from {node}' if node else ''}: "
+            f"{'the last one' if count > 1 else 'it'} {reason}. Check that both sides have the same definition of the "
+            "service and the same middleware."
+        )

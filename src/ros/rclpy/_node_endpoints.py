@@ -203,10 +203,10 @@ class Node(NodeParameters, NodeGraph):
             self._Coframe__graph_node,
         )
         wakeup = self.context._Coframe__wakeup.event
-        replies = self._Coframe__participant.subscription(
-            graph_node, name, srv_type.Response, qos, on_data=wakeup, kind="reply"
+        replies = self._Coframe__participant.service_subscription(
+            graph_node, name, srv_type.Response, qos, "reply", wakeup
         )
-        requests = self._Coframe__participant.publisher(graph_node, name, srv_type.Request, qos, kind="request")
+        requests = self._Coframe__participant.service_publisher(graph_node, name, srv_type.Request, qos, "request")
         group = self._Coframe__entities.group(callback_group)
         return self._Coframe__entities.add(
             Client(
@@ -268,9 +268,9 @@ class Node(NodeParameters, NodeGraph):
         )
         wakeup = self.context._Coframe__wakeup.event
         # The reply publisher comes first, so that clients that discover the request reader can receive replies.
-        replies = self._Coframe__participant.publisher(graph_node, name, srv_type.Response, qos, kind="reply")
-        requests = self._Coframe__participant.subscription(
-            graph_node, name, srv_type.Request, qos, on_data=wakeup, kind="request"
+        replies = self._Coframe__participant.service_publisher(graph_node, name, srv_type.Response, qos, "reply")
+        requests = self._Coframe__participant.service_subscription(
+            graph_node, name, srv_type.Request, qos, "request", wakeup
         )
         group = self._Coframe__entities.group(callback_group)
         return self._Coframe__entities.add(

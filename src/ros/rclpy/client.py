@@ -17,6 +17,7 @@ from coframe.messages import codec
 from coframe.time import MILLISECOND
 from coframe.wire import request_header
 from coframe.wire.request_header import RequestHeader
+from coframe.wire.service_endpoints import RefusedRequestError
 from rclpy._absent import Handle
 from rclpy._destroyable import destroyed
 from rclpy.constants import S_TO_NS
@@ -27,8 +28,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from coframe.wire import Participant
-    from coframe.wire import Publisher as WirePublisher
-    from coframe.wire import Subscription as WireSubscription
+    from coframe.wire.service_endpoints import ServicePublisher, ServiceSubscription
     from rclpy.callback_groups import CallbackGroup
     from rclpy.clock import Clock
     from rclpy.context import Context
@@ -49,8 +49,8 @@ class Client:
         self,
         context: Context,
         participant: Participant,
-        requests: WirePublisher,
-        replies: WireSubscription,
+        requests: ServicePublisher,
+        replies: ServiceSubscription,
         executor: Callable[[], Executor | None],
         srv_type: Any,
         srv_name: str,
@@ -66,12 +66,14 @@ class Client:
         self.callback_group = callback_group
         self._Coframe__participant = participant
         self.__requests = requests
-        self.__replies: WireSubscription | None = replies
+        self.__replies: ServiceSubscription | None = replies
         self.__executor = executor
         self.__identity = int.from_bytes(os.urandom(8), "little")
         self.__lock = threading.Lock()
         self.__sequence = 0
         self.__pending: dict[int, tuple[Future[Any], Callable[[Any], Any]]] = {}
+        self.__unreachable = ""  # why no server understands the pending requests
+        requests.on_unreachable = self.__on_unreachable
 
     @property
     def service_name(self) -> str:
@@ -92,6 +94,8 @@ class Client:
 
         Raises:
             TypeError: `request` is not a request of the service's type.
+            WireError: The request was not sent, because the middleware of the servers sends requests in another form.
+            DecodeError: The response is invalid.
         """
         future = self.call_async(request)
         take_responses_until([self], future, timeout_sec)
@@ -107,7 +111,8 @@ class Client:
             request: The request.
 
         Returns:
-            A future of the response.
+            A future of the response. Its exception is a WireError if the request was not sent because the middleware of
+            the servers sends requests in another form, and a DecodeError if the response is invalid.
 
         Raises:
             TypeError: `request` is not a request of the service's type.
@@ -119,13 +124,17 @@ class Client:
     def _Coframe__send(self, request: Any, convert: Callable[[Any], Any]) -> Future[Any]:
         """Send a request and return a future whose result is `convert(response)`."""
         self.__require_replies()
+        cdr = codec.serialize(request)
         future: Future[Any] = Future()
         with self.__lock:
             self.__sequence += 1
             header = RequestHeader(self.__identity, self.__sequence)
             self.__pending[header.sequence] = future, convert
         future._Coframe__add_waiter(partial(self.__forget, header.sequence))
-        self.__requests.write(request_header.join(header, codec.serialize(request)))
+        try:
+            self.__requests.write(request_header.join(header, cdr))
+        except RefusedRequestError as error:
+            future.set_exception(error)
         return future
 
     def get_pending_request(self, sequence_number: int) -> Future[Any]:
@@ -165,6 +174,12 @@ class Client:
         replies = self.__require_replies()
         return self.__requests.matched > 0 and replies.matched > 0
 
+    @property
+    def _Coframe__refusal(self) -> str:
+        """Why no request can be sent although there is a server; "" if there is no reason."""
+        self.__require_replies()
+        return self.__requests.refusal
+
     def wait_for_service(self, timeout_sec: float | None = None) -> bool:
         """Wait until a server of this service is available.
 
@@ -183,26 +198,27 @@ class Client:
             self.__requests.close()
             self.__replies = None
 
-    def __require_replies(self) -> WireSubscription:
+    def __require_replies(self) -> ServiceSubscription:
         if self.__replies is None:
             raise destroyed(f"The client of '{self.service_name}'")
         return self.__replies
 
     def _Coframe__remaining_ns(self) -> int | None:
         replies = self.__replies
-        return 0 if replies is not None and replies.pending() else None
+        return 0 if self.__unreachable or (replies is not None and replies.pending()) else None
 
     def _Coframe__take(self) -> Callable[[], Any] | None:
         """Take one reply. A client receives the replies to all clients and skips those of other clients."""
+        if self.__unreachable:
+            return self.__fail_pending
         replies = self.__replies
-        for sample in [] if replies is None else replies.take(limit=1):
-            parts = request_header.split(sample.data)
-            if parts is None or parts[0].client != self.__identity:
+        for header, cdr, _ in [] if replies is None else replies.take_messages(limit=1):
+            if header.client != self.__identity:
                 continue
             with self.__lock:
-                pending = self.__pending.pop(parts[0].sequence, None)
+                pending = self.__pending.pop(header.sequence, None)
             if pending is not None:
-                return partial(self.__deliver, *pending, parts[1])
+                return partial(self.__deliver, *pending, cdr)
         return None
 
     def _Coframe__take_all(self) -> None:
@@ -213,11 +229,25 @@ class Client:
     def __deliver(self, future: Future[Any], convert: Callable[[Any], Any], cdr: bytes) -> None:
         future._set_executor(self.__executor())
         try:
-            result = convert(codec.deserialize(cdr, self.srv_type.Response))
+            result = convert(codec.deserialize_whole(cdr, self.srv_type.Response))
         except ValueError as error:
             future.set_exception(error)
         else:
             future.set_result(result)
+
+    def __on_unreachable(self, reason: str) -> None:
+        """Wake the executor to fail the requests that were sent before the server was discovered."""
+        if self.__pending and self.__replies is not None:
+            self.__unreachable = reason
+            self.context._Coframe__wakeup.set()
+
+    def __fail_pending(self) -> None:
+        reason, self.__unreachable = self.__unreachable, ""
+        with self.__lock:
+            pending, self.__pending = self.__pending, {}
+        for future, _ in pending.values():
+            future._set_executor(self.__executor())
+            future.set_exception(RefusedRequestError(reason))
 
 
 def take_responses_until(clients: Sequence[Client], future: Future[Any], timeout_sec: float | None) -> None:

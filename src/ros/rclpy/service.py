@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 import inspect
-import logging
 import time
 from functools import partial
 from typing import TYPE_CHECKING, Any, Final
@@ -18,15 +17,12 @@ from rclpy.service_introspection import check_introspection
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from coframe.wire import Publisher as WirePublisher
-    from coframe.wire import Subscription as WireSubscription
     from coframe.wire.request_header import RequestHeader
+    from coframe.wire.service_endpoints import ServicePublisher, ServiceSubscription
     from rclpy.callback_groups import CallbackGroup
     from rclpy.clock import Clock
     from rclpy.qos import QoSProfile
     from rclpy.service_introspection import ServiceIntrospectionState
-
-_logger = logging.getLogger("coframe.wire")
 
 # A client may match the server before the server matches the client. A reply sent before that is lost.
 _MATCH_TIMEOUT_S: Final = 0.1
@@ -39,8 +35,8 @@ class Service:
 
     def __init__(
         self,
-        requests: WireSubscription,
-        replies: WirePublisher,
+        requests: ServiceSubscription,
+        replies: ServicePublisher,
         srv_type: Any,
         srv_name: str,
         service_name: str,
@@ -48,7 +44,7 @@ class Service:
         callback_group: CallbackGroup,
         qos_profile: QoSProfile,
     ) -> None:
-        self.__requests: WireSubscription | None = requests
+        self.__requests: ServiceSubscription | None = requests
         self.__replies = replies
         self.srv_type = srv_type
         self.srv_name = srv_name
@@ -105,15 +101,13 @@ class Service:
 
     def _Coframe__take(self) -> Callable[[], Any] | None:
         requests = self.__requests
-        for sample in [] if requests is None else requests.take(limit=1):
-            parts = request_header.split(sample.data)
-            if parts is None:
-                continue
-            header, cdr = parts
+        if requests is None:
+            return None
+        for header, cdr, writer in requests.take_messages(limit=1):
             try:
-                request = codec.deserialize(cdr, self.srv_type.Request)
+                request = codec.deserialize_whole(cdr, self.srv_type.Request)
             except DecodeError as error:
-                _logger.warning("A request of %s was ignored: %s", self.service_name, error)
+                requests.ignore(writer, f"is invalid ({error})")
                 continue
             return partial(self._Coframe__answer, header, request)
         return None

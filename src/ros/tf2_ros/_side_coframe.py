@@ -64,6 +64,12 @@ def wait_for(action_client: Any, future: Future[Any], timeout: float) -> None:
     action_client._Coframe__wait_for(future, timeout)
 
 
+def refusal(action_client: Any) -> str:
+    """Return why no goal can be sent although there is a server; "" if there is no reason."""
+    reason: str = action_client._Coframe__refusal
+    return reason
+
+
 def on_cancel(goal_handle: Any, callback: Callable[[], object]) -> None:
     """Call a function when the client cancels a goal."""
     goal_handle._Coframe__cancel_request.add_done_callback(lambda _: callback())

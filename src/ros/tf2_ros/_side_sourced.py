@@ -79,6 +79,12 @@ def wait_for(action_client: Any, future: Future[Any], timeout: float) -> None:
     done.wait(timeout)
 
 
+def refusal(action_client: Any) -> str:
+    """Return "": the middleware of a sourced ROS does not report why a server cannot be called."""
+    del action_client
+    return ""
+
+
 def on_cancel(goal_handle: Any, callback: Callable[[], object]) -> None:
     """Do nothing: rclpy has no event for this, so a cancelled goal ends at its timeout."""
     del goal_handle, callback

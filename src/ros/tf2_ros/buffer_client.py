@@ -13,6 +13,7 @@ import tf2_ros  # noqa: F401
 from action_msgs.msg import GoalStatus
 from builtin_interfaces.msg import Duration as DurationMessage
 from builtin_interfaces.msg import Time as TimeMessage
+from coframe.errors import WireError
 from coframe.time import SECOND
 from geometry_msgs.msg import TransformStamped
 from rclpy.action import ActionClient
@@ -26,7 +27,7 @@ from rclpy.time import Time
 from tf2_msgs.action import LookupTransform
 from tf2_py import TimeoutException, TransformException, _convert
 from tf2_ros._lookup_action import QOS, raise_error
-from tf2_ros._rclpy_side import wait_for
+from tf2_ros._rclpy_side import refusal, wait_for
 from tf2_ros.buffer_interface import BufferInterface
 
 _NO_WAIT = Duration()
@@ -181,20 +182,26 @@ class BufferClient(BufferInterface):
 
     def __deadline(self, goal: LookupTransform.Goal) -> float:
         if not self.action_client.server_is_ready():
-            raise TimeoutException("The BufferServer is not ready.")
+            reason = refusal(self.action_client)
+            raise TimeoutException(f"The BufferServer is not ready. {reason}".rstrip())
         wait = Duration.from_msg(goal.timeout).nanoseconds + self.timeout_padding.nanoseconds
         return monotonic() + wait / SECOND
 
     def __wait_for(self, future: "Future[Any]", deadline: float) -> Any:
         wait_for(self.action_client, future, deadline - monotonic())
         _time_out(future)
-        return future.result()
+        try:
+            return future.result()
+        except WireError as error:
+            raise TimeoutException(str(error)) from None
 
     async def __within(self, future: "Future[Any]", deadline: float) -> Any:
         remaining = max(deadline - monotonic(), 0.0)
         timer = self.node.create_timer(remaining, lambda: _time_out(future), self.__group, self.__clock)
         try:
             return await future
+        except WireError as error:
+            raise TimeoutException(str(error)) from None
         finally:
             self.node.destroy_timer(timer)
 

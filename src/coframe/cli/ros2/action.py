@@ -10,6 +10,7 @@ import typer
 from coframe.cli.help_format import PlainCommand, PlainGroup
 from coframe.cli.options import with_leading_slash
 from coframe.cli.output import fail, one_line, print_bounded, printable
+from coframe.cli.ros2.calls import wait_for_server
 from coframe.cli.ros2.graph import (
     DISCOVERY,
     GraphCommand,
@@ -111,7 +112,7 @@ def send_goal(
         client = ActionClient(node, kind, action_name)
         try:
             print("Waiting for an action server to become available...", flush=True)
-            client.wait_for_server()
+            wait_for_server(client, client.wait_for_server)
             _follow_goal(node, client, message, feedback=feedback)
         finally:
             client.destroy()

@@ -9,11 +9,35 @@ from coframe.cli.output import fail
 from coframe.cli.ros2.graph import PATIENCE
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from rclpy.node import Node
 
-__all__ = ["call_service"]
+__all__ = ["call_service", "refusal", "wait_for_server"]
 
 _RESPONSE = 5.0  # seconds
+
+
+def refusal(client: Any) -> str:
+    """Return why no request can be sent although there is a server: its middleware; "" if there is no reason.
+
+    Args:
+        client: A service client or an action client.
+    """
+    reason: str = getattr(client, "_Coframe__refusal", "")  # The rclpy of a sourced ROS does not know it.
+    return reason
+
+
+def wait_for_server(client: Any, wait: Callable[[float], bool]) -> None:
+    """Wait for a server without a limit; end the command if the only servers are ones that misread requests.
+
+    Args:
+        client: A service client or an action client.
+        wait: Its method that waits for at most some seconds.
+    """
+    while not wait(PATIENCE):
+        if reason := refusal(client):
+            fail(reason)
 
 
 def call_service(node: Node, service_class: Any, name: str, request: Any) -> Any:
@@ -30,6 +54,8 @@ def call_service(node: Node, service_class: Any, name: str, request: Any) -> Any
     client = node.create_client(service_class, name)
     try:
         if not client.wait_for_service(PATIENCE):
+            if reason := refusal(client):
+                fail(reason)
             fail(f"There is no service {name}.", "coframe service list shows all services.")
         future = client.call_async(request)
         rclpy.spin_until_future_complete(node, future, timeout_sec=_RESPONSE)

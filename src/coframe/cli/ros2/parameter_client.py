@@ -6,7 +6,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from coframe.cli.output import fail
-from coframe.cli.ros2.calls import call_service
+from coframe.cli.ros2.calls import call_service, refusal
 from coframe.cli.ros2.graph import PATIENCE, fail_without_node, node_names, wait_until
 
 if TYPE_CHECKING:
@@ -32,10 +32,13 @@ class ParameterClient:
     def __init__(self, node: Node, target: str, *, required: bool = True) -> None:
         self._node = node
         self._target = target
+        self._refusal = ""  # why the services cannot be called
         if required and not wait_until(lambda: target in node_names(node, include_hidden=True)):
             fail_without_node(node, f"Node not found: {target}", target)
         self.is_available = self._has_services(PATIENCE if required else _SHORT_PATIENCE)
         if required and not self.is_available:
+            if self._refusal:
+                fail(self._refusal)
             fail(f"Node {target} has no parameter services.", "It was started without them, or does not respond.")
 
     def _has_services(self, patience: float) -> bool:
@@ -47,6 +50,7 @@ class ParameterClient:
         except InvalidServiceNameException:  # Other programs can announce nodes with any name.
             return False
         found: bool = probe.wait_for_service(patience)
+        self._refusal = refusal(probe)
         self._node.destroy_client(probe)
         return found
 

@@ -11,6 +11,7 @@ import typer
 from coframe.cli.help_format import PlainCommand, PlainGroup
 from coframe.cli.options import with_leading_slash
 from coframe.cli.output import fail, one_line
+from coframe.cli.ros2.calls import wait_for_server
 from coframe.cli.ros2.graph import (
     AT_ONCE,
     DISCOVERY,
@@ -71,7 +72,7 @@ def call(
         client = node.create_client(kind, service_name)
         if not client.service_is_ready():
             print("waiting for service to become available...", flush=True)
-            client.wait_for_service()
+            wait_for_server(client, client.wait_for_service)
         while True:
             fill_stamps(node.get_clock().now().to_msg())
             print(f"requester: making request: {request!r}\n", flush=True)

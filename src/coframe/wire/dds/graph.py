@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from collections import OrderedDict
+
 from coframe import _core
 from coframe.wire import names
 from coframe.wire.dds import vendors
@@ -10,6 +12,8 @@ from coframe.wire.dds.discovery_info import ADAPTS, TOPIC, decode_info
 from coframe.wire.dds.user_data import type_hash_of
 from coframe.wire.graph import DiscoveredEndpoint, Graph
 from coframe.wire.qos import QoS
+
+MAX_DEPARTED_WRITERS = 1_000  # whose implementation is remembered for requests that are still queued
 
 _BATCH = 256  # messages
 
@@ -30,6 +34,7 @@ class DdsGraph(Graph):
         self._writer_reader = _core.EndpointReader(participant, _core.PUBLICATIONS, changed)
         self._reader_reader = _core.EndpointReader(participant, _core.SUBSCRIPTIONS, changed)
         self._gid_sizes: dict[bytes, int] = {}  # by participant
+        self._departed: OrderedDict[int, bytes] = OrderedDict()  # writers that send requests in another form
 
     def close(self) -> None:
         """Close the discovery readers. The state stays available."""
@@ -38,7 +43,17 @@ class DdsGraph(Graph):
 
     def foreign_services(self, guid: bytes) -> str:
         """Return the DDS implementation of an endpoint if it sends requests in another form; "" if not."""
-        return "" if vendors.shares_services(guid) else vendors.vendor(guid)
+        return "" if vendors.shares_services(guid) else vendors.vendor(guid) or vendors.unknown_vendor(guid)
+
+    def ignores_services(self, peer: DiscoveredEndpoint) -> bool:
+        """Return whether an endpoint does not match the partitions that service endpoints of this process have."""
+        return vendors.ignores_service_partitions(peer.guid, peer.partitions)
+
+    def foreign_writer(self, handle: int) -> str:
+        """Return what `foreign_services` returns for a writer, also after it has left."""
+        writer = self.writer(handle)
+        guid = self._departed.get(handle) if writer is None else writer.guid
+        return "" if guid is None else self.foreign_services(guid)
 
     def gid_sizes(self) -> dict[int, list[str]]:
         """Return the sizes of identifiers that participants of other implementations publish, with their nodes."""
@@ -76,14 +91,18 @@ class DdsGraph(Graph):
 
     def _take_endpoints(self, reader: _core.EndpointReader, known: dict[int, DiscoveredEndpoint]) -> bool:
         changes = reader.take()
-        for handle, alive, guid, participant, topic, type_name, (depth, *policies), user_data in changes:
+        for handle, alive, guid, participant, topic, type_name, (depth, *policies), user_data, partitions in changes:
             if alive:
                 qos = QoS(max(depth, 1), *policies)
                 known[handle] = DiscoveredEndpoint(
-                    guid, participant, topic, type_name, qos, user_data, type_hash_of(user_data)
+                    guid, participant, topic, type_name, qos, user_data, type_hash_of(user_data), partitions
                 )
-            else:
-                known.pop(handle, None)
+                continue
+            known.pop(handle, None)
+            if known is self._writers and not vendors.shares_services(guid):
+                self._departed[handle] = guid
+                if len(self._departed) > MAX_DEPARTED_WRITERS:
+                    self._departed.popitem(last=False)
         return bool(changes)
 
     def _remove_departed(self) -> None:

@@ -14,6 +14,7 @@ from coframe.wire.dds.discovery_info import ADAPTS, TOPIC, choose_gid_size, enco
 from coframe.wire.dds.graph import DdsGraph
 from coframe.wire.dds.topics import create_topic
 from coframe.wire.dds.user_data import endpoint_user_data
+from coframe.wire.dds.vendors import SERVICE_PARTITIONS
 from coframe.wire.qos import GRAPH_WRITER, QoS
 
 if TYPE_CHECKING:
@@ -72,7 +73,9 @@ class DdsSession:
         del node
         return self._create(
             endpoint,
-            lambda topic, data: _core.Writer(self.native.entity, topic, native_qos(qos), data, checked, on_change),
+            lambda topic, data: _core.Writer(
+                self.native.entity, topic, native_qos(qos, _partitions(endpoint)), data, checked, on_change
+            ),
             user_data,
         )
 
@@ -80,7 +83,10 @@ class DdsSession:
         """Create a reader that queues messages."""
         del node
         return self._create(
-            endpoint, lambda topic, data: _core.Reader(self.native.entity, topic, native_qos(qos), data, on_data)
+            endpoint,
+            lambda topic, data: _core.Reader(
+                self.native.entity, topic, native_qos(qos, _partitions(endpoint)), data, on_data
+            ),
         )
 
     def tap(self, node: GraphNode, endpoint: Endpoint, qos: QoS, limits: QueueLimits) -> _core.Tap:
@@ -152,8 +158,17 @@ class DdsSession:
             ) from error
 
 
-def native_qos(qos: QoS) -> _core.QosProfile:
-    """Return the quality of service as the native code takes it."""
+def _partitions(endpoint: Endpoint) -> Sequence[str]:
+    return () if endpoint.kind == "topic" else SERVICE_PARTITIONS
+
+
+def native_qos(qos: QoS, partitions: Sequence[str] = ()) -> _core.QosProfile:
+    """Return the quality of service as the native code takes it.
+
+    Args:
+        qos: The quality of service.
+        partitions: The partitions of the endpoint. If there are none, it is in the default partition.
+    """
     return _core.QosProfile(
         qos.depth,
         qos.reliable,
@@ -163,4 +178,5 @@ def native_qos(qos: QoS) -> _core.QosProfile:
         qos.deadline,
         qos.lifespan,
         qos.lease,
+        list(partitions),
     )

@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from typing import Final
+
 _NAMES = {
     b"\x01\x01": "RTI Connext",
     b"\x01\x03": "OpenDDS",
@@ -11,9 +13,19 @@ _NAMES = {
     b"\x01\x11": "GurumDDS",
     b"\x01\x12": "RustDDS",
 }
-# rmw_cyclonedds sends the client and the sequence number of a request in front of it. rmw_fastrtps sends them as inline
-# QoS of the RTPS message (related_sample_identity), which the library of Cyclone DDS neither writes nor returns.
-_OTHER_SERVICES = {"Fast DDS"}
+# rmw_cyclonedds sends the client and the sequence number of a request in front of it. rmw_fastrtps and, by default, the
+# others send them as inline QoS of the RTPS message (related_sample_identity), which the library of Cyclone DDS neither
+# writes nor returns. A server that expects the one form reads shifted fields from the other.
+_SAME_SERVICES = {"Cyclone DDS"}
+
+SERVICE_PARTITIONS: Final = ("*", "request-header")
+"""The partitions of all service endpoints of this process, which Fast DDS does not match.
+
+Most endpoints are in the default partition, the empty name. Cyclone DDS matches "*" with it, as the DDS standard says.
+Fast DDS compares patterns only with names in the list of the other side, which is empty. Patterns do not match each
+other, so that the endpoints of two processes that use coframe match by the second name.
+"""
+_WITHOUT_DEFAULT_PARTITION = {"Fast DDS"}
 
 
 def vendor(guid: bytes) -> str:
@@ -25,6 +37,21 @@ def vendor(guid: bytes) -> str:
     return _NAMES.get(guid[:2], "")
 
 
+def unknown_vendor(guid: bytes) -> str:
+    """Return what to call a DDS implementation that is not known."""
+    return f"an unknown DDS implementation (vendor ID {guid[0]}.{guid[1]})"
+
+
 def shares_services(guid: bytes) -> bool:
     """Return whether an endpoint of a service sends requests and replies as Cyclone DDS does."""
-    return vendor(guid) not in _OTHER_SERVICES
+    return vendor(guid) in _SAME_SERVICES
+
+
+def ignores_service_partitions(guid: bytes, partitions: tuple[str, ...]) -> bool:
+    """Return whether an endpoint never matches `SERVICE_PARTITIONS`.
+
+    Args:
+        guid: The GUID of the endpoint.
+        partitions: Its partitions; empty: the default partition.
+    """
+    return vendor(guid) in _WITHOUT_DEFAULT_PARTITION and not partitions

@@ -120,6 +120,9 @@ class LifecycleNode(Node):
             if context.is_shutdown or self.return_code is not None:
                 self.__logger.warning(f"Abandoning wait for the '{service}' service, due to shutdown")
                 return
+            if reason := getattr(self.__client, "_Coframe__refusal", ""):  # not in the rclpy of a sourced ROS
+                self.__logger.error(reason)
+                return
             self.__logger.info(f"Waiting for the '{service}' service")
         request = self.__client.srv_type.Request()
         request.transition.id = transition_id

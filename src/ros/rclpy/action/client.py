@@ -202,7 +202,9 @@ class ActionClient:
         if feedback_callback is not None:
             self._feedback_callbacks[_key(goal_id)] = feedback_callback
         request = self._action_type.Impl.SendGoalService.Request(goal_id=goal_id, goal=goal)
-        return self.__goal_client._Coframe__send(request, partial(self.__on_goal_response, goal_id))
+        future = self.__goal_client._Coframe__send(request, partial(self.__on_goal_response, goal_id))
+        future._Coframe__add_waiter(partial(self.__on_sent, goal_id, future))
+        return future
 
     def server_is_ready(self) -> bool:
         """Return whether a server of the action is available."""
@@ -211,6 +213,11 @@ class ActionClient:
             and self.__feedback_subscription.get_publisher_count() > 0
             and self.__status_subscription.get_publisher_count() > 0
         )
+
+    @property
+    def _Coframe__refusal(self) -> str:
+        """Why no goal can be sent although there is a server; "" if there is no reason."""
+        return next((reason for client in self.__clients if (reason := client._Coframe__refusal)), "")
 
     def wait_for_server(self, timeout_sec: float | None = None) -> bool:
         """Wait until a server of the action is available.
@@ -252,6 +259,10 @@ class ActionClient:
         """Wait for a future of this client and return its result, or None after a timeout."""
         take_responses_until(self.__clients, future, timeout_sec)
         return future.result()
+
+    def __on_sent(self, goal_id: UUID, future: Future[Any]) -> None:
+        if future._exception is not None:
+            self._feedback_callbacks.pop(_key(goal_id), None)
 
     def __on_goal_response(self, goal_id: UUID, response: Any) -> ClientGoalHandle:
         goal_handle = ClientGoalHandle(self, goal_id, response)
