@@ -60,6 +60,7 @@ class RtpsPeer:
         self._socket.settimeout(_PERIOD)
         base = 7400 + 250 * domain
         self._targets = [("127.0.0.1", base + 10 + 2 * index) for index in range(_PARTICIPANTS)]
+        self._entities: list[bytes] = []
         self._announced: dict[str, list[bytes]] = {"writer": [], "reader": []}
         self._others: dict[bytes, tuple[tuple[str, int], tuple[str, int]]] = {}  # by prefix: discovery and data
         self._sequences: dict[bytes, int] = {}
@@ -70,12 +71,6 @@ class RtpsPeer:
         self._threads = [threading.Thread(target=run, daemon=True) for run in (self._announce, self._receive)]
         for thread in self._threads:
             thread.start()
-
-    def __enter__(self) -> RtpsPeer:
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        self.close()
 
     def close(self) -> None:
         """Stop, without a farewell."""
@@ -94,18 +89,31 @@ class RtpsPeer:
         self.announce("reader", f"rr{service}Reply", dds_type(f"{ros_type}_Response"))
         return self.announce("writer", f"rq{service}Request", dds_type(f"{ros_type}_Request"))
 
-    def announce(self, kind: str, topic: str, type_name: str, partitions: tuple[str, ...] = ()) -> bytes:
-        """Announce a reliable, volatile "reader" or "writer". Return its entity ID."""
+    def name(self, name: str) -> None:
+        """Announce that all endpoints so far belong to the node with this name."""
+        from coframe.wire.dds.discovery_info import NodeInfo, encode_info
+
+        topic_type = "rmw_dds_common::msg::dds_::ParticipantEntitiesInfo_"
+        readers, writers = (
+            tuple(self.prefix + entity for entity in self._entities if entity[3] == kind) for kind in (0x04, 0x03)
+        )
+        writer = self.announce("writer", "ros_discovery_info", topic_type, durable=True)
+        self.write(writer, encode_info(self.prefix + _PARTICIPANT, [NodeInfo("/", name, readers, writers)], 16))
+
+    def announce(
+        self, kind: str, topic: str, type_name: str, partitions: tuple[str, ...] = (), *, durable: bool = False
+    ) -> bytes:
+        """Announce a reliable "reader" or "writer". Return its entity ID."""
         with self._lock:
-            number = sum(map(len, self._announced.values())) + 1
-            entity = struct.pack(">I", number << 8 | (0x04 if kind == "reader" else 0x03))
+            entity = struct.pack(">I", len(self._entities) + 1 << 8 | (0x04 if kind == "reader" else 0x03))
+            self._entities.append(entity)
             parameters = [
                 (0x005A, self.prefix + entity),
                 (0x0050, self.prefix + _PARTICIPANT),
                 (0x0005, _text(topic)),
                 (0x0007, _text(type_name)),
                 (0x001A, struct.pack("<IiI", 2, 0, 100_000_000)),
-                (0x001D, struct.pack("<I", 0)),
+                (0x001D, struct.pack("<I", durable)),
             ]
             if partitions:
                 names = b"".join(map(_text, partitions))
@@ -114,12 +122,16 @@ class RtpsPeer:
         return entity
 
     def write(self, writer: bytes, data: bytes) -> None:
-        """Send a message, 4 bytes of encapsulation and then CDR, to all participants that are known."""
+        """Send bytes, usually 4 of encapsulation and then CDR, to all participants that are known.
+
+        They are sent again with every announcement, so that participants that are discovered later receive them.
+        """
         with self._lock:
             history = self._history.setdefault(writer, [])
             history.append((len(history) + 1, data))
             for prefix, (_, address) in self._others.items():
-                self._send(address, prefix, *_messages(_UNKNOWN, writer, history, self._next_count()))
+                heartbeat, *_, last = _messages(_UNKNOWN, writer, history, self._next_count())
+                self._send(address, prefix, heartbeat, last)
 
     def received_on(self, reader: bytes) -> list[bytes]:
         """Return the messages that one of its readers was sent."""

@@ -10,6 +10,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
+from rtps_peer import RtpsPeer
 
 import rclpy
 from rclpy.context import Context
@@ -60,6 +61,20 @@ def wait_until() -> Callable[..., None]:
             meanwhile()
 
     return wait
+
+
+@pytest.fixture
+def start_peer(domain_id: int) -> Iterator[Callable[..., RtpsPeer]]:
+    """Return a function that starts a participant of any DDS implementation in the domain of the test."""
+    peers: list[RtpsPeer] = []
+
+    def start(vendor: bytes) -> RtpsPeer:
+        peers.append(RtpsPeer(domain_id, vendor))
+        return peers[-1]
+
+    yield start
+    for peer in peers:
+        peer.close()
 
 
 class Script:

@@ -149,40 +149,84 @@ def test_late_static_transforms_arrive_before_why_answers(run):
     )
 
 
-def test_services_are_reported_and_never_ready(run):
-    """A server and a client on Fast DDS: one warning each, no request is decoded, and DDS prints nothing."""
+SERVICES = """
+import rclpy
+from rclpy.executors import SingleThreadedExecutor
+from std_srvs.srv import SetBool
+
+TOPICS = [("reader", "rq/lightRequest", "Request"), ("writer", "rr/lightReply", "Response"),
+          ("writer", "rq/motorRequest", "Request"), ("reader", "rr/motorReply", "Response")]
+
+def announce_services(fast):
+    kind = "std_srvs::srv::dds_::SetBool_{}_"
+    guids = [fast.ask("guid", which, topic, kind.format(part), "volatile") for which, topic, part in TOPICS]
+    fast.announce("lamp", [guids[0], guids[3]], [guids[1], guids[2]])
+
+def assert_unmatched(fast):
+    # A line about a received request or reply would come before the answer.
+    for _, topic, _ in TOPICS:
+        assert fast.ask("matched", "matched", topic) == ["0"], topic
+
+rclpy.init()
+node = rclpy.create_node("robot")
+"""
+
+
+def test_services_are_reported_and_never_match(run):
+    """A server and a client on Fast DDS: one warning, no request arrives on either side, and DDS prints nothing."""
     errors = run(
-        """
-        import rclpy
-        from std_srvs.srv import SetBool
-        rclpy.init()
-        node = rclpy.create_node("robot")
+        SERVICES
+        + textwrap.dedent("""
         fast = FastDds(domain_id())
-        endpoints = [
-            fast.ask("guid", kind, topic, f"std_srvs::srv::dds_::SetBool_{part}_", "volatile")
-            for kind, topic, part in (
-                ("reader", "rq/lightRequest", "Request"),
-                ("writer", "rr/lightReply", "Response"),
-                ("writer", "rq/motorRequest", "Request"),
-                ("reader", "rr/motorReply", "Response"),
-            )
-        ]
-        fast.announce("lamp", [endpoints[0], endpoints[3]], [endpoints[1], endpoints[2]])
+        announce_services(fast)
         asked = []
         client = node.create_client(SetBool, "light")
         server = node.create_service(SetBool, "motor", lambda request, response: asked.append(request) or response)
-        eventually(lambda: fast.ask("matched", "matched", "rq/motorRequest") == ["1"])
-        eventually(lambda: fast.ask("matched", "matched", "rr/lightReply") == ["1"])
         assert not client.wait_for_service(timeout_sec=1.0)
+        eventually(lambda: client._Client__requests.matched_handles() and server._Service__requests.matched_handles())
+        eventually(lambda: ("lamp", "/") in node.get_node_names_and_namespaces())
+        future = client.call_async(SetBool.Request(data=True))
+        assert str(future.exception()).startswith("Node /lamp uses Fast DDS, so its service /light cannot be called")
         # A request of Fast DDS, which has no header in front; a second one that is long enough to have one.
         for request in ("0001000001000000", "00010000" + "01" * 20):
             fast.ask("written", "write", "rq/motorRequest", request)
         for _ in range(30):
             rclpy.spin_once(node, timeout_sec=0.1)
         assert asked == []
+        assert_unmatched(fast)
         rclpy.shutdown()
-        """
+        """)
     )
     assert errors.count("Node /lamp uses Fast DDS, so its ") == 1, errors
     assert "Start that node with RMW_IMPLEMENTATION=rmw_cyclonedds_cpp." in errors
     assert "deserialization" not in errors
+
+
+def test_calls_reach_only_the_server_that_understands_them(run):
+    """Both middlewares have a server and a client of one name: those on Cyclone DDS work, the others do not match."""
+    run(
+        SERVICES
+        + textwrap.dedent("""
+        def answer(request, response):
+            response.success, response.message = request.data, "x" * 700_000
+            return response
+
+        fast = FastDds(domain_id())
+        announce_services(fast)
+        executor = SingleThreadedExecutor()
+        executor.add_node(node)
+        for name in ("light", "motor"):
+            node.create_service(SetBool, name, answer)
+        for name in ("light", "motor"):
+            client = node.create_client(SetBool, name)
+            assert client.wait_for_service(timeout_sec=20)
+            eventually(lambda: len(client._Client__requests.matched_handles()) == (2 if name == "light" else 1))
+            for _ in range(20):  # Fast DDS acknowledges nothing, which does not block the writers.
+                future = client.call_async(SetBool.Request(data=True))
+                executor.spin_until_future_complete(future, timeout_sec=10)
+                assert future.result().success
+        time.sleep(0.5)
+        assert_unmatched(fast)
+        rclpy.shutdown()
+        """)
+    )

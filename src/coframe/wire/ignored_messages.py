@@ -14,6 +14,7 @@ if TYPE_CHECKING:
 
     from coframe.wire.endpoints import LocalEndpoint
 
+_COLLECTED: Final = 1.0  # seconds after the first one, so that the warning has the number of all of them
 _REPEAT_AFTER: Final = 10.0  # seconds
 
 
@@ -26,14 +27,15 @@ class IgnoredMessageMonitor:
 
     def __init__(self, warn: Callable[[str], None]) -> None:
         self._warn = warn
-        self._warned_at: weakref.WeakKeyDictionary[ServiceSubscription, float] = weakref.WeakKeyDictionary()
+        # When the next warning about an endpoint may be issued.
+        self._due: weakref.WeakKeyDictionary[ServiceSubscription, float] = weakref.WeakKeyDictionary()
 
     def check(self, endpoints: Iterable[LocalEndpoint]) -> None:
         """Warn about messages that `endpoints` have ignored since the last warning."""
         now = time.monotonic()
         for endpoint in endpoints:
-            if not isinstance(endpoint, ServiceSubscription) or now < self._warned_at.get(endpoint, 0) + _REPEAT_AFTER:
+            if not isinstance(endpoint, ServiceSubscription) or not endpoint.has_warning:
                 continue
-            if text := endpoint.take_warning():
-                self._warned_at[endpoint] = now
-                self._warn(text)
+            if now >= self._due.setdefault(endpoint, now + _COLLECTED):
+                self._due[endpoint] = now + _REPEAT_AFTER
+                self._warn(endpoint.take_warning())

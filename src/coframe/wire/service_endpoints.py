@@ -174,11 +174,14 @@ class ServiceSubscription(Subscription):
         self.ignored += 1
         self._last_ignored = writer, reason
 
+    @property
+    def has_warning(self) -> bool:
+        """Whether messages were ignored since the last call of `take_warning`."""
+        return self.ignored > self._reported
+
     def take_warning(self) -> str:
-        """Return a warning about the messages that were ignored since the last call; "" if there are none."""
+        """Return a warning about the messages that were ignored since the last call."""
         count = self.ignored - self._reported
-        if not count:
-            return ""
         self._reported += count
         handle, reason = self._last_ignored
         writer = self._graph.writer(handle)

@@ -188,9 +188,9 @@ class BufferClient(BufferInterface):
         return monotonic() + wait / SECOND
 
     def __wait_for(self, future: "Future[Any]", deadline: float) -> Any:
-        wait_for(self.action_client, future, deadline - monotonic())
-        _time_out(future)
         try:
+            wait_for(self.action_client, future, deadline - monotonic())
+            _time_out(future)
             return future.result()
         except WireError as error:
             raise TimeoutException(str(error)) from None
