@@ -139,7 +139,9 @@ def test_other_files_and_the_environment_are_out_of_reach(folder, grade, tmp_pat
     monkeypatch.setenv("TEACHERS_TOKEN", "SECRET_TOKEN")
     secret, target = tmp_path / "solution.py", tmp_path / "target.py"
     secret.write_text("SECRET_SOLUTION")
-    criterion = grade_of(folder, grade, SPY.format(secret=str(secret), target=str(target)), "PermissionError")
+    criterion = grade_of(
+        folder, grade, SPY.format(secret=str(secret), target=str(target)), "No such file|PermissionError|Read-only"
+    )
     assert "SECRET" not in str(criterion)
     assert not target.exists()
 
@@ -168,22 +170,3 @@ def test_packages_of_the_user_are_found_with_another_home_folder(tmp_path):
     asked = [sys.executable, "-c", "import site; print(site.getusersitepackages())"]
     folders = [subprocess.check_output(asked, env=env) for env in (os.environ, isolated_environment(0, tmp_path))]
     assert folders[0] == folders[1]
-
-
-@pytest.mark.skipif(sys.platform == "win32", reason="needs links and named pipes")
-@pytest.mark.parametrize(
-    ("make", "sentence"),
-    [
-        (lambda path: path.symlink_to("/dev/zero"), "not a regular file"),
-        (os.mkfifo, "not a regular file"),
-        (lambda path: path.symlink_to("/etc/passwd"), "a link to a file outside"),
-        (lambda path: path.write_bytes(bytes(2 << 20)), "The limit is"),
-    ],
-    ids=["device", "pipe", "link", "large"],
-)
-def test_files_that_the_grader_does_not_read(make, sentence, folder):
-    from coframe.course.criteria.visualization import _configuration
-
-    (folder / "lab.rviz").unlink()
-    make(folder / "lab.rviz")
-    assert sentence in _configuration(folder)

@@ -28,9 +28,9 @@ from coframe.course.checking import check_class, check_folder, submissions
 from coframe.course.faults import FAULTS
 from coframe.course.first_output import FirstOutput
 from coframe.course.folders import create_folder
-from coframe.course.grading import CRITERIA
 from coframe.course.handbook import chapters, contents, terminal_text, write_pages
 from coframe.course.isolation import isolation_problem
+from coframe.course.rubric import CRITERIA
 from coframe.course.running import COMPLETE_TREE, SIMULATION, STEPS, programs_of, running
 from coframe.errors import CourseError
 from coframe.escaping import csv_cell
@@ -42,6 +42,8 @@ if TYPE_CHECKING:
 
 __all__ = ["lab"]
 
+# The name of a folder may contain bytes that are not a text.
+_TABLE: dict[str, str] = {"encoding": "utf-8", "newline": "", "errors": "backslashreplace"}
 _FIRST_OUTPUT = 8.0  # seconds after which each program should have published something
 _HANDBOOK_WIDTH = 120  # columns: longer lines are hard to read
 FolderArgument = Annotated[
@@ -319,7 +321,7 @@ def _check_class(
     rows = [formats.csv_row(name, reports[name]) for name in sorted(reports)]
     columns = list(dict.fromkeys(column for row in rows for column in row if column != "problem"))
     if output is not None:
-        with complete_or_absent(output) as part, part.open("w", encoding="utf-8", newline="") as file:
+        with complete_or_absent(output) as part, part.open("w", **_TABLE) as file:
             writer = csv.DictWriter(file, [*columns, "problem"], restval=0.0)
             writer.writeheader()
             writer.writerows({key: csv_cell(value) for key, value in row.items()} for row in rows)

@@ -4,8 +4,8 @@
 from __future__ import annotations
 
 import json
+import os
 import subprocess
-import sys
 import threading
 import time
 from concurrent.futures import ThreadPoolExecutor, as_completed
@@ -13,17 +13,21 @@ from pathlib import Path
 from typing import IO, TYPE_CHECKING, Any
 
 from coframe.course.folders import file_names
-from coframe.course.grading import CRITERIA
-from coframe.course.isolation import isolated_command, isolated_environment
+from coframe.course.isolation import isolated_command, isolated_environment, isolation_problem
+from coframe.course.rubric import CRITERIA, RUBRIC
+from coframe.course.sheet import Report, Sheet
+from coframe.course.view import private_folders
 from coframe.errors import CourseError
+from coframe.python_children import python_command
 from coframe.temporary_folders import temporary_folder
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Generator, Mapping
+    from collections.abc import Callable, Generator, Mapping, Sequence
 
-__all__ = ["check_class", "check_folder", "submissions"]
+__all__ = ["MAX_SECONDS", "check_class", "check_folder", "submissions"]
 
-_LIMIT = 400.0  # seconds of real time for one folder; nine programs that never respond need about half of it
+MAX_SECONDS = 400.0  # of real time for one folder; nine programs that never respond need about half of it
+_MAX_FOLDERS = 200  # in a folder, among which the files of the lab are searched
 _PERIOD = 0.05  # seconds between two looks at the progress
 
 
@@ -36,8 +40,11 @@ def check_folder(
     progress: Callable[[int], object] = lambda _done: None,
     number: int = 0,
     cancelled: threading.Event | None = None,
+    max_seconds: float = MAX_SECONDS,
 ) -> dict[str, Any]:
     """Grade a student's folder in an isolated process.
+
+    When the time is over, or the process ends, the criteria that are done count.
 
     Args:
         folder: The folder.
@@ -47,52 +54,73 @@ def check_folder(
         progress: Called with the number of criteria that are done.
         number: Number of this grade among those that run at the same time.
         cancelled: Ends the grade when it is set.
+        max_seconds: The limit on real time.
 
     Returns:
         The report, as `Report.as_dict` describes it.
 
     Raises:
-        CourseError: The folder does not exist, its assignment is damaged, or it could not be graded in time.
+        CourseError: The folder does not exist, its assignment is damaged, or no criterion could be checked.
     """
     if not folder.is_dir():
         raise CourseError(f"There is no folder {folder}.", hint="Create one with coframe lab new.")
     with temporary_folder("coframe-check-") as name:
         scratch, log = Path(name, "scratch"), Path(name, "log")
         scratch.mkdir()
-        words = [str(folder.resolve()), str(scratch), "own" if variant is None else str(variant), ",".join(only)]
-        words += [str(record.resolve())] if record is not None else []
+        job = {
+            "folder": str(folder.resolve()),
+            "scratch": str(scratch),
+            "variant": variant,
+            "only": only,
+            "record": None if record is None else str(record.resolve()),
+            "private": private_folders(folder),
+        }
         with log.open("wb") as errors:
             process = subprocess.Popen(  # noqa: S603 - this Python, with arguments of ours
-                isolated_command([sys.executable, "-m", "coframe.course.grading", *words]),
+                isolated_command(python_command("coframe.course.grading", json.dumps(job))),
                 stdin=subprocess.DEVNULL,
                 stdout=subprocess.PIPE,
                 stderr=errors,
+                cwd=scratch,
                 env=isolated_environment(number, scratch),
                 start_new_session=True,
             )
         assert process.stdout is not None
         with process.stdout as output:
-            results = _Results(output)
+            results = _Results(output, max_seconds)
             try:
                 results.follow(progress, cancelled or threading.Event())
             finally:
                 process.kill()
                 process.wait()
                 results.join()
-        if "report" in results.last:
-            return dict(results.last["report"])
-        if "error" in results.last:
-            text, hint = results.last["error"]
-            raise CourseError(text, hint=hint)
         lines = log.read_text(errors="replace").strip().splitlines()[-1:]
-        reason = f"it took more than {_LIMIT:g} s" if results.is_late else lines[0] if lines else "the check was ended"
+    if results.error is not None:
+        text, hint = results.error
+        raise CourseError(text, hint=hint)
+    missing = [name for name in RUBRIC if name in only][len(results.sheets) :]
+    if missing and not (results.sheets or results.is_late):
+        reason = lines[0] if lines else "the check was ended"
         raise CourseError(f"{folder} could not be graded: {reason}", hint="coframe lab run shows what its nodes print.")
+    reason = f"the check took more than {max_seconds:g} s" if results.is_late else "the check was ended"
+    return _report(folder, results, missing, reason)
+
+
+def _report(folder: Path, results: _Results, missing: Sequence[str], reason: str) -> dict[str, Any]:
+    """Return the report of a grade, which may have ended before all criteria were checked."""
+    notices = [problem] if (problem := isolation_problem()) else []
+    if missing:
+        names = ", ".join(RUBRIC[name].name for name in missing)
+        notices.append(f"{_upper(reason)} and was ended before these criteria: {names}. The points before them count.")
+    sheets = results.sheets + [Sheet.not_reached(RUBRIC[name], reason) for name in missing]
+    return Report(str(folder.resolve()), results.variant, sheets, notices).as_dict()
 
 
 def submissions(folder: Path) -> dict[str, Path]:
     """Return the submissions of a class: the name of each folder in `folder`, and where its files of the lab are.
 
     A folder without any such file is a submission too. Hidden folders, and those that macOS adds to archives, are not.
+    A symbolic link to a folder is a submission that cannot be graded: it leads to files of someone else.
 
     Raises:
         CourseError: There is none.
@@ -102,14 +130,32 @@ def submissions(folder: Path) -> dict[str, Path]:
         raise CourseError(
             f"No submissions in {folder}.", hint="It must contain a folder for each student, with the student's files."
         )
-    return {student.name: _lab_below(student) for student in students}
+    return {student.name: student if student.is_symlink() else _lab_below(student) for student in students}
 
 
 def _lab_below(student: Path) -> Path:
-    """Return the folder with most files of the lab, at most two levels below the folder of a student."""
+    """Return the folder with most files of the lab, at most two levels below the folder of a student.
+
+    Links to folders are not followed, and a link is not a file of the lab.
+    """
     names = file_names()
-    candidates = [student, *sorted(student.glob("*/")), *sorted(student.glob("*/*/"))]
-    return max(candidates, key=lambda path: sum((path / name).is_file() for name in names))
+    candidates = [student, *_folders_in(student)]
+    candidates += [below for folder in candidates[1:] for below in _folders_in(folder)]
+    return max(candidates, key=lambda folder: sum(_is_own_file(folder / name) for name in names))
+
+
+def _folders_in(folder: Path) -> list[Path]:
+    """Return the folders in a folder of a student, without links; none if it cannot be read."""
+    try:
+        with os.scandir(folder) as entries:
+            found = [entry.path for entry in entries if entry.is_dir(follow_symlinks=False)]
+    except OSError:
+        return []
+    return [Path(path) for path in sorted(found)[:_MAX_FOLDERS]]
+
+
+def _is_own_file(path: Path) -> bool:
+    return path.is_file() and not path.is_symlink()
 
 
 def check_class(
@@ -129,7 +175,12 @@ def check_class(
     """
 
     def check(number: int) -> dict[str, Any]:
-        folder = list(folders.values())[number]
+        name, folder = list(folders.items())[number]
+        if folder.is_symlink():
+            raise CourseError(
+                f"{name} is a link to another folder. Links of submissions are not followed.",
+                hint="Replace it with a copy of that folder, if it belongs to this student.",
+            )
         return check_folder(folder, variant=variant, only=only, number=number, cancelled=cancelled)
 
     cancelled = threading.Event()
@@ -146,36 +197,48 @@ def check_class(
             pool.shutdown(wait=False, cancel_futures=True)
 
 
+def _upper(text: str) -> str:
+    return text[:1].upper() + text[1:]
+
+
 class _Results(threading.Thread):
     """Reads the lines of JSON that a grade prints.
 
     Attributes:
-        last: The last value of each kind.
+        variant: The variant of the assignment.
+        sheets: The criteria that are done.
+        error: Why the folder cannot be graded, and what to do; None if it can.
         is_late: Whether the grade took too long.
     """
 
-    def __init__(self, output: IO[bytes]) -> None:
+    def __init__(self, output: IO[bytes], max_seconds: float) -> None:
         super().__init__(daemon=True)
-        self.last: dict[str, Any] = {}
+        self.variant: int | None = None
+        self.sheets: list[Sheet] = []
+        self.error: tuple[str, str] | None = None
         self.is_late = False
         self._output = output
-        self._done = 0
+        self._max_seconds = max_seconds
 
     def run(self) -> None:
         """Read until the grade ends."""
         for line in self._output:
             if not line.endswith(b"\n"):  # The grade was ended meanwhile.
                 break
-            for kind, value in json.loads(line).items():
-                self.last[kind] = value
-                self._done += kind == "done"
+            content = json.loads(line)
+            if "sheet" in content:
+                self.sheets.append(Sheet.from_dict(content["sheet"]))
+            elif "error" in content:
+                self.error = tuple(content["error"])
+            else:
+                self.variant = content["variant"]
 
     def follow(self, progress: Callable[[int], object], cancelled: threading.Event) -> None:
         """Report the progress until the grade ends, its time is over, or it is cancelled."""
         self.start()
-        deadline = time.monotonic() + _LIMIT
+        deadline = time.monotonic() + self._max_seconds
         while self.is_alive() and not cancelled.wait(_PERIOD):
-            progress(self._done)
+            progress(len(self.sheets))
             if time.monotonic() > deadline:
                 self.is_late = True
                 return

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Publish the description of the lab's arm without any transform: ``python -m coframe.course.description``.
+"""A node that publishes the description of the lab's arm without any transform.
 
 The doctor compares the transforms of other nodes with it.
 """

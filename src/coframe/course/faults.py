@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from coframe.course.running import Program
+from coframe.course.running import Program, module_program
 
 __all__ = ["FAULTS", "Fault"]
 
@@ -29,18 +29,18 @@ def _node(name: str, *parameters: str, title: str = "") -> Program:
     title = title or name
     remap = ("-r", f"__node:={title}") if title != name else ()
     arguments = ("--ros-args", *remap, *words) if words or remap else ()
-    return Program(title, ("-m", f"coframe.lab.{name}", *arguments))
+    return module_program(title, f"coframe.lab.{name}", *arguments)
 
 
 def _faulty(fault: str, name: str) -> Program:
     """Return a node of the lab in which a fault of coframe.course.faulty_node is built in."""
-    return Program(name, ("-m", "coframe.course.faulty_node", fault, name))
+    return module_program(name, "coframe.course.faulty_node", fault, name)
 
 
 _STATIC, _DYNAMIC = _node("static_tf_broadcaster"), _node("dynamic_tf_broadcaster")
 _LISTENER, _SENSOR = _node("tf_listener"), _node("sensor_transform")
 _LIDAR = _node("simulated_lidar", "fixed_frame:=base_link")
-_DESCRIPTION = Program("robot_description", ("-m", "coframe.course.description"))  # the doctor compares with it
+_DESCRIPTION = module_program("robot_description", "coframe.course.description")  # the doctor compares with it
 _JOINTS = _node("dynamic_tf_broadcaster", "publish_joint_states:=true", title="joint_driver")
 _HALF = 0.5**0.5
 

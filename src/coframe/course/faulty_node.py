@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A node of the lab with a fault: ``python -m coframe.course.faulty_node FAULT NODE``."""
+"""A node of the lab with a fault: its arguments are the fault and the node."""
 
 from __future__ import annotations
 

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The grade of one folder: ``python -m coframe.course.grading FOLDER SCRATCH`` prints it as JSON."""
+"""The grade of one folder, in a process of its own: `main` prints it as JSON."""
 
 from __future__ import annotations
 
 import contextlib
+import importlib
 import json
 import os
 import signal
@@ -13,84 +14,77 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, TextIO
 
 from coframe.course.assignment import Assignment, assignment_of, read_assignment
-from coframe.course.isolation import bring_loopback_up, limit_disk
+from coframe.course.confinement import Confinement
+from coframe.course.isolation import bring_loopback_up, is_isolated, limit_disk
 from coframe.course.processes import adopt_orphans
 from coframe.course.program import HOMES
-from coframe.course.sheet import Report
+from coframe.course.rubric import RUBRIC
 from coframe.errors import CourseError
+from coframe.python_children import python_command, python_environment
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Callable, Iterator, Sequence
 
-__all__ = ["CRITERIA", "grade"]
+    from coframe.course.sheet import Sheet
 
-# The modules of coframe.course.criteria, in the order of the rubric; those after the first five are extensions.
-CRITERIA = (
-    "static",
-    "dynamic",
-    "listener",
-    "sensor",
-    "visualization",
-    "urdf",
-    "time_travel",
-    "several_robots",
-    "monitor",
-)
-
-
-def grade(
-    folder: Path, assignment: Assignment, scratch: Path, only: tuple[str, ...], done: Callable[[str], None]
-) -> Report:
-    """Run a student's nodes next to a simulated robot, and return the grade.
-
-    Args:
-        folder: The student's folder.
-        assignment: The numbers that the nodes have to use.
-        scratch: An empty folder for the output of the nodes and the files that they write.
-        only: The criteria to check.
-        done: Called with the name of each criterion after it was checked.
-    """
-    import importlib  # noqa: PLC0415 - the criteria import rclpy, which takes time
-
-    from coframe.course.criteria.common import Task  # noqa: PLC0415
-    from coframe.course.world import World  # noqa: PLC0415
-
-    report = Report(str(folder), assignment.variant, [])
-    with World() as world:
-        task = Task(folder, assignment, world, scratch)
-        for name in CRITERIA:
-            if name in only:
-                report.sheets.append(importlib.import_module(f"coframe.course.criteria.{name}").check(task))
-                done(name)
-    return report
+__all__ = ["main"]
 
 
 def main() -> None:
-    """Grade the folder in the first argument; print the report, and progress, as lines of JSON.
+    """Grade a folder; print the assignment and each criterion that is done as lines of JSON.
 
-    The other arguments are an empty folder, the variant ("own": that of the folder), the criteria, and a folder for a
-    recording.
+    The argument is JSON: "folder"; "scratch", an empty folder; "variant", null for that of the folder; "only", the
+    criteria; "record", a folder for a recording or null; and "private", see `private_folders`.
     """
-    folder, scratch, variant, only = Path(sys.argv[1]), Path(sys.argv[2]), sys.argv[3], tuple(sys.argv[4].split(","))
+    job = json.loads(sys.argv[1])
+    folder, scratch = Path(job["folder"]), Path(job["scratch"])
     bring_loopback_up()
     homes = scratch / HOMES
     homes.mkdir()
     limit_disk(homes)
     adopt_orphans()
     signal.signal(signal.SIGINT, lambda _number, _frame: None)  # A program can send it to its parent.
-    with _result_output() as output, _recorded(sys.argv[5:]):
+    confinement = Confinement(folder, scratch, job["private"], has_namespaces=is_isolated())
+    with _result_output() as output, _recorded(job["record"]), confinement:
 
         def write(kind: str, value: Any) -> None:
             output.write(json.dumps({kind: value}) + "\n")
             output.flush()
 
         try:
-            assignment = read_assignment(folder) if variant == "own" else assignment_of(int(variant))
-            report = grade(folder, assignment, scratch, only, lambda name: write("done", name))
+            assignment = read_assignment(folder) if job["variant"] is None else assignment_of(job["variant"])
+            write("variant", assignment.variant)
+            _grade(folder, assignment, scratch, confinement, job["only"], lambda sheet: write("sheet", sheet.as_dict()))
         except CourseError as error:
             write("error", [str(error), error.hint])
-        else:
-            write("report", report.as_dict())
+
+
+def _grade(
+    folder: Path,
+    assignment: Assignment,
+    scratch: Path,
+    confinement: Confinement,
+    only: Sequence[str],
+    done: Callable[[Sheet], None],
+) -> None:
+    """Run a student's nodes next to a simulated robot.
+
+    Args:
+        folder: The student's folder.
+        assignment: The numbers that the nodes have to use.
+        scratch: An empty folder for the output of the nodes and the files that they write.
+        confinement: What the nodes may do.
+        only: The criteria to check.
+        done: Called with the sheet of each criterion.
+    """
+    from coframe.course.criteria.common import Task  # noqa: PLC0415 - the criteria import rclpy, which takes time
+    from coframe.course.world import World  # noqa: PLC0415
+
+    with World() as world:
+        task = Task(folder, assignment, world, scratch, confinement)
+        for name in RUBRIC:
+            if name in only:
+                done(importlib.import_module(f"coframe.course.criteria.{name}").check(task))
 
 
 def _result_output() -> TextIO:
@@ -101,13 +95,13 @@ def _result_output() -> TextIO:
 
 
 @contextlib.contextmanager
-def _recorded(folder: list[str]) -> Iterator[None]:
+def _recorded(folder: str | None) -> Iterator[None]:
     """Record all topics during the block, if there is a folder for it."""
-    if not folder:
+    if folder is None:
         yield
         return
-    command = [sys.executable, "-m", "coframe.cli", "record", "--output", folder[0]]
-    recorder = subprocess.Popen(command, stdin=subprocess.DEVNULL)  # noqa: S603 - a command of coframe
+    command = python_command("coframe.cli", "record", "--output", folder)
+    recorder = subprocess.Popen(command, env=python_environment(), stdin=subprocess.DEVNULL)  # noqa: S603
     try:
         yield
     finally:

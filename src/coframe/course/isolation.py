@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import ctypes
 import functools
 import os
 import shutil
@@ -12,38 +11,25 @@ import socket
 import struct
 import subprocess
 import sys
+from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
-from coframe.course.limits import landlock_version
+from coframe.course.confinement import PASSED, Confinement, protection_problem
+from coframe.course.sandbox.kernel import c_function
+from coframe.python_children import python_environment
+from coframe.temporary_folders import temporary_folder
 
 if TYPE_CHECKING:
-    from pathlib import Path
+    from collections.abc import Sequence
 
-__all__ = ["PASSED", "bring_loopback_up", "isolated_command", "isolated_environment", "isolation_problem", "limit_disk"]
-
-# Variables of the teacher that a grade may see. All others may contain secrets.
-PASSED: Final = (
-    "AMENT_PREFIX_PATH",
-    "COFRAME_ISOLATED",
-    "CYCLONEDDS_URI",
-    "DYLD_LIBRARY_PATH",
-    "LANG",
-    "LD_LIBRARY_PATH",
-    "PATH",
-    "PATHEXT",
-    "PYTHONPATH",
-    "PYTHONUSERBASE",
-    "RMW_IMPLEMENTATION",
-    "ROS_AUTOMATIC_DISCOVERY_RANGE",
-    "ROS_DISTRO",
-    "ROS_DOMAIN_ID",
-    "ROS_LOCALHOST_ONLY",
-    "SYSTEMROOT",
-    "TEMP",
-    "TMP",
-    "USERPROFILE",
-    "VIRTUAL_ENV",
-)
+__all__ = [
+    "bring_loopback_up",
+    "is_isolated",
+    "isolated_command",
+    "isolated_environment",
+    "isolation_problem",
+    "limit_disk",
+]
 
 _VARIABLE: Final = "COFRAME_ISOLATED"  # set in processes that have a network of their own
 # Domains for grades without a network of their own. The ports of those above 101 may be in use by other sockets.
@@ -51,7 +37,7 @@ _LOWEST_DOMAIN, _DOMAINS = 51, 50
 _SIOCGIFFLAGS, _SIOCSIFFLAGS = 0x8913, 0x8914
 _UP_AND_MULTICAST = 0x1 | 0x1000
 _DISK = b"size=256m,nr_inodes=20k"
-_FLAGS = ("--net", "--pid", "--fork", "--kill-child", "--mount-proc")
+_FLAGS = ("--net", "--ipc", "--pid", "--fork", "--kill-child", "--mount-proc")
 
 
 def isolated_command(command: list[str]) -> list[str]:
@@ -78,25 +64,22 @@ def isolated_environment(number: int, home: Path) -> dict[str, str]:
         environment[_VARIABLE] = "1"
     else:
         environment["ROS_DOMAIN_ID"] = str(_LOWEST_DOMAIN + (os.getpid() + number) % _DOMAINS)
-    return environment
+    return python_environment(environment)
 
 
 def isolation_problem() -> str:
-    """Return sentences about what the system does not isolate; "" if it isolates the network and the files."""
-    sentences = []
-    if not _unshare():
-        sentences.append(
-            "This system does not allow a network namespace (unshare --net), so the nodes run in a ROS domain of their "
-            "own but could reach the network."
-        )
-    if not landlock_version():
-        sentences.append("This system does not restrict files (Landlock), so the nodes could read and change yours.")
-    return " ".join(sentences)
+    """Return sentences about what the system does not protect from the programs of a grade; "" if there is nothing."""
+    return protection_problem(has_namespaces=bool(_unshare()))
+
+
+def is_isolated() -> bool:
+    """Return whether this process is a grade in namespaces of its own."""
+    return _VARIABLE in os.environ
 
 
 def bring_loopback_up() -> None:
     """Enable loopback and its multicast in a network namespace that was just made; do nothing elsewhere."""
-    if _VARIABLE not in os.environ:
+    if not is_isolated():
         return
     import fcntl  # noqa: PLC0415 - not on Windows
 
@@ -108,8 +91,8 @@ def bring_loopback_up() -> None:
 
 def limit_disk(folder: Path) -> None:
     """Give a folder a small disk of its own in memory, in namespaces that were just made; do nothing elsewhere."""
-    if _VARIABLE in os.environ:
-        ctypes.CDLL(None).mount(b"coframe", os.fsencode(folder), b"tmpfs", ctypes.c_ulong(0), _DISK)
+    if is_isolated():
+        c_function("mount", b"coframe", os.fsencode(folder), b"tmpfs", 0, _DISK)
 
 
 @functools.cache
@@ -118,9 +101,18 @@ def _unshare() -> tuple[str, ...]:
     program = shutil.which("unshare")
     if program is None or not sys.platform.startswith("linux"):
         return ()
-    for rights in ((), ("--user", "--map-root-user")):
-        words = (program, *rights, *_FLAGS)
-        tried = subprocess.run([*words, "true"], capture_output=True, check=False)  # noqa: S603 - a tool of the system
-        if tried.returncode == 0:
-            return words
-    return ()
+    rights: tuple[tuple[str, ...], ...] = ((), ("--user", "--map-root-user"))
+    return next((words for each in rights if _is_possible(words := (program, *each, *_FLAGS))), ())
+
+
+def _is_possible(words: Sequence[str]) -> bool:
+    """Return whether a process with these namespaces can start a confined program, which needs more of them."""
+    with temporary_folder("coframe-check-") as name:
+        folder, home = Path(name, "folder"), Path(name, "home")
+        for each in (folder, home):
+            each.mkdir()
+        with Confinement(folder, Path(name), (), has_namespaces=True) as confinement:
+            command = [*words, *confinement.command(home, "-I", "-S", "-c", "")]
+            environment = confinement.environment(home)
+            tried = subprocess.run(command, env=environment, stdin=subprocess.DEVNULL, capture_output=True, check=False)  # noqa: S603
+    return tried.returncode == 0

@@ -42,23 +42,25 @@ def adopt_orphans() -> None:
         ctypes.CDLL(None).prctl(_SET_CHILD_SUBREAPER, 1, 0, 0, 0)
 
 
-def children() -> set[int]:
-    """Return the processes that this process has started or adopted."""
-    return {each.pid for each in _entries() if each.parent == os.getpid()}
+def children(of: int | None = None) -> list[int]:
+    """Return the processes that a process has started or adopted, the oldest first; None: this process."""
+    parent = os.getpid() if of is None else of
+    return sorted(each.pid for each in _entries() if each.parent == parent)
 
 
-def descendants(without: Container[int] = ()) -> list[Process]:
-    """Return all processes below this one, in any session and process group.
+def descendants(of: int | None = None, without: Container[int] = ()) -> list[Process]:
+    """Return all processes below a process, in any session and process group, the oldest generation first.
 
     Args:
+        of: The process. None: this one.
         without: Processes to leave out, with all below them.
     """
     below: dict[int, list[_Entry]] = {}
     for entry in _entries():
         below.setdefault(entry.parent, []).append(entry)
-    found, parents = [], [os.getpid()]
+    found, parents = [], [os.getpid() if of is None else of]
     while parents:
-        for entry in below.get(parents.pop(), []):
+        for entry in below.get(parents.pop(0), []):
             if entry.pid in without:
                 continue
             parents.append(entry.pid)

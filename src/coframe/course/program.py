@@ -8,31 +8,34 @@ import os
 import re
 import signal
 import subprocess
-import sys
+import tempfile
 import time
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from coframe.course import processes
-from coframe.course.isolation import PASSED
-from coframe.course.readable import readable_paths
+from coframe.course.confinement import MAX_MEMORY, MAX_OUTPUT
+from coframe.course.patience import Patience
 
-__all__ = ["HOMES", "MAX_FILES", "MAX_MEMORY", "MAX_OUTPUT", "MAX_PROCESSES", "Program"]
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from coframe.course.confinement import Confinement
+
+__all__ = ["HOMES", "MAX_FILES", "MAX_PROCESSES", "Program"]
 
 HOMES = "home"  # the folder for the home folders of all programs
-MAX_MEMORY = 1 << 30  # bytes of all its processes
-MAX_OUTPUT = 10 << 20  # bytes of the output, and of each file that it writes
 MAX_FILES = 100 << 20  # bytes of all files that it writes
 MAX_PROCESSES = 8
 _MOST_FILES = 10_000
-_ADDRESS_SPACE = 8 * MAX_MEMORY  # threads and libraries reserve more than they use
 _TOO_MUCH_OUTPUT = f"The program printed more than {MAX_OUTPUT >> 20} MB and was ended."
-MAX_CPU = 120  # seconds of processor time
 _STOP_PATIENCE = 3.0  # seconds between SIGINT and SIGKILL
 _LAST_LINES = 8
 _TRACEBACK_LINE = re.compile(r'^  File "([^"\n]{1,1000})", line (\d{1,7})', re.MULTILINE)
-_LIMITS = Path(__file__).with_name("limits.py")
 _KILL_ROUNDS = 50
+_SIGNAL_OFFSET = 128  # added to the number of the signal that has ended a program in namespaces
 _BLOCK = 512  # bytes of a block, in which the system counts the size of a file
+_POLL_PERIOD = 0.01  # seconds
 _CHECK_PERIOD = 0.25  # seconds between two looks at its memory and processes
 
 
@@ -45,54 +48,68 @@ class Program:
             none.
     """
 
-    def __init__(self, file: Path, scratch: Path) -> None:
+    def __init__(self, file: Path, scratch: Path, confinement: Confinement) -> None:
         """Prepare a program.
 
         Args:
             file: The program.
             scratch: A folder for its output; its folder ``home`` is for the home folders of all programs, the only ones
                 in which they can create files.
+            confinement: What it may do.
         """
         self.file = file
         self.violation = ""
+        self._confinement = confinement
         self._home = scratch / HOMES / file.stem
         self._log = scratch / f"{file.stem}.log"
         self._process: subprocess.Popen[bytes] | None = None
+        self._main: int | None = None  # the process that runs the student's code
         self._checked = 0.0
-        self._others: set[int] = set()  # processes of the grader, such as that of the recording
+        self._others: list[int] = []  # processes of the grader, such as that of the recording
         self._exit_code: int | None = None
 
-    def start(self) -> None:
-        """Start the program with the simulated clock."""
+    def start(self, *words: str, request: bytes = b"") -> None:
+        """Start the program with the simulated clock, or with other words after ``python``.
+
+        Args:
+            words: The words.
+            request: The standard input.
+        """
         self._home.mkdir(parents=True, exist_ok=True)
-        home = str(self._home)
-        environment = {name: os.environ[name] for name in PASSED if name in os.environ}
-        environment |= {
-            "HOME": home,
-            "TMPDIR": home,
-            "PYTHONUNBUFFERED": "1",
-            "PYTHONDONTWRITEBYTECODE": "1",
-            "ROS_LOG_DIR": home,
-        }
+        words = words or (str(self.file), "--ros-args", "-p", "use_sim_time:=true")
         self._others = processes.children()
-        with self._log.open("wb") as log:
-            self._process = subprocess.Popen(  # noqa: S603 - the purpose of the lab; limits.py describes what protects
-                [*self._limited_python(), str(self.file), "--ros-args", "-p", "use_sim_time:=true"],
-                stdin=subprocess.DEVNULL,
+        with self._log.open("wb") as log, tempfile.TemporaryFile() as given:
+            given.write(request)
+            given.seek(0)
+            self._process = subprocess.Popen(  # noqa: S603 - the purpose of the lab; confinement.py describes what protects
+                self._confinement.command(self._home, *words),
+                stdin=given if request else subprocess.DEVNULL,
                 stdout=log,
                 stderr=log,
                 cwd=self.file.parent,
-                env=environment,
+                env=self._confinement.environment(self._home),
                 start_new_session=True,  # Ctrl-C reaches the grader only, and all its processes are one group.
             )
 
-    def _limited_python(self) -> list[str]:
-        """Return the words that start Python with limits; without limits on Windows, which has none of them."""
-        if os.name != "posix":
-            return [sys.executable]
-        numbers = (str(MAX_OUTPUT), str(MAX_CPU), str(_ADDRESS_SPACE))
-        readable = os.pathsep.join(readable_paths(self.file.parent))
-        return [sys.executable, "-I", "-S", str(_LIMITS), *numbers, str(self._home), readable]
+    def run(self, seconds: float, words: Sequence[str], request: bytes) -> int:
+        """Run it with other words after ``python``, and return its exit code.
+
+        Args:
+            seconds: The most time that it may take, see Patience.
+            words: The words.
+            request: The standard input.
+        """
+        self.start(*words, request=request)
+        patience = Patience(seconds, self.waiting_time)
+        try:
+            while self.is_running():
+                if patience.is_over():
+                    self.violation = f"{self.file.name} takes more than {seconds:g} s, the limit."
+                    break
+                time.sleep(_POLL_PERIOD)
+        finally:
+            self.stop()
+        return -signal.SIGKILL if self._exit_code is None else self._exit_code
 
     def is_running(self) -> bool:
         """Return whether the program runs; a program that has exceeded a limit is ended here."""
@@ -109,7 +126,8 @@ class Program:
     def waiting_time(self) -> float:
         """Return how long the program and the grader have waited for a processor, in seconds."""
         own = processes.waiting_time(os.getpid())
-        return own if self._process is None else own + processes.waiting_time(self._process.pid)
+        main = self._find_main()
+        return own if main is None else own + processes.waiting_time(main)
 
     def stop(self) -> None:
         """End the program and all processes that it has started."""
@@ -118,11 +136,43 @@ class Program:
             return
         self._exit_code = process.poll()
         if self._exit_code is None:
-            process.send_signal(signal.SIGINT if os.name == "posix" else signal.SIGTERM)
+            self._interrupt(process)
             with contextlib.suppress(subprocess.TimeoutExpired):
                 process.wait(_STOP_PATIENCE)
         self._kill()
         self._process = None
+
+    def _interrupt(self, process: subprocess.Popen[bytes]) -> None:
+        if os.name != "posix":
+            process.terminate()
+        elif main := self._find_main():
+            with contextlib.suppress(ProcessLookupError):
+                os.kill(main, signal.SIGINT)
+
+    def _find_main(self) -> int | None:
+        """Return the process of the student's code, a grandchild if it has namespaces; None before it exists."""
+        if self._main is None and self._process is not None:
+            if not self._confinement.has_namespaces:
+                self._main = self._process.pid
+            elif (first := self._first_process()) is not None:
+                self._main = next(iter(processes.children(first)), None)
+        return self._main
+
+    def _first_process(self) -> int | None:
+        """Return the first process in the namespaces of the program, the parent of all others."""
+        assert self._process is not None
+        return next(iter(processes.children(self._process.pid)), None)
+
+    def attempt(self) -> str:
+        """Return a sentence about a program that has tried to use solutions of the lab; "" if it has not."""
+        return self._confinement.attempt(self.output())
+
+    def output(self) -> bytes:
+        """Return all that it has printed."""
+        try:
+            return self._log.read_bytes()
+        except OSError:
+            return b""
 
     def crash(self) -> str:
         """Return a sentence about a program that ended by itself or was ended; "" if it ran until it was stopped."""
@@ -138,8 +188,8 @@ class Program:
         if code == 0:
             return "The program ended by itself: it needs rclpy.spin(node)."
         error = next((line for line in reversed(last) if line.strip()), "")
-        if code < 0:
-            return f"The program was ended by signal {-code}."
+        if code < 0 or code > _SIGNAL_OFFSET:
+            return f"The program was ended by signal {-code if code < 0 else code - _SIGNAL_OFFSET}."
         line = self._failed_line()
         place = f" in line {line} of {self.file.name}" if line else ""
         return (
@@ -171,7 +221,7 @@ class Program:
         assert self._process is not None
         if self._log.stat().st_size >= MAX_OUTPUT:
             return _TOO_MUCH_OUTPUT
-        running = processes.descendants(without=self._others)
+        running = self._running()
         if len(running) > MAX_PROCESSES:
             return f"The program started more than {MAX_PROCESSES} processes and was ended."
         if sum(each.memory for each in running) > MAX_MEMORY:
@@ -181,6 +231,13 @@ class Program:
         if _is_larger(self._home, MAX_FILES):
             return f"The program wrote more than {MAX_FILES >> 20} MB or {_MOST_FILES} files and was ended."
         return ""
+
+    def _running(self) -> list[processes.Process]:
+        """Return the processes of the program, without those that confine it."""
+        if not self._confinement.has_namespaces:
+            return processes.descendants(without=self._others)
+        first = self._first_process()
+        return [] if first is None else processes.descendants(of=first)
 
     def _kill(self) -> None:
         assert self._process is not None

@@ -14,11 +14,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 from coframe.errors import CourseError
+from coframe.python_children import python_command, python_environment
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
 
-__all__ = ["COMPLETE_TREE", "SIMULATION", "STEPS", "Program", "programs_of", "running"]
+__all__ = ["COMPLETE_TREE", "SIMULATION", "STEPS", "Program", "module_program", "programs_of", "running"]
 
 STEPS = ("static_tf_broadcaster.py", "dynamic_tf_broadcaster.py", "tf_listener.py", "sensor_transform.py")
 COMPLETE_TREE = ("complete_tf_tree.py", "tf_listener.py", "sensor_transform.py")
@@ -26,22 +27,25 @@ _STOP_PATIENCE = 3.0  # seconds between SIGINT and SIGKILL
 
 
 class Program(NamedTuple):
-    """A program: its name, and the words after ``python`` that start it."""
+    """A program: its name, and the command that starts it."""
 
     name: str
-    words: tuple[str, ...]
+    command: tuple[str, ...]
+
+
+def module_program(name: str, module: str, *arguments: str) -> Program:
+    """Return a program that is a module of coframe."""
+    return Program(name, tuple(python_command(module, *arguments)))
 
 
 # What stands for the robot: joints that move, and a lidar. Their names differ from those of a student's nodes.
 SIMULATION = (
-    Program(
+    module_program(
         "simulated joints",
-        (
-            *("-m", "coframe.lab.dynamic_tf_broadcaster", "--ros-args", "-r", "__node:=simulated_joints"),
-            *("-p", "publish_joint_states:=true"),
-        ),
+        "coframe.lab.dynamic_tf_broadcaster",
+        *("--ros-args", "-r", "__node:=simulated_joints", "-p", "publish_joint_states:=true"),
     ),
-    Program("simulated lidar", ("-m", "coframe.lab.simulated_lidar", "--ros-args", "-p", "fixed_frame:=base_link")),
+    module_program("simulated lidar", "coframe.lab.simulated_lidar", "--ros-args", "-p", "fixed_frame:=base_link"),
 )
 
 
@@ -51,7 +55,9 @@ def programs_of(folder: Path, names: Sequence[str]) -> list[Program]:
     Raises:
         CourseError: It contains none of them.
     """
-    found = [Program(Path(name).stem, (str(folder / name),)) for name in names if (folder / name).is_file()]
+    found = [
+        Program(Path(name).stem, (sys.executable, str(folder / name))) for name in names if (folder / name).is_file()
+    ]
     if not found:
         raise CourseError(
             f"{folder} contains none of the files {', '.join(names)}.",
@@ -74,13 +80,13 @@ def running(programs: Sequence[Program], write: Callable[[str, str], None]) -> I
     try:
         for program in programs:
             process = subprocess.Popen(  # noqa: S603 - the user's own programs
-                [sys.executable, *program.words],
+                program.command,
                 stdin=subprocess.DEVNULL,
                 stdout=subprocess.PIPE,
                 stderr=subprocess.STDOUT,
                 text=True,
                 errors="replace",
-                env={**os.environ, "PYTHONUNBUFFERED": "1"},
+                env=python_environment() | {"PYTHONUNBUFFERED": "1"},
                 start_new_session=True,  # Ctrl-C reaches this process, which stops the others.
             )
             processes.append((program, process))

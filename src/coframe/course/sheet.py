@@ -4,7 +4,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Any
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from typing_extensions import Self
+
+    from coframe.course.rubric import Criterion
 
 __all__ = ["Fact", "Report", "Sheet"]
 
@@ -53,6 +58,25 @@ class Sheet:
     problem: str = ""
     last_lines: list[str] = field(default_factory=list)
     facts: list[Fact] = field(default_factory=list)
+
+    @classmethod
+    def of(cls, criterion: Criterion) -> Self:
+        """Return the empty sheet of a criterion."""
+        return cls(criterion.name, criterion.file, criterion.bonus)
+
+    @classmethod
+    def not_reached(cls, criterion: Criterion, reason: str) -> Self:
+        """Return the sheet of a criterion that the check did not reach."""
+        sheet = cls.of(criterion)
+        sheet.add_problem(f"Not checked: {reason}.")
+        sheet.check(criterion.points, "the check reaches this criterion", False, expected="a grade", observed=reason)
+        return sheet
+
+    @classmethod
+    def from_dict(cls, content: dict[str, Any]) -> Self:
+        """Return a sheet from the plain data of `as_dict`."""
+        facts = [Fact(**fact) for fact in content["facts"]]
+        return cls(content["name"], content["file"], content["bonus"], content["problem"], content["last_lines"], facts)
 
     def check(
         self,
@@ -118,6 +142,19 @@ class Sheet:
         """The points that were earned."""
         return round(sum(fact.earned for fact in self.facts), 2)
 
+    def as_dict(self) -> dict[str, Any]:
+        """Return the sheet as plain data for JSON."""
+        return {
+            "name": self.name,
+            "file": self.file,
+            "bonus": self.bonus,
+            "earned": self.earned,
+            "points": self.points,
+            "problem": self.problem,
+            "last_lines": self.last_lines,
+            "facts": [vars(fact) for fact in self.facts],
+        }
+
 
 def _shortened(text: str) -> str:
     """Return a text of a submission, such as the name of a frame, that may be too long to be read."""
@@ -152,17 +189,5 @@ class Report:
             "points": 100,
             "bonus": self.bonus,
             "notices": self.notices,
-            "criteria": [
-                {
-                    "name": sheet.name,
-                    "file": sheet.file,
-                    "bonus": sheet.bonus,
-                    "earned": sheet.earned,
-                    "points": sheet.points,
-                    "problem": sheet.problem,
-                    "last_lines": sheet.last_lines,
-                    "facts": [vars(fact) for fact in sheet.facts],
-                }
-                for sheet in self.sheets
-            ],
+            "criteria": [sheet.as_dict() for sheet in self.sheets],
         }

@@ -1,33 +1,55 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Files of a submission that the grader itself reads: small regular files inside the folder only."""
+"""Files of a submission: regular files inside its folder only, whatever their names lead to."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Final
+import os
+from pathlib import Path
+from typing import Final
 
 from coframe.errors import CourseError
+from coframe.regular_files import check_regular, read_regular
 
-if TYPE_CHECKING:
-    from pathlib import Path
-
-__all__ = ["MAX_BYTES", "check_submitted", "read_submitted"]
+__all__ = ["MAX_BYTES", "check_submitted", "is_submitted", "read_submitted"]
 
 MAX_BYTES: Final = 1 << 20  # many times the largest file of the lab
+_MAX_LISTED = 10_000  # files of a folder that are examined for a second name of a file
 
 
-def check_submitted(file: Path) -> None:
-    """Check that the grader can read a file of a submission.
+def is_submitted(folder: Path, name: str) -> bool:
+    """Return whether a folder contains something of this name, which `check_submitted` then examines."""
+    return os.path.lexists(folder / name)
+
+
+def check_submitted(file: Path) -> Path:
+    """Check that a file of a submission belongs to it, and return the file without links.
 
     Raises:
-        CourseError: It is not a regular file, is too large, or is a link to a file outside its folder.
+        CourseError: It is not a regular file; it is a link to a file outside its folder; it has another name outside
+            of its folder, and therefore may be a file of someone else; or it is too large.
     """
-    if not file.is_file():
-        raise CourseError(f"{file.name} is not a regular file.", hint="Replace it with a file.")
-    if not file.resolve().is_relative_to(file.parent.resolve()):
+    folder = file.parent.resolve()
+    real = Path(os.path.realpath(file))  # without an exception for a loop of links, which cannot be opened
+    if not real.is_relative_to(folder):
         raise CourseError(f"{file.name} is a link to a file outside the folder.", hint="Replace it with that file.")
-    size = file.stat().st_size
-    if size > MAX_BYTES:
-        raise CourseError(f"{file.name} has {size} bytes. The limit is {MAX_BYTES} bytes.", hint="Use a smaller file.")
+    try:
+        check_regular(real)
+        status = real.stat()
+    except OSError as error:
+        raise CourseError(
+            f"{file.name} is not a regular file that can be read: {error.strerror}.", hint="Replace it with a file."
+        ) from None
+    if status.st_nlink > 1 and status.st_nlink > _names_below(folder, status):
+        raise CourseError(
+            f"{file.name} is a hard link: the same file has another name outside the folder, so it may belong to "
+            "someone else.",
+            hint="Replace it with a copy.",
+        )
+    if status.st_size > MAX_BYTES:
+        raise CourseError(
+            f"{file.name} has {status.st_size} bytes. The limit is {MAX_BYTES} bytes.", hint="Use a smaller file."
+        )
+    return real
 
 
 def read_submitted(file: Path) -> str:
@@ -37,5 +59,20 @@ def read_submitted(file: Path) -> str:
         CourseError: The grader does not read it, see `check_submitted`.
         OSError: It cannot be read.
     """
-    check_submitted(file)
-    return file.read_text(encoding="utf-8", errors="replace")
+    return read_regular(check_submitted(file), MAX_BYTES).decode("utf-8", errors="replace")
+
+
+def _names_below(folder: Path, status: os.stat_result) -> int:
+    """Return how many names a file has in a folder and below it."""
+    count = listed = 0
+    for path, _, names in os.walk(folder):
+        for name in names:
+            listed += 1
+            if listed > _MAX_LISTED:
+                return count
+            try:
+                other = os.lstat(os.path.join(path, name))  # noqa: PTH118 - fast, for many files
+            except OSError:
+                continue
+            count += (other.st_dev, other.st_ino) == (status.st_dev, status.st_ino)
+    return count

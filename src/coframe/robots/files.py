@@ -20,7 +20,7 @@ from coframe.robots.urdf import parse_urdf
 from coframe.robots.xacro_process import MAX_OUTPUT, MAX_SECONDS
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
+    from collections.abc import Callable, Iterable, Mapping, Sequence
 
     from coframe.robots.robot import Robot
 
@@ -66,6 +66,8 @@ def expand_xacro(
     path: str | os.PathLike[str],
     arguments: Mapping[str, str] | None = None,
     packages: Iterable[str | os.PathLike[str]] = (),
+    *,
+    run: Callable[[Sequence[str], bytes], subprocess.CompletedProcess[bytes]] | None = None,
 ) -> str:
     """Expand a xacro file and return the URDF.
 
@@ -73,6 +75,8 @@ def expand_xacro(
         path: The xacro file.
         arguments: The values of ``$(arg NAME)``.
         packages: Folders that ``$(find PACKAGE)`` searches first; see :class:`Packages`.
+        run: Runs Python with some arguments and a standard input, and returns the standard output. None: a child
+            process with limits on its time and memory only, which is not enough for files of untrusted people.
 
     Raises:
         RobotDescriptionError: xacro fails, or is not installed.
@@ -88,7 +92,8 @@ def expand_xacro(
             "arguments": dict(arguments or {}),
             "packages": [os.fspath(folder) for folder in packages],
             "module_folders": sys.path,
-        }
+        },
+        run or _run,
     )
     if "os_error" in answer:
         raise OSError(*answer["os_error"])
@@ -97,13 +102,17 @@ def expand_xacro(
     return str(answer["text"])
 
 
-def _expanded(request: dict[str, Any]) -> dict[str, Any]:
+def _run(words: Sequence[str], request: bytes) -> subprocess.CompletedProcess[bytes]:
+    command = [sys.executable, *words]
+    return subprocess.run(command, input=request, capture_output=True, timeout=MAX_SECONDS, check=False)  # noqa: S603
+
+
+def _expanded(
+    request: dict[str, Any], run: Callable[[Sequence[str], bytes], subprocess.CompletedProcess[bytes]]
+) -> dict[str, Any]:
     """Return the answer of a process that expands a file: Python expressions in it can take any time and memory."""
-    command = [sys.executable, "-I", str(_PROCESS)]
     try:
-        done = subprocess.run(  # noqa: S603 - the command contains nothing from the file
-            command, input=json.dumps(request).encode(), capture_output=True, timeout=MAX_SECONDS, check=False
-        )
+        done = run(("-I", str(_PROCESS)), json.dumps(request).encode())
     except subprocess.TimeoutExpired:
         return {"error": f"xacro: expanding the file takes more than {MAX_SECONDS:g} s, the limit"}
     try:

@@ -4,23 +4,40 @@
 from __future__ import annotations
 
 import contextlib
+import subprocess
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from coframe.course.program import Program
+from coframe.course.submitted import check_submitted, is_submitted
+from coframe.errors import CoframeError, CourseError
+from coframe.robots.files import expand_xacro
+from coframe.robots.xacro_process import MAX_SECONDS
 from coframe.time import SECOND
 from coframe.transform import Transform
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Sequence
     from pathlib import Path
 
     from coframe.course.assignment import Assignment
+    from coframe.course.confinement import Confinement
     from coframe.course.sheet import Sheet
     from coframe.course.world import Received, World
 
-__all__ = ["TOLERANCE", "Task", "differs", "edge_of", "mean_rate", "pose_of", "run_program", "seconds_of", "stamp_ns"]
+__all__ = [
+    "TOLERANCE",
+    "Task",
+    "differs",
+    "edge_of",
+    "expanded_xacro",
+    "mean_rate",
+    "pose_of",
+    "run_program",
+    "seconds_of",
+    "stamp_ns",
+]
 
 TOLERANCE = 1e-6  # metres, and components of unit quaternions
 
@@ -33,12 +50,14 @@ class Task(NamedTuple):
         assignment: The numbers of the assignment.
         world: The simulated surroundings.
         scratch: A folder for the output of programs.
+        confinement: What the programs may do.
     """
 
     folder: Path
     assignment: Assignment
     world: World
     scratch: Path
+    confinement: Confinement
 
 
 @contextlib.contextmanager
@@ -56,12 +75,12 @@ def run_program(task: Task, sheet: Sheet, *, wrong_topic: str = "") -> Iterator[
     """
     first = len(sheet.facts)
     file = task.folder / sheet.file
-    if not file.is_file():
+    if reason := _unusable(task.folder, sheet.file):
         yield None
         task.world.stop()
-        sheet.withdraw(first, f"There is no file {sheet.file}.")
+        sheet.withdraw(first, reason)
         return
-    program = Program(file, task.scratch)
+    program = Program(file, task.scratch, task.confinement)
     try:
         yield program
         intruder = _intruder(task.world)
@@ -69,12 +88,13 @@ def run_program(task: Task, sheet: Sheet, *, wrong_topic: str = "") -> Iterator[
     finally:
         task.world.stop()
         task.world.stop_publishing()
-    problem = program_problem(program, intruder)
+    cheat = program.attempt() or intruder
+    problem = cheat or program.crash()
     sheet.add_problem(problem)
     if problem or silence:
         sheet.last_lines = program.last_lines()
-    if intruder:
-        sheet.withdraw(0, intruder)
+    if cheat:
+        sheet.withdraw(0, cheat)
     elif silence and not problem:
         sheet.withdraw(first, silence)
     elif silence:
@@ -92,9 +112,40 @@ def _silence(file: str, world: World, wrong_topic: str) -> str:
     return f"{file} publishes nothing: it has a publisher on {topics[0]}, but {method} is never called."
 
 
-def program_problem(program: Program, intruder: str) -> str:
-    """Return a sentence about a program that did not run properly; "" if it did."""
-    return intruder or program.crash()
+def expanded_xacro(task: Task, file: Path) -> tuple[str, str]:
+    """Expand a xacro file of a student as a confined program, because it can contain any Python expression.
+
+    Returns:
+        The URDF, and a sentence about an attempt to use solutions of the lab, or "".
+
+    Raises:
+        CourseError: xacro fails.
+    """
+    program = Program(file, task.scratch, task.confinement)
+
+    def run(words: Sequence[str], request: bytes) -> subprocess.CompletedProcess[bytes]:
+        code = program.run(MAX_SECONDS, words, request)
+        # What the file prints is in the same output; the answer is its last line.
+        return subprocess.CompletedProcess(words, code, program.output().rpartition(b"\n")[2])
+
+    try:
+        text = expand_xacro(file, run=run)
+    except (CoframeError, OSError) as error:
+        if attempt := program.attempt():
+            return "", attempt
+        raise CourseError(program.violation or str(error)) from None
+    return text, program.attempt()
+
+
+def _unusable(folder: Path, name: str) -> str:
+    """Return a sentence about why a program cannot be started; "" if it can."""
+    if not is_submitted(folder, name):
+        return f"There is no file {name}."
+    try:
+        check_submitted(folder / name)
+    except CourseError as error:
+        return f"{error} {error.hint}"
+    return ""
 
 
 def _intruder(world: World) -> str:

@@ -10,6 +10,7 @@ import numpy as np
 
 from coframe.course.criteria.common import TOLERANCE, Task, mean_rate, run_program, seconds_of, stamp_ns
 from coframe.course.motion import JOINT_PERIOD
+from coframe.course.rubric import RUBRIC
 from coframe.course.sheet import Sheet
 from coframe.course.world import STEP, stamp_of
 from coframe.time import SECOND
@@ -32,7 +33,7 @@ _READ = "handbook chapter 3, static and dynamic transforms"
 
 def check(task: Task) -> Sheet:
     """Check ``dynamic_tf_broadcaster.py``."""
-    sheet = Sheet("Dynamic transforms", "dynamic_tf_broadcaster.py")
+    sheet = Sheet.of(RUBRIC["dynamic"])
     world = task.world
     with run_program(task, sheet) as program:
         received = world.watch("/tf", TFMessage)

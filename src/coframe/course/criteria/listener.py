@@ -16,6 +16,7 @@ from coframe.course.criteria.common import (
     stamp_ns,
 )
 from coframe.course.motion import Robot
+from coframe.course.rubric import RUBRIC
 from coframe.course.sheet import Sheet
 from coframe.course.world import STEP
 from coframe.time import SECOND
@@ -37,7 +38,7 @@ _READ = "handbook chapter 4, what lookup_transform(target, source) means"
 
 def check(task: Task) -> Sheet:
     """Check ``tf_listener.py``."""
-    sheet = Sheet("Transform listener", "tf_listener.py")
+    sheet = Sheet.of(RUBRIC["listener"])
     world = task.world
     robot = Robot(task.assignment)
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from coframe.course.criteria.common import Task, run_program
 from coframe.course.motion import Robot
+from coframe.course.rubric import RUBRIC
 from coframe.course.sheet import Sheet
 from coframe.time import SECOND
 from coframe.transform import Transform
@@ -23,7 +24,7 @@ _READ = "handbook chapter 10, finding errors"
 
 def check(task: Task) -> Sheet:
     """Check ``tf_monitor.py``."""
-    sheet = Sheet("Extension: transform monitor", "tf_monitor.py", bonus=True)
+    sheet = Sheet.of(RUBRIC["monitor"])
     world = task.world
     robot = Robot(task.assignment)
     period = round(SECOND / task.assignment.dynamic_rate)

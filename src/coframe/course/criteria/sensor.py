@@ -12,6 +12,7 @@ import numpy as np
 
 from coframe.course.criteria.common import Task, run_program, stamp_ns
 from coframe.course.motion import Robot
+from coframe.course.rubric import RUBRIC
 from coframe.course.sheet import Sheet
 from coframe.course.world import STEP, stamp_of
 from coframe.errors import CoframeError
@@ -49,7 +50,7 @@ class _Scan(NamedTuple):
 
 def check(task: Task) -> Sheet:
     """Check ``sensor_transform.py``."""
-    sheet = Sheet("Sensor transform", "sensor_transform.py")
+    sheet = Sheet.of(RUBRIC["sensor"])
     world = task.world
     robot = Robot(task.assignment)
     scans: dict[int, _Scan] = {}

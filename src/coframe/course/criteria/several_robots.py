@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from coframe.analysis.tree import FrameTrees
 from coframe.course.criteria.common import Task, edge_of, run_program
+from coframe.course.rubric import RUBRIC
 from coframe.course.sheet import Sheet
 from tf2_msgs.msg import TFMessage
 
@@ -22,7 +23,7 @@ _READ = "handbook chapter 7, the complete tree"
 
 def check(task: Task) -> Sheet:
     """Check ``multi_robot.py``."""
-    sheet = Sheet("Extension: several robots", "multi_robot.py", bonus=True)
+    sheet = Sheet.of(RUBRIC["several_robots"])
     world = task.world
     with run_program(task, sheet) as program:
         static = world.watch("/tf_static", TFMessage, latched=True)

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from coframe.course.criteria.common import TOLERANCE, Task, differs, edge_of, run_program
+from coframe.course.rubric import RUBRIC
 from coframe.course.sheet import Sheet
 from coframe.transform import Transform
 from rclpy.qos import DurabilityPolicy, ReliabilityPolicy
@@ -30,7 +31,7 @@ _READ = "handbook chapter 3, static and dynamic transforms"
 
 def check(task: Task) -> Sheet:
     """Check ``static_tf_broadcaster.py``."""
-    sheet = Sheet("Static transforms", "static_tf_broadcaster.py")
+    sheet = Sheet.of(RUBRIC["static"])
     world = task.world
     with run_program(task, sheet, wrong_topic="/tf") as program:
         static = world.watch(_TOPIC, TFMessage, latched=True)

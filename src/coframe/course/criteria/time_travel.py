@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from coframe.course.criteria.common import Task, differs, mean_rate, pose_of, run_program, stamp_ns
 from coframe.course.motion import Robot
+from coframe.course.rubric import RUBRIC
 from coframe.course.sheet import Sheet
 from coframe.course.world import STEP
 from coframe.time import SECOND
@@ -21,7 +22,7 @@ _READ = "handbook chapter 9, recordings and time travel"
 
 def check(task: Task) -> Sheet:
     """Check ``time_travel.py``."""
-    sheet = Sheet("Extension: time travel", "time_travel.py", bonus=True)
+    sheet = Sheet.of(RUBRIC["time_travel"])
     world = task.world
     robot = Robot(task.assignment)
 

@@ -5,12 +5,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from coframe.course.criteria.common import Task, differs
+from coframe.course.criteria.common import Task, differs, expanded_xacro
 from coframe.course.motion import Robot
+from coframe.course.rubric import RUBRIC
 from coframe.course.sheet import Sheet
-from coframe.course.submitted import check_submitted
+from coframe.course.submitted import is_submitted, read_submitted
 from coframe.errors import CoframeError
-from coframe.robots import load
+from coframe.robots.urdf import parse_urdf
 
 if TYPE_CHECKING:
     from coframe.robots import Robot as Description
@@ -19,18 +20,23 @@ __all__ = ["check"]
 
 _ANGLES = ((0.0, 0.0), (0.5, -0.3), (-0.4, 0.2), (1.0, 1.0), (-1.2, 0.7))
 _READ = "handbook chapter 8, URDF"
+_FILES = ("arm.urdf.xacro", RUBRIC["urdf"].file)
 
 
 def check(task: Task) -> Sheet:
     """Check ``arm.urdf`` or ``arm.urdf.xacro``."""
-    files = [task.folder / name for name in ("arm.urdf.xacro", "arm.urdf") if (task.folder / name).is_file()]
-    sheet = Sheet("Extension: URDF", files[0].name if files else "arm.urdf", bonus=True)
+    names = [name for name in _FILES if is_submitted(task.folder, name)]
+    sheet = Sheet.of(RUBRIC["urdf"])
     description: Description | None = None
-    problem = f"There is no file {sheet.file}."
-    if files:
+    problem, attempt = f"There is no file {sheet.file}.", ""
+    if names:
+        sheet.file = names[0]
+        file = task.folder / sheet.file
         try:
-            check_submitted(files[0])
-            description, problem = load(files[0]), ""
+            text = read_submitted(file)
+            if file.suffix == ".xacro":
+                text, attempt = expanded_xacro(task, file)
+            description, problem = parse_urdf(text), ""
         except (CoframeError, OSError, ValueError) as error:
             problem = str(error)
     sheet.check(
@@ -44,8 +50,8 @@ def check(task: Task) -> Sheet:
     )
     _check_joints(sheet, description)
     _check_kinematics(sheet, task, description)
-    if not files:
-        sheet.withdraw(0, problem)
+    if attempt or not names:
+        sheet.withdraw(0, attempt or problem)
     elif description is not None and not description.joints:
         sheet.withdraw(0, f"{sheet.file} describes no joint yet. Its comment describes the task.")
     return sheet

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from coframe.analysis.tree import FrameTrees
 from coframe.course.criteria.common import Task, edge_of, run_program
+from coframe.course.rubric import RUBRIC
 from coframe.course.sheet import Sheet
 from coframe.course.submitted import read_submitted
 from coframe.errors import CourseError, ViewerError
@@ -40,7 +41,7 @@ _READ = "handbook chapter 7, the complete tree"
 
 def check(task: Task) -> Sheet:
     """Check the RViz configuration and ``complete_tf_tree.py``."""
-    sheet = Sheet("Visualization", "complete_tf_tree.py")
+    sheet = Sheet.of(RUBRIC["visualization"])
     _check_configuration(sheet, _configuration(task.folder))
     world = task.world
     with run_program(task, sheet) as program:

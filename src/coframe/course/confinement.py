@@ -1,0 +1,152 @@
+# SPDX-License-Identifier: Apache-2.0
+"""How the programs of one grade are confined: the command and the variables that start each of them."""
+
+from __future__ import annotations
+
+import json
+import os
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Final
+
+from coframe.course.sandbox.landlock import landlock_version, scopes_signals
+from coframe.course.sandbox.seccomp import can_filter
+from coframe.course.solutions import Decoys, entry_files, solution_folders, solution_problem
+from coframe.course.view import view_of
+from coframe.graded_programs import GRADED, SOLUTIONS, refusal
+from coframe.python_children import python_environment
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from typing_extensions import Self
+
+__all__ = ["MAX_CPU", "MAX_MEMORY", "MAX_OUTPUT", "PASSED", "Confinement", "protection_problem"]
+
+MAX_MEMORY = 1 << 30  # bytes of all processes of a program
+MAX_OUTPUT = 10 << 20  # bytes of the output, and of each file that a program writes
+MAX_CPU = 120  # seconds of processor time
+_ADDRESS_SPACE = 8 * MAX_MEMORY  # threads and libraries reserve more than they use
+
+# Variables of the person who runs the check that a grade may see. All others may contain secrets.
+PASSED: Final = (
+    "AMENT_PREFIX_PATH",
+    "CYCLONEDDS_URI",
+    "DYLD_LIBRARY_PATH",
+    "LANG",
+    "LD_LIBRARY_PATH",
+    "PATH",
+    "PATHEXT",
+    "PYTHONPATH",
+    "PYTHONUSERBASE",
+    "RMW_IMPLEMENTATION",
+    "ROS_AUTOMATIC_DISCOVERY_RANGE",
+    "ROS_DISTRO",
+    "ROS_DOMAIN_ID",
+    "ROS_LOCALHOST_ONLY",
+    "SYSTEMROOT",
+    "TEMP",
+    "TMP",
+    "USERPROFILE",
+    "VIRTUAL_ENV",
+)
+_START: Final = "import sys; sys.path.append({!r}); from sandbox.start import main; main()"
+
+
+class Confinement:
+    """What the programs of one grade may do.
+
+    Attributes:
+        has_namespaces: Whether each program has a file system and a list of processes of its own.
+    """
+
+    def __init__(self, folder: Path, scratch: Path, private: Iterable[str], *, has_namespaces: bool) -> None:
+        """Prepare the programs of a folder.
+
+        Args:
+            folder: The student's folder.
+            scratch: An empty folder.
+            private: Folders that they cannot read, see `private_folders`.
+            has_namespaces: Whether this process can create namespaces.
+        """
+        self.has_namespaces = has_namespaces
+        self._folder = folder.resolve()
+        self._decoys = Decoys(scratch / "decoys") if has_namespaces else None
+        self._root = scratch / "root"
+        self._root.mkdir()
+        self._solutions = solution_folders()
+        self._entries, self._links = view_of(folder, private, self._solutions)
+        if self._decoys is None:
+            self._entries += [(file, True) for file in entry_files(self._solutions)]
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        if self._decoys is not None:
+            self._decoys.close()
+
+    def command(self, home: Path, *words: str) -> list[str]:
+        """Return a command that runs Python confined; without limits on Windows, which has none of them.
+
+        Args:
+            home: The only folder in which it can write.
+            words: The words after ``python``.
+        """
+        if os.name != "posix":
+            return [sys.executable, *words]
+        plan: dict[str, Any] = {
+            "namespaces": self.has_namespaces,
+            "root": str(self._root),
+            "folder": str(self._folder),
+            "home": os.path.realpath(home),
+            "entries": self._entries,
+            "links": self._links,
+            "decoys": {} if self._decoys is None else self._decoys.folders,
+            "limits": {"AS": _ADDRESS_SPACE, "FSIZE": MAX_OUTPUT, "CPU": MAX_CPU},
+        }
+        start = _START.format(str(Path(__file__).parent))
+        # Isolated (-I): no variable of Python and no current folder has an effect; without the module site (-S).
+        return [sys.executable, "-I", "-S", "-c", start, json.dumps(plan), sys.executable, *words]
+
+    def environment(self, home: Path) -> dict[str, str]:
+        """Return the variables of a program with this home folder."""
+        environment = {name: os.environ[name] for name in PASSED if name in os.environ}
+        environment |= {"HOME": str(home), "TMPDIR": str(home), "ROS_LOG_DIR": str(home)}
+        environment |= {"PYTHONUNBUFFERED": "1", "PYTHONDONTWRITEBYTECODE": "1", GRADED: "1"}
+        return python_environment(environment)
+
+    def attempt(self, output: bytes) -> str:
+        """Return a sentence about a program that has tried to use solutions of the lab since the last call, or "".
+
+        Args:
+            output: What it has printed, which is the only sign where a program has no file system of its own.
+        """
+        opened = "" if self._decoys is None else self._decoys.opened()
+        printed = (package for package in SOLUTIONS if refusal(package).encode() in output)
+        read = (folder for folder in self._solutions if f"denied: '{folder}/".encode() in output)
+        used = opened or next(printed, "") or next((f"coframe.{Path(folder).name}" for folder in read), "")
+        return solution_problem(used) if used else ""
+
+
+def protection_problem(*, has_namespaces: bool) -> str:
+    """Return sentences about what this system does not protect from a program; "" if it protects everything."""
+    sentences = []
+    if not has_namespaces:
+        sentences.append(
+            "This system does not give the programs namespaces of their own (unshare), so they run in a ROS domain of "
+            "their own but could reach the network, and see which processes run."
+        )
+        if not landlock_version():
+            sentences.append(
+                "It does not restrict files either (Landlock), so they could read and change yours, and import the "
+                "solutions in coframe.lab."
+            )
+        if not (scopes_signals() or can_filter()):
+            sentences.append("They could send signals to your processes.")
+    if not can_filter():
+        sentences.append(
+            "This system has no filter for system calls (seccomp), so the programs could use Unix sockets, and memory "
+            "that is not counted."
+        )
+    return " ".join(sentences)

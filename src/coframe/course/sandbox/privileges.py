@@ -1,0 +1,49 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Give up all privileges: a program of the superuser then has no other rights than those of the owner of a file."""
+
+from __future__ import annotations
+
+import os
+import struct
+from contextlib import suppress
+
+from .kernel import c_function, control_process
+
+__all__ = ["drop_privileges", "forbid_new_privileges"]
+
+# linux/prctl.h, linux/capability.h and linux/securebits.h
+_CAPBSET_DROP, _SET_SECUREBITS, _CAP_AMBIENT, _SET_NO_NEW_PRIVS = 24, 28, 47, 38
+_CLEAR_ALL = 4
+_CAPABILITY_VERSION_3 = 0x20080522
+_LAST_POSSIBLE = 63
+# The user id 0 gives no capabilities, at execve and at setuid; no ambient ones; all of this is locked.
+_SECURE_BITS = 0xEF
+
+
+def drop_privileges(owner: tuple[int, int] | None = None) -> None:
+    """Drop all capabilities of this process and of the programs that it will run.
+
+    Each step fails for an ordinary user, who has none to drop.
+
+    Args:
+        owner: The user and the group that this process becomes; None: it remains the same user.
+    """
+    with suppress(OSError):
+        control_process(_SET_SECUREBITS, _SECURE_BITS)
+    with suppress(OSError):  # This capability does not exist, and none after it.
+        for number in range(_LAST_POSSIBLE + 1):
+            control_process(_CAPBSET_DROP, number)
+    with suppress(OSError):
+        control_process(_CAP_AMBIENT, _CLEAR_ALL)
+    if owner is not None:
+        with suppress(OSError):
+            os.setgroups([])
+            os.setresgid(*3 * owner[1:])
+            os.setresuid(*3 * owner[:1])
+    with suppress(OSError):
+        c_function("capset", struct.pack("Ii", _CAPABILITY_VERSION_3, 0), bytes(24))
+
+
+def forbid_new_privileges() -> None:
+    """Make the set-user-ID bit of files ineffective for this process and all that it starts."""
+    control_process(_SET_NO_NEW_PRIVS, 1)

@@ -1,0 +1,122 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Start a confined program: the last thing that happens before a student's code runs.
+
+The process that runs `main` imports the standard library only. With namespaces, it has two children: the first process
+of the program's own list of processes, and the program.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import sys
+from contextlib import suppress
+from typing import Any, NoReturn
+
+from . import kernel, landlock, mounts, privileges, seccomp
+
+__all__ = ["main"]
+
+_MAX_OPEN_FILES = 256
+_NEW_MOUNTS, _NEW_COMMUNICATION, _NEW_PROCESSES = 0x20000, 0x08000000, 0x20000000
+_SET_PARENT_DEATH_SIGNAL, _SET_DUMPABLE = 1, 4
+_LIST, _READ_AND_LIST = 0o1, 0o5  # permissions of users who are not the owner
+_SIGNAL_OFFSET = 128  # added to the number of the signal that has ended a program, as shells do
+
+
+def main() -> None:
+    """Confine this process by the plan in the first argument, and replace it by the program in the others.
+
+    The plan is JSON, see `coframe.course.sandbox.command`.
+    """
+    plan, program = json.loads(sys.argv[1]), sys.argv[2:]
+    if plan["namespaces"]:
+        _run_in_namespaces(plan, program)
+    _run(plan, program, visible=_ancestors())
+
+
+def _run_in_namespaces(plan: dict[str, Any], program: list[str]) -> NoReturn:
+    kernel.c_function("unshare", _NEW_MOUNTS | _NEW_COMMUNICATION | _NEW_PROCESSES)
+    kernel.control_process(_SET_DUMPABLE, 0)  # No other process reads or changes this one or its children.
+    first = os.fork()
+    if first:
+        os._exit(_exit_code(first))
+    kernel.control_process(_SET_PARENT_DEATH_SIGNAL, signal.SIGKILL)
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    mounts.enter_own_root(plan["root"], plan["entries"], plan["links"], plan["decoys"], plan["home"])
+    child = os.fork()
+    if child:
+        privileges.drop_privileges()
+        os._exit(_exit_code(child))  # The system then ends all other processes of the program.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
+    os.setsid()
+    _run(plan, program, visible=[])
+
+
+def _exit_code(child: int) -> int:
+    """Wait for the end of a child and of all orphans before it, and return the exit code that shells report."""
+    while True:
+        process, status = os.wait()
+        if process == child:
+            code = os.waitstatus_to_exitcode(status)
+            return code if code >= 0 else _SIGNAL_OFFSET - code
+
+
+def _run(plan: dict[str, Any], program: list[str], *, visible: list[int]) -> NoReturn:
+    """Replace this process by the program.
+
+    Args:
+        plan: The plan.
+        program: The program and its arguments.
+        visible: The processes above this one, unless the program has a list of processes of its own.
+    """
+    if (owner := _owner_if_closed(plan["folder"])) is not None:
+        with suppress(OSError):  # In the namespace of an ordinary user, there is no other user.
+            os.chown(plan["home"], *owner)
+    privileges.drop_privileges(owner)
+    os.chdir(plan["folder"])
+    _limit_resources(plan["limits"])
+    with suppress(OSError):  # macOS has nothing of this kind.
+        privileges.forbid_new_privileges()
+    if landlock.landlock_version():
+        shown = plan["decoys"] if plan["namespaces"] else ()
+        hidden = {path for path, is_readable in plan["entries"] if not is_readable}
+        readable = [path for path, is_readable in plan["entries"] if is_readable]
+        landlock.restrict_files([*readable, *mounts.DEVICES, "/proc"], hidden, plan["home"], shown=shown)
+    if seccomp.can_filter():
+        seccomp.refuse_system_calls(visible)
+    os.execv(program[0], program)  # noqa: S606 - the purpose of this file
+
+
+def _owner_if_closed(folder: str) -> tuple[int, int] | None:
+    """Return the user and the group of a folder if the superuser runs this and others cannot read what is in it.
+
+    Without capabilities, the superuser cannot read it either. None: the user need not change.
+    """
+    status = os.stat(folder)  # noqa: PTH116 - without other imports
+    if os.getuid() or not status.st_uid:
+        return None
+    with os.scandir(folder) as entries:
+        modes = [entry.stat(follow_symlinks=False).st_mode | _LIST for entry in entries]
+    is_open = all(mode & _READ_AND_LIST == _READ_AND_LIST for mode in [status.st_mode, *modes])
+    return None if is_open else (status.st_uid, status.st_gid)
+
+
+def _limit_resources(limits: dict[str, int]) -> None:
+    import resource  # noqa: PLC0415 - not on Windows
+
+    for name, value in {**limits, "NOFILE": _MAX_OPEN_FILES, "CORE": 0}.items():
+        with suppress(ValueError, OSError):  # macOS does not limit the address space.
+            resource.setrlimit(getattr(resource, f"RLIMIT_{name}"), (value, value))
+
+
+def _ancestors() -> list[int]:
+    """Return the processes above this one, which the program must not end."""
+    found, process = [], os.getppid()
+    with suppress(OSError, ValueError, IndexError):
+        while process > 1:
+            found.append(process)
+            with open(f"/proc/{process}/stat", encoding="utf-8", errors="replace") as file:  # noqa: PTH123
+                process = int(file.read().rpartition(")")[2].split()[1])
+    return [*found, 1]

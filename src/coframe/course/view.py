@@ -1,0 +1,175 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What a student's program sees of the file system: the system, Python with its packages, ROS, and its own folder."""
+
+from __future__ import annotations
+
+import contextlib
+import importlib.metadata
+import json
+import os
+import stat
+import sys
+import sysconfig
+from pathlib import Path
+from typing import TYPE_CHECKING, Final, NamedTuple
+from urllib.parse import unquote, urlparse
+
+from coframe.existence import exists
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator
+
+__all__ = ["View", "private_folders", "view_of"]
+
+# Folders of the system, and those in which package managers install. Devices and processes are not files of the system.
+_SYSTEM: Final = (
+    *("/bin", "/etc", "/lib", "/lib32", "/lib64", "/opt", "/sbin", "/sys/devices/system", "/usr"),
+    *("/gnu/store", "/home/linuxbrew", "/nix/store", "/snap"),
+)
+# Variables with the folders of whole installations, and with folders of packages and libraries.
+_INSTALLATIONS: Final = ("AMENT_PREFIX_PATH", "VIRTUAL_ENV")
+_FOLDERS: Final = ("LD_LIBRARY_PATH", "PYTHONPATH")
+_CONFIGURATION: Final = "/etc"
+_FOR_EVERYONE = 0o4  # the permission to read that a file gives to all users
+_DDS_CONFIGURATION: Final = "CYCLONEDDS_URI"
+_PERSONAL: Final = ("/", "/home", "/root", "/run", "/tmp", "/var/tmp")  # noqa: S108 - they are kept out
+_MAPPED = Path("/proc/self/maps")
+_MAX_LINKS = 40  # in one path, as in the kernel
+
+
+class View(NamedTuple):
+    """What a program sees.
+
+    Attributes:
+        entries: Absolute paths without symbolic links, sorted, and whether each can be read. The longest path above a
+            file decides about it; a file below none of them cannot be read.
+        links: Symbolic links that lead to these paths, and their targets.
+    """
+
+    entries: list[tuple[str, bool]]
+    links: list[tuple[str, str]]
+
+
+def private_folders(folder: Path) -> list[str]:
+    """Return folders of the person who runs the check, none of which a program may read as a whole.
+
+    Args:
+        folder: The student's folder; the folder that contains it contains those of other students.
+    """
+    found = [Path(path) for path in _PERSONAL] + [Path.cwd(), folder.resolve().parent, *_sources()]
+    home = os.path.expanduser("~")  # noqa: PTH111 - pathlib fails if there is none
+    found += [Path(path) for path in (home, _home_of_account()) if os.path.isabs(path)]  # noqa: PTH117
+    return sorted({os.path.realpath(path) for path in found})
+
+
+def view_of(folder: Path, private: Iterable[str], solutions: Iterable[str]) -> View:
+    """Return what a program sees.
+
+    Args:
+        folder: The folder of the program.
+        private: Folders of which only those parts can be read that are installed packages, or the folder itself.
+        solutions: Folders of which nothing can be read.
+    """
+    own = os.path.realpath(folder)
+    # A file below a folder of packages is a package, also if this process runs in that folder.
+    packages = {os.path.realpath(path) for path in sysconfig.get_paths().values()}
+    hidden = {path for path in private if not any(_is_below(path, each) for each in packages)}
+    installed = {os.path.realpath(path) for path in _installations()} - {*map(os.path.realpath, _PERSONAL)}
+    others = {os.path.realpath(path) for path in _packages()}
+    others = {path for path in others if not any(_is_below(each, path) for each in hidden)}
+    readable = {own} | {path for path in installed | others if exists(Path(path))}
+    hidden = {path for path in hidden - readable if not _is_below(path, own)}
+    hidden |= (secret := {*map(os.path.realpath, solutions), *_secrets()})
+    readable = {path for path in readable if path == own or not any(_is_below(path, each) for each in secret)}
+    return View(_without_effectless(readable, hidden - {own}), sorted(_links(own)))
+
+
+def _without_effectless(readable: set[str], hidden: set[str]) -> list[tuple[str, bool]]:
+    """Return the entries without those that the entries above them imply."""
+    found: dict[str, bool] = {}
+    for path in sorted(readable | hidden):
+        is_readable = path in readable
+        above = max((each for each in found if _is_below(path, each)), key=len, default=None)
+        if is_readable != (above is not None and found[above]):
+            found[path] = is_readable
+    return list(found.items())
+
+
+def _is_below(path: str, folder: str) -> bool:
+    """Return whether a path is a folder, or in it."""
+    return path == folder or path.startswith(folder.rstrip("/") + "/")
+
+
+def _installations() -> Iterator[str]:
+    yield from (*_SYSTEM, sys.prefix, sys.base_prefix, sys.exec_prefix, sys.base_exec_prefix)
+    yield from _listed(_INSTALLATIONS)
+
+
+def _packages() -> Iterator[str]:
+    yield from (path for path in sys.path if os.path.isabs(path))  # noqa: PTH117
+    yield from _listed(_FOLDERS)
+    yield from _absolute(os.environ.get(_DDS_CONFIGURATION, "").removeprefix("file://"))
+    # What the grader itself has loaded: the same packages and libraries.
+    for module in tuple(sys.modules.values()):
+        yield from _absolute(os.path.dirname(getattr(module, "__file__", None) or ""))  # noqa: PTH120
+    if _MAPPED.is_file():
+        for line in _MAPPED.read_text(errors="replace").splitlines():
+            if "/" in line:
+                yield os.path.dirname("/" + line.partition("/")[2])  # noqa: PTH120
+
+
+def _secrets() -> Iterator[str]:
+    """Yield what not everyone may read of the configuration: the superuser may, and so could programs."""
+    for path, folders, files in os.walk(_CONFIGURATION):
+        for name in (*files, *folders):
+            entry = os.path.join(path, name)  # noqa: PTH118 - fast, for some thousand files
+            with contextlib.suppress(OSError):
+                mode = os.lstat(entry).st_mode
+                if not (mode & _FOR_EVERYONE or stat.S_ISLNK(mode)):
+                    folders[:] = [each for each in folders if each != name]
+                    yield entry
+
+
+def _listed(variables: Iterable[str]) -> Iterator[str]:
+    for name in variables:
+        for path in os.environ.get(name, "").split(os.pathsep):
+            yield from _absolute(path)
+
+
+def _absolute(path: str) -> Iterator[str]:
+    if os.path.isabs(path):  # noqa: PTH117
+        yield path
+
+
+def _links(own: str) -> Iterator[tuple[str, str]]:
+    """Yield the symbolic links in the paths by which programs find what they may read."""
+    found: dict[str, str] = {}
+    for path in {own, sys.executable, *_installations(), *_packages()}:
+        rest, place = path.split("/")[:0:-1], "/"
+        while rest and len(found) < _MAX_LINKS * _MAX_LINKS:
+            name = rest.pop()
+            place = os.path.normpath(os.path.join(place, name))  # noqa: PTH118
+            if place not in found and os.path.islink(place):  # noqa: PTH114
+                found[place] = os.readlink(place)  # noqa: PTH115
+                rest.extend(found[place].split("/")[::-1])
+                place = "/" if found[place].startswith("/") else os.path.dirname(place)  # noqa: PTH120
+    yield from found.items()
+
+
+def _sources() -> list[Path]:
+    """Return where coframe was installed from, if that was a folder or a file: it may contain the tests' solutions."""
+    try:
+        text = importlib.metadata.distribution("coframe").read_text("direct_url.json")
+        address = urlparse(json.loads(text or "{}").get("url", ""))
+    except (importlib.metadata.PackageNotFoundError, ValueError, AttributeError):
+        return []
+    return [Path(unquote(address.path))] if address.scheme == "file" else []
+
+
+def _home_of_account() -> str:
+    try:
+        import pwd  # noqa: PLC0415 - not on Windows
+
+        return pwd.getpwuid(os.getuid()).pw_dir
+    except (ImportError, KeyError):
+        return ""
