@@ -23,7 +23,13 @@ from coframe.errors import CourseError
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="needs links and named pipes")
 
 STATIC, URDF = "static_tf_broadcaster.py", "arm.urdf"
-COFRAME = [sys.executable, "-c", "import sys; sys.path.pop(0); from coframe.cli import main; main()"]
+# As the script of coframe does, this starts without the current folder on its path.
+START = "import os; os.environ.update({!r}); from coframe.cli import main; main()"
+
+
+def coframe_command(*words, **variables):
+    """Return a command of coframe that starts with more variables."""
+    return [sys.executable, "-I", "-c", START.format(variables), *words]
 
 
 @pytest.fixture

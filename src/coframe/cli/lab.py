@@ -10,7 +10,7 @@ import sys
 import threading
 from contextlib import closing
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, TextIO
 
 import typer
 
@@ -42,8 +42,6 @@ if TYPE_CHECKING:
 
 __all__ = ["lab"]
 
-# The name of a folder may contain bytes that are not a text.
-_TABLE: dict[str, str] = {"encoding": "utf-8", "newline": "", "errors": "backslashreplace"}
 _FIRST_OUTPUT = 8.0  # seconds after which each program should have published something
 _HANDBOOK_WIDTH = 120  # columns: longer lines are hard to read
 FolderArgument = Annotated[
@@ -321,7 +319,7 @@ def _check_class(
     rows = [formats.csv_row(name, reports[name]) for name in sorted(reports)]
     columns = list(dict.fromkeys(column for row in rows for column in row if column != "problem"))
     if output is not None:
-        with complete_or_absent(output) as part, part.open("w", **_TABLE) as file:
+        with complete_or_absent(output) as part, _open_table(part) as file:
             writer = csv.DictWriter(file, [*columns, "problem"], restval=0.0)
             writer.writeheader()
             writer.writerows({key: csv_cell(value) for key, value in row.items()} for row in rows)
@@ -329,6 +327,11 @@ def _check_class(
         print(json.dumps({name: reports[name] for name in sorted(reports)}, indent=2))
     else:
         _print_table(rows, columns)
+
+
+def _open_table(path: Path) -> TextIO:
+    """Open a file for a table; the names of submissions may contain bytes that are not text."""
+    return path.open("w", encoding="utf-8", newline="", errors="backslashreplace")
 
 
 def _print_table(rows: Sequence[dict[str, Any]], columns: Sequence[str]) -> None:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Files of a submission: regular files inside its folder only, whatever their names lead to."""
+"""Files of a submission: regular files inside its folder only, no matter where their names lead."""
 
 from __future__ import annotations
 
