@@ -94,14 +94,14 @@ def test_links_inside_a_folder_are_followed(tmp_path):
 
 
 SPECIAL = {
-    "pipe": (os.mkfifo, "not a regular file"),
-    "folder": (Path.mkdir, "not a regular file"),
+    "pipe": (os.mkfifo, "a named pipe"),
+    "folder": (Path.mkdir, "a folder, not a file"),
     "device": (lambda path: path.symlink_to("/dev/zero"), "outside the folder"),
-    "loop": (lambda path: path.symlink_to(path.name), "not a regular file"),
-    "nothing": (lambda path: path.symlink_to("missing"), "not a regular file"),
+    "loop": (lambda path: path.symlink_to(path.name), "Too many levels"),
+    "nothing": (lambda path: path.symlink_to("missing"), "No such file"),
     "process": (lambda path: path.symlink_to("/proc/self/environ"), "outside the folder"),
-    "large": (lambda path: path.write_bytes(bytes(2 << 20)), "The limit is"),
-    "sparse": (lambda path: [path.touch(), os.truncate(path, 1 << 40)], "The limit is"),
+    "large": (lambda path: path.write_bytes(bytes(2 << 20)), "more than 1 MiB"),
+    "sparse": (lambda path: [path.touch(), os.truncate(path, 1 << 40)], "cannot be read"),
 }
 
 

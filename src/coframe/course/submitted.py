@@ -33,21 +33,15 @@ def check_submitted(file: Path) -> Path:
     if not real.is_relative_to(folder):
         raise CourseError(f"{file.name} is a link to a file outside the folder.", hint="Replace it with that file.")
     try:
-        check_regular(real)
+        check_regular(real, MAX_BYTES)
         status = real.stat()
     except OSError as error:
-        raise CourseError(
-            f"{file.name} is not a regular file that can be read: {error.strerror}.", hint="Replace it with a file."
-        ) from None
+        raise CourseError(f"{file.name} cannot be read: {error.strerror}.", hint="Replace it with a file.") from None
     if status.st_nlink > 1 and status.st_nlink > _names_below(folder, status):
         raise CourseError(
             f"{file.name} is a hard link: the same file has another name outside the folder, so it may belong to "
             "someone else.",
             hint="Replace it with a copy.",
-        )
-    if status.st_size > MAX_BYTES:
-        raise CourseError(
-            f"{file.name} has {status.st_size} bytes. The limit is {MAX_BYTES} bytes.", hint="Use a smaller file."
         )
     return real
 
