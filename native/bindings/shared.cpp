@@ -38,7 +38,14 @@ void define_shared(nb::module_& module) {
           "the source of all transforms.")
       .def("try_to_write", &Segment::try_to_write, "Become the writer if there is none; return whether it is.")
       .def(
-          "write", [](Segment& self, BufferObject& buffer) { buffer.core = std::make_shared<Buffer>(self.writer()); },
+          "write",
+          [](Segment& self, BufferObject& buffer) {
+            try {
+              buffer.core = std::make_shared<Buffer>(self.writer());
+            } catch (const std::bad_alloc&) {
+              throw SegmentError("the shared memory is full: " + self.shortage());
+            }
+          },
           arg("buffer"), "Let a new buffer write the tree, after try_to_write() has succeeded.")
       .def_prop_ro("writer_process", &Segment::writer_process, "The process that writes, or wrote last.")
       .def(
@@ -52,6 +59,7 @@ void define_shared(nb::module_& module) {
       .def_prop_ro("outdated", &Segment::outdated,
                    "Whether the tree contains static transforms that are no longer published.")
       .def_prop_ro("used", &Segment::used, "Bytes in use.")
+      .def_prop_ro("shortage", &Segment::shortage, "Why the tree could not grow; empty if it could.")
       .def("close", &Segment::close, ReleaseGil(), "Stop writing, and no longer keep the tree.");
 }
 

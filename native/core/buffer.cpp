@@ -260,7 +260,6 @@ Inserted Buffer::store_named(TransformStream& stream, std::size_t index, const T
   const bool is_full = frames >= kMaxFrames || received_name_bytes_ + parent.size() + child.size() > kMaxNameBytes ||
                        !tree_.has_room_for_names(parent.size() + child.size());
   if (is_full && (tree_.find(without_slash(parent)) == 0 || tree_.find(without_slash(child)) == 0)) {
-    tree_.counts().over_limit.add(1);
     return {.refusals = kTooManyFrames};
   }
   const Inserted inserted = tree_.insert(parent, child, view.stamp, view.values, stream.is_static, stream.authority);
@@ -277,6 +276,7 @@ Inserted Buffer::store_named(TransformStream& stream, std::size_t index, const T
 bool Buffer::count(unsigned refusals) {
   TreeCounts& counts = tree_.counts();
   (refusals == 0 ? counts.stored : refusals & kOldData ? counts.old : counts.refused).add(1);
+  if (refusals & kTooManyFrames) counts.over_limit.add(1);
   return refusals == 0;
 }
 

@@ -303,6 +303,7 @@ AuthorityId Tree::authority(std::string_view name) {
   const std::uint32_t found =
       tree.authority_numbers.find(name, [&](AuthorityId id) { return tree.authorities[id].view(); });
   if (found != NameTable::kNone) return found;
+  if (!has_room_for_names(name.size())) return 0;
   const std::size_t id = tree.authorities.append(memory, [&](Name& text) { text.set(memory, name); });
   tree.authority_numbers.add(memory, name, static_cast<AuthorityId>(id));
   return static_cast<AuthorityId>(id);

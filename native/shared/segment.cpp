@@ -34,13 +34,16 @@ namespace coframe {
 
 namespace {
 
+constexpr std::int64_t kNoCapacity = -1;
+
 // The beginning of the memory.
 struct Header {
   std::uint64_t layout = 0;
   std::uint64_t capacity = 0;
-  Atomic<std::int64_t> writer{0};   // the number of its process
-  Atomic<std::uint64_t> used{0};    // bytes that belong to the tree
-  Atomic<std::uint64_t> backed{0};  // bytes that the system has reserved memory for
+  Atomic<std::int64_t> writer{0};    // the number of its process
+  Atomic<std::uint64_t> used{0};     // bytes that belong to the tree
+  Atomic<std::uint64_t> backed{0};   // bytes that the system has reserved memory for
+  Atomic<std::int64_t> shortage{0};  // why memory was refused last: an error of the system, or kNoCapacity; 0: never
   TreeData tree;
 };
 
@@ -178,12 +181,16 @@ class SegmentMemory final : public Memory {
 
   // Without this, a write to memory that the system does not have would end the process.
   bool reserve(std::size_t start, std::size_t size) {
-    if (start > end_ || size > end_ - start) return false;
     Header& header = mapping_->header();
+    if (start > end_ || size > end_ - start) {
+      if (header.shortage.load() == 0) header.shortage.store(kNoCapacity);
+      return false;
+    }
     const std::size_t backed = header.backed.load(), needed = start + size;
     if (needed <= backed) return true;
     const std::size_t step = std::min<std::size_t>((needed - backed + kStep - 1) / kStep * kStep, end_ - backed);
-    if (back_with_memory(file_, backed, step) != 0) {
+    if (const int error = back_with_memory(file_, backed, step)) {
+      header.shortage.store(error);
       end_ = backed;
       return false;
     }
@@ -273,6 +280,14 @@ class LinuxSegment final : public Segment {
 
   std::size_t used() const override { return mapping_->header().used.load(); }
 
+  std::string shortage() const override {
+    const Header& header = mapping_->header();
+    const std::int64_t shortage = header.shortage.load();
+    if (shortage == 0) return {};
+    if (shortage != kNoCapacity) return path_ + ": " + std::system_category().message(static_cast<int>(shortage));
+    return "all " + std::to_string(header.capacity >> 20) + " MB of " + path_ + " are in use";
+  }
+
   void close() override {
     const ForkSafeLock lock(mutex_);
     interrupt();
@@ -325,13 +340,17 @@ class LinuxSegment final : public Segment {
     return true;
   }
 
+  // A new tree that has less room than this would refuse almost every transform.
+  static constexpr std::size_t kMinRoom = 6 << 20;
+
   // The memory appears under its name when it is complete.
   void create(Stamp cache_length, std::size_t capacity) {
     const std::string draft = path_ + ".new";
     unlink(draft.c_str());
     File file = open_file(draft, O_RDWR | O_CREAT | O_EXCL, 0600);
     if (!file) fail("the file " + draft + " cannot be created");
-    const int error = back_with_memory(file, 0, sizeof(Header));
+    const std::size_t backed = std::min(kMinRoom, capacity);
+    const int error = back_with_memory(file, 0, backed);
     if (error != 0 || ftruncate(file.number(), static_cast<off_t>(capacity)) != 0) {
       if (error != 0) errno = error;
       unlink(draft.c_str());
@@ -342,7 +361,7 @@ class LinuxSegment final : public Segment {
     header->layout = layout();
     header->capacity = capacity;
     header->used.store(sizeof(Header));
-    header->backed.store(sizeof(Header));
+    header->backed.store(backed);
     SegmentMemory memory(std::move(file), mapping);
     const auto now = std::chrono::system_clock::now().time_since_epoch() / std::chrono::nanoseconds(1);
     initialize(header->tree, memory, cache_length, static_cast<std::uint64_t>(now));

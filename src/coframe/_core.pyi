@@ -387,6 +387,10 @@ class Segment:
     def used(self) -> int:
         """Bytes in use."""
 
+    @property
+    def shortage(self) -> str:
+        """Why the tree could not grow; empty if it could."""
+
     def close(self) -> None:
         """Stop writing, and no longer keep the tree."""
 

@@ -36,6 +36,7 @@ _logger = logging.getLogger("coframe.wire")
 _FOLDER = "/dev/shm/coframe-{user}"  # noqa: S108 - memory of this user only; the native code checks its owner
 _VACANCY_TIMEOUT = 10 * SECOND  # the end of a writer is noticed at once; each turn costs every process some time
 _RETRY_PAUSE = 10 * MILLISECOND / SECOND
+_CHECK_PERIOD = 10.0  # seconds between two checks whether the memory is full
 GENERATIONS = 8  # of the memory of one source
 _EXIT_TIMEOUT = 1.0  # seconds
 
@@ -191,6 +192,11 @@ class SharedTransforms:
         return is_suspended(self.writer_process)
 
     @property
+    def shortage(self) -> str:
+        """Why the memory could not grow; empty if it could."""
+        return self._segment.shortage
+
+    @property
     def used(self) -> int:
         """The size of the shared memory in use, in bytes."""
         return self._segment.used
@@ -213,6 +219,16 @@ class SharedTransforms:
         if not self._closed.wait(STATICS_TIMEOUT):
             for reader in self.readers:
                 reader.settle_statics()
+        self._report_shortage()
+
+    def _report_shortage(self) -> None:
+        """Log once that the memory is full, as soon as it is."""
+        while self.writes:
+            if shortage := self._segment.shortage:
+                _logger.warning(full(shortage))
+                return
+            if self._closed.wait(_CHECK_PERIOD):
+                return
 
     def _take_over(self) -> None:
         """Wait until this process is the writer."""
@@ -226,6 +242,10 @@ class SharedTransforms:
                     if self._closed.is_set():
                         self._close_hub()
                     return
+            except _core.SegmentError as error:
+                _logger.warning("This process cannot receive the shared transforms; another one has to: %s", error)
+                self._segment.close()
+                return
             except Exception:
                 _logger.exception("This process cannot receive the shared transforms; another one has to.")
                 self._segment.close()
@@ -311,6 +331,15 @@ def suspension(process: int) -> str:
     return (
         f"Process {process}, which receives the shared transforms, is suspended: no new transforms are stored until it "
         f"continues (kill -CONT {process}) or ends."
+    )
+
+
+def full(shortage: str) -> str:
+    """Return a sentence about shared memory that cannot grow; `shortage` says why."""
+    return (
+        f"The memory of the shared transforms is full: {shortage}. New frames are refused, and the oldest samples are "
+        "dropped early. Make /dev/shm larger (docker run --shm-size=512m) or shorten the cache, and restart the "
+        "programs."
     )
 
 

@@ -145,7 +145,7 @@ def test_ten_thousand_children_use_the_buffer_of_a_busy_process(tmp_path):
     assert fork(10_000, tmp_path, 3500) == (0, "0 children failed or hung: []\n")
 
 
-# glibc's _Fork() calls no handlers, so it leaves the child with whatever the other threads were doing.
+# glibc's _Fork() calls no handlers, so in the child, the work of other threads stays half done.
 UNGUARDED = """
     import ctypes, os, signal, sys, threading, time
 

@@ -23,7 +23,7 @@ from coframe.cli.options import (
 )
 from coframe.cli.output import fail, log
 from coframe.frame_names import kept
-from coframe.shared_transforms import GENERATIONS, SharedTransforms, Source, is_suspended, suspension
+from coframe.shared_transforms import GENERATIONS, SharedTransforms, Source, full, is_suspended, suspension
 from coframe.wire.domains import domain_id
 
 __all__ = ["hub"]
@@ -84,6 +84,8 @@ def _print_status(source: Source) -> None:
         process = segment.writer_process
         size = f"{len(buffer.frame_names())} frames in {segment.used / 1e6:.1f} MB of shared memory"
         print(f"Process {process} receives {_topics(source)} for all programs that share transforms: {size}.")
+        if shortage := segment.shortage:
+            print(full(shortage))
         if segment.outdated:
             print("Static transforms were withdrawn: programs that start now share another memory, without them.")
         if is_suspended(process):

@@ -25,6 +25,11 @@ _REASONS = {
         "transforms",
         "tf2 requires a non-zero quaternion, finite numbers, a frame_id, and a parent other than the frame itself.",
     ),
+    "over_limit": (
+        "Rejected",
+        "transforms",
+        "their frames are new, and the buffer has no room for more frames of other nodes.",
+    ),
     "old": (
         "Dropped",
         "transforms",
@@ -65,6 +70,7 @@ class RejectedTransformMonitor:
         self._reported = {key: reported for key, reported in self._reported.items() if key[0] in buffers}
         for number, buffer in buffers.items():
             counts = buffer.statistics
+            counts["refused"] -= counts["over_limit"]
             for kind, (verb, what, reason) in _REASONS.items():
                 before, at = self._reported.get((number, kind), (0, -_REPEAT_AFTER))
                 if counts[kind] > before and time.monotonic() - at >= _REPEAT_AFTER:
