@@ -13,12 +13,13 @@ from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 from coframe import _core
 from coframe.buffer import Buffer
-from coframe.errors import WireError
+from coframe.errors import DecodeError, WireError
 from coframe.frame_names import kept, renaming
 from coframe.shared_transforms import SharedTransforms, Source
 from coframe.tf_publishers import TfPublisher, publishers_of
 from coframe.time import MILLISECOND, SECOND, duration_ns
 from coframe.wire import domains
+from coframe.wire.counted_warning import CountedWarning
 from coframe.wire.names import any_ros_name
 from coframe.wire.participant import Participant
 from coframe.wire.qos import DEFAULT, QoS
@@ -93,6 +94,7 @@ class MessageSubscription(Generic[M]):
         self._message_type = message_type
         self._event = event
         self._callback = callback
+        self._warn_of_damage = CountedWarning(_logger.warning)
         self._thread: threading.Thread | None = None
         if callback:
             self._thread = threading.Thread(target=self._call, name=f"coframe{subscription.topic}", daemon=True)
@@ -140,12 +142,17 @@ class MessageSubscription(Generic[M]):
             self._call_once()
 
     def _call_once(self) -> None:
+        topic = any_ros_name(self._subscription.topic)
         try:
             message = self.receive()
-            if message is not None and self._callback:
+        except DecodeError as error:
+            self._warn_of_damage(f"A message on {topic} is ignored: {error}.")
+            return
+        if message is not None and self._callback:
+            try:
                 self._callback(message)
-        except Exception:
-            _logger.exception("Decoding a message on %s or calling its callback failed.", self._subscription.topic)
+            except Exception:
+                _logger.exception("The callback for messages on %s failed.", topic)
 
 
 class Connection:

@@ -91,6 +91,26 @@ def test_the_file_of_another_query_is_not_kept(bags, tmp_path):
     assert not query_recording(str(bags[0]), later, str(tmp_path)).kept
 
 
+def test_a_damaged_file_is_written_again(bags, tmp_path):
+    """One flipped bit anywhere in the file is enough, and the poses are those of the recording afterwards."""
+    folder = tmp_path / "out"
+    folder.mkdir()
+    first = query_recording(str(bags[0]), WALK, str(folder))
+    (part,) = folder.glob("*.parquet")
+    (checksum,) = folder.glob("_*.sha256")
+    whole, digest = part.read_bytes(), checksum.read_bytes()
+    for position in range(0, len(whole), len(whole) // 20):
+        part.write_bytes(whole[:position] + bytes([whole[position] ^ 4]) + whole[position + 1 :])
+        assert query_recording(str(bags[0]), WALK, str(folder)) == first
+        assert part.read_bytes() == whole
+    for content in (b"", digest[:30], b"\xff" * 80, None):
+        checksum.unlink() if content is None else checksum.write_bytes(content)
+        assert not query_recording(str(bags[0]), WALK, str(folder)).kept
+    assert (part.read_bytes(), checksum.read_bytes()) == (whole, digest)
+    assert query_recording(str(bags[0]), WALK, str(folder)).kept
+    assert arrow_dataset.dataset(folder).to_table().num_rows == first.poses
+
+
 @pytest.mark.parametrize(("start", "error"), [("1h", "No stamps between"), ("soon", "is not a point in time")])
 def test_a_query_without_a_result_has_an_error(bags, tmp_path, start, error):
     query = TrajectoryQuery("odom", "base", start=start)

@@ -56,6 +56,53 @@ def test_a_closed_pipe_is_not_an_error(bag, name):
     process.wait(60)
 
 
+CLOSED = [(0,), (1,), (2,), (0, 1, 2)]
+
+
+def run_with_closed(descriptors, words, **options):
+    """Run a command without some of its standard streams, as a shell does with ``>&-``."""
+
+    def close():
+        for number in descriptors:
+            os.close(number)
+
+    return subprocess.run(words, stdout=subprocess.PIPE, check=False, preexec_fn=close, **options)
+
+
+@pytest.mark.skipif(os.name != "posix", reason="Windows has no closed streams")
+@pytest.mark.parametrize("closed", CLOSED)
+@pytest.mark.parametrize(
+    ("words", "code"),
+    [
+        (["frames", "BAG"], 0),
+        (["bag", "info", "BAG"], 0),
+        (["doctor", "BAG"], 0),
+        (["trajectory", "BAG", "odom", "base"], 0),
+        (["doctor", "absent.mcap"], 1),
+        (["--no-such-option"], 2),
+    ],
+)
+def test_closed_streams(bag, tmp_path, words, code, closed):
+    words, options = command(*[bag if word == "BAG" else word for word in words], cwd=tmp_path)
+    done = run_with_closed(closed, words, **options)
+    assert (done.returncode, "Traceback" in done.stderr) == (code, False), done.stderr
+    assert bool(done.stdout) == (code == 0 and 1 not in closed)
+    assert bool(done.stderr) == (code != 0 and 2 not in closed)
+
+
+@pytest.mark.skipif(os.name != "posix", reason="Windows has no closed streams")
+def test_no_file_gets_the_descriptor_of_a_closed_stream(tmp_path):
+    """What native code and child processes print would otherwise be written into the file."""
+    script = "import os, subprocess, sys; from coframe.cli import streams; streams.replace_closed_streams()\n"
+    script += f"file = open({str(tmp_path / 'file')!r}, 'w')\n"
+    script += (
+        "os.write(1, b'native'); os.write(2, b'native'); subprocess.run(['sh', '-c', 'echo child; echo child >&2'])"
+    )
+    done = run_with_closed((0, 1, 2), [sys.executable, "-c", script])
+    assert done.returncode == 0
+    assert (tmp_path / "file").read_bytes() == b""
+
+
 @pytest.mark.skipif(os.name != "posix", reason="Windows has no arguments in bytes")
 @pytest.mark.parametrize(
     ("words", "code"),

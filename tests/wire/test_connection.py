@@ -4,9 +4,11 @@ import threading
 import pytest
 
 import coframe
-from coframe.messages import find
+from coframe.messages import codec, find
+from coframe.wire import QoS
 
 STRING = find("std_msgs/msg/String")
+RELIABLE = QoS(depth=1000)
 
 
 def test_publish_and_receive(domain_id):
@@ -46,6 +48,24 @@ def test_a_callback_runs_on_its_own_thread_and_may_raise(domain_id, caplog):
     assert received == ["hello", "bad", "end"]
     assert "on purpose" in caplog.text
     assert set(threading.enumerate()) <= before
+
+
+def test_damaged_messages_are_counted_in_few_lines(domain_id, caplog):
+    """Another node can send any number of them."""
+    received = threading.Event()
+    with coframe.connect("one", domain=domain_id) as ros:
+        ros.subscribe("/chatter", STRING, lambda _: received.set())
+        participant = ros.participant
+        damaged = participant.raw_publisher(
+            participant.add_node("/", "two"), "/chatter", "std_msgs/msg/String", RELIABLE
+        )
+        for _ in range(200):
+            damaged.write(b"\0\1\0\0\xff\xff\xff\x7f")
+        damaged.write(codec.serialize(STRING(data="valid")))
+        assert received.wait(10)
+    (line,) = [record.message for record in caplog.records if "/chatter" in record.message]
+    assert line.startswith("A message on /chatter is ignored: std_msgs/msg/String: at byte 8 of 8, ")
+    assert "Traceback" not in caplog.text
 
 
 def test_close_ends_iteration_over_a_subscription(domain_id):

@@ -180,6 +180,23 @@ class Peer:
         self.received.append([name, "gid", gid.hex()])
 
 
+    def flood_services(self, count: int, cdr: str, is_attached: bool) -> int:
+        """Send requests to each service on the graph, as a program does that is not a node; return their number."""
+        services = [token.split("/")[-4:-1] for token in self.tokens if "/SS/" in token]
+        for number in range(count):
+            for name, type_name, type_hash in services:
+                attached = struct.pack("<qqB", number, time.time_ns(), 16) + bytes(16)
+                self.session.get(
+                    f"{self.domain}/{name.replace('%', '/').strip('/')}/{type_name}/{type_hash}",
+                    lambda _: None,
+                    target=zenoh.QueryTarget.ALL_COMPLETE,
+                    consolidation=zenoh.ConsolidationMode.NONE,
+                    payload=bytes.fromhex(cdr),
+                    attachment=attached if is_attached else None,
+                )
+        return count * len(services)
+
+
 def main() -> None:
     peer = Peer(*sys.argv[1:4])
     print(json.dumps(peer.zid), flush=True)

@@ -20,6 +20,7 @@ import numpy as np
 
 from coframe.bags.batch_processes import run_jobs
 from coframe.bags.recording import open_bag
+from coframe.complete_files import write_complete
 from coframe.errors import RecordingError
 from coframe.trajectories.formats import POSE_COLUMNS
 
@@ -32,6 +33,7 @@ if TYPE_CHECKING:
 __all__ = ["ENGINES", "QueryResult", "query_recording", "query_recordings"]
 
 _METADATA_KEY = b"coframe"
+_CHECKSUM_DIGITS = 64  # of SHA-256
 _REPORT_KEY = b"coframe.report"  # the number of missing poses, and the problems
 
 
@@ -58,7 +60,8 @@ class QueryResult(NamedTuple):
 def query_recording(bag: str, query: TrajectoryQuery, folder: str) -> QueryResult:
     """Run a query on one recording and write its file of the dataset; never raises.
 
-    An existing file is kept if it was written for the same query and the recording has not changed since.
+    An existing file is kept if it was written for the same query, the recording has not changed since, and the file
+    has its checksum.
 
     Args:
         bag: Path of the recording.
@@ -146,8 +149,8 @@ def _fingerprint(bag: str, query: TrajectoryQuery) -> bytes:
 
 
 def _existing(part: Path, bag: str, fingerprint: bytes) -> QueryResult | None:
-    """Return the result in the file of an earlier run; None if it does not exist or is out of date."""
-    if not part.exists():
+    """Return the result in the file of an earlier run; None if it does not exist, is damaged or is out of date."""
+    if not _is_intact(part):
         return None
     try:
         metadata = importlib.import_module("pyarrow.parquet").read_metadata(part)
@@ -171,7 +174,9 @@ def _write(part: Path, poses: Transform, result: QueryResult, fingerprint: bytes
     try:
         metadata = {_METADATA_KEY: fingerprint, _REPORT_KEY: json.dumps([result.missing, result.problems])}
         parquet.write_table(arrow.table(columns).replace_schema_metadata(metadata), temporary)
+        checksum = _checksum(temporary)
         temporary.replace(part)
+        write_complete(_checksum_file(part), f"{checksum}  {part.name}\n".encode())
     except OSError as error:
         reason = os.strerror(error.errno) if error.errno else str(error)
         raise RecordingError(
@@ -180,6 +185,26 @@ def _write(part: Path, poses: Transform, result: QueryResult, fingerprint: bytes
     finally:
         with suppress(OSError):
             temporary.unlink()
+
+
+def _is_intact(part: Path) -> bool:
+    """Return whether a file has the content that was written. A flipped byte would otherwise be another pose."""
+    try:
+        return _checksum_file(part).read_bytes()[:_CHECKSUM_DIGITS].decode() == _checksum(part)
+    except (OSError, UnicodeDecodeError):
+        return False
+
+
+def _checksum_file(part: Path) -> Path:
+    return part.with_name(f"_{part.name}.sha256")  # in the format of the program sha256sum
+
+
+def _checksum(file: Path) -> str:
+    digest = hashlib.sha256()
+    with file.open("rb") as stream:
+        while block := stream.read(1 << 20):
+            digest.update(block)
+    return digest.hexdigest()
 
 
 _Job = tuple[str, "TrajectoryQuery", str]

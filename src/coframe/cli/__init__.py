@@ -7,7 +7,13 @@ import os
 import sys
 from typing import TYPE_CHECKING
 
-from coframe.cli.streams import accept_any_encoding, discard_output, flush_output, undecodable
+from coframe.cli.streams import (
+    accept_any_encoding,
+    discard_output,
+    flush_output,
+    replace_closed_streams,
+    undecodable,
+)
 from coframe.cli.system_errors import description
 
 if TYPE_CHECKING:
@@ -48,6 +54,7 @@ def run(words: list[str], *, program: str = "coframe", shown: Collection[str] | 
         program: The name of the program in its help.
         shown: The commands that exist. None: all.
     """
+    replace_closed_streams()
     accept_any_encoding()
     if bad := next(filter(undecodable, words), None):
         print(f"coframe: the argument {bad[:60]!r} is not valid UTF-8.", file=sys.stderr)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Encodings of arguments and of standard output; closed pipes and full disks."""
+"""Encodings of arguments and of standard output; closed streams, closed pipes and full disks."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import io
 import os
 import sys
 
-__all__ = ["accept_any_encoding", "discard_output", "flush_output", "undecodable"]
+__all__ = ["accept_any_encoding", "discard_output", "flush_output", "replace_closed_streams", "undecodable"]
 
 _HANDLER = "coframe.plain"
 # What trees and texts contain, as far as one character can replace it, so that columns stay aligned.
@@ -25,6 +25,20 @@ def accept_any_encoding() -> None:
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper) and not stream.encoding.lower().startswith("utf"):
             stream.reconfigure(errors=_HANDLER)
+
+
+def replace_closed_streams() -> None:
+    """Let the standard streams that are closed read and write nothing.
+
+    Python represents them by None. Their file descriptors are free, so that the next file or socket would get one of
+    them, and would receive what native code and child processes print.
+    """
+    for number, name in enumerate(("stdin", "stdout", "stderr")):
+        if getattr(sys, name) is None:
+            null = os.open(os.devnull, os.O_RDWR)
+            if null == number:
+                os.set_inheritable(null, True)
+            setattr(sys, name, os.fdopen(null, "w" if number else "r", encoding="utf-8"))
 
 
 def undecodable(word: str) -> bool:

@@ -20,6 +20,7 @@ from std_msgs.msg import String
 __all__ = ["JointStatePublisher", "main", "run"]
 
 _LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+_WARNING_PERIOD = 5.0  # seconds; other nodes can send invalid messages at any rate
 _DEFAULTS: dict[str, Any] = {
     "rate": 10,
     "source_list": [],
@@ -104,7 +105,8 @@ class JointStatePublisher(Node):
         try:
             robot = parse_urdf(message.data)
         except RobotDescriptionError as error:
-            self.get_logger().warning(one_line(f"Invalid robot_description given, ignoring: {error}"))
+            text = one_line(f"Invalid robot_description given, ignoring: {error}")
+            self.get_logger().warning(text, throttle_duration_sec=_WARNING_PERIOD)
             return
         try:
             self.configure(robot)
@@ -120,7 +122,7 @@ class JointStatePublisher(Node):
                 self.states.update(message.name, message.position, message.velocity, message.effort)
         except ValueError as error:
             text = one_line(f"Ignored an invalid JointState message: {error}")
-            self.get_logger().warning(text, throttle_duration_sec=5.0)
+            self.get_logger().warning(text, throttle_duration_sec=_WARNING_PERIOD)
 
     def _publish(self) -> None:
         if self.states is None:

@@ -25,6 +25,7 @@ from tf2_ros import StaticTransformBroadcaster, TransformBroadcaster
 __all__ = ["RobotStatePublisher", "main", "run"]
 
 _LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+_WARNING_PERIOD = 5.0  # seconds; other nodes can send invalid messages at any rate
 
 
 class RobotStatePublisher(Node):
@@ -92,17 +93,21 @@ class RobotStatePublisher(Node):
     def _on_joint_state(self, state: JointState) -> None:
         if len(state.name) != len(state.position):
             if not len(state.position):
-                self.get_logger().warning("Robot state publisher ignored a JointState message without positions")
+                text = "Robot state publisher ignored a JointState message without positions"
+                self.get_logger().warning(text, throttle_duration_sec=_WARNING_PERIOD)
             else:
-                self.get_logger().error("Robot state publisher ignored an invalid JointState message")
+                text = "Robot state publisher ignored an invalid JointState message"
+                self.get_logger().error(text, throttle_duration_sec=_WARNING_PERIOD)
             return
         if self._states.turned_back(self.get_clock().now().nanoseconds):
-            self.get_logger().warning("Moved backwards in time, re-publishing joint transforms!")
+            text = "Moved backwards in time, re-publishing joint transforms!"
+            self.get_logger().warning(text, throttle_duration_sec=_WARNING_PERIOD)
         stamp = Time.from_msg(state.header.stamp).nanoseconds
         try:
             moving = self._states.moving(stamp, state.name, state.position)
         except ValueError as error:
-            self.get_logger().error(one_line(f"Robot state publisher ignored an invalid JointState message: {error}"))
+            text = one_line(f"Robot state publisher ignored an invalid JointState message: {error}")
+            self.get_logger().error(text, throttle_duration_sec=_WARNING_PERIOD)
             return
         if moving:
             self._broadcaster.sendTransform([self._message(transform, stamp) for transform in moving])

@@ -71,6 +71,7 @@ class Graph:
     """
 
     qos_must_match = True
+    replies_need_discovery = True
 
     def __init__(self) -> None:
         self._lock = threading.Lock()

@@ -125,6 +125,11 @@ class ServicePublisher(RawPublisher):
         middleware = self._graph.foreign_services(peer.guid)
         return foreign_services_text(self.topic, middleware, self._graph.owner(peer.guid), is_writer=True)
 
+    @property
+    def reaches_clients(self) -> bool:
+        """Whether a reply that is sent now reaches its client; over DDS, not before the client is discovered."""
+        return not self._graph.replies_need_discovery or self.matched > 0
+
 
 class ServiceSubscription(Subscription):
     """A subscription to requests or replies.

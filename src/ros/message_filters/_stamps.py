@@ -56,5 +56,6 @@ class ArrivalClock:
 def warn_headerless(user: str) -> None:
     """Warn about a message that was ignored because it has no header."""
     get_logger(user).warning(
-        "Ignored a message without a header. Pass allow_headerless=True to use the time of arrival as its stamp."
+        "Ignored a message without a header. Pass allow_headerless=True to use the time of arrival as its stamp.",
+        throttle_duration_sec=5.0,
     )

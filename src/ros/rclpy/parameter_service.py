@@ -30,6 +30,7 @@ if TYPE_CHECKING:
 
 # RuntimeError: the message has a type that does not exist, which must not end the node.
 _NOT_SET = (ParameterNotDeclaredException, RuntimeError)
+_WARNING_PERIOD_S = 1.0  # other nodes can send invalid requests at any rate
 
 
 class ParameterService:
@@ -56,7 +57,7 @@ class ParameterService:
         try:
             response.descriptors = self._node.describe_parameters(list(request.names))
         except ParameterNotDeclaredException as error:
-            self._node.get_logger().warning(f"Failed to describe parameters: {error}")
+            self._node.get_logger().warning(f"Failed to describe parameters: {error}", throttle_duration_sec=_WARNING_PERIOD_S)
             response.descriptors = []  # Upstream rclpy also returns an empty list.
         return response
 
@@ -67,7 +68,7 @@ class ParameterService:
             ]
         except (ParameterNotDeclaredException, ParameterUninitializedException) as error:
             # Upstream returns no values as well, although it knows those of the other names.
-            self._node.get_logger().warning(f"Failed to get parameters: {error}")
+            self._node.get_logger().warning(f"Failed to get parameters: {error}", throttle_duration_sec=_WARNING_PERIOD_S)
             response.values = []
         return response
 
@@ -75,7 +76,7 @@ class ParameterService:
         try:
             response.types = [kind.value for kind in self._node.get_parameter_types(list(request.names))]
         except ParameterNotDeclaredException as error:
-            self._node.get_logger().warning(f"Failed to get parameter types: {error}")
+            self._node.get_logger().warning(f"Failed to get parameter types: {error}", throttle_duration_sec=_WARNING_PERIOD_S)
             response.types = []
         return response
 

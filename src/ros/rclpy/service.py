@@ -26,6 +26,9 @@ if TYPE_CHECKING:
 
 # A client may match the server before the server matches the client. A reply sent before that is lost.
 _MATCH_TIMEOUT_S: Final = 0.1
+# After a timeout, replies are sent at once for this time. Other nodes can send requests at any rate without receiving
+# the replies, and must not stop the executor.
+_MATCH_PAUSE_S: Final = 5.0
 
 
 class Service:
@@ -51,6 +54,7 @@ class Service:
         self.__service_name = service_name
         self.callback = callback
         self.callback_group = callback_group
+        self.__next_wait = 0.0
         self.qos_profile = qos_profile
 
     @property
@@ -83,10 +87,19 @@ class Service:
             raise TypeError(f"Expected {self.srv_type.Response}, got {type(response)}")
         if self.__requests is None:
             return
-        deadline = time.monotonic() + _MATCH_TIMEOUT_S
-        while not self.__replies.matched and time.monotonic() < deadline:
-            time.sleep(0.001)
+        self.__wait_for_client()
         self.__replies.write(request_header.join(header, codec.serialize(response)))
+
+    def __wait_for_client(self) -> None:
+        """Wait shortly until a client is discovered, because a reply that is sent before does not reach it."""
+        start = time.monotonic()
+        if start < self.__next_wait:
+            return
+        while not self.__replies.reaches_clients:
+            if time.monotonic() - start >= _MATCH_TIMEOUT_S:
+                self.__next_wait = start + _MATCH_PAUSE_S
+                return
+            time.sleep(0.001)
 
     def destroy(self) -> None:
         """Destroy the service. Prefer `Node.destroy_service`."""

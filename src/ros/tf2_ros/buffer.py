@@ -63,7 +63,8 @@ class Buffer(tf2.BufferCore, BufferInterface):
     def time_jump_callback(self, time_jump: TimeJump) -> None:
         """Clear the buffer after a backward jump of the clock."""
         del time_jump
-        get_logger("tf2_buffer").warning("Detected jump back in time. Clearing tf buffer.")
+        text = "Detected jump back in time. Clearing tf buffer."
+        get_logger("tf2_buffer").warning(text, throttle_duration_sec=1.0)
         self.clear()
 
     def __describe_frames(self, request: Any, response: Any) -> Any:

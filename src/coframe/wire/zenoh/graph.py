@@ -59,6 +59,7 @@ class ZenohGraph(Graph):
     """
 
     qos_must_match = False
+    replies_need_discovery = False
 
     def __init__(self, session: zenoh.Session, domain: int, changed: _core.Event) -> None:
         super().__init__()

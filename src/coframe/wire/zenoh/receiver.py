@@ -8,6 +8,7 @@ import threading
 from collections import OrderedDict
 from typing import TYPE_CHECKING, Any, Final, NamedTuple, Protocol
 
+from coframe.wire.counted_warning import CountedWarning
 from coframe.wire.zenoh import keys, library
 
 if TYPE_CHECKING:
@@ -76,6 +77,7 @@ class Receiver:
         self._numbers: OrderedDict[bytes, int] = OrderedDict()  # the last message of each publisher
         self._recent: OrderedDict[tuple[bytes, int], None] | None = OrderedDict() if len(key_list) > 1 else None
         self._warned = False
+        self._warn_of_failure = CountedWarning(_logger.error)
         self._subscribers = [_declare(session, key, qos) for key in key_list]
         self._threads = [
             threading.Thread(target=self._run, args=(subscriber.handler,), name=f"coframe{name}", daemon=True)
@@ -114,9 +116,11 @@ class Receiver:
                 self._warn_of_foreign_sample(sample)
             elif self._is_new(header):
                 self._consumer.add(Received(sample.payload.to_bytes(), header.sent, keys.handle_of(header.gid)))
-        except Exception:
+        except Exception as error:
             # The thread must survive an error of one message, because nothing starts it again.
-            _logger.exception("A message on %s could not be processed.", self._name)
+            _logger.debug("A message on %s could not be processed.", self._name, exc_info=True)
+            reason = f"{type(error).__name__}: {error}"
+            self._warn_of_failure(f"A message on {self._name} could not be processed: {reason}.")
 
     def _is_new(self, header: keys.Attachment) -> bool:
         """Record the number of a message. Return False if the message has arrived at another key before."""

@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any, Final, NamedTuple
 from coframe import _core
 from coframe.messages.encapsulation import byte_order
 from coframe.wire import request_header
+from coframe.wire.counted_warning import CountedWarning
 from coframe.wire.request_header import RequestHeader
 from coframe.wire.zenoh import config, keys, library
 from coframe.wire.zenoh.endpoint import ZenohEndpoint
@@ -151,6 +152,7 @@ class RequestReader(_Queue):
         module = library.load()
         self._closed_error = module.ZError
         self._table = table
+        self._warn_of_invalid = CountedWarning(_logger.warning)
         self.dropped = 0
         ring = module.handlers.RingChannel(ring_length(qos))
         self._queryable: Any = place.session.declare_queryable(self.key, ring, complete=True)
@@ -175,8 +177,11 @@ class RequestReader(_Queue):
         header = None if query.attachment is None else keys.decode_attachment(query.attachment.to_bytes())
         data = b"" if query.payload is None else query.payload.to_bytes()
         if header is None or byte_order(data) is None:
-            _logger.warning("A request of %s is ignored: it is not a request of rmw_zenoh_cpp.", self.endpoint.name)
             query.drop()
+            self._warn_of_invalid(
+                f"A request of {self.endpoint.name} is ignored: it is not a request of rmw_zenoh_cpp. Check for a "
+                "program that sends requests without ROS 2."
+            )
             return
         writer = keys.handle_of(header.gid)
         identity = RequestHeader(writer, header.sequence)

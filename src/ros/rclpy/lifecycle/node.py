@@ -196,7 +196,7 @@ class LifecycleNodeMixin(ManagedEntity):
             response.success = self.__change_state(transition) is TransitionCallbackReturn.SUCCESS
         except RCLError as error:
             hint = getattr(error, "hint", "")
-            self.__node.get_logger().warning(f"The state was not changed: {hint}")
+            self.__node.get_logger().warning(f"The state was not changed: {hint}", throttle_duration_sec=1.0)
             response.success = False
         return response
 
