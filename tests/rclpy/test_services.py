@@ -2,17 +2,21 @@
 """Services, service clients and parameter services."""
 
 import threading
+import time
 
 import pytest
 
 import rclpy
+from coframe.messages import codec
+from coframe.wire import QoS, request_header
+from coframe.wire.request_header import RequestHeader
 from rcl_interfaces.msg import LoggerLevel
 from rcl_interfaces.srv import GetLoggerLevels, GetParameters, ListParameters, SetLoggerLevels, SetParameters
 from rclpy.callback_groups import MutuallyExclusiveCallbackGroup
 from rclpy.executors import MultiThreadedExecutor, SingleThreadedExecutor
 from rclpy.logging import LoggingSeverity
 from rclpy.parameter import Parameter
-from rclpy.qos import qos_profile_system_default
+from rclpy.qos import QoSProfile, qos_profile_system_default
 from rclpy.service_introspection import ServiceIntrospectionState
 from std_srvs.srv import SetBool, Trigger
 
@@ -203,3 +207,25 @@ def test_pending_requests_by_number(node):
     assert client.get_pending_request(1) is future
     with pytest.raises(KeyError):
         client.get_pending_request(2)
+
+
+@pytest.mark.dds_only("over Zenoh, a reply needs no subscription")
+def test_requests_without_a_receiver_of_the_replies_do_not_stop_the_node(node, executor, wait_until):
+    """Another node can send any number of them. The service waits for a subscription to replies only once."""
+    calls = []
+    node.create_service(
+        Trigger,
+        "/trigger",
+        lambda request, response: calls.append(request) or response,
+        qos_profile=QoSProfile(depth=100),
+    )
+    participant, qos = node._Coframe__participant, QoS(depth=100)
+    requests = participant.service_publisher(
+        participant.add_node("/", "stranger"), "/trigger", Trigger.Request, qos, "request"
+    )
+    wait_until(lambda: requests.matched == 1)
+    start = time.monotonic()
+    for number in range(50):
+        requests.write(request_header.join(RequestHeader(7, number + 1), codec.serialize(Trigger.Request())))
+    wait_until(lambda: len(calls) == 50, lambda: executor.spin_once(timeout_sec=0.01))
+    assert time.monotonic() - start < 4  # 5 s if it waited 0.1 s for each

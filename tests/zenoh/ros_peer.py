@@ -56,6 +56,7 @@ class Peer:
         self.sequences = {}
         self.publishers = {}
         self.tokens = set()
+        self.ended = 0
         self.kept.append(
             self.session.liveliness().declare_subscriber(f"@ros2_lv/{domain}/**", self.on_token, history=True)
         )
@@ -180,6 +181,13 @@ class Peer:
         self.received.append([name, "gid", gid.hex()])
 
 
+    def count_end(self) -> None:
+        self.ended += 1
+
+    def ended_requests(self) -> int:
+        """Return how many requests of floods were answered or refused."""
+        return self.ended
+
     def flood_services(self, count: int, cdr: str, is_attached: bool) -> int:
         """Send requests to each service on the graph, as a program does that is not a node; return their number."""
         services = [token.split("/")[-4:-1] for token in self.tokens if "/SS/" in token]
@@ -188,7 +196,7 @@ class Peer:
                 attached = struct.pack("<qqB", number, time.time_ns(), 16) + bytes(16)
                 self.session.get(
                     f"{self.domain}/{name.replace('%', '/').strip('/')}/{type_name}/{type_hash}",
-                    lambda _: None,
+                    zenoh.handlers.Callback(lambda _: None, drop=self.count_end),
                     target=zenoh.QueryTarget.ALL_COMPLETE,
                     consolidation=zenoh.ConsolidationMode.NONE,
                     payload=bytes.fromhex(cdr),

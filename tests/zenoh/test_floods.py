@@ -66,5 +66,7 @@ def test_a_flood_of_requests(client, ros_peer, child, eventually, request_bytes,
         value, seconds = answer(client, get_parameters)
         assert value == 5
         assert seconds < 10
+    # No request is stored until its timeout, which is 10 minutes.
+    eventually(lambda: ros_peer("ended_requests") == 3500)
     _, errors = server.communicate("\n", timeout=30)
     assert len(errors.splitlines()) < 20, errors[-2000:]

@@ -10,7 +10,7 @@ handle, a 64-bit number that messages carry and the graph knows.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple, Protocol
+from typing import TYPE_CHECKING, NamedTuple, Protocol, runtime_checkable
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from coframe.wire.graph import Graph
     from coframe.wire.names import Endpoint
     from coframe.wire.qos import QoS
+    from coframe.wire.request_header import RequestHeader
 
 
 class QueueLimits(NamedTuple):
@@ -86,6 +87,14 @@ class BackendReader(BackendEndpoint, Protocol):
     @property
     def pending(self) -> bool:
         """Whether messages may be queued."""
+
+
+@runtime_checkable
+class RequestSource(Protocol):
+    """A subscription to requests that its middleware stores until they are answered."""
+
+    def reject(self, header: RequestHeader) -> None:
+        """Forget a request that will not be answered."""
 
 
 class BackendTap(BackendEndpoint, Protocol):

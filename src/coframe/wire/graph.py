@@ -68,6 +68,7 @@ class Graph:
 
     Attributes:
         qos_must_match: Whether endpoints with incompatible quality of service do not communicate.
+        replies_need_discovery: Whether a reply reaches only clients that were discovered before.
     """
 
     qos_must_match = True

@@ -109,13 +109,13 @@ def _answer(service: _Service) -> None:
     # Importing coframe.wire must be cheap.
     from coframe.messages.codec import deserialize_whole, serialize  # noqa: PLC0415
 
-    for header, cdr, writer in service.requests.take_messages() if service.requests.pending() else ():
+    for message in service.requests.take_messages() if service.requests.pending() else ():
         try:
-            request = deserialize_whole(cdr, service.srv_type.Request)
+            request = deserialize_whole(message.cdr, service.srv_type.Request)
         except DecodeError as error:
-            service.requests.ignore(writer, f"is invalid ({error})")
+            service.requests.ignore_request(message, f"is invalid ({error})")
             continue
-        service.replies.write(request_header.join(header, serialize(_response(service.srv_type, request))))
+        service.replies.write(request_header.join(message.header, serialize(_response(service.srv_type, request))))
 
 
 def _response(srv_type: Any, request: Any) -> Any:

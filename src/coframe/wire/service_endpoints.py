@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from coframe.errors import WireError
 from coframe.wire import names, request_header
+from coframe.wire.backend import RequestSource
 from coframe.wire.endpoints import RawPublisher, Sample, Subscription
 from coframe.wire.foreign_services import foreign_services_text
 
@@ -178,6 +179,12 @@ class ServiceSubscription(Subscription):
         """
         self.ignored += 1
         self._last_ignored = writer, reason
+
+    def ignore_request(self, request: ServiceMessage, reason: str) -> None:
+        """Count a request that was ignored and will not be answered; see `ignore`."""
+        self.ignore(request.writer, reason)
+        if isinstance(self._endpoint, RequestSource):
+            self._endpoint.reject(request.header)
 
     @property
     def has_warning(self) -> bool:

@@ -57,7 +57,9 @@ class ParameterService:
         try:
             response.descriptors = self._node.describe_parameters(list(request.names))
         except ParameterNotDeclaredException as error:
-            self._node.get_logger().warning(f"Failed to describe parameters: {error}", throttle_duration_sec=_WARNING_PERIOD_S)
+            self._node.get_logger().warning(
+                f"Failed to describe parameters: {error}", throttle_duration_sec=_WARNING_PERIOD_S
+            )
             response.descriptors = []  # Upstream rclpy also returns an empty list.
         return response
 
@@ -68,7 +70,9 @@ class ParameterService:
             ]
         except (ParameterNotDeclaredException, ParameterUninitializedException) as error:
             # Upstream returns no values as well, although it knows those of the other names.
-            self._node.get_logger().warning(f"Failed to get parameters: {error}", throttle_duration_sec=_WARNING_PERIOD_S)
+            self._node.get_logger().warning(
+                f"Failed to get parameters: {error}", throttle_duration_sec=_WARNING_PERIOD_S
+            )
             response.values = []
         return response
 
@@ -76,7 +80,9 @@ class ParameterService:
         try:
             response.types = [kind.value for kind in self._node.get_parameter_types(list(request.names))]
         except ParameterNotDeclaredException as error:
-            self._node.get_logger().warning(f"Failed to get parameter types: {error}", throttle_duration_sec=_WARNING_PERIOD_S)
+            self._node.get_logger().warning(
+                f"Failed to get parameter types: {error}", throttle_duration_sec=_WARNING_PERIOD_S
+            )
             response.types = []
         return response
 

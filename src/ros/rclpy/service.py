@@ -116,13 +116,13 @@ class Service:
         requests = self.__requests
         if requests is None:
             return None
-        for header, cdr, writer in requests.take_messages(limit=1):
+        for message in requests.take_messages(limit=1):
             try:
-                request = codec.deserialize_whole(cdr, self.srv_type.Request)
+                request = codec.deserialize_whole(message.cdr, self.srv_type.Request)
             except DecodeError as error:
-                requests.ignore(writer, f"is invalid ({error})")
+                requests.ignore_request(message, f"is invalid ({error})")
                 continue
-            return partial(self._Coframe__answer, header, request)
+            return partial(self._Coframe__answer, message.header, request)
         return None
 
     async def _Coframe__answer(self, header: RequestHeader, request: Any) -> None:

@@ -193,6 +193,12 @@ class RequestReader(_Queue):
         else:
             query.drop()
 
+    def reject(self, header: RequestHeader) -> None:
+        """Forget a request that will not be answered; its client does not wait any longer."""
+        request = self._table.take_request(self.key, header)
+        if request is not None:
+            request.query.drop()
+
     def _removed_by(self, message: bytes, sent: int, writer: int) -> _Request | None:
         """Queue a request, and return the one that is removed for it, if any."""
         removed = self.push(message, sent, writer)
