@@ -122,13 +122,13 @@ class RtpsPeer:
         return entity
 
     def write(self, writer: bytes, data: bytes) -> None:
-        """Send bytes, usually 4 of encapsulation and then CDR, to all participants that are known.
+        """Send bytes, usually 4 of encapsulation and then CDR, padded to a multiple of 4, to all known participants.
 
         They are sent again with every announcement, so that participants that are discovered later receive them.
         """
         with self._lock:
             history = self._history.setdefault(writer, [])
-            history.append((len(history) + 1, data))
+            history.append((len(history) + 1, data + bytes(-len(data) % 4)))  # as RTPS requires
             for prefix, (_, address) in self._others.items():
                 heartbeat, *_, last = _messages(_UNKNOWN, writer, history, self._next_count())
                 self._send(address, prefix, heartbeat, last)
