@@ -147,13 +147,17 @@ class Peer:
             self.kept.append(self.session.declare_subscriber(key, on_sample))
         self.token("MS", self.end(name, ros_type, qos))
 
-    def serve(self, name: str, ros_type: str, reply: str) -> None:
+    def serve(self, name: str, ros_type: str, reply: str, *wrong_attachments: str) -> None:
+        """Answer each request, after replies with other attachments: none if it is empty."""
+
         def on_query(query: zenoh.Query) -> None:
             with query:
                 attached = query.attachment.to_bytes()
                 self.received.append([str(query.key_expr), query.payload.to_bytes().hex(), attached.hex()])
                 number, _, _ = struct.unpack_from("<qqB", attached)
                 answer = struct.pack("<qqB", number, time.time_ns(), 16) + attached[17:]
+                for wrong in wrong_attachments:
+                    query.reply(query.key_expr, bytes.fromhex(reply), attachment=bytes.fromhex(wrong) or None)
                 query.reply(query.key_expr, bytes.fromhex(reply), attachment=answer)
 
         self.kept.append(self.session.declare_queryable(self.key(name, ros_type), on_query, complete=True))

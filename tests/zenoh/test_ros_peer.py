@@ -162,6 +162,24 @@ def test_our_client_calls_its_service(participant, node, ros_peer, eventually):
     assert numbers(seen[2]) == (1, requests.guid.hex())
 
 
+def test_replies_that_are_not_understood_are_counted(participant, node, ros_peer, eventually, caplog):
+    response = codec.serialize(SET_BOOL.Response(success=True, message="done"))
+    wrong = [b"", bytes(7), struct.pack("<qqB16s", 1, 0, 16, b"another client"), struct.pack("<qqB16s", 2, 0, 15, b"")]
+    ros_peer("serve", "/switch", "std_srvs/srv/SetBool", response.hex(), *[each.hex() for each in wrong])
+    replies = participant.subscription(node, "/switch", SET_BOOL.Response, SERVICE_QOS, kind="reply")
+    requests = participant.publisher(node, "/switch", SET_BOOL.Request, SERVICE_QOS, kind="request")
+    eventually(lambda: requests.matched == 1 and replies.matched == 1)
+    for number in (1, 2):
+        header = RequestHeader(7, number)
+        requests.write(request_header.join(header, codec.serialize(SET_BOOL.Request(data=True))))
+        taken = []
+        eventually(lambda taken=taken: taken.extend(replies.take()) or taken)
+        assert [request_header.split(reply.data) for reply in taken] == [(header, response)]
+    eventually(lambda: requests._endpoint.ignored == 8)
+    [warning] = [record.message for record in caplog.records if "/switch" in record.message]
+    assert warning.startswith("A reply of /switch is ignored: it is not a reply of rmw_zenoh_cpp to this client. ")
+
+
 def test_its_client_calls_our_service(participant, node, ros_peer, eventually):
     replies = participant.publisher(node, "/switch", SET_BOOL.Response, SERVICE_QOS, kind="reply")
     requests = participant.subscription(node, "/switch", SET_BOOL.Request, SERVICE_QOS, kind="request")

@@ -6,26 +6,27 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from coframe.cli.output import fail
-from coframe.cli.ros2.graph import PATIENCE
+from coframe.cli.ros2.graph import PATIENCE, fail_once
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from rclpy.node import Node
 
-__all__ = ["call_service", "refusal", "wait_for_server"]
+__all__ = ["call_service", "fail_if_refused", "wait_for_server"]
 
 _RESPONSE = 5.0  # seconds
 
 
-def refusal(client: Any) -> str:
-    """Return why no request can be sent although there is a server: its middleware; "" if there is no reason.
+def fail_if_refused(client: Any) -> None:
+    """End the command if the only servers are ones whose middleware would misread requests.
 
     Args:
         client: A service client or an action client.
     """
     reason: str = getattr(client, "_Coframe__refusal", "")  # The rclpy of a sourced ROS does not know it.
-    return reason
+    if reason:
+        fail_once(reason)
 
 
 def wait_for_server(client: Any, wait: Callable[[float], bool]) -> None:
@@ -36,8 +37,7 @@ def wait_for_server(client: Any, wait: Callable[[float], bool]) -> None:
         wait: Its method that waits for at most some seconds.
     """
     while not wait(PATIENCE):
-        if reason := refusal(client):
-            fail(reason)
+        fail_if_refused(client)
 
 
 def call_service(node: Node, service_class: Any, name: str, request: Any) -> Any:
@@ -54,8 +54,7 @@ def call_service(node: Node, service_class: Any, name: str, request: Any) -> Any
     client = node.create_client(service_class, name)
     try:
         if not client.wait_for_service(PATIENCE):
-            if reason := refusal(client):
-                fail(reason)
+            fail_if_refused(client)
             fail(f"There is no service {name}.", "coframe service list shows all services.")
         future = client.call_async(request)
         rclpy.spin_until_future_complete(node, future, timeout_sec=_RESPONSE)

@@ -34,6 +34,7 @@ __all__ = [
     "SimTimeOption",
     "SpinTimeOption",
     "TopicArgument",
+    "fail_once",
     "fail_without_node",
     "graph_node",
     "is_hidden",
@@ -50,6 +51,8 @@ AT_ONCE = NonNegativeDuration("0s")
 # Fast DDS may need seconds to announce an endpoint, so a name that was asked for is awaited longer than a list.
 PATIENCE = 3.0  # seconds
 _PERIOD = 0.02  # seconds between two looks at the graph
+
+_warned: set[str] = set()  # the warnings that were printed
 
 SpinTimeOption = Annotated[
     NonNegativeDuration,
@@ -119,6 +122,8 @@ def graph_node(
                 start_parameter_services=False,
                 parameter_overrides=[Parameter("use_sim_time", value=use_sim_time)],
             )
+            if (participant := getattr(node, "_Coframe__participant", None)) is not None:  # not in a sourced ROS
+                participant.on_warning(_warn)
             time.sleep(spin_time.seconds)
             yield node
         except (RuntimeError, ValueError) as error:
@@ -131,6 +136,18 @@ def graph_node(
             if node is not None:
                 node.destroy_node()
             rclpy.try_shutdown()
+
+
+def _warn(text: str) -> None:
+    _warned.add(text)
+    warn(text)
+
+
+def fail_once(text: str) -> NoReturn:
+    """End the command with a text of the middleware, which is printed unless it was printed as a warning before."""
+    if text in _warned:
+        raise typer.Exit(1)
+    fail(text)
 
 
 def wait_until(condition: Callable[[], Any]) -> Any:

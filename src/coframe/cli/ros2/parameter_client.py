@@ -6,7 +6,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from coframe.cli.output import fail
-from coframe.cli.ros2.calls import call_service, refusal
+from coframe.cli.ros2.calls import call_service, fail_if_refused
 from coframe.cli.ros2.graph import PATIENCE, fail_without_node, node_names, wait_until
 
 if TYPE_CHECKING:
@@ -32,16 +32,13 @@ class ParameterClient:
     def __init__(self, node: Node, target: str, *, required: bool = True) -> None:
         self._node = node
         self._target = target
-        self._refusal = ""  # why the services cannot be called
         if required and not wait_until(lambda: target in node_names(node, include_hidden=True)):
             fail_without_node(node, f"Node not found: {target}", target)
-        self.is_available = self._has_services(PATIENCE if required else _SHORT_PATIENCE)
+        self.is_available = self._has_services(required=required)
         if required and not self.is_available:
-            if self._refusal:
-                fail(self._refusal)
             fail(f"Node {target} has no parameter services.", "It was started without them, or does not respond.")
 
-    def _has_services(self, patience: float) -> bool:
+    def _has_services(self, *, required: bool) -> bool:
         from rcl_interfaces.srv import ListParameters  # noqa: PLC0415 - slow import
         from rclpy.exceptions import InvalidServiceNameException  # noqa: PLC0415
 
@@ -49,8 +46,9 @@ class ParameterClient:
             probe = self._node.create_client(ListParameters, f"{self._target}/list_parameters")
         except InvalidServiceNameException:  # Other programs can announce nodes with any name.
             return False
-        found: bool = probe.wait_for_service(patience)
-        self._refusal = refusal(probe)
+        found: bool = probe.wait_for_service(PATIENCE if required else _SHORT_PATIENCE)
+        if required and not found:
+            fail_if_refused(probe)
         self._node.destroy_client(probe)
         return found
 

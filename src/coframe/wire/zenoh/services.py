@@ -21,7 +21,7 @@ from coframe.wire.request_header import RequestHeader
 from coframe.wire.zenoh import config, keys, library
 from coframe.wire.zenoh.endpoint import ZenohEndpoint
 from coframe.wire.zenoh.receiver import KEEP_ALL, queue_length, ring_length
-from coframe.wire.zenoh.writer import ENCAPSULATION_SIZE, TOO_SHORT
+from coframe.wire.zenoh.writer import TOO_SHORT
 
 if TYPE_CHECKING:
     from coframe.wire.qos import QoS
@@ -259,11 +259,16 @@ class _Sender(ZenohEndpoint):
 
 
 class RequestWriter(_Sender):
-    """The publisher of requests of a client."""
+    """The publisher of requests of a client.
+
+    Attributes:
+        ignored: The number of replies that were ignored because they are not replies to the requests.
+    """
 
     def __init__(self, place: Place, table: ServiceTable, on_change: _core.Event | None) -> None:
         super().__init__(place, table, on_change)
         module = library.load()
+        self.ignored = 0
         self._callback = module.handlers.Callback
         options: dict[str, Any] = {"timeout": _FOREVER} if _UNLIMITED in f"/{self.key}/" else {}
         self._querier: Any = place.session.declare_querier(
@@ -277,21 +282,34 @@ class RequestWriter(_Sender):
         self._querier.undeclare()
 
     def _send(self, header: RequestHeader, cdr: bytes) -> None:
+        answered = header.sequence, self.guid
+
         def receive(reply: Any) -> None:
             # This runs on Zenoh's network thread and only queues the reply, so that no thread per request is needed.
-            if reply.ok is not None and (data := reply.ok.payload.to_bytes())[ENCAPSULATION_SIZE - 1 :]:
-                attached = (
-                    None if reply.ok.attachment is None else keys.decode_attachment(reply.ok.attachment.to_bytes())
-                )
-                if attached is not None and attached.sequence == header.sequence:
-                    handle = keys.handle_of(attached.gid)
-                    self._table.deliver(self.key, request_header.join(header, data), attached.sent, handle)
+            if reply.ok is None:
+                return
+            data, attachment = reply.ok.payload.to_bytes(), reply.ok.attachment
+            attached = None if attachment is None else keys.decode_attachment(attachment.to_bytes())
+            if attached is None or (attached.sequence, attached.gid) != answered or byte_order(data) is None:
+                self._ignore()
+                return
+            handle = keys.handle_of(attached.gid)
+            self._table.deliver(self.key, request_header.join(header, data), attached.sent, handle)
 
         self._querier.get(
             handler=self._callback(receive, indirect=False),
             payload=cdr,
             attachment=keys.attachment(header.sequence, self.guid),
         )
+
+    def _ignore(self) -> None:
+        self.ignored += 1
+        if self.ignored == 1:
+            _logger.warning(
+                "A reply of %s is ignored: it is not a reply of rmw_zenoh_cpp to this client. Further ones are only "
+                "counted.",
+                self.endpoint.name,
+            )
 
 
 class ReplyWriter(_Sender):
