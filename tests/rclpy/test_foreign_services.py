@@ -70,6 +70,22 @@ def test_the_error_names_the_node(node, start_peer, wait_until):
         client.call(SetBool.Request())
 
 
+def test_a_node_is_reported_once_also_if_its_name_comes_later(node, start_peer, wait_until):
+    warnings = []
+    participant = node._Coframe__participant
+    participant.on_warning(warnings.append)
+    peer = start_peer(FAST_DDS)
+    for service in ("light", "motor"):
+        peer.serve(f"/{service}", TYPE)
+        node.create_client(SetBool, service)
+    wait_until(lambda: warnings)
+    peer.name("lamp")
+    wait_until(lambda: ("lamp", "/") in node.get_node_names_and_namespaces())
+    participant._mismatches.check(participant._endpoints())
+    assert len(warnings) == 1
+    assert warnings[0].startswith("An unnamed node uses Fast DDS, so its service /")
+
+
 def test_a_call_before_the_server_is_discovered_fails_too(node, start_peer):
     client = node.create_client(SetBool, "light")
     executor = rclpy.executors.SingleThreadedExecutor(context=node.context)

@@ -16,6 +16,8 @@ if TYPE_CHECKING:
     from coframe.wire.endpoints import LocalEndpoint
     from coframe.wire.graph import DiscoveredEndpoint, Graph
 
+_PREFIX_SIZE = 12  # bytes of a GUID that identify the participant
+
 # For each QoS policy: what the publisher offers, what the subscription requests, and how to correct it.
 _QOS = {
     "reliability": (
@@ -139,8 +141,9 @@ class MismatchMonitor:
             about: str | bytes = "" if reason == "services" else names.any_ros_name(own.topic)
             if own.on_mismatch is not None:
                 about = own.guid
-            key = (about, node or peer.guid, reason)
-            if key in self._warned or len(self._warned) > MAX_WARNINGS:
+            unnamed: bytes = peer.guid[:_PREFIX_SIZE] if reason == "services" else peer.guid
+            key = (about, node or unnamed, reason)
+            if key in self._warned or (about, unnamed, reason) in self._warned or len(self._warned) > MAX_WARNINGS:
                 continue
             suspect = (own.guid, peer.guid, reason)
             since = suspects.get(suspect, now)

@@ -242,8 +242,10 @@ class Client:
             self.context._Coframe__wakeup.set()
 
     def __fail_pending(self) -> None:
-        reason, self.__unreachable = self.__unreachable, ""
         with self.__lock:
+            reason, self.__unreachable = self.__unreachable, ""
+            if not reason:  # Another thread has done it.
+                return
             pending, self.__pending = self.__pending, {}
         for future, _ in pending.values():
             future._set_executor(self.__executor())
