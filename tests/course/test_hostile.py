@@ -54,6 +54,13 @@ SLOW = {
         "wrote more than 100 MB|No space left",
     ),
     "memory": (NODE + "data = []\nwhile True: data.append(bytearray(50_000_000))", "memory|MemoryError|signal"),
+    "memory that it shares with itself": (
+        (
+            "import mmap\ndata = []\nwhile True:\n    data.append(mmap.mmap(-1, 50_000_000))\n"
+            "    for i in range(0, 50_000_000, 4096): data[-1][i] = 1\n    data[-1].madvise(mmap.MADV_DONTNEED)\n"
+        ),
+        "more than 1024 MB of memory",
+    ),
     "clock": (
         NODE + "from rosgraph_msgs.msg import Clock\np = node.create_publisher(Clock, '/clock', 10)\nrclpy.spin(node)",
         "publishes on /clock",

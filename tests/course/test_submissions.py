@@ -213,6 +213,34 @@ def test_the_grader_imports_nothing_from_the_current_folder(variables, shadowed)
     assert not proof.exists(), proof.read_text()
 
 
+def test_tools_and_libraries_are_not_searched_in_the_folder_of_a_student(shadowed):
+    """An empty element of these variables means the current folder."""
+    folder, proof = shadowed
+    (folder / "unshare").write_text(f"#!/bin/sh\necho ran >> {proof}\n")
+    (folder / "unshare").chmod(0o755)
+    start = "from coframe.course.isolation import isolated_environment, isolation_problem; isolation_problem();"
+    start += "import json, pathlib; print(json.dumps(isolated_environment(0, pathlib.Path('/tmp'))))"
+    variables = {"PATH": f":.:{os.environ['PATH']}:", "LD_LIBRARY_PATH": "lib:/opt/x:", "AMENT_PREFIX_PATH": ":"}
+    command = [sys.executable, "-I", "-c", f"import os; os.environ.update({variables!r}); {start}"]
+    found = json.loads(subprocess.check_output(command, cwd=folder, timeout=60))
+    assert (found["LD_LIBRARY_PATH"], found["AMENT_PREFIX_PATH"]) == ("/opt/x", "")
+    assert found["PATH"] == os.environ["PATH"]
+    assert not proof.exists()
+
+
+@pytest.mark.parametrize("option", ["--gradescope", "--classroom", "--record"])
+def test_a_report_in_the_folder_of_a_student_does_not_replace_another_file(option, folder, tmp_path, monkeypatch):
+    kept = tmp_path / "kept"
+    kept.write_text("KEPT")
+    (folder / "result").symlink_to(kept)
+    (folder / "out").symlink_to(tmp_path)
+    monkeypatch.chdir(folder)
+    for path in ("result", "out/kept", folder / "result"):
+        result = CliRunner().invoke(app, ["lab", "check", ".", "--only", "urdf", option, str(path)])
+        assert (result.exit_code, kept.read_text()) == (1, "KEPT")
+        assert "outside the student's folder" in result.output
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("words", [["break", "4"], ["run", "--no-browser"]], ids=["break", "run"])
 @pytest.mark.usefixtures("domain_id")

@@ -32,6 +32,7 @@ from coframe.course.handbook import chapters, contents, terminal_text, write_pag
 from coframe.course.isolation import isolation_problem
 from coframe.course.rubric import CRITERIA
 from coframe.course.running import COMPLETE_TREE, SIMULATION, STEPS, programs_of, running
+from coframe.course.submitted import check_outputs
 from coframe.errors import CourseError
 from coframe.escaping import csv_cell
 
@@ -155,6 +156,7 @@ def check(
             _check_class(folder or Path("lab"), output, jobs, variant, chosen, as_json=as_json)
             return
         student = _folder(folder)
+        check_outputs((record, gradescope, classroom), student)
         try:
             with item_progress("checking", len(chosen)) as progress:
                 report = check_folder(student, variant=variant, only=chosen, record=record, progress=progress)

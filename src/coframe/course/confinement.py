@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
     from typing_extensions import Self
 
-__all__ = ["MAX_CPU", "MAX_MEMORY", "MAX_OUTPUT", "PASSED", "Confinement", "protection_problem"]
+__all__ = ["MAX_CPU", "MAX_MEMORY", "MAX_OUTPUT", "Confinement", "passed_variables", "protection_problem"]
 
 MAX_MEMORY = 1 << 30  # bytes of all processes of a program
 MAX_OUTPUT = 10 << 20  # bytes of the output, and of each file that a program writes
@@ -50,7 +50,20 @@ PASSED: Final = (
     "USERPROFILE",
     "VIRTUAL_ENV",
 )
+FOLDER_LISTS: Final = frozenset({"AMENT_PREFIX_PATH", "DYLD_LIBRARY_PATH", "LD_LIBRARY_PATH", "PATH"})
 _START: Final = "import sys; sys.path.append({!r}); from sandbox.start import main; main()"
+
+
+def passed_variables() -> dict[str, str]:
+    """Return the variables of this process that a grade may see.
+
+    In lists of folders, an empty or relative element would mean a folder of the student, from which libraries and
+    programs would be loaded. They are removed.
+    """
+    environment = {name: os.environ[name] for name in PASSED if name in os.environ}
+    for name in environment.keys() & FOLDER_LISTS:
+        environment[name] = os.pathsep.join(filter(os.path.isabs, environment[name].split(os.pathsep)))
+    return environment
 
 
 class Confinement:
@@ -58,6 +71,7 @@ class Confinement:
 
     Attributes:
         has_namespaces: Whether each program has a file system and a list of processes of its own.
+        working_folder: Where the processes that start the programs work: an empty folder, as they are not confined.
     """
 
     def __init__(self, folder: Path, scratch: Path, private: Iterable[str], *, has_namespaces: bool) -> None:
@@ -72,8 +86,9 @@ class Confinement:
         self.has_namespaces = has_namespaces
         self._folder = folder.resolve()
         self._decoys = Decoys(scratch / "decoys") if has_namespaces else None
-        self._root = scratch / "root"
-        self._root.mkdir()
+        root = scratch / "root"
+        root.mkdir()
+        self.working_folder = root if os.name == "posix" else self._folder  # where nothing is started in between
         self._solutions = solution_folders()
         self._entries, self._links = view_of(folder, private, self._solutions)
         if self._decoys is None:
@@ -97,7 +112,7 @@ class Confinement:
             return [sys.executable, *words]
         plan: dict[str, Any] = {
             "namespaces": self.has_namespaces,
-            "root": str(self._root),
+            "root": str(self.working_folder),
             "folder": str(self._folder),
             "home": os.path.realpath(home),
             "entries": self._entries,
@@ -111,7 +126,7 @@ class Confinement:
 
     def environment(self, home: Path) -> dict[str, str]:
         """Return the variables of a program with this home folder."""
-        environment = {name: os.environ[name] for name in PASSED if name in os.environ}
+        environment = passed_variables()
         environment |= {"HOME": str(home), "TMPDIR": str(home), "ROS_LOG_DIR": str(home)}
         environment |= {"PYTHONUNBUFFERED": "1", "PYTHONDONTWRITEBYTECODE": "1", GRADED: "1"}
         return python_environment(environment)

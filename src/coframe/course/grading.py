@@ -19,6 +19,7 @@ from coframe.course.isolation import bring_loopback_up, is_isolated, limit_disk
 from coframe.course.processes import adopt_orphans
 from coframe.course.program import HOMES
 from coframe.course.rubric import RUBRIC
+from coframe.course.sandbox.privileges import forbid_tracing
 from coframe.errors import CourseError
 from coframe.python_children import python_command, python_environment
 
@@ -38,6 +39,8 @@ def main() -> None:
     """
     job = json.loads(sys.argv[1])
     folder, scratch = Path(job["folder"]), Path(job["scratch"])
+    with contextlib.suppress(OSError):
+        forbid_tracing()
     bring_loopback_up()
     homes = scratch / HOMES
     homes.mkdir()

@@ -14,7 +14,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
-from coframe.course.confinement import PASSED, Confinement, protection_problem
+from coframe.course.confinement import Confinement, passed_variables, protection_problem
 from coframe.course.sandbox.kernel import c_function
 from coframe.python_children import python_environment
 from coframe.temporary_folders import temporary_folder
@@ -55,7 +55,7 @@ def isolated_environment(number: int, home: Path) -> dict[str, str]:
         number: Number of the grade among those that run at the same time.
         home: The home folder of the grade.
     """
-    environment = {name: os.environ[name] for name in PASSED if name in os.environ}
+    environment = passed_variables()
     # The packages of `pip install --user` are usually below the home folder, which is another one.
     environment["PYTHONUSERBASE"] = site.getuserbase()
     environment |= {"HOME": str(home), "TMPDIR": str(home), "ROS_LOG_DIR": str(home)}
@@ -98,7 +98,7 @@ def limit_disk(folder: Path) -> None:
 @functools.cache
 def _unshare() -> tuple[str, ...]:
     """Return the words in front of a command that give it namespaces of its own; none if that is not possible."""
-    program = shutil.which("unshare")
+    program = shutil.which("unshare", path=passed_variables().get("PATH", ""))
     if program is None or not sys.platform.startswith("linux"):
         return ()
     rights: tuple[tuple[str, ...], ...] = ((), ("--user", "--map-root-user"))
@@ -114,5 +114,7 @@ def _is_possible(words: Sequence[str]) -> bool:
         with Confinement(folder, Path(name), (), has_namespaces=True) as confinement:
             command = [*words, *confinement.command(home, "-I", "-S", "-c", "")]
             environment = confinement.environment(home)
-            tried = subprocess.run(command, env=environment, stdin=subprocess.DEVNULL, capture_output=True, check=False)  # noqa: S603
+            tried = subprocess.run(  # noqa: S603 - a tool of the system, and this Python
+                command, cwd=folder, env=environment, stdin=subprocess.DEVNULL, capture_output=True, check=False
+            )
     return tried.returncode == 0

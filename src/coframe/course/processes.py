@@ -14,11 +14,22 @@ from typing import TYPE_CHECKING, NamedTuple
 from coframe.time import SECOND
 
 if TYPE_CHECKING:
-    from collections.abc import Container
+    from collections.abc import Container, Iterable
 
-__all__ = ["Process", "adopt_orphans", "children", "descendants", "kill", "kill_group", "own_memory", "waiting_time"]
+__all__ = [
+    "Process",
+    "adopt_orphans",
+    "children",
+    "descendants",
+    "kill",
+    "kill_group",
+    "own_memory",
+    "shared_memory",
+    "waiting_time",
+]
 
 _PROC = Path("/proc")
+_SHARED_WITHOUT_FILE = ("/dev/zero", "/memfd:", "/SYSV", "/dev/shm")  # noqa: S108 - names in lists of mappings
 _SET_CHILD_SUBREAPER = 36  # in linux/prctl.h
 
 
@@ -79,6 +90,23 @@ def waiting_time(pid: int) -> float:
         for file in (_PROC / str(pid) / "task").glob("*/schedstat"):
             longest = max(longest, int(file.read_text().split()[1]))
     return longest / SECOND
+
+
+def shared_memory(running: Iterable[Process]) -> int:
+    """Return the sizes of the memory that processes share without a file, each once, in bytes.
+
+    It is not a part of their resident memory while it is not used, but exists as long as one of them can use it.
+    """
+    sizes: dict[str, int] = {}
+    for each in running:
+        with contextlib.suppress(OSError, ValueError):  # The process has ended.
+            for line in (_PROC / str(each.pid) / "maps").read_text(errors="replace").splitlines():
+                fields = line.split(None, 5)
+                if fields[1].endswith("s") and fields[5:] and fields[5].startswith(_SHARED_WITHOUT_FILE):
+                    first, last = (int(number, 16) for number in fields[0].split("-"))
+                    size = int(fields[2], 16) + last - first  # the mapping may begin in the middle
+                    sizes[fields[4]] = max(size, sizes.get(fields[4], 0))
+    return sum(sizes.values())
 
 
 def own_memory() -> int:

@@ -86,7 +86,7 @@ class Program:
                 stdin=given if request else subprocess.DEVNULL,
                 stdout=log,
                 stderr=log,
-                cwd=self.file.parent,
+                cwd=self._confinement.working_folder,
                 env=self._confinement.environment(self._home),
                 start_new_session=True,  # Ctrl-C reaches the grader only, and all its processes are one group.
             )
@@ -224,7 +224,7 @@ class Program:
         running = self._running()
         if len(running) > MAX_PROCESSES:
             return f"The program started more than {MAX_PROCESSES} processes and was ended."
-        if sum(each.memory for each in running) > MAX_MEMORY:
+        if sum(each.memory for each in running) + processes.shared_memory(running) > MAX_MEMORY:
             return f"The program used more than {MAX_MEMORY >> 20} MB of memory and was ended."
         if processes.own_memory() > MAX_MEMORY:
             return "The program published more data than the check can store and was ended."

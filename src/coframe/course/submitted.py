@@ -5,12 +5,15 @@ from __future__ import annotations
 
 import os
 from pathlib import Path
-from typing import Final
+from typing import TYPE_CHECKING, Final
 
 from coframe.errors import CourseError
 from coframe.regular_files import check_regular, read_regular
 
-__all__ = ["MAX_BYTES", "check_submitted", "is_submitted", "read_submitted"]
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+__all__ = ["MAX_BYTES", "check_outputs", "check_submitted", "is_submitted", "read_submitted"]
 
 MAX_BYTES: Final = 1 << 20  # many times the largest file of the lab
 _MAX_LISTED = 10_000  # files of a folder that are examined for a second name of a file
@@ -44,6 +47,20 @@ def check_submitted(file: Path) -> Path:
             hint="Replace it with a copy.",
         )
     return real
+
+
+def check_outputs(paths: Iterable[Path | None], folder: Path) -> None:
+    """Check that what is written to the folder of a student, such as a report, is not a link out of it.
+
+    Raises:
+        CourseError: It is.
+    """
+    real = folder.resolve()
+    for path in filter(None, paths):
+        written = Path(os.path.normpath(path.absolute()))
+        is_inside = written.is_relative_to(real) or written.is_relative_to(os.path.normpath(folder.absolute()))
+        if is_inside and not Path(os.path.realpath(path)).is_relative_to(real):
+            raise CourseError(f"{path} is a link to a place outside the student's folder.", hint="Remove the link.")
 
 
 def read_submitted(file: Path) -> str:

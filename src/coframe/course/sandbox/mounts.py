@@ -1,10 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A root folder of its own for a program, in which nothing exists but what it may see (Linux 5.12 or newer)."""
+"""A root folder of its own for a program, in which nothing exists but what it may see."""
 
 from __future__ import annotations
 
 import os
-import struct
 from contextlib import suppress
 from typing import TYPE_CHECKING
 
@@ -17,10 +16,11 @@ __all__ = ["DEVICES", "enter_own_root"]
 
 DEVICES = ("/dev/full", "/dev/null", "/dev/random", "/dev/urandom", "/dev/zero")
 _DEVICE_LINKS = {"fd": "", "stdin": "/0", "stdout": "/1", "stderr": "/2"}
-# sys/mount.h and linux/mount.h
-_READ_ONLY, _NO_SET_ID, _NO_DEVICES, _NO_PROGRAMS, _BIND, _RECURSIVE, _PRIVATE = 1, 2, 4, 8, 4096, 16384, 1 << 18
-_SET_ATTRIBUTES = 442  # mount_setattr, on all processors
-_AT_CURRENT, _AT_RECURSIVE = -100, 0x8000
+# sys/mount.h
+_READ_ONLY, _NO_SET_ID, _NO_DEVICES, _NO_PROGRAMS = 1, 2, 4, 8
+_REMOUNT, _BIND, _RECURSIVE, _PRIVATE = 32, 4096, 16384, 1 << 18
+_OPTIONS = {"ro": 1, "nosuid": 2, "nodev": 4, "noexec": 8, "noatime": 1024, "nodiratime": 2048, "relatime": 1 << 21}
+_MOUNTED = "/proc/self/mountinfo"
 _PIVOT_ROOT = {"x86_64": 155, "aarch64": 41}
 _DETACH = 2
 _SMALL = b"size=1m,mode=755"
@@ -65,9 +65,9 @@ def enter_own_root(
         os.symlink(f"/proc/self/fd{descriptor}", f"{root}/dev/{name}")  # noqa: PTH211
     for folder in (home, "/proc"):
         os.makedirs(root + folder, exist_ok=True)  # noqa: PTH103
-    _set_attributes(root, _READ_ONLY | _NO_SET_ID)
+    _restrict(root, _READ_ONLY | _NO_SET_ID)
     _bind(home, root + home)
-    _set_attributes(root + home, _NO_SET_ID | _NO_DEVICES)
+    _restrict(root + home, _NO_SET_ID | _NO_DEVICES)
     _mount(b"proc", root + "/proc", b"proc", _READ_ONLY | _NO_SET_ID | _NO_DEVICES | _NO_PROGRAMS)
     os.chdir(root)
     system_call(_PIVOT_ROOT[os.uname().machine], b".", b".")
@@ -89,6 +89,13 @@ def _mount(source: bytes | None, target: str, kind: bytes | None, flags: int, op
     c_function("mount", source, os.fsencode(target), kind, flags, options)
 
 
-def _set_attributes(target: str, attributes: int) -> None:
-    content = struct.pack("QQQQ", attributes, 0, 0, 0)
-    system_call(_SET_ATTRIBUTES, _AT_CURRENT, os.fsencode(target), _AT_RECURSIVE, content, len(content))
+def _restrict(folder: str, flags: int) -> None:
+    """Add flags to all that is mounted at a folder or below it."""
+    with open(_MOUNTED, "rb") as mounted:  # noqa: PTH123 - without other imports
+        lines = [line.split() for line in mounted]
+    for fields in lines:
+        path = os.fsdecode(fields[4].decode("unicode_escape").encode("latin-1"))  # spaces are octal numbers
+        if path == folder or path.startswith(folder + "/"):
+            # In a namespace of an ordinary user, the flags of a mount outside cannot be removed.
+            kept = sum(_OPTIONS.get(option, 0) for option in fields[5].decode().split(","))
+            _mount(None, path, None, _REMOUNT | _BIND | kept | flags)

@@ -9,9 +9,10 @@ from contextlib import suppress
 
 from .kernel import c_function, control_process
 
-__all__ = ["drop_privileges", "forbid_new_privileges"]
+__all__ = ["drop_privileges", "forbid_new_privileges", "forbid_tracing"]
 
 # linux/prctl.h, linux/capability.h and linux/securebits.h
+_SET_DUMPABLE = 4
 _CAPBSET_DROP, _SET_SECUREBITS, _CAP_AMBIENT, _SET_NO_NEW_PRIVS = 24, 28, 47, 38
 _CLEAR_ALL = 4
 _CAPABILITY_VERSION_3 = 0x20080522
@@ -42,6 +43,15 @@ def drop_privileges(owner: tuple[int, int] | None = None) -> None:
             os.setresuid(*3 * owner[:1])
     with suppress(OSError):
         c_function("capset", struct.pack("Ii", _CAPABILITY_VERSION_3, 0), bytes(24))
+
+
+def forbid_tracing() -> None:
+    """Keep other processes of the same user from reading and changing this one, and those that it forks.
+
+    Raises:
+        OSError: This system does not have it.
+    """
+    control_process(_SET_DUMPABLE, 0)
 
 
 def forbid_new_privileges() -> None:

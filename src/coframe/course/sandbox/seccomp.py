@@ -38,6 +38,7 @@ REFUSED: Final[dict[str, _Numbers]] = {
     # memory that belongs to no process, so that no limit counts it
     "memfd_create": (319, 279),
     "memfd_secret": (447, 447),
+    "vmsplice": (278, 75),
     "shmget": (29, 194),
     "semget": (64, 190),
     "msgget": (68, 186),

@@ -20,7 +20,7 @@ __all__ = ["main"]
 
 _MAX_OPEN_FILES = 256
 _NEW_MOUNTS, _NEW_COMMUNICATION, _NEW_PROCESSES = 0x20000, 0x08000000, 0x20000000
-_SET_PARENT_DEATH_SIGNAL, _SET_DUMPABLE = 1, 4
+_SET_PARENT_DEATH_SIGNAL = 1
 _LIST, _READ_AND_LIST = 0o1, 0o5  # permissions of users who are not the owner
 _SIGNAL_OFFSET = 128  # added to the number of the signal that has ended a program, as shells do
 
@@ -38,7 +38,7 @@ def main() -> None:
 
 def _run_in_namespaces(plan: dict[str, Any], program: list[str]) -> NoReturn:
     kernel.c_function("unshare", _NEW_MOUNTS | _NEW_COMMUNICATION | _NEW_PROCESSES)
-    kernel.control_process(_SET_DUMPABLE, 0)  # No other process reads or changes this one or its children.
+    privileges.forbid_tracing()
     first = os.fork()
     if first:
         os._exit(_exit_code(first))
