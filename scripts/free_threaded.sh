@@ -61,14 +61,14 @@ with open("pyproject.toml", "rb") as file:
     known = tomllib.load(file)
 extras = known["project"]["optional-dependencies"]
 for key in sys.argv[1:]:
-    names = ("pytest", "hypothesis", "scipy", "ninja", "transforms3d") if key == "dev" else ("",)
-    found = known["build-system"]["requires"] if key == "build" else extras[key]
-    print(*(each for each in found if each.startswith(names)), sep="\n")
+    names = {"dev": ("pytest", "hypothesis", "scipy", "ninja", "transforms3d"), "judges": ("rosbags", "mcap")}
+    found = known["build-system"]["requires"] if key == "build" else extras["dev" if key == "judges" else key]
+    print(*(each for each in found if each.startswith(names.get(key, ("",)))), sep="\n")
 PYTHON
 }
 requirements build dev >"$work/requirements.txt"
 pip install --only-binary :all: -r "$work/requirements.txt" "numpy>=1.24,<3"
-requirements bags viewer robots cli params parquet protobuf pdf plot | sort -u | while read -r requirement; do
+requirements bags viewer robots cli params parquet protobuf pdf plot judges | sort -u | while read -r requirement; do
     # apsw, which rosbags requires, downloads SQLite's source when it is compiled.
     pip install --only-binary apsw,matplotlib,pyarrow "$requirement" >/dev/null 2>&1 ||
         echo "free-threaded: $requirement cannot be installed for this Python; what needs it is skipped"

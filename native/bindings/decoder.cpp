@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // How MessageCodec reads messages.
 #include <bit>
+#include <cstddef>
 #include <cstring>
+#include <span>
 
 #include "bindings/arguments.hpp"
 #include "bindings/message_codec.hpp"
@@ -9,21 +11,26 @@
 
 namespace coframe::bindings {
 
-// The CDR bytes of a message while they are read.
-class CdrInput {
+// The bytes of a message while they are read. Those of ROS 1 have neither a header nor padding, and texts end without
+// NUL.
+class MessageInput {
  public:
-  CdrInput(const std::uint8_t* data, std::size_t size) : data_(data), size_(size) {}
+  static constexpr std::size_t kHeaderSize = 4;
 
-  std::size_t remaining() const { return size_ - position_; }
+  static MessageInput cdr(std::span<const std::uint8_t> data) { return {data, kHeaderSize, ~std::size_t{0}}; }
+  static MessageInput ros1(std::span<const std::uint8_t> data) { return {data, 0, 0}; }
+
+  bool is_ros1() const { return alignment_mask_ == 0; }
+  std::size_t remaining() const { return data_.size() - position_; }
   // Returns the next bytes; nullptr if there are fewer.
   const std::uint8_t* take(std::size_t size) {
     if (size > remaining()) return nullptr;
-    const std::uint8_t* bytes = data_ + position_;
+    const std::uint8_t* bytes = data_.data() + position_;
     position_ += size;
     return bytes;
   }
   // Skips padding. Returns whether there is as much.
-  bool align(std::size_t size) { return take((kHeaderSize - position_) & (size - 1)) != nullptr; }
+  bool align(std::size_t size) { return take((kHeaderSize - position_) & (size - 1) & alignment_mask_) != nullptr; }
   template <class Number>
   bool read(Number& number) {
     const std::uint8_t* bytes = align(sizeof number) ? take(sizeof number) : nullptr;
@@ -32,18 +39,19 @@ class CdrInput {
     return true;
   }
 
-  static constexpr std::size_t kHeaderSize = 4;
-
  private:
-  const std::uint8_t* data_;
-  std::size_t size_;
-  std::size_t position_ = kHeaderSize;
+  MessageInput(std::span<const std::uint8_t> data, std::size_t position, std::size_t alignment_mask)
+      : data_(data), position_(position), alignment_mask_(alignment_mask) {}
+
+  std::span<const std::uint8_t> data_;
+  std::size_t position_;
+  std::size_t alignment_mask_;
 };
 
 namespace {
 
 template <class Number, class Make>
-nb::object get(CdrInput& in, Make&& make) {
+nb::object get(MessageInput& in, Make&& make) {
   Number number;
   if (!in.read(number)) return {};
   nb::object result = nb::steal(make(number));
@@ -51,7 +59,7 @@ nb::object get(CdrInput& in, Make&& make) {
   return result;
 }
 
-nb::object get_number(char code, CdrInput& in) {
+nb::object get_number(char code, MessageInput& in) {
   switch (code) {
     case '?': return get<std::uint8_t>(in, [](std::uint8_t value) { return PyBool_FromLong(value); });
     case 'b': return get<std::int8_t>(in, PyLong_FromLong);
@@ -67,15 +75,18 @@ nb::object get_number(char code, CdrInput& in) {
   }
 }
 
-nb::object get_text(Py_ssize_t bound, CdrInput& in) {
+nb::object get_text(Py_ssize_t bound, MessageInput& in) {
   std::uint32_t size;
   if (!in.read(size)) return {};
   if (size == 0) return nb::str("");  // Some writers use length 0 for an empty string.
   const std::uint8_t* bytes = in.take(size);
-  // The only NUL must be the last byte.
-  if (bytes == nullptr || std::memchr(bytes, 0, size) != bytes + size - 1) return {};
+  if (bytes == nullptr) return {};
+  if (!in.is_ros1()) {
+    --size;
+    if (std::memchr(bytes, 0, size + std::size_t{1}) != bytes + size) return {};  // The only NUL must be the last byte.
+  }
   nb::object text =
-      nb::steal(PyUnicode_DecodeUTF8(reinterpret_cast<const char*>(bytes), static_cast<Py_ssize_t>(size - 1), nullptr));
+      nb::steal(PyUnicode_DecodeUTF8(reinterpret_cast<const char*>(bytes), static_cast<Py_ssize_t>(size), nullptr));
   if (!text.is_valid()) {
     PyErr_Clear();
     return {};
@@ -97,7 +108,7 @@ std::size_t size_of(char code) {
 }
 
 // Returns the numbers as an array.array.
-nb::object get_sequence(char code, std::size_t count, CdrInput& in) {
+nb::object get_sequence(char code, std::size_t count, MessageInput& in) {
   static PyObject* const array = nb::object(nb::module_::import_("array").attr("array")).release().ptr();
   static PyObject* const frombytes = PyUnicode_InternFromString("frombytes");
   nb::object values = nb::steal(PyObject_CallFunction(array, "C", static_cast<int>(code)));
@@ -116,7 +127,7 @@ nb::object get_sequence(char code, std::size_t count, CdrInput& in) {
 }
 
 // Returns the numbers as a numpy.ndarray.
-nb::object get_array(char code, std::size_t count, const nb::object& dtype, CdrInput& in) {
+nb::object get_array(char code, std::size_t count, const nb::object& dtype, MessageInput& in) {
   static PyObject* const empty = nb::object(nb::module_::import_("numpy").attr("empty")).release().ptr();
   const std::size_t size = size_of(code);
   const std::uint8_t* bytes = in.align(size) ? in.take(count * size) : nullptr;
@@ -131,16 +142,26 @@ nb::object get_array(char code, std::size_t count, const nb::object& dtype, CdrI
 }  // namespace
 
 nb::object MessageCodec::decode(std::span<const std::uint8_t> data, std::size_t max_rest) const {
-  const bool is_little_endian = data.size() >= CdrInput::kHeaderSize && data[0] == 0 && data[1] == 1;
+  const bool is_little_endian = data.size() >= MessageInput::kHeaderSize && data[0] == 0 && data[1] == 1;
   if (std::endian::native != std::endian::little || !is_little_endian) return nb::none();
-  CdrInput in(data.data(), data.size());
+  MessageInput in = MessageInput::cdr(data);
   nb::object message = get_message(in);
   return message.is_valid() && in.remaining() <= max_rest ? message : nb::none();
 }
 
-nb::object MessageCodec::get_message(CdrInput& in) const {
-  std::uint8_t nothing;
-  if (fields_.empty() && !in.read(nothing)) return {};
+nb::object MessageCodec::decode_ros1(std::span<const std::uint8_t> data) const {
+  if (std::endian::native != std::endian::little) return nb::none();
+  MessageInput in = MessageInput::ros1(data);
+  nb::object message = get_message(in);
+  return message.is_valid() ? message : nb::none();
+}
+
+nb::object MessageCodec::get_message(MessageInput& in) const {
+  if (in.is_ros1()) {
+    if (in.take(ros1_prefix_) == nullptr) return {};
+  } else if (fields_.empty() && in.take(1) == nullptr) {
+    return {};
+  }
   nb::object message = nb::steal(type_->tp_alloc(type_, 0));
   if (!message.is_valid()) throw nb::python_error();
   for (const Field& field : fields_) {
@@ -151,7 +172,7 @@ nb::object MessageCodec::get_message(CdrInput& in) const {
   return message;
 }
 
-nb::object MessageCodec::get_field(const Field& field, CdrInput& in) {
+nb::object MessageCodec::get_field(const Field& field, MessageInput& in) {
   if (field.container == kSingle) return get_value(field, in);
   auto count = static_cast<std::uint32_t>(field.size);
   if (field.container == kSequence) {
@@ -170,7 +191,7 @@ nb::object MessageCodec::get_field(const Field& field, CdrInput& in) {
   return values;
 }
 
-nb::object MessageCodec::get_value(const Field& field, CdrInput& in) {
+nb::object MessageCodec::get_value(const Field& field, MessageInput& in) {
   if (field.message) return field.message->get_message(in);
   return field.code == 0 ? get_text(field.text_bound, in) : get_number(field.code, in);
 }

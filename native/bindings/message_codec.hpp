@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads and writes the messages of a class as CDR, slot by slot. What it does not handle (an instance of a subclass, an
-// int in a field of floats, a text that contains NUL, damaged bytes) is left to Python code, which also reports errors.
+// Reads the messages of a class from CDR or from the bytes of ROS 1, and writes them as CDR, slot by slot. What it does
+// not handle (an instance of a subclass, an int in a field of floats, a text that contains NUL, damaged bytes) is left
+// to Python code, which also reports errors.
 #pragma once
 
 #include <nanobind/nanobind.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -16,17 +18,20 @@ namespace coframe::bindings {
 
 namespace nb = nanobind;
 
-class CdrInput;
+class MessageInput;
 
 class MessageCodec {
  public:
-  // The fields are those that `define_message_codec` describes.
-  MessageCodec(nb::type_object cls, nb::list fields);
+  // The fields are those that `define_message_codec` describes. `ros1_prefix` is how many bytes a message of ROS 1 has
+  // before them.
+  MessageCodec(nb::type_object cls, nb::list fields, std::size_t ros1_prefix);
 
   // Returns the CDR of a message; None if Python code has to serialise it.
   nb::object encode(nb::handle message) const;
   // Returns the message in CDR bytes; None if Python code has to read it, or if more than `max_rest` bytes follow it.
   nb::object decode(std::span<const std::uint8_t> data, std::size_t max_rest = SIZE_MAX) const;
+  // Returns a message of ROS 1; None if Python code has to read it.
+  nb::object decode_ros1(std::span<const std::uint8_t> data) const;
 
   // Writes a message. Returns false if Python code has to serialise it.
   bool put_message(PyObject* message, Output& out) const;
@@ -52,13 +57,14 @@ class MessageCodec {
   static bool put_field(const Field& field, PyObject* value, Output& out);
   static bool put_value(const Field& field, PyObject* value, Output& out);
   // These return an invalid object if Python code has to read the message.
-  nb::object get_message(CdrInput& in) const;
-  static nb::object get_field(const Field& field, CdrInput& in);
-  static nb::object get_value(const Field& field, CdrInput& in);
+  nb::object get_message(MessageInput& in) const;
+  static nb::object get_field(const Field& field, MessageInput& in);
+  static nb::object get_value(const Field& field, MessageInput& in);
 
   PyTypeObject* type_;
   nb::object cls_;  // keeps the type
   std::vector<Field> fields_;
+  std::size_t ros1_prefix_;
 };
 
 }  // namespace coframe::bindings

@@ -446,14 +446,17 @@ def watch(buffer: Buffer, mailbox: Mailbox, token: int, child: str) -> Watch:
     """Put the token into the mailbox when the edge from `child` to its parent changes; "": any edge."""
 
 class MessageCodec:
-    """Reads and writes the messages of a class as CDR."""
+    """Reads and writes the messages of a class."""
 
-    def __init__(self, cls: type, fields: list[tuple[str, str | MessageCodec, int, int, int, Any]]) -> None:
+    def __init__(
+        self, cls: type, fields: list[tuple[str, str | MessageCodec, int, int, int, Any]], ros1_prefix: int = 0
+    ) -> None:
         """Each field is a tuple (slot, item, container, size, text_bound, dtype).
 
         The item is the struct code of a number, an empty text for texts, or the MessageCodec of a message. The
         container is 0 for a single item, 1 for an array of `size` items, 2 for a sequence of at most `size`. 0 is no
-        limit. `dtype` is that of an array of numbers.
+        limit. `dtype` is that of an array of numbers. `ros1_prefix` is how many bytes a message of ROS 1 has before its
+        fields.
         """
 
     def encode(self, message: Any) -> bytes | None:
@@ -466,6 +469,9 @@ class MessageCodec:
             data: The bytes.
             max_rest: The number of bytes that may follow the message. If there are more, None is returned.
         """
+
+    def decode_ros1(self, data: Any) -> Any:
+        """Return the message in bytes of ROS 1, or None if Python code has to read it."""
 
 class Event:
     """A flag that DDS threads and Python set, and for which one thread waits without the GIL."""

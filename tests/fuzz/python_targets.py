@@ -157,6 +157,39 @@ def definitions() -> Callable[[bytes], object]:
 
 
 @target
+def schemas() -> Callable[[bytes], object]:
+    """Read the definition of a recorded message, and decode a message by it: the text, a NUL, and the bytes."""
+    import coframe
+    from coframe.bags.decoding import decoder
+    from coframe.bags.problems import Problems
+    from coframe.bags.recorded_types import RecordedTypes
+    from coframe.bags.storage import Channel
+    from coframe.messages import Message, serialize
+
+    formats = (("cdr", "ros2msg"), ("ros1", "ros1msg"), ("cdr", "ros2idl"), ("protobuf", "protobuf"), ("cdr", "omgidl"))
+
+    def run(data: bytes) -> None:
+        if not data:
+            return
+        encoding, format_ = formats[data[0] % len(formats)]
+        definition, _, message = data[1:].partition(b"\0\0\0\0")
+        name = "lab.P" if encoding == "protobuf" else "lab/msg/P"
+        channel = Channel("/p", name, encoding, definition, format_)
+        types = RecordedTypes()
+        types.stamp_reader(channel), types.peek_header(channel, message), types.may_have_header(channel)
+        decode = decoder(channel, types, Problems())
+        for content in (message, b"\0\1\0\0" + message, b"\0\1\0\0" + bytes(200)):
+            with contextlib.suppress(coframe.DecodeError):
+                decoded = decode(content)
+                repr(decoded)
+                if isinstance(decoded, Message) and encoding == "cdr":
+                    with contextlib.suppress(ValueError):  # a number in a wide text that is half of a surrogate pair
+                        serialize(decoded)
+
+    return run
+
+
+@target
 def discovery() -> Callable[[bytes], object]:
     """Decode what other participants publish about themselves."""
     from coframe.wire.dds.discovery_info import decode_info, encode_info

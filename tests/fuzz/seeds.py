@@ -243,6 +243,35 @@ def definitions() -> Iterable[bytes]:
     )
 
 
+def schemas() -> Iterable[bytes]:
+    line, end = b"=" * 80 + b"\n", b"\0\0\0\0" + bytes(range(1, 61))
+    text = b"std_msgs/Header header\nlab/Q[<=2] q\nwstring w\nfloat64[3] v\n" + line + b"MSG: lab/Q\nbyte b\nstring s\n"
+    yield b"\0" + text + end
+    yield b"\0" + line + b"SRV: lab/srv/P\nint64 a\n---\nbool[] b\n" + line + b"MSG: lab/P\nP_Request[] r\n" + end
+    yield (
+        b"\1int32 low=3\nHeader header\ntime t\nduration[2] d\nQ[] q\n" + line + b"MSG: lab/Q\nchar[] c\nbool b\n" + end
+    )
+    idl = b"module lab { module msg { module P_Constants { const long A = (1 << 4) + ~2 * 3 / 7; };\n"
+    idl += b'typedef double v[3]; @verbatim (language="comment", text="x") struct P { @default (value=3) long a;\n'
+    idl += b"sequence<string<5>, 2 * 3> s; v w; lab::msg::Q q; }; }; };\n"
+    yield (
+        b"\2"
+        + line
+        + b"IDL: lab/msg/P\n"
+        + idl
+        + line
+        + (b'IDL: lab/msg/Q\n#include "x.idl"\nmodule lab { module msg { struct Q { octet o; }; }; };' + end)
+    )
+    yield (
+        b"\4module lab { module msg { module dds_ {\n"
+        b"struct P_ { std_msgs::msg::dds_::Header_ header_; char c_; }; }; }; };" + end
+    )
+    descriptor = (
+        "0a310a076c2e70726f746f12036c616222190a015012090a017818012001280512090a0179180220032809620670726f746f33"
+    )
+    yield b"\3" + bytes.fromhex(descriptor) + end
+
+
 def discovery() -> Iterable[bytes]:
     nodes = [NodeInfo("/", "talker", (bytes(range(16)),), (bytes(16), bytes(range(16)))), NodeInfo("/robot", "größe")]
     for size in (16, 24):

@@ -134,7 +134,7 @@ def test_the_report_about_this_system():
 
 
 def test_a_recording_is_written_and_read(tmp_path):
-    pytest.importorskip("mcap", reason="needs coframe[bags]")
+    pytest.importorskip("zstandard", reason="needs coframe[bags]")
     from coframe import bags, messages
     from tf2_msgs.msg import TFMessage
 
@@ -144,7 +144,7 @@ def test_a_recording_is_written_and_read(tmp_path):
 
 
 def test_a_replay_is_written(tmp_path):
-    for module in ("typer", "mcap", "websockets"):
+    for module in ("typer", "zstandard", "websockets"):
         pytest.importorskip(module, reason="needs coframe[cli,bags,viewer]")
     from coframe import bags, messages
     from geometry_msgs.msg import TransformStamped

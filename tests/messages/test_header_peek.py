@@ -9,7 +9,9 @@ import pytest
 
 from coframe.messages import find, serialize
 from coframe.messages.encapsulation import byte_order
-from coframe.messages.header_peek import opens_with_header, peek_header, stamp_reader
+from coframe.messages.header_peek import StampReader, first_stamp, opens_with_header, peek_header, stamp_reader
+from coframe.messages.schema_classes import ResolvedSchema
+from coframe.messages.schemas import parse_schema
 from coframe.messages.slices import Slices
 
 SECOND = 1_000_000_000
@@ -108,7 +110,9 @@ def test_messages_of_ros_1_have_a_sequence_number_and_unsigned_seconds():
 
 def test_an_unknown_type_is_read_by_its_definition():
     def reader(definition: bytes):
-        return stamp_reader("custom_msgs/msg/Unknown", "cdr", definition)
+        schema = parse_schema(definition, "custom_msgs/msg/Unknown", "ros2msg")
+        first = first_stamp(ResolvedSchema(schema))
+        return None if first is None else StampReader(first, "cdr")
 
     message = big_endian_header(12, 34, b"laser\0")
     assert stamps(reader(b"# a comment\nuint8 A = 1\nstd_msgs/Header header\n"), message) == [STAMP]

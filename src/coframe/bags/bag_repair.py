@@ -211,7 +211,7 @@ class _Repair:
     def _new_route(self, channel: Channel) -> _Route | None:
         offered = from_yaml(channel.offered_qos)
         rename = self._rename.on(channel.topic)
-        converted = cdr_converter(channel)
+        converted = cdr_converter(channel, self._recording.types)
         if converted is None:
             if channel.encoding == "ros1":
                 return None
@@ -234,7 +234,7 @@ class _Repair:
             definition=channel.definition.decode("utf-8", "replace") if described else None,
             definition_format=channel.definition_format if described else "ros2msg",
         )
-        names = FrameNames.of(channel, ros_type)
+        names = FrameNames.of(channel, ros_type, self._recording.types)
         return _Route(topic, convert, names if names and names.exist else None, rename, ros_type == _TF)
 
     def _repaired(self, channel: Channel, route: _Route, data: bytes) -> bytes | None:
@@ -306,7 +306,7 @@ class _Repair:
         found: dict[str, tuple[Channel, dict[str, TransformStamped]]] = {}
         early: set[tuple[str, str]] = set()
         for channel, received, data in self._recording.in_order(filter(is_static, self._recording.topics)):
-            converted = cdr_converter(channel)
+            converted = cdr_converter(channel, self._recording.types)
             if converted is None or converted[0] != _TF:
                 continue
             known = found.setdefault(channel.topic, (channel, {}))[1]

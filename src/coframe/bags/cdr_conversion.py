@@ -3,22 +3,23 @@
 
 from __future__ import annotations
 
-import functools
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
-from coframe.bags.decoding import fits_humble, humble_store, ros2_name
-from coframe.messages import deserialize, find
+from coframe.errors import DecodeError
+from coframe.messages import deserialize, find, serialize
+from coframe.messages.codec import deserialize_ros1
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from coframe.bags.recorded_types import RecordedTypes
     from coframe.bags.storage import Channel
     from coframe.messages.generated.geometry_msgs.msg import TransformStamped
 
 __all__ = ["cdr_converter", "decode_transforms"]
 
 
-def cdr_converter(channel: Channel) -> tuple[str, Callable[[bytes], bytes]] | None:
+def cdr_converter(channel: Channel, types: RecordedTypes) -> tuple[str, Callable[[bytes], bytes]] | None:
     """Return the ROS 2 type of a channel and the function that converts its messages to CDR.
 
     Returns:
@@ -28,10 +29,10 @@ def cdr_converter(channel: Channel) -> tuple[str, Callable[[bytes], bytes]] | No
         return channel.type, bytes
     if channel.encoding != "ros1":
         return None
-    name = ros2_name(channel.type)
-    if not fits_humble(channel.type, channel.definition):
+    cls = types.own_class(channel)
+    if cls is None:
         return None
-    return name, functools.partial(_from_ros1, name)
+    return cls.ROS_TYPE, lambda data: serialize(deserialize_ros1(data, cls))
 
 
 def decode_transforms(convert: Callable[[bytes], bytes], data: bytes) -> list[TransformStamped]:
@@ -41,11 +42,8 @@ def decode_transforms(convert: Callable[[bytes], bytes], data: bytes) -> list[Tr
         convert: The function of :func:`cdr_converter`.
         data: The message as recorded.
     """
+    kind: Any = find("tf2_msgs/msg/TFMessage")
     try:
-        return list(deserialize(convert(data), find("tf2_msgs/msg/TFMessage")).transforms)
-    except Exception:  # noqa: BLE001 - rosbags raises errors of many kinds; reading the message itself reports them
+        return list(deserialize(convert(data), kind).transforms)
+    except (DecodeError, ValueError):  # Reading the message itself reports the damage.
         return []
-
-
-def _from_ros1(name: str, data: bytes) -> bytes:
-    return bytes(humble_store().ros1_to_cdr(data, name))

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from coframe.bags.cdr_conversion import cdr_converter
 from coframe.bags.offered_qos import from_yaml
+from coframe.bags.recorded_types import RecordedTypes
 from coframe.bags.recording import open_bag
 from coframe.bags.transforms import is_static
 from coframe.bags.writer import Writer
@@ -123,11 +124,12 @@ def _write(
     progress: Callable[[str, int, int], object],
 ) -> None:
     routes: dict[Channel, tuple[int, Callable[[bytes], bytes]] | None] = {}
+    types = RecordedTypes()
     for number, (channel, received, data) in enumerate(messages):
         if number % _PROGRESS_STEP == 0:
             progress("writing", number, total)
         if channel not in routes:
-            routes[channel] = _route(writer, channel)
+            routes[channel] = _route(writer, channel, types)
         route = routes[channel]
         try:
             converted = None if route is None else route[1](data)
@@ -140,7 +142,7 @@ def _write(
     progress("writing", total, total)
 
 
-def _route(writer: Writer, channel: Channel) -> tuple[int, Callable[[bytes], bytes]] | None:
+def _route(writer: Writer, channel: Channel, types: RecordedTypes) -> tuple[int, Callable[[bytes], bytes]] | None:
     """Return the number of a channel's topic in the copy and the conversion of its messages; None: not possible."""
     offered = from_yaml(channel.offered_qos)
     definition = channel.definition.decode("utf-8", "replace")
@@ -154,7 +156,7 @@ def _route(writer: Writer, channel: Channel) -> tuple[int, Callable[[bytes], byt
             definition_format=channel.definition_format or "ros2msg",
         )
         return topic, bytes
-    converted = cdr_converter(channel)
+    converted = cdr_converter(channel, types)
     if converted is None:
         return None
     return writer.add_topic(channel.topic, converted[0], offered_qos=offered), converted[1]

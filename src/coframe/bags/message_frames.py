@@ -1,22 +1,25 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Frame names in messages of any type: finds them by the definition of the type and replaces them."""
+"""Frame names in messages of any type: finds them by the fields of its class and replaces them."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from coframe.bags.decoding import UnknownTypeError, humble_store, store_for
-from coframe.bags.definitions import definition_of
+from coframe.bags.recorded_types import UnknownTypeError
+from coframe.messages import deserialize, serialize
+from coframe.messages.definition import AbstractNestedType, NamespacedType, UnboundedString
+from coframe.messages.registry import class_of
+from coframe.messages.schema_classes import known_class
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from coframe.bags.recorded_types import RecordedTypes
     from coframe.bags.storage import Channel
 
 __all__ = ["FrameNames"]
 
 _FIELDS = {"frame_id", "child_frame_id"}
-_BASE, _NAME, _ARRAY = 1, 2, 3  # kinds of fields, as rosbags numbers them; a sequence is 4
 
 # The fields of a type that are frame names (None), and those that contain such fields.
 _Plan = dict[str, "_Plan | None"]
@@ -26,23 +29,21 @@ class FrameNames:
     """Replaces the frame names in the messages of one type.
 
     Args:
-        store: A type store of rosbags that contains the type.
-        ros_type: The type.
+        cls: The class of the messages.
     """
 
-    def __init__(self, store: Any, ros_type: str) -> None:
-        self._store = store
-        self._type = ros_type
-        self._plan = _plan(store, ros_type, ())
+    def __init__(self, cls: Any) -> None:
+        self._class = cls
+        self._plan = _plan(cls, {})
 
     @classmethod
-    def of(cls, channel: Channel, ros_type: str) -> FrameNames | None:
+    def of(cls, channel: Channel, ros_type: str, types: RecordedTypes) -> FrameNames | None:
         """Return the frame names for a channel's messages in CDR; None if the type is unknown."""
         is_described = channel.encoding == "cdr" and channel.definition
-        if not is_described and definition_of(ros_type):
-            return cls(humble_store(), ros_type)
+        if not is_described and (known := known_class(ros_type)) is not None:
+            return cls(known)
         try:
-            return cls(store_for(ros_type, channel.definition, channel.definition_format), ros_type)
+            return cls(types.message_class(channel))
         except UnknownTypeError:
             return None
 
@@ -62,25 +63,26 @@ class FrameNames:
             The new message, and the number of names that changed.
 
         Raises:
-            Exception: The bytes are damaged.
+            DecodeError: The bytes are damaged.
         """
-        message = self._store.deserialize_cdr(data, self._type)
+        message = deserialize(data, self._class)
         changed = _rename(message, self._plan, rename)
-        return (bytes(self._store.serialize_cdr(message, self._type)), changed) if changed else (data, 0)
+        return (serialize(message), changed) if changed else (data, 0)
 
 
-def _plan(store: Any, ros_type: str, above: tuple[str, ...]) -> _Plan:
-    plan: _Plan = {}
-    if ros_type in above:
-        return plan
-    for name, (kind, detail) in store.get_msgdef(ros_type).fields:
-        if name in _FIELDS and (kind, detail) == (_BASE, ("string", 0)):
-            plan[name] = None
-        if kind >= _ARRAY:
-            kind, detail = detail[0]  # noqa: PLW2901 - the type of the elements
-        if kind == _NAME and (inner := _plan(store, detail, (*above, ros_type))):
-            plan[name] = inner
-    return plan
+def _plan(cls: Any, known: dict[Any, _Plan]) -> _Plan:
+    """Return the plan of a class; `known` has those of the classes inside it, so that each is visited once."""
+    if cls not in known:
+        plan: _Plan = {}
+        for slot, type_ in zip(cls.__slots__, cls.SLOT_TYPES, strict=True):
+            name = slot[1:]
+            if name in _FIELDS and isinstance(type_, UnboundedString):
+                plan[name] = None
+            inner = type_.value_type if isinstance(type_, AbstractNestedType) else type_
+            if isinstance(inner, NamespacedType) and (inner_plan := _plan(class_of(inner), known)):
+                plan[name] = inner_plan
+        known[cls] = plan
+    return known[cls]
 
 
 def _rename(message: Any, plan: _Plan, rename: Callable[[str], str]) -> int:

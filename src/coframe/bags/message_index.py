@@ -12,10 +12,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from coframe.bags.compression import DamagedError
-from coframe.bags.decoding import ros2_name
 from coframe.errors import RecordingError
 from coframe.formatting import did_you_mean
-from coframe.messages.header_peek import STAMP_BYTES, stamp_reader
+from coframe.messages.header_peek import STAMP_BYTES
 from coframe.messages.slices import Slices
 
 if TYPE_CHECKING:
@@ -24,6 +23,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from coframe.bags.recorded_types import RecordedTypes
     from coframe.bags.storage import Batch, Channel, Storage
     from coframe.messages.header_peek import StampReader
 
@@ -32,20 +32,21 @@ __all__ = ["MessageIndex", "Track", "largest_track", "reread"]
 _CLOCK_TYPE = "rosgraph_msgs/msg/Clock"
 
 
-@dataclass(eq=False)
+@dataclass(eq=False, slots=True)
 class Track:
     """The messages of one channel in one file, in file order."""
 
     storage: Storage
     channel: Channel
+    types: RecordedTypes
     received: array[int] = field(default_factory=lambda: array("q"))
     positions: array[int] = field(default_factory=lambda: array("Q"))
     stamps: array[int] = field(default_factory=lambda: array("q"))  # empty if they have not been read
 
-    @cached_property
+    @property
     def stamp_reader(self) -> StampReader | None:
         """Reader for the stamps of the messages; None if they do not begin with a stamp."""
-        return stamp_reader(ros2_name(self.channel.type), self.channel.encoding, self.channel.definition)
+        return self.types.stamp_reader(self.channel)
 
     def add(self, batch: Batch) -> None:
         """Add messages, with their stamps if the bytes are available."""
@@ -80,10 +81,12 @@ class MessageIndex:
 
     Args:
         path: The recording, for error messages.
+        types: The types of its messages.
     """
 
-    def __init__(self, path: Path) -> None:
+    def __init__(self, path: Path, types: RecordedTypes) -> None:
         self._path = path
+        self._types = types
         self._closed = False
         self._tracks: dict[str, list[Track]] = {}
         self._rows: dict[str, _Rows] = {}
@@ -92,7 +95,7 @@ class MessageIndex:
 
     def add_track(self, storage: Storage, channel: Channel) -> Track:
         """Add a channel of a file, without messages."""
-        track = Track(storage, channel)
+        track = Track(storage, channel, self._types)
         self._tracks.setdefault(channel.topic, []).append(track)
         return track
 
@@ -212,13 +215,14 @@ class MessageIndex:
 
     def _track_stamps(self, track: Track) -> NDArray[np.int64]:
         received = _int64(track.received)
-        if track.stamp_reader is None:
+        reader = track.stamp_reader
+        if reader is None:
             return self.to_ros_time(received)
         if len(track.stamps) == len(track.received):
             return _int64(track.stamps)
         self._check_open()
         heads = Slices.join([track.first_bytes(position) for position in track.positions])
-        return track.stamp_reader.stamps(heads, received)
+        return reader.stamps(heads, received)
 
     def to_ros_time(self, received: NDArray[np.int64]) -> NDArray[np.int64]:
         """Convert times of receipt to the ROS clock, if /clock was recorded."""
@@ -233,6 +237,8 @@ class MessageIndex:
         """Times of receipt and times of the messages on /clock."""
         tracks = self._tracks.get("/clock")
         if not tracks or largest_track(tracks).channel.type != _CLOCK_TYPE:
+            return None
+        if any(track.stamp_reader is None for track in tracks):  # Its definition is not that of a clock.
             return None
         return self.received("/clock"), self.stamps("/clock")
 

@@ -19,9 +19,10 @@ from coframe.bags.message_index import MessageIndex, largest_track, reread
 from coframe.bags.namespaces import TopicFilter, TransformCollector, main_span, report_mixed_clocks
 from coframe.bags.problems import Problems
 from coframe.bags.recorded_message import RecordedMessage, Topic
+from coframe.bags.recorded_types import RecordedTypes
 from coframe.bags.table import edge_table
 from coframe.bags.transforms import ingest_for
-from coframe.errors import RecordingError
+from coframe.errors import DecodeError, RecordingError
 from coframe.formatting import count, listed
 from coframe.frame_names import absolute, kept, renaming
 
@@ -111,6 +112,7 @@ class Recording:
         format: The file format: ``MCAP``, ``SQLite`` or ``ROS 1 bag``.
         compression: The compression of chunks or messages: ``zstd``, ``lz4``, ``bz2`` or ``none``.
         options: The arguments of :func:`open_bag` about namespace, topics and names, to open the recording again.
+        types: The types of its messages.
     """
 
     buffer: Buffer
@@ -120,6 +122,7 @@ class Recording:
     format: str
     compression: str
     options: dict[str, Any]
+    types: RecordedTypes
 
     def __init__(self, path: Path) -> None:
         self.path = path
@@ -127,7 +130,8 @@ class Recording:
         self._renaming: _core.Renaming | None = None
         self._closing = ExitStack()
         weakref.finalize(self, self._closing.close)  # closes the files if the user does not
-        self._index = MessageIndex(path)
+        self.types = RecordedTypes()
+        self._index = MessageIndex(path, self.types)
         self._decoders: dict[int, Callable[[bytes], Any]] = {}
 
     def _scan(
@@ -337,6 +341,32 @@ class Recording:
         row = self._index.newest_row(name, time.stamp_ns(stamp))
         return None if row is None else self._read(name, row)
 
+    def first_frame(self, topic: str) -> str:
+        """Return the frame_id in the header of a topic's first message, as published; "" if it has none.
+
+        Args:
+            topic: The name, with or without its leading slash.
+
+        Raises:
+            RecordingError: The topic does not exist.
+        """
+        name = self._index.find_topic(topic)
+        for row in range(len(self._index.received(name))):
+            if (data := self._index.read(name, row)) is not None:
+                return self._frame(self._index.channel(name, row), data)
+        return ""
+
+    def _frame(self, channel: Channel, data: bytes) -> str:
+        header = self.types.peek_header(channel, data)
+        if header is not None:
+            return header.frame
+        if not self.types.may_have_header(channel):
+            return ""
+        try:
+            return str(self._decoder(channel)(data).header.frame_id)
+        except (DecodeError, AttributeError):
+            return ""
+
     def table(self, format_: str = "arrow") -> Any:
         """Return all transforms as one table, with one row per sample, one edge after the other.
 
@@ -364,11 +394,14 @@ class Recording:
         if data is None:
             return None
         channel = self._index.channel(name, row)
+        stamp, received = int(self._index.stamps(name)[row]), int(self._index.received(name)[row])
+        return RecordedMessage(name, channel.type, stamp, received, data, self._decoder(channel))
+
+    def _decoder(self, channel: Channel) -> Callable[[bytes], Any]:
         key = id(channel)
         if key not in self._decoders:
-            self._decoders[key] = decoder(channel, self._problems)
-        stamp, received = int(self._index.stamps(name)[row]), int(self._index.received(name)[row])
-        return RecordedMessage(name, channel.type, stamp, received, data, self._decoders[key])
+            self._decoders[key] = decoder(channel, self.types, self._problems)
+        return self._decoders[key]
 
     def close(self) -> None:
         """Close the files; the transforms stay available."""

@@ -37,7 +37,7 @@ def unpacked_budget(size: int) -> int:
     return max(MIN_BUDGET, MAX_RATIO * size)
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, slots=True)  # a recording can have tens of thousands
 class Channel:
     """The messages of one type on one topic in one file.
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from coframe.analysis.tree import FrameTrees
-from coframe.errors import DecodeError, TransformException
+from coframe.errors import TransformException
 
 if TYPE_CHECKING:
     from coframe.bags.recording import Recording, Topic
@@ -122,11 +122,7 @@ def _edge(edge: EdgeInfo) -> EdgeSummary:
 
 def _sensor(recording: Recording, topic: Topic, trees: FrameTrees) -> SensorSummary | None:
     """Return the summary of a sensor topic; None if its messages have no frame or cannot be decoded."""
-    try:
-        first: Any = next(recording.messages(topic.name)).message
-        frame = recording.frame(str(first.header.frame_id))
-    except (StopIteration, DecodeError, AttributeError):
-        return None
+    frame = recording.frame(recording.first_frame(topic.name))
     if not frame:
         return None
     if frame not in trees.index:

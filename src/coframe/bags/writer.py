@@ -10,7 +10,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from coframe import time
-from coframe.bags.definitions import definition_of
 from coframe.bags.latched_messages import LatchedMessages, LatchedSpace
 from coframe.bags.mcap_writer import McapWriter, compressor
 from coframe.bags.offered_qos import OfferedQos, to_yaml
@@ -18,6 +17,7 @@ from coframe.bags.sqlite_writer import SqliteWriter
 from coframe.bags.transforms import is_static
 from coframe.complete_files import write_complete
 from coframe.errors import RecordingError
+from coframe.messages.definition_texts import definition_of
 
 if TYPE_CHECKING:
     import os

@@ -30,10 +30,8 @@ _INTERRUPTED = 130  # exit code: 128 + SIGINT, as shells have it
 _EXTRAS = {
     "lz4": "bags",
     "matplotlib": "plot",
-    "mcap": "bags",
     "pyarrow": "parquet",
     "pydyf": "pdf",
-    "rosbags": "bags",
     "websockets": "viewer",
     "xacro": "robots",
     "yaml": "bags",

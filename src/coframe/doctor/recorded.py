@@ -186,11 +186,7 @@ class _Facts:
     def _sensor(self, topic: str) -> Sensor | None:
         """Return the headers of a topic; None if its messages have no frame."""
         facts = self.topics[topic]
-        try:
-            first = next(self._decoded(topic, 1), None)
-            frame = str(first.header.frame_id)  # type: ignore[union-attr]
-        except AttributeError:
-            return None
+        frame = self._recording.first_frame(topic)
         if not frame.lstrip("/") or facts.type == "sensor_msgs/msg/JointState":
             return None
         stamps, received = self._recording.stamps(topic), self._recording.received(topic)

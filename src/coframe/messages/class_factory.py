@@ -18,6 +18,7 @@ from coframe.messages.class_limits import check_limits
 from coframe.messages.compounds import member_messages
 from coframe.messages.constructors import default_assignments
 from coframe.messages.definition import AbstractNestedType, AbstractType, NamespacedType
+from coframe.messages.limits import MAX_DEPTH
 from coframe.messages.message import Action, Message, MessageType, Service
 from coframe.messages.registry import classes, find
 
@@ -26,9 +27,7 @@ if TYPE_CHECKING:
 
     from coframe.messages.parser import Field, Structure
 
-__all__ = ["FieldError", "create_classes"]
-
-_DEEPEST = 64  # messages inside each other
+__all__ = ["FieldError", "class_name", "create_classes", "new_message_class"]
 
 _lock = threading.RLock()
 _in_progress: list[str] = []
@@ -66,24 +65,39 @@ def create_classes(package: str, kind: str, name: str, parts: Sequence[Structure
         if f"{package}/{kind}/{name}" in classes:
             return  # Another thread was faster.
         for message, structure in member_messages(package, kind, name, parts).items():
-            _create_message(f"{package}/{kind}/{message}", message, structure)
+            _create_message(f"{package}/{kind}/{message}", structure)
         if kind == "srv":
             _create_service(package, kind, name)
         elif kind == "action":
             _create_action(package, kind, name)
 
 
-def _create_message(ros_type: str, name: str, structure: Structure) -> None:
+def _create_message(ros_type: str, structure: Structure) -> None:
     _in_progress.append(ros_type)
     try:
         inner = _inner_classes(structure.fields)
     finally:
         _in_progress.pop()
-    MessageType(
-        name,
+    new_message_class(ros_type, structure, inner)
+
+
+def new_message_class(
+    ros_type: str, structure: Structure, inner: dict[str, type], *, is_recorded: bool = False
+) -> type[Message]:
+    """Return a new message class.
+
+    Args:
+        ros_type: The name of the type.
+        structure: Its fields and constants.
+        inner: The classes of the messages in its fields, by the names that :func:`class_name` returns.
+        is_recorded: Whether the class is that of a definition in a recording, and is not registered.
+    """
+    cls: Any = MessageType(
+        ros_type.rpartition("/")[2],
         (Message,),
         {
             "__doc__": structure.comment or f"Message {ros_type}.",
+            "__recorded__": is_recorded,
             "ROS_TYPE": ros_type,
             "SLOT_TYPES": tuple(field.type for field in structure.fields),
             "__slots__": [f"_{field.name}" for field in structure.fields],
@@ -92,6 +106,7 @@ def _create_message(ros_type: str, name: str, structure: Structure) -> None:
             **{f"{f.name.upper()}__DEFAULT": f.default for f in structure.fields if f.default is not None},
         },
     )
+    return cls  # type: ignore[no-any-return]
 
 
 def _inner_classes(fields: list[Field]) -> dict[str, type]:
@@ -101,7 +116,7 @@ def _inner_classes(fields: list[Field]) -> dict[str, type]:
         type_: Any = _value_type(field.type)
         try:
             if isinstance(type_, NamespacedType):
-                inner[_class_name(type_)] = _find_inner(_ros_type(type_))
+                inner[class_name(type_)] = _find_inner(_ros_type(type_))
             check_limits([field.type])
         except InterfaceError:
             raise  # It is about the inner message, and names its file.
@@ -120,8 +135,8 @@ def _find_inner(ros_type: str) -> Any:
     if ros_type in _in_progress:
         chain = " > ".join([*_in_progress[_in_progress.index(ros_type) :], ros_type])
         raise ValueError(f"a message cannot contain itself: {chain}")
-    if len(_in_progress) > _DEEPEST:
-        raise ValueError(f"more than {_DEEPEST} messages inside each other")
+    if len(_in_progress) > MAX_DEPTH:
+        raise ValueError(f"more than {MAX_DEPTH} messages inside each other")
     return find(ros_type)
 
 
@@ -129,13 +144,14 @@ def _ros_type(type_: NamespacedType) -> str:
     return "/".join(type_.namespaced_name())
 
 
-def _class_name(type_: NamespacedType) -> str:
+def class_name(type_: NamespacedType) -> str:
+    """Return the name by which the constructor of a message uses the class of a message inside it."""
     return "__".join(type_.namespaced_name())
 
 
 def _constructor(ros_type: str, fields: list[Field], inner: dict[str, type]) -> Any:
     names: dict[str, Any] = {"array": array, "np": np, "set_fields": Message.__init__, **inner}
-    lines = [*default_assignments(fields, _class_name), "if fields:", "    set_fields(self, **fields)"]
+    lines = [*default_assignments(fields, class_name), "if fields:", "    set_fields(self, **fields)"]
     source = "\n    ".join(["def __init__(self, **fields):", *lines])
     exec(compile(source, f"<constructor of {ros_type}>", "exec"), names)  # noqa: S102 - names are checked by the parser
     return names["__init__"]

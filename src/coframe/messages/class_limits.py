@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Limits on messages: how large a message with default values, and the code that serializes it, can become.
+"""Checks how large a message with default values, and the code that serializes it, can become.
 
 A definition of a few bytes, of a user or in a recording, can ask for any amount of memory, such as
 ``string[4000000000] x``.
@@ -11,16 +11,14 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from coframe.messages.definition import AbstractNestedType, AbstractType, Array, BasicType, NamespacedType
 from coframe.messages.fields import number_of
+from coframe.messages.limits import MAX_BYTES, MAX_FIELDS, MAX_LOOPS
 from coframe.messages.registry import find
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
-__all__ = ["MOST_BYTES", "check_limits"]
+__all__ = ["check_limits"]
 
-MOST_BYTES = 64 << 20  # of a message with default values
-_MOST_FIELDS = 20_000  # of a message and all messages inside it; public messages have fewer than 2 000
-_MOST_LOOPS = 16  # sequences inside the messages of a sequence; Python allows 20 loops inside each other
 _OBJECT = 64  # bytes of an object, roughly
 _REFERENCE = 8
 
@@ -92,12 +90,12 @@ def check_limits(
         fields_of: Returns the types of the fields of a message type inside the message; None: those of coframe's class.
     """
     extent = (_registered if fields_of is None else _Extents(fields_of)).total(types)
-    if extent.size > MOST_BYTES:
+    if extent.size > MAX_BYTES:
         raise ValueError(
             f"a message with default values would need {extent.size} bytes of memory, more than the limit of "
-            f"{MOST_BYTES}; use a sequence such as float64[], which is empty by default"
+            f"{MAX_BYTES}; use a sequence such as float64[], which is empty by default"
         )
-    if extent.fields > _MOST_FIELDS:
-        raise ValueError(f"the message and those inside it have {extent.fields} fields, more than {_MOST_FIELDS}")
-    if extent.loops > _MOST_LOOPS:
-        raise ValueError(f"more than {_MOST_LOOPS} sequences inside each other")
+    if extent.fields > MAX_FIELDS:
+        raise ValueError(f"the message and those inside it have {extent.fields} fields, more than {MAX_FIELDS}")
+    if extent.loops > MAX_LOOPS:
+        raise ValueError(f"more than {MAX_LOOPS} sequences inside each other")

@@ -1,8 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Serialization of messages to CDR as ROS 2 sends it: XCDR1 after a 4-byte encapsulation header."""
+"""Serialization of messages to CDR as ROS 2 sends it: XCDR1 after a 4-byte encapsulation header.
+
+Messages of ROS 1 can be read as well.
+"""
 
 from __future__ import annotations
 
+import functools
 import struct
 from typing import TYPE_CHECKING, Any, Final, TypeVar
 
@@ -22,6 +26,8 @@ MAX_PADDING: Final = 3
 """The most bytes after a message that DDS adds: it sends multiples of 4 bytes."""
 
 M = TypeVar("M", bound=Message)
+
+_MAX_RECORDED = 256  # plans for classes of definitions in recordings that are kept, with the classes
 
 _native_encodings: dict[type, Callable[[Any], bytes | None]] = {}
 _native_decodings: dict[type, Callable[..., Any]] = {}
@@ -101,29 +107,65 @@ def _deserialize_in_python(data: bytes, cls: type[M], max_rest: int | None = Non
     return message
 
 
+def deserialize_ros1(data: bytes, cls: type[M]) -> M:
+    """Return the message that bytes of ROS 1 contain.
+
+    Args:
+        data: The bytes. Bytes after the end of the message are ignored.
+        cls: The class of the message, without the sequence number of headers.
+
+    Raises:
+        DecodeError: The bytes are not a message of this class.
+    """
+    codec = native_codec(cls)
+    message: M | None = None if codec is None else codec.decode_ros1(data)
+    if message is not None:
+        return message
+    plan, data = _ros1_decoding(cls), bytes(data)
+    try:
+        return plan.run(data)[0]  # type: ignore[no-any-return]
+    except (struct.error, ValueError) as error:
+        raise _decode_error(error, plan, data, cls) from None
+
+
+@functools.lru_cache(_MAX_RECORDED)
+def _ros1_decoding(cls: type) -> Plan:
+    return decoding(cls, "<", is_ros1=True)
+
+
 def _new_native_encoding(cls: type) -> Callable[[Any], bytes | None]:
     codec = native_codec(_message_class(cls))
-    _native_encodings[cls] = codec.encode if codec else lambda _: None
-    return _native_encodings[cls]
+    encode: Callable[[Any], bytes | None] = codec.encode if codec else lambda _: None
+    return encode if _is_recorded(cls) else _native_encodings.setdefault(cls, encode)
 
 
 def _new_native_decoding(cls: type) -> Callable[..., Any]:
     codec = native_codec(_message_class(cls))
-    _native_decodings[cls] = codec.decode if codec else lambda *_: None
-    return _native_decodings[cls]
+    decode: Callable[..., Any] = codec.decode if codec else lambda *_: None
+    return decode if _is_recorded(cls) else _native_decodings.setdefault(cls, decode)
 
 
 def _new_encoding(cls: type) -> Plan:
-    _encodings[cls] = encoding(_message_class(cls))
-    return _encodings[cls]
+    if _is_recorded(cls):
+        return _recorded_encoding(cls)
+    return _encodings.setdefault(cls, encoding(_message_class(cls)))
 
 
 def _new_decoding(cls: type, data: bytes) -> Plan:
     order = BYTE_ORDERS.get(data[:2])
     if order is None:
         raise _header_error(_message_class(cls), data)
-    _decodings[cls, data[:2]] = decoding(_message_class(cls), order)
-    return _decodings[cls, data[:2]]
+    if _is_recorded(cls):
+        return _recorded_decoding(cls, order)
+    return _decodings.setdefault((cls, data[:2]), decoding(_message_class(cls), order))
+
+
+_recorded_encoding = functools.lru_cache(_MAX_RECORDED)(encoding)
+_recorded_decoding = functools.lru_cache(_MAX_RECORDED)(decoding)
+
+
+def _is_recorded(cls: type) -> bool:
+    return issubclass(cls, Message) and cls.__recorded__
 
 
 def _message_class(cls: type) -> type[Message]:

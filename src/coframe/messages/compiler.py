@@ -30,8 +30,9 @@ class RefusedError(CoframeError, ValueError):
 class Compiler(ABC):
     """Base class for compiling writers and readers: the source so far, and the numbers of the current run."""
 
-    def __init__(self, cls: Any, order: Order, start: str) -> None:
+    def __init__(self, cls: Any, order: Order, start: str, *, is_ros1: bool = False) -> None:
         self.cls = cls
+        self.is_ros1 = is_ros1
         self.order = order
         self.swapped = (order == "<") != (sys.byteorder == "little")
         self.lines = [start]
@@ -92,7 +93,7 @@ class Compiler(ABC):
         """End the current run and return its layouts, its expressions and its fields; None if the run is empty."""
         if not self.codes and not self.after_text:
             return None
-        run = plan_run(self.codes, self.offset, self.order, after_text=self.after_text)
+        run = plan_run(self.codes, self.offset, self.order, after_text=self.after_text, is_ros1=self.is_ros1)
         expressions = ", ".join(self.pending)
         subject = " to ".join(dict.fromkeys([*self.pending_paths[:1], *self.pending_paths[-1:]]))
         self.codes, self.pending, self.pending_paths = "", [], []
@@ -123,7 +124,7 @@ class Compiler(ABC):
 
     def align(self, size: int, padding: str) -> None:
         """Add padding before numbers that are not part of a run."""
-        if self.offset.starts(size) != [0]:
+        if self.offset.starts(size) != [0] and not self.is_ros1:
             self.emit(padding)
             self.offset = Offset(size, 0)
 

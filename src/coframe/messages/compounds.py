@@ -5,13 +5,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from coframe.messages.definition import BasicType, NamespacedType
+from coframe.messages.definition import BasicType, BoundedSequence, NamespacedType
 from coframe.messages.parser import Field, Structure
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-__all__ = ["PARTS", "member_messages"]
+__all__ = ["PARTS", "event", "member_messages"]
 
 # How many parts a definition of each kind has, which lines of "---" separate.
 PARTS = {"msg": 1, "srv": 2, "action": 3}
@@ -45,6 +45,16 @@ def member_messages(package: str, kind: str, name: str, parts: Sequence[Structur
         ),
         f"{name}_FeedbackMessage": _structure(_GOAL_ID, Field("feedback", own(feedback), None)),
     }
+
+
+def event(package: str, name: str) -> Structure:
+    """Return the message in which a service of ROS 2 Iron and later publishes its requests and responses."""
+
+    def of(part: str) -> BoundedSequence:
+        return BoundedSequence(NamespacedType((package, "srv"), f"{name}_{part}"), 1)
+
+    info = Field("info", NamespacedType(("service_msgs", "msg"), "ServiceEventInfo"), None)
+    return _structure(info, Field("request", of("Request"), None), Field("response", of("Response"), None))
 
 
 def _service(name: str, request: Structure, response: Structure) -> dict[str, Structure]:

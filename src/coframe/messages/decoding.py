@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Compiler for functions that read messages from CDR, which check every length before they use it."""
+"""Compiler for functions that read messages from CDR or ROS 1, which check every length before they use it."""
 
 from __future__ import annotations
 
@@ -23,25 +23,25 @@ from coframe.messages.definition import (
 )
 from coframe.messages.encapsulation import HEADER_SIZE, Order
 from coframe.messages.fields import Number, number_of
-from coframe.messages.layout import CODES, WITHOUT_MEMBERS, Offset, smallest_size
-from coframe.messages.registry import find
+from coframe.messages.layout import CODES, WITHOUT_MEMBERS, Offset, ros1_prefix, smallest_size
+from coframe.messages.registry import class_of
 
 
-def decoding(cls: Any, order: Order) -> Plan:
+def decoding(cls: Any, order: Order, *, is_ros1: bool = False) -> Plan:
     """Compile ``run(data)`` for messages of the class in one byte order; its variable ``pos`` is the offset.
 
     It returns the message and its end.
     """
-    return Plan(_Decoder(cls, order))
+    return Plan(_Decoder(cls, order, is_ros1=is_ros1))
 
 
 class _Decoder(Compiler):
-    """Compiler for ``run(data)``, which returns the message after the encapsulation header of the data, and its end."""
+    """Compiler for ``run(data)``, which returns the message in data and its end; CDR begins with a header."""
 
-    def __init__(self, cls: Any, order: Order) -> None:
-        super().__init__(cls, order, "def run(data):")
+    def __init__(self, cls: Any, order: Order, *, is_ros1: bool) -> None:
+        super().__init__(cls, order, "def run(data):", is_ros1=is_ros1)
         self.new = self.constant(object.__new__)
-        self.emit(f"pos = {HEADER_SIZE}")
+        self.emit(f"pos = {0 if is_ros1 else HEADER_SIZE}")
         self.emit("view = memoryview(data)")
         self._message(cls, "m")
         self.flush()
@@ -65,7 +65,7 @@ class _Decoder(Compiler):
         if isinstance(type_, BasicType):
             self.number(CODES[type_.typename], place)
         elif isinstance(type_, NamespacedType):
-            self._message(find("/".join(type_.namespaced_name())), place)
+            self._message(class_of(type_), place)
         elif isinstance(type_, AbstractWString):
             self._wide_text(type_, place)
         elif isinstance(type_, AbstractNestedType):
@@ -76,7 +76,9 @@ class _Decoder(Compiler):
     def _message(self, cls: Any, place: str) -> None:
         variable = self.variable()
         self.emit(f"{variable} = {place} = {self.new}({self.constant(cls)})")
-        if cls.SLOT_TYPES:
+        for code in ros1_prefix(cls) if self.is_ros1 else "":
+            self.number(code, self.variable())
+        if cls.SLOT_TYPES or self.is_ros1:
             self.members(cls, variable)
         else:
             self.number(WITHOUT_MEMBERS, self.variable())
@@ -90,6 +92,9 @@ class _Decoder(Compiler):
     def _text(self, type_: AbstractType, place: str) -> None:
         length, end = self._length(), self.variable()
         self.emit(f"{end} = pos + {length}")
+        if self.is_ros1:
+            self._ros1_text(length, end, place)
+            return
         # The only NUL must be the last byte. This also detects lengths beyond the data. Some writers use length 0
         # for an empty string.
         with self.block(f"if data.find(0, pos, {end}) != {end} - 1 and {length}:"):
@@ -99,6 +104,12 @@ class _Decoder(Compiler):
             self._check_bound(f"len({place})", type_.maximum_size, "characters")
         self.emit(f"pos = {end}")
         self.offset = Offset(1, 0)
+
+    def _ros1_text(self, length: str, end: str, place: str) -> None:
+        with self.block(f"if {end} > len(data):"):
+            self.emit(f"raise {self.constant(_length_refusal)}(data, pos, {length}, 1)")
+        self.emit(f"{place} = data[pos:{end}].decode()")
+        self.emit(f"pos = {end}")
 
     def _wide_text(self, type_: AbstractWString, place: str) -> None:
         length = self._length()

@@ -56,6 +56,19 @@ class NamespacedType(AbstractNestableType):
         return f"NamespacedType({self.namespaces!r}, {self.name!r})"
 
 
+class ResolvedType(NamespacedType):
+    """Another message whose class is not the one that its name finds, but that of a definition in a recording."""
+
+    __slots__ = ("message_class",)
+
+    def __init__(self, namespaces: tuple[str, ...], name: str, message_class: type[Any]) -> None:
+        super().__init__(namespaces, name)
+        self.message_class = message_class
+
+    def _properties(self) -> tuple[Any, ...]:
+        return (self.namespaces, self.name, self.message_class)
+
+
 class AbstractGenericString(AbstractNestableType):
     """A string of either kind."""
 

@@ -24,7 +24,7 @@ from coframe.messages.definition import (
 from coframe.messages.encapsulation import HEADER_SIZE
 from coframe.messages.fields import Number, number_of
 from coframe.messages.layout import CODES, WITHOUT_MEMBERS, Offset
-from coframe.messages.registry import find
+from coframe.messages.registry import class_of
 
 
 def encoding(cls: Any) -> Plan:
@@ -67,7 +67,7 @@ class _Encoder(Compiler):
             self._text(type_, place)
 
     def _message(self, type_: NamespacedType, place: str) -> None:
-        cls = find("/".join(type_.namespaced_name()))
+        cls = class_of(type_)
         if not cls.SLOT_TYPES:
             self.number(WITHOUT_MEMBERS, "0")
             return

@@ -29,7 +29,7 @@ from coframe.messages.definition import (
     BoundedWString,
     NamespacedType,
 )
-from coframe.messages.registry import find
+from coframe.messages.registry import class_of
 
 CHECKED = __debug__ and os.environ.get("ROS_PYTHON_CHECK_FIELDS", "1") != "0"
 
@@ -135,7 +135,7 @@ def _basic_check(name: str, type_: BasicType) -> Check:
 
 def _python_type(type_: AbstractType) -> Any:
     if isinstance(type_, NamespacedType):
-        return find("/".join(type_.namespaced_name()))
+        return class_of(type_)
     if isinstance(type_, BasicType):
         return {"boolean": bool, "octet": bytes, "float": float, "double": float}.get(type_.typename, int)
     return str

@@ -8,7 +8,6 @@ are cut short and to CDR messages whose encapsulation is not plain CDR (see :mod
 
 from __future__ import annotations
 
-import re
 import struct
 from enum import Enum
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -21,15 +20,22 @@ from coframe.messages.encapsulation import HEADER_SIZE, byte_order
 from coframe.messages.registry import find
 
 if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
     from numpy.typing import NDArray
 
+    from coframe.messages.definition import AbstractType
+    from coframe.messages.schema_classes import ResolvedSchema
     from coframe.messages.slices import Slices
 
 __all__ = [
     "HEADER_BYTES",
     "STAMP_BYTES",
+    "FirstStamp",
     "HeaderPeek",
     "StampReader",
+    "first_stamp",
+    "known_first_stamp",
     "opens_with_header",
     "peek_header",
     "stamp_reader",
@@ -42,9 +48,9 @@ STAMP_BYTES = 24  # enough of a message to contain its first stamp
 _CDR_LE, _CDR_BE = 0x0100, 0x0000
 # The halves of 8 bytes that contain a stamp.
 _LOW, _HALF = np.uint64(0xFFFFFFFF), np.uint64(32)
-_LONGEST_DEFINITION = 10_000  # bytes of a definition that are searched for the first field
-_HEADER_FIELD = re.compile(r"\s*(?:std_msgs/)?(?:msg/)?Header\s+\w+", re.ASCII)
-_TIME_FIELD = re.compile(r"\s*(?:builtin_interfaces/(?:msg/)?Time|time)\s+\w+", re.ASCII)
+_HEADER = "std_msgs/msg/Header"
+_HEADER_FIELDS = (["stamp", "frame_id"], ["seq", "stamp", "frame_id"])  # of ROS 2 and of ROS 1
+_TIME = "builtin_interfaces/msg/Time"
 
 
 class HeaderPeek(NamedTuple):
@@ -59,7 +65,7 @@ class HeaderPeek(NamedTuple):
     frame: str
 
 
-class _FirstField(Enum):
+class FirstStamp(Enum):
     """What messages of a type begin with, as far as it contains a stamp."""
 
     TIME = "a time"
@@ -70,57 +76,79 @@ class _FirstField(Enum):
 # Offset of the stamp by encoding. In ROS 1, a header begins with a sequence number of 4 bytes.
 _STAMP_OFFSETS = {
     "cdr": {
-        _FirstField.TIME: HEADER_SIZE,
-        _FirstField.HEADER: HEADER_SIZE,
-        _FirstField.HEADERS: HEADER_SIZE + 4,
+        FirstStamp.TIME: HEADER_SIZE,
+        FirstStamp.HEADER: HEADER_SIZE,
+        FirstStamp.HEADERS: HEADER_SIZE + 4,
     },
-    "ros1": {_FirstField.TIME: 0, _FirstField.HEADER: 4, _FirstField.HEADERS: 8},
+    "ros1": {FirstStamp.TIME: 0, FirstStamp.HEADER: 4, FirstStamp.HEADERS: 8},
 }
 
 
-def peek_header(message: bytes) -> HeaderPeek | None:
-    """Return the header that a CDR message begins with; None if it is damaged, cut short or not plain CDR."""
-    order = byte_order(message)
-    start = HEADER_SIZE + 12
+def peek_header(message: bytes, encoding: str = "cdr") -> HeaderPeek | None:
+    """Return the header that a message begins with; None if it is damaged, cut short or not plain CDR.
+
+    Args:
+        message: The message, or its first bytes.
+        encoding: ``"cdr"`` or ``"ros1"``.
+    """
+    order = byte_order(message) if encoding == "cdr" else "<"
+    offset = _STAMP_OFFSETS[encoding][FirstStamp.HEADER]
+    start = offset + 12
     if order is None or len(message) < start:
         return None
-    seconds, nanoseconds, length = struct.unpack_from(order + "iII", message, HEADER_SIZE)
+    seconds, nanoseconds, length = struct.unpack_from(order + "iII", message, offset)
     text = message[start : start + length]
-    frame = text[:-1]
-    if len(text) < length or text[-1:].strip(b"\0") or b"\0" in frame:
+    if len(text) < length:
         return None
-    return HeaderPeek(seconds * time.SECOND + nanoseconds, frame.decode("utf-8", "backslashreplace"))
+    if encoding == "cdr":
+        text, end = text[:-1], text[-1:]
+        if end.strip(b"\0") or b"\0" in text:
+            return None
+    return HeaderPeek(seconds * time.SECOND + nanoseconds, text.decode("utf-8", "backslashreplace"))
 
 
 def opens_with_header(ros_type: str) -> bool:
     """Return whether coframe has a class for the type whose messages begin with a header."""
-    cls = _message_class(ros_type)
-    return cls is not None and _first_field(cls) is _FirstField.HEADER
+    return known_first_stamp(ros_type) is FirstStamp.HEADER
 
 
-def stamp_reader(ros_type: str, encoding: str = "cdr", definition: bytes = b"") -> StampReader | None:
-    """Return a reader for the stamps of a type's messages; None if the messages do not begin with a stamp.
+def stamp_reader(ros_type: str, encoding: str = "cdr") -> StampReader | None:
+    """Return a reader for the stamps of a type's messages; None if coframe knows no stamp that they begin with.
 
     Args:
         ros_type: The type, such as ``sensor_msgs/msg/Imu``.
         encoding: ``"cdr"`` or ``"ros1"``. Messages in other encodings have no reader.
-        definition: The definition of the type in a recording, used if coframe does not have the type.
     """
-    if encoding not in _STAMP_OFFSETS:
+    first = known_first_stamp(ros_type)
+    return None if first is None or encoding not in _STAMP_OFFSETS else StampReader(first, encoding)
+
+
+def known_first_stamp(ros_type: str) -> FirstStamp | None:
+    """Return what the messages of a type begin with; None if coframe knows no stamp there."""
+    return _first_field(_known_types(ros_type), _known_types)
+
+
+def first_stamp(schema: ResolvedSchema) -> FirstStamp | None:
+    """Return what the messages of a definition in a recording begin with; None if it contains no stamp."""
+    header = schema.structures.get(_HEADER)
+    if header is not None and [field.name for field in header.fields] not in _HEADER_FIELDS:
         return None
-    cls = _message_class(ros_type)
-    first = _first_field_of_definition(definition) if cls is None else _first_field(cls)
-    return None if first is None else StampReader(first, encoding)
+    return _first_field(schema.types_of(schema.name), schema.types_of)
 
 
 class StampReader:
-    """Reads the first stamp in messages of one type and encoding; made by :func:`stamp_reader`."""
+    """Reads the first stamp in messages of one type.
 
-    def __init__(self, first: _FirstField, encoding: str) -> None:
+    Args:
+        first: What the messages begin with.
+        encoding: ``"cdr"`` or ``"ros1"``.
+    """
+
+    def __init__(self, first: FirstStamp, encoding: str) -> None:
         self._is_cdr = encoding == "cdr"
         self._offset = _STAMP_OFFSETS[encoding][first]
         # An empty sequence has no stamp: what follows its length is another field.
-        self._length_offset = (HEADER_SIZE if self._is_cdr else 0) if first is _FirstField.HEADERS else None
+        self._length_offset = (HEADER_SIZE if self._is_cdr else 0) if first is FirstStamp.HEADERS else None
 
     def stamp(self, message: bytes) -> int | None:
         """Return the stamp of one message in nanoseconds; None if it has none."""
@@ -181,22 +209,23 @@ def _message_class(ros_type: str) -> Any:
         return None
 
 
-def _first_field(cls: Any) -> _FirstField | None:
-    first = cls.SLOT_TYPES[0] if cls.SLOT_TYPES else None
+def _first_field(types: Sequence[AbstractType], types_of: Callable[[str], Sequence[AbstractType]]) -> FirstStamp | None:
+    """Return what a message with fields of these types begins with.
+
+    Args:
+        types: The types of its fields.
+        types_of: Returns the types of the fields of another message.
+    """
+    first = types[0] if types else None
     if isinstance(first, AbstractSequence) and isinstance(first.value_type, NamespacedType):
-        element = _message_class("/".join(first.value_type.namespaced_name()))
-        is_stamped = element is not None and _first_field(element) is _FirstField.HEADER
-        return _FirstField.HEADERS if is_stamped else None
+        element = types_of("/".join(first.value_type.namespaced_name()))
+        is_stamped = _first_field(element, types_of) is FirstStamp.HEADER
+        return FirstStamp.HEADERS if is_stamped else None
     if not isinstance(first, NamespacedType):
         return None
-    return {"Header": _FirstField.HEADER, "Time": _FirstField.TIME}.get(first.name)
+    return {_HEADER: FirstStamp.HEADER, _TIME: FirstStamp.TIME}.get("/".join(first.namespaced_name()))
 
 
-def _first_field_of_definition(definition: bytes) -> _FirstField | None:
-    for line in definition[:_LONGEST_DEFINITION].decode("utf-8", "replace").splitlines():
-        field = line.partition("#")[0].strip()
-        if field and "=" not in field:
-            if _HEADER_FIELD.match(field):
-                return _FirstField.HEADER
-            return _FirstField.TIME if _TIME_FIELD.match(field) else None
-    return None
+def _known_types(ros_type: str) -> Sequence[AbstractType]:
+    cls = _message_class(ros_type)
+    return () if cls is None else tuple(cls.SLOT_TYPES)

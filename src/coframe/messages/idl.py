@@ -25,14 +25,19 @@ from coframe.messages.definition import (
     UnboundedString,
     UnboundedWString,
 )
+from coframe.messages.idl_expressions import evaluate
 from coframe.messages.idl_tokens import Tokens
+from coframe.messages.limits import MAX_CONSTANTS, MAX_NESTING, MAX_TYPES
 from coframe.messages.literals import checked
-from coframe.messages.parser import Constant, Field, Structure, add_unique, bounded_size, check_message_name
+from coframe.messages.parser import Constant, Field, Structure, add_member, add_unique, bounded_size, check_message_name
 
 if TYPE_CHECKING:
-    from coframe.errors import InterfaceError
+    from collections.abc import Iterable
 
-__all__ = ["parse_idl"]
+    from coframe.errors import InterfaceError
+    from coframe.messages.idl_tokens import Token
+
+__all__ = ["parse_idl", "parse_recorded_idl"]
 
 _BASIC = {
     "short": "int16",
@@ -47,7 +52,8 @@ _BASIC = {
 _NOT_IN_ROSIDL = {"enum", "union", "bitset", "bitmask", "interface", "valuetype", "native", "map", "fixed", "any"}
 _WITHOUT_PYTHON_TYPE = {"char": "uint8", "wchar": "uint16", "long double": "double"}
 _FIELD = re.compile(r"[A-Za-z](?:_?[A-Za-z0-9])*")
-_DEEPEST = 20  # Modules in modules; rosidl needs three.
+_RECORDED_FIELD = re.compile(r"[A-Za-z]\w*", re.ASCII)
+_DDS_MODULE = "dds_"  # rosidl's DDS names: std_msgs::msg::dds_::Header_, with fields such as stamp_
 
 # The parts of a definition of each kind: the suffixes of its structures.
 _SUFFIXES = {"msg": ("",), "srv": ("_Request", "_Response"), "action": ("_Goal", "_Result", "_Feedback")}
@@ -75,35 +81,64 @@ def parse_idl(text: str, package: str, kind: str, name: str, *, file: str | None
     Raises:
         InterfaceError: The text is not valid, or does not define this message, service or action.
     """
-    return _IdlParser(Tokens(text, file), (package, kind)).parts(name, _SUFFIXES[kind])
+    tokens = Tokens(text, file)
+    parser = _IdlParser()
+    parser.read(tokens)
+    structures = parser.structures()
+    parts = []
+    for suffix in _SUFFIXES[kind]:
+        scoped = (package, kind, f"{name}{suffix}")
+        if scoped not in structures:
+            found = ", ".join("::".join(other) for other in structures) or "no structure"
+            raise tokens.error(f"expected the structure {'::'.join(scoped)}, found {found}")
+        parts.append(structures[scoped])
+    return parts
+
+
+def parse_recorded_idl(texts: Iterable[tuple[int, str]]) -> dict[tuple[str, ...], Structure]:
+    """Parse IDL in a recording, which can have names that rosidl does not allow.
+
+    Args:
+        texts: The texts, each with the number of its first line, those that others use first.
+
+    Returns:
+        The structures by their names, such as ``("demo_msgs", "msg", "Pose")``, without the parts of DDS names.
+
+    Raises:
+        InterfaceError: A text is not valid, or there are too many structures or constants.
+    """
+    parser = _IdlParser(is_recorded=True)
+    for line, text in texts:
+        parser.read(Tokens(text, None, line))
+    return parser.structures()
 
 
 class _IdlParser:
-    """The definitions of one file by their scoped names, such as ``("demo_msgs", "msg", "Pose")``."""
+    """The definitions of texts by their scoped names, such as ``("demo_msgs", "msg", "Pose")``."""
 
-    def __init__(self, tokens: Tokens, home: tuple[str, str]) -> None:
-        self._tokens = tokens
-        self._home = home
+    _tokens: Tokens
+
+    def __init__(self, *, is_recorded: bool = False) -> None:
+        self._is_recorded = is_recorded
         self._structures: dict[tuple[str, ...], Structure] = {}
         self._constants: dict[tuple[str, ...], Constant] = {}
         self._typedefs: dict[tuple[str, ...], AbstractType] = {}
+
+    def read(self, tokens: Tokens) -> None:
+        """Read a text."""
+        self._tokens = tokens
         while tokens.peek().kind != "end":
             self._definition(())
 
-    def parts(self, name: str, suffixes: tuple[str, ...]) -> list[Structure]:
-        """Return the structures with the name and these suffixes, each with its constants."""
-        parts = []
-        for suffix in suffixes:
-            scoped = (*self._home, f"{name}{suffix}")
-            if scoped not in self._structures:
-                found = ", ".join("::".join(other) for other in self._structures) or "no structure"
-                raise self._tokens.error(f"expected the structure {'::'.join(scoped)}, found {found}")
-            module = (*self._home, f"{name}{suffix}{_CONSTANTS}")
-            self._structures[scoped].constants.extend(
-                constant for path, constant in self._constants.items() if path[:-1] == module
-            )
-            parts.append(self._structures[scoped])
-        return parts
+    def structures(self) -> dict[tuple[str, ...], Structure]:
+        """Return the structures, each with its constants."""
+        for path, constant in self._constants.items():
+            *module, name = path[:-1] or ("",)
+            owner = (*module, name.removesuffix(_CONSTANTS))
+            if name.endswith(_CONSTANTS) and owner in self._structures:
+                self._structures[owner].constants.append(constant)
+        self._constants.clear()
+        return self._structures
 
     def _definition(self, scope: tuple[str, ...]) -> None:
         annotations = self._annotations()
@@ -129,8 +164,8 @@ class _IdlParser:
         return self._tokens.error(str(error), line) if getattr(error, "line", None) is None else error  # type: ignore[return-value]
 
     def _module(self, scope: tuple[str, ...]) -> None:
-        if len(scope) == _DEEPEST:
-            raise self._tokens.error(f"more than {_DEEPEST} modules inside each other")
+        if len(scope) == MAX_NESTING:
+            raise self._tokens.error(f"more than {MAX_NESTING} modules inside each other")
         inner = (*scope, self._tokens.take("name").text)
         self._tokens.expect("{")
         while not self._tokens.accept("}"):
@@ -138,7 +173,10 @@ class _IdlParser:
 
     def _struct(self, scope: tuple[str, ...], annotations: _Annotations) -> None:
         name = self._tokens.take("name").text
-        check_message_name(name.partition("_")[0])
+        if not self._is_recorded:
+            check_message_name(name.partition("_")[0])
+        if len(self._structures) == MAX_TYPES:
+            raise self._tokens.error(f"more than {MAX_TYPES} structures")
         self._tokens.expect("{")
         structure = Structure([], [], annotations.comment)
         names: set[str] = set()
@@ -147,12 +185,12 @@ class _IdlParser:
             try:
                 for field in self._members(scope):
                     add_unique(names, field.name)
-                    structure.fields.append(field)
+                    add_member(structure, field)
             except ValueError as error:
                 raise self._located(error, line) from None
         if [field.name for field in structure.fields] == ["structure_needs_at_least_one_member"]:
             structure.fields.clear()  # rosidl writes this member into structures without fields.
-        self._structures.setdefault((*scope, name), structure)
+        self._structures.setdefault(self._without_dds((*scope, name)), structure)
 
     def _members(self, scope: tuple[str, ...]) -> list[Field]:
         default = self._annotations().default
@@ -160,7 +198,9 @@ class _IdlParser:
         fields = []
         while True:
             name = self._tokens.take("name").text
-            if not _FIELD.fullmatch(name):
+            if _DDS_MODULE in scope:
+                name = name.removesuffix("_")
+            if not (_RECORDED_FIELD if self._is_recorded else _FIELD).fullmatch(name):
                 raise ValueError(f"the name of a field has letters, digits and single underscores, not {name!r}")
             full_type = self._dimensions(type_, scope)
             fields.append(Field(name, full_type, None if default is None else _default(default, full_type)))
@@ -172,6 +212,8 @@ class _IdlParser:
         type_ = self._nestable(scope)
         name = self._tokens.take("name").text
         self._tokens.expect("=")
+        if len(self._constants) == MAX_CONSTANTS:
+            raise self._tokens.error(f"more than {MAX_CONSTANTS} constants")
         self._constants.setdefault((*scope, name), Constant(name, type_, checked(self._value(scope), type_)))
 
     def _typedef(self, scope: tuple[str, ...]) -> None:
@@ -184,12 +226,12 @@ class _IdlParser:
             return self._single(scope)
         self._tokens.expect("<")
         inner = self._nestable(scope)
-        bound = self._size(scope) if self._tokens.accept(",") else None
+        bound = self._size(scope, in_brackets=True) if self._tokens.accept(",") else None
         self._tokens.expect(">")
         return UnboundedSequence(inner) if bound is None else BoundedSequence(inner, bound)
 
     def _nestable(self, scope: tuple[str, ...]) -> AbstractNestableType:
-        type_ = self._single(scope)
+        type_ = None if self._tokens.peek().text == "sequence" else self._single(scope)
         if not isinstance(type_, AbstractNestableType):
             raise self._tokens.error(
                 "sequences of sequences or arrays are not possible in ROS; put them into a message"
@@ -207,6 +249,8 @@ class _IdlParser:
                 name += " long"
         if name in _BASIC:
             return BasicType(_BASIC[name])
+        if name == "char" and self._is_recorded:
+            return BasicType("uint8")
         if name in _WITHOUT_PYTHON_TYPE:
             raise self._tokens.error(f"the type {name} is not supported; use {_WITHOUT_PYTHON_TYPE[name]}")
         if name in _NOT_IN_ROSIDL:
@@ -216,7 +260,7 @@ class _IdlParser:
     def _string(self, name: str, scope: tuple[str, ...]) -> AbstractType:
         bound = None
         if self._tokens.accept("<"):
-            bound = self._size(scope)
+            bound = self._size(scope, in_brackets=True)
             self._tokens.expect(">")
         if name == "string":
             return UnboundedString() if bound is None else BoundedString(bound)
@@ -229,6 +273,9 @@ class _IdlParser:
                 return self._typedefs[known]
         if len(parts) == 1:
             parts = (*scope, *parts)
+        parts = self._without_dds(parts)
+        if self._is_recorded and len(parts) == 2:
+            parts = (parts[0], "msg", parts[1])
         if len(parts) != 3 or parts[1] not in _SUFFIXES:
             raise self._tokens.error(
                 f"no type {name}; types of other files have names such as geometry_msgs::msg::Pose"
@@ -244,28 +291,26 @@ class _IdlParser:
             raise self._tokens.error("arrays of sequences or arrays are not possible in ROS; put them into a message")
         return Array(type_, size)
 
-    def _size(self, scope: tuple[str, ...]) -> int:
-        return bounded_size(str(self._value(scope)))
+    def _without_dds(self, path: tuple[str, ...]) -> tuple[str, ...]:
+        """Return a scoped name without the parts that rosidl adds to DDS names."""
+        if not self._is_recorded or len(path) < 2 or path[-2] != _DDS_MODULE:
+            return path
+        return (*path[:-2], path[-1].removesuffix("_"))
 
-    def _value(self, scope: tuple[str, ...]) -> Any:
-        """Take a literal, or the name of a constant."""
-        token = self._tokens.peek()
-        if token.kind == "string":
-            return self._tokens.strings()
-        if token.text in {"-", "+"}:
-            self._tokens.take()
-            value = _number(self._tokens.take("number").text)
-            return -value if token.text == "-" else value
-        self._tokens.take()
-        if token.kind == "number":
-            return _number(token.text)
-        if token.text in {"TRUE", "FALSE"}:
-            return token.text == "TRUE"
-        parts = tuple(token.text.removeprefix("::").split("::"))
-        for known in _scopes(scope, parts):
-            if known in self._constants:
-                return self._constants[known].value
-        raise self._tokens.error(f"expected a value, found {token.text}", token.line)
+    def _size(self, scope: tuple[str, ...], *, in_brackets: bool = False) -> int:
+        return bounded_size(str(self._value(scope, in_brackets=in_brackets)))
+
+    def _value(self, scope: tuple[str, ...], *, in_brackets: bool = False) -> Any:
+        """Take an expression."""
+
+        def constant(token: Token) -> Any:
+            parts = tuple(token.text.removeprefix("::").split("::"))
+            for known in _scopes(scope, parts):
+                if known in self._constants:
+                    return self._constants[known].value
+            raise self._tokens.error(f"expected a value, found {token.text}", token.line)
+
+        return evaluate(self._tokens, constant, in_brackets=in_brackets)
 
     def _annotations(self) -> _Annotations:
         default, comment = None, ""
@@ -295,10 +340,6 @@ class _IdlParser:
 def _scopes(scope: tuple[str, ...], parts: tuple[str, ...]) -> list[tuple[str, ...]]:
     """Return the full names that a name can have, from the innermost module to the outermost."""
     return [(*scope[:depth], *parts) for depth in range(len(scope), -1, -1)]
-
-
-def _number(text: str) -> int | float:
-    return int(text, 0) if re.fullmatch(r"0[xX].*|0|[1-9]\d*", text) else float(text)
 
 
 def _default(value: Any, type_: AbstractType) -> Any:

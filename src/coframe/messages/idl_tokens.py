@@ -5,10 +5,14 @@ from __future__ import annotations
 
 import ast
 import re
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from coframe.errors import InterfaceError
+from coframe.messages.limits import MAX_LINE
 from coframe.messages.parser import shortened
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
 
 __all__ = ["Token", "Tokens"]
 
@@ -18,7 +22,7 @@ _TOKEN = re.compile(
     | (?P<name>(?:::)?[A-Za-z_]\w*(?:::[A-Za-z_]\w*)*)
     | (?P<number>0[xX][0-9a-fA-F]+ | (?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)
     | (?P<string>"(?:[^"\\\n]|\\.)*")
-    | (?P<mark>[][{}()<>;,=@+-])
+    | (?P<mark>[][{}()<>;,=@+*/%|^&~-])
     """,
     re.VERBOSE | re.DOTALL | re.ASCII,
 )
@@ -33,24 +37,36 @@ class Token(NamedTuple):
 
 
 class Tokens:
-    """The tokens of a file, read one after the other."""
+    """The tokens of a text, read one after the other.
 
-    def __init__(self, text: str, file: str | None) -> None:
+    Args:
+        text: The text.
+        file: The name of the file, for error messages.
+        line: The number of the first line.
+    """
+
+    def __init__(self, text: str, file: str | None, line: int = 1) -> None:
         self._file = file
-        self._tokens = self._split(text)
-        self._next = 0
+        self._tokens = self._split(text, line)
+        self._next = Token("end", "the end of the file", line)
+        self.take()
 
-    def _split(self, text: str) -> list[Token]:
-        tokens, line, position = [], 1, 0
+    def _split(self, text: str, line: int) -> Iterator[Token]:
+        position = 0
         while position < len(text):
             match = _TOKEN.match(text, position)
             if match is None:
                 raise self.error(f"unexpected character {text[position]!r}", line)
             if match.lastgroup != "space":
-                tokens.append(Token(str(match.lastgroup), match.group(), line))
+                if len(match.group()) > MAX_LINE:
+                    raise self.error(
+                        f"a {match.lastgroup} of {len(match.group())} characters, more than {MAX_LINE}", line
+                    )
+                yield Token(str(match.lastgroup), match.group(), line)
             line += match.group().count("\n")
             position = match.end()
-        return [*tokens, Token("end", "the end of the file", line)]
+        while True:
+            yield Token("end", "the end of the file", line)
 
     def error(self, text: str, line: int | None = None) -> InterfaceError:
         """Return an error at a line, by default the line of the next token."""
@@ -58,14 +74,14 @@ class Tokens:
 
     def peek(self) -> Token:
         """Return the next token without taking it."""
-        return self._tokens[self._next]
+        return self._next
 
     def take(self, kind: str = "") -> Token:
         """Take the next token, which must be of the kind if one is given."""
         token = self.peek()
         if kind and token.kind != kind:
             raise self.error(f"expected a {kind}, found {token.text}")
-        self._next = min(self._next + 1, len(self._tokens) - 1)
+        self._next = next(self._tokens)
         return token
 
     def accept(self, text: str) -> bool:

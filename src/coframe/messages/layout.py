@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Positions of numbers in CDR.
+"""Positions of numbers in CDR and in messages of ROS 1.
 
 CDR (XCDR1) aligns every number to its own size, counted from the end of the 4-byte encapsulation header. The offsets
 after a string are not known exactly, but after the next 4-byte length they are multiples of four again.
+Messages of ROS 1 have no padding.
 """
 
 from __future__ import annotations
@@ -13,13 +14,14 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from coframe.messages.definition import AbstractType, Array, BasicType, NamespacedType
 from coframe.messages.encapsulation import HEADER_SIZE
 from coframe.messages.fields import NUMBERS
-from coframe.messages.registry import find
+from coframe.messages.registry import class_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
 CODES = {"boolean": "?", "octet": "c", **{name: number.code for name, number in NUMBERS.items()}}
 WITHOUT_MEMBERS = "B"  # C has no empty structures, so rosidl adds one byte to messages without fields.
+ROS1_PREFIX = "I"  # Headers of ROS 1 begin with a sequence number, which those of ROS 2 do not have.
 _SIZES = {code: struct.calcsize(f"<{code}") for code in "?cbBhHiIqQfd"}
 
 
@@ -57,8 +59,15 @@ class Run(NamedTuple):
         return tuple(entry(self.layouts[start]) if start in self.layouts else None for start in starts)
 
 
-def plan_run(codes: str, start: Offset, order: str, *, after_text: bool) -> Run:
+def ros1_prefix(cls: Any) -> str:
+    """Return the struct codes of what a message of ROS 1 has before the fields of its class."""
+    return ROS1_PREFIX if cls.ROS_TYPE == "std_msgs/msg/Header" and not cls.__recorded__ else ""
+
+
+def plan_run(codes: str, start: Offset, order: str, *, after_text: bool, is_ros1: bool = False) -> Run:
     """Return the layouts of adjacent numbers for every offset that they can start at."""
+    if is_ros1:
+        return Run({0: struct.Struct(order + codes)}, 1, start)
     alignment = max((_SIZES[code] for code in codes), default=1)
     layouts: dict[int, struct.Struct] = {}
     end: Offset | None = None
@@ -82,7 +91,7 @@ def plan_run(codes: str, start: Offset, order: str, *, after_text: bool) -> Run:
 def smallest_size(type_: AbstractType) -> int:
     """Return the smallest size of a value in bytes; at least 1, so that lengths can be checked against the data."""
     if isinstance(type_, NamespacedType):
-        cls = find("/".join(type_.namespaced_name()))
+        cls = class_of(type_)
         return max(1, sum(map(smallest_size, cls.SLOT_TYPES)))
     if isinstance(type_, Array):
         return type_.size * smallest_size(type_.value_type)

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import ast
+import sys
 from typing import Any
 
 from coframe.messages.definition import (
@@ -17,6 +18,7 @@ from coframe.messages.definition import (
     NamespacedType,
     describe,
 )
+from coframe.messages.limits import check_digits
 
 __all__ = ["checked", "literal"]
 
@@ -53,9 +55,10 @@ def checked(value: Any, type_: AbstractType) -> Any:
     if type_.typename == "boolean":
         return _require(value, isinstance(value, bool), "boolean")
     if type_.typename in {"float", "double"}:
+        bound = _FLOAT32_BOUND if type_.typename == "float" else sys.float_info.max
         fits = isinstance(value, (int, float)) and not isinstance(value, bool)
-        if fits and type_.typename == "float":
-            fits = abs(value) <= _FLOAT32_BOUND or value != value or abs(value) == float("inf")  # noqa: PLR0124 - NaN
+        if fits:
+            fits = abs(value) <= bound or value != value or abs(value) == float("inf")  # noqa: PLR0124 - NaN
         return float(_require(value, fits, type_.typename))
     return _checked_integer(value, type_.typename)
 
@@ -100,6 +103,7 @@ def _single(text: str, type_: AbstractType) -> Any:
         return _unquoted(text)
     if type_.typename == "boolean":
         return _BOOLEANS.get(text.lower(), text)
+    check_digits(text)
     try:
         return float(text) if type_.typename in {"float", "double"} else _integer(text)
     except ValueError:

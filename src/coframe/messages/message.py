@@ -31,6 +31,7 @@ class Message(metaclass=MessageType):
     __slots__: ClassVar[list[str]] = []
     ROS_TYPE: ClassVar[str]
     SLOT_TYPES: ClassVar[tuple[AbstractType, ...]]
+    __recorded__: ClassVar[bool] = False  # whether a definition in a recording describes it; its name does not find it
     _fields_and_field_types: ClassVar[dict[str, str]]
     __conversions: ClassVar[dict[str, Check]]
 
@@ -107,9 +108,9 @@ class Action:
 
 
 def _register(cls: type[Message | Service | Action]) -> None:
-    package, kind, _ = cls.ROS_TYPE.split("/")
-    cls.__module__ = f"{package}.{kind}"
-    classes[cls.ROS_TYPE] = cls
+    cls.__module__ = ".".join(cls.ROS_TYPE.split("/")[:-1])
+    if not (issubclass(cls, Message) and cls.__recorded__):
+        classes[cls.ROS_TYPE] = cls
 
 
 def _differ(left: Any, right: Any) -> bool:

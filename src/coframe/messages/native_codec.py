@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+import functools
+import struct
 from typing import TYPE_CHECKING, Any
 
 from coframe import _core
@@ -18,8 +20,8 @@ from coframe.messages.definition import (
     NamespacedType,
 )
 from coframe.messages.fields import number_of
-from coframe.messages.layout import CODES
-from coframe.messages.registry import find
+from coframe.messages.layout import CODES, ros1_prefix
+from coframe.messages.registry import class_of
 
 if TYPE_CHECKING:
     from typing import TypeAlias
@@ -31,18 +33,29 @@ if TYPE_CHECKING:
 _SINGLE, _ARRAY, _SEQUENCE = range(3)
 _TEXT = ""
 
+_MAX_RECORDED = 256  # classes of definitions in recordings whose codecs are kept, with the classes
+
 _codecs: dict[type, _core.MessageCodec | None] = {}
 
 
 def native_codec(cls: Any) -> _core.MessageCodec | None:
     """Return the native codec of a message class; None if it has fields that only Python code handles."""
+    if cls.__recorded__:
+        return _recorded_codec(cls)
     if cls not in _codecs:
-        try:
-            fields = [_field(slot, type_) for slot, type_ in zip(cls.__slots__, cls.SLOT_TYPES, strict=True)]
-            _codecs[cls] = _core.MessageCodec(cls, fields)
-        except TypeError:
-            _codecs[cls] = None
+        _codecs[cls] = _new_codec(cls)
     return _codecs[cls]
+
+
+def _new_codec(cls: Any) -> _core.MessageCodec | None:
+    try:
+        fields = [_field(slot, type_) for slot, type_ in zip(cls.__slots__, cls.SLOT_TYPES, strict=True)]
+        return _core.MessageCodec(cls, fields, struct.calcsize(f"<{ros1_prefix(cls)}"))
+    except TypeError:
+        return None
+
+
+_recorded_codec = functools.lru_cache(_MAX_RECORDED)(_new_codec)
 
 
 def _field(slot: str, type_: AbstractType) -> Field:
@@ -64,7 +77,7 @@ def _item(type_: AbstractType) -> str | _core.MessageCodec:
         TypeError: Only Python code handles this type.
     """
     if isinstance(type_, NamespacedType):
-        if codec := native_codec(find("/".join(type_.namespaced_name()))):
+        if codec := native_codec(class_of(type_)):
             return codec
     elif isinstance(type_, BasicType):
         if type_.typename != "octet":

@@ -20,9 +20,19 @@ if TYPE_CHECKING:
 
     from coframe.messages.parser import Structure
 
-__all__ = ["Exports", "InterfacePackage", "exports", "find_package", "load_package", "shipped", "shipped_exports"]
+__all__ = [
+    "Exports",
+    "InterfacePackage",
+    "exports",
+    "find_package",
+    "is_generated",
+    "load_package",
+    "shipped",
+    "shipped_exports",
+]
 
 _SHIPPED = Path(__file__).parent / "shipped"
+_GENERATED = Path(__file__).parent / "generated"
 
 
 class InterfacePackage:
@@ -143,6 +153,11 @@ def forget() -> None:
     """Search packages again when they are needed next, because files or settings may have changed."""
     _found.clear()
     sources.forget()
+
+
+def is_generated(name: str) -> bool:
+    """Return whether the classes of a package are generated, so that users' files cannot define it."""
+    return (_GENERATED / name).is_dir()
 
 
 @functools.cache

@@ -20,10 +20,11 @@ from coframe.messages.definition import (
     UnboundedString,
     UnboundedWString,
 )
+from coframe.messages.limits import MAX_CONSTANTS, MAX_FIELDS, MAX_LINE, MAX_VALUES
 from coframe.messages.literals import literal
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Callable, Iterable
 
 # Type names in .msg files that have another name in IDL. rosidl maps `char` to a number.
 _IDL_NAMES = {"bool": "boolean", "byte": "octet", "char": "uint8", "float32": "float", "float64": "double"}
@@ -51,9 +52,11 @@ _PACKAGE = re.compile(r"[a-z](?:_?[a-z0-9])*")
 _FIELD = re.compile(r"[a-z](?:_?[a-z0-9])*")
 _CONSTANT = re.compile(r"[A-Z](?:_?[A-Z0-9])*")
 _MESSAGE = re.compile(r"[A-Z][A-Za-z0-9]*")
-# Names that message classes use themselves.
-_RESERVED = {"get_fields_and_field_types", "fields_and_field_types", "SLOT_TYPES", "ROS_TYPE"}
-_MOST_VALUES = 2**32 - 1  # CDR counts values with 32 bits.
+# Names that message classes use themselves. The values of fields are stored with an underscore before their names.
+_RESERVED = {
+    *{"get_fields_and_field_types", "fields_and_field_types", "SLOT_TYPES", "ROS_TYPE"},
+    *{"repr_html_", "Message__values", "Message__conversions"},
+}
 
 
 class Field(NamedTuple):
@@ -80,6 +83,25 @@ class Structure(NamedTuple):
     comment: str
 
 
+class Rules(NamedTuple):
+    """The names that a definition can use.
+
+    Attributes:
+        field: The names of fields.
+        field_text: What they consist of.
+        constant: The names of constants.
+        constant_text: What they consist of.
+        named: Returns the message type with a name, of a package if the name has none. Raises ValueError if there
+            cannot be such a type.
+    """
+
+    field: re.Pattern[str]
+    field_text: str
+    constant: re.Pattern[str]
+    constant_text: str
+    named: Callable[[str, str], NamespacedType]
+
+
 def parse(text: str, package: str, parts: int = 1, *, file: str | None = None) -> list[Structure]:
     """Parse the text of a definition file.
 
@@ -100,7 +122,7 @@ def parse(text: str, package: str, parts: int = 1, *, file: str | None = None) -
             pieces[-1].append((number, line))
     if len(pieces) != parts:
         raise InterfaceError(f"expected {parts} parts separated by '---', found {len(pieces)}", file=file)
-    return [_parse_structure(piece, package, file) for piece in pieces]
+    return [parse_structure(piece, package, RULES, file=file) for piece in pieces]
 
 
 def check_message_name(name: str) -> None:
@@ -118,7 +140,21 @@ def add_unique(names: set[str], name: str) -> None:
     names.add(name)
 
 
-def _parse_structure(lines: Iterable[tuple[int, str]], package: str, file: str | None) -> Structure:
+def parse_structure(
+    lines: Iterable[tuple[int, str]], package: str, rules: Rules, *, file: str | None = None
+) -> Structure:
+    """Parse the lines of one message.
+
+    Args:
+        lines: Each line with its number.
+        package: The package of type names without a package.
+        rules: The names that the definition can use.
+        file: The name of the file, for error messages.
+
+    Raises:
+        InterfaceError: A line is not valid, or there are too many.
+    """
+    lines = list(lines)
     structure = Structure([], [], _opening_comment(line for _, line in lines))
     names: set[str] = set()
     for number, line in lines:
@@ -126,28 +162,42 @@ def _parse_structure(lines: Iterable[tuple[int, str]], package: str, file: str |
         if not content:
             continue
         try:
-            member = _parse_line(content, package)
+            member = _parse_line(content, package, rules)
             add_unique(names, member.name)
+            add_member(structure, member)
         except ValueError as error:
             raise InterfaceError(f"{shortened(str(error))}, in: {shortened(content)}", line=number, file=file) from None
-        (structure.fields if isinstance(member, Field) else structure.constants).append(member)  # type: ignore[arg-type]
     return structure
 
 
-def _parse_line(content: str, package: str) -> Field | Constant:
+def add_member(structure: Structure, member: Field | Constant) -> None:
+    """Add a field or constant to a message; raise ValueError if there are too many."""
+    if isinstance(member, Field):
+        structure.fields.append(member)
+        if len(structure.fields) > MAX_FIELDS:
+            raise ValueError(f"more than {MAX_FIELDS} fields")
+    else:
+        structure.constants.append(member)
+        if len(structure.constants) > MAX_CONSTANTS:
+            raise ValueError(f"more than {MAX_CONSTANTS} constants")
+
+
+def _parse_line(content: str, package: str, rules: Rules) -> Field | Constant:
+    if len(content) > MAX_LINE:
+        raise ValueError(f"a line of {len(content)} characters, more than {MAX_LINE}")
     match = _LINE.fullmatch(content)
     if match is None:
         raise ValueError("not a field such as 'float64 x' or a constant such as 'uint8 RED=1'")
     name = match["name"]
-    value_type = _nestable(match["type"], package)
+    value_type = _nestable(match["type"], package, rules)
     if match["equals"]:
         if match["many"] or isinstance(value_type, NamespacedType):
             raise ValueError("a constant must be a number, a boolean or a string")
-        if not _CONSTANT.fullmatch(name):
-            raise ValueError(f"the name of a constant has capital letters, digits and single underscores, not {name!r}")
+        if not rules.constant.fullmatch(name):
+            raise ValueError(f"the name of a constant has {rules.constant_text}, not {name!r}")
         return Constant(name, value_type, literal(match["value"], value_type))
-    if not _FIELD.fullmatch(name):
-        raise ValueError(f"the name of a field has small letters, digits and single underscores, not {name!r}")
+    if not rules.field.fullmatch(name):
+        raise ValueError(f"the name of a field has {rules.field_text}, not {name!r}")
     field_type = _nested(value_type, match["many"]) if match["many"] else value_type
     return Field(name, field_type, literal(match["value"], field_type) if match["value"] else None)
 
@@ -175,13 +225,13 @@ def without_comment(line: str) -> str:
 
 def bounded_size(digits: str) -> int:
     """Return the size of an array or the bound of a sequence or string."""
-    size = int(digits) if len(digits) < len(str(_MOST_VALUES)) + 1 else _MOST_VALUES + 1
-    if not 1 <= size <= _MOST_VALUES:
-        raise ValueError(f"a size must be from 1 to {_MOST_VALUES}, not {digits}")
+    size = int(digits) if len(digits) < len(str(MAX_VALUES)) + 1 else MAX_VALUES + 1
+    if not 1 <= size <= MAX_VALUES:
+        raise ValueError(f"a size must be from 1 to {MAX_VALUES}, not {shortened(digits)}")
     return size
 
 
-def _nestable(name: str, package: str) -> AbstractNestableType:
+def _nestable(name: str, package: str, rules: Rules) -> AbstractNestableType:
     name, _, bound = name.partition("<=")
     if name == "string":
         return BoundedString(bounded_size(bound)) if bound else UnboundedString()
@@ -191,6 +241,10 @@ def _nestable(name: str, package: str) -> AbstractNestableType:
         raise ValueError(f"only strings can have a bound, not {name}")
     if name in _IDL_NAMES or name in _INTEGERS:
         return BasicType(_IDL_NAMES.get(name, name))
+    return rules.named(name, package)
+
+
+def _named(name: str, package: str) -> NamespacedType:
     owner, _, message = name.rpartition("/")
     if not (_MESSAGE.fullmatch(message) and _PACKAGE.fullmatch(owner or package)):
         known = f"; use {_ELSEWHERE[name]}" if name in _ELSEWHERE else ""
@@ -205,3 +259,13 @@ def _nested(value_type: AbstractNestableType, brackets: str) -> AbstractType:
     if size.startswith("<="):
         return BoundedSequence(value_type, bounded_size(size[2:]))
     return Array(value_type, bounded_size(size))
+
+
+# Those of rosidl, for files.
+RULES = Rules(
+    _FIELD,
+    "small letters, digits and single underscores",
+    _CONSTANT,
+    "capital letters, digits and single underscores",
+    _named,
+)

@@ -7,6 +7,8 @@ import importlib
 import re
 from typing import Any
 
+from coframe.messages.definition import NamespacedType, ResolvedType
+
 _TYPE_NAME = re.compile(r"([a-z][a-z0-9_]*)/(msg|srv|action)/([A-Za-z]\w*)")
 
 # Classes by ROS type name; each class is added when it is created.
@@ -34,6 +36,15 @@ def find(ros_type: str) -> Any:
     if ros_type not in classes:
         raise LookupError(f"no type {ros_type}: package {package} has no {kind} type {name}")
     return classes[ros_type]
+
+
+def class_of(type_: NamespacedType) -> Any:
+    """Return the class of the messages in a field.
+
+    Raises:
+        LookupError: coframe does not have the type.
+    """
+    return type_.message_class if isinstance(type_, ResolvedType) else find("/".join(type_.namespaced_name()))
 
 
 def _load(package: str, kind: str, name: str) -> bool:

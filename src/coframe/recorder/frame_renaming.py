@@ -6,8 +6,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from coframe.bags.message_frames import FrameNames
-from coframe.bags.storage import Channel
 from coframe.frame_names import belongs
+from coframe.messages.schema_classes import known_class
 
 if TYPE_CHECKING:
     from coframe import _core
@@ -50,7 +50,9 @@ class FrameRenamer:
     def _plan(self, source: Source) -> FrameNames | None:
         if not belongs(source.topic, *self._topics):
             return None
-        frames = FrameNames.of(Channel(source.topic, source.type, "cdr"), source.type)
-        if frames is None:
+        cls = known_class(source.type)
+        if cls is None:
             self.not_renamed[source.topic] = None
-        return frames if frames and frames.exist else None
+            return None
+        frames = FrameNames(cls)
+        return frames if frames.exist else None

@@ -151,7 +151,7 @@ class TopicPublishers:
             )
 
     def _channel_publisher(self, channel: Channel, offered: list[QoS]) -> _ChannelPublisher | None:
-        converted = cdr_converter(channel)
+        converted = cdr_converter(channel, self._recording.types)
         if converted is None:
             self.problems.append(
                 f"{channel.topic} is not replayed: messages of type {channel.type} with the encoding "
@@ -171,7 +171,7 @@ class TopicPublishers:
         """Return the function that converts a message of the channel and renames its frames."""
         if self._names is None:
             return convert
-        frames = FrameNames.of(channel, ros_type)
+        frames = FrameNames.of(channel, ros_type, self._recording.types)
         if frames is None:
             self.problems.append(
                 f"{channel.topic}: frames are not renamed, because the definition of {ros_type} is not known"

@@ -1,0 +1,206 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The message types of a recording: coframe's classes, or those made from the definitions in the recording."""
+
+from __future__ import annotations
+
+import re
+from collections import OrderedDict
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from coframe.errors import CoframeError, InterfaceError
+from coframe.messages.compounds import event
+from coframe.messages.header_peek import (
+    FirstStamp,
+    HeaderPeek,
+    StampReader,
+    first_stamp,
+    known_first_stamp,
+    peek_header,
+)
+from coframe.messages.limits import MAX_RECORDED_TEXT
+from coframe.messages.schema_classes import ResolvedSchema, SchemaClasses, known_class
+from coframe.messages.schemas import Schema, parse_schema, ros_name
+
+if TYPE_CHECKING:
+    from coframe.bags.storage import Channel
+
+__all__ = ["RecordedTypes", "UnknownTypeError"]
+
+_ROS_ENCODINGS = {"cdr", "ros1"}
+_EVENT = "_Event"
+_KEPT_TEXT = 2 << 20  # bytes of the definitions that stay parsed
+_SMALLEST_TEXT = 1 << 12  # bytes that a definition counts at least
+
+# What a definition contains whose messages begin with a stamp: its name, or a sequence of messages that have one.
+_MAY_BEGIN_WITH_STAMP = re.compile(rb"Header|[Tt]ime|\[|sequence").search
+
+_Key = tuple[str, str, str, bytes]
+
+
+class _Beginning(NamedTuple):
+    """What is known about the beginning of messages.
+
+    Attributes:
+        first: What they begin with; None if that is no stamp or not known.
+        has_header: Whether they have a field ``header``; None if that is not known.
+    """
+
+    first: FirstStamp | None
+    has_header: bool | None
+
+
+_UNKNOWN, _NO_STAMP = _Beginning(None, None), _Beginning(None, has_header=False)
+
+
+class UnknownTypeError(CoframeError):
+    """The definition of a type is not available or cannot be used."""
+
+
+class RecordedTypes:
+    """The types of one recording. Equal definitions are read once, and all together have a limit."""
+
+    def __init__(self) -> None:
+        self._classes = SchemaClasses()
+        self._found: dict[_Key, Any] = {}  # a class, or the reason why there is none
+        self._beginnings: dict[_Key, _Beginning] = {}
+        self._parsed: OrderedDict[_Key, ResolvedSchema] = OrderedDict()
+        self._parsed_text = 0
+        self._seen: set[_Key] = set()
+        self._text = 0
+
+    def message_class(self, channel: Channel) -> Any:
+        """Return the class of the messages of a channel in ``cdr`` or ``ros1``.
+
+        Raises:
+            UnknownTypeError: The recording has no definition of the type that can be used, and coframe has none.
+        """
+        key = _key(channel)
+        if key not in self._found:
+            try:
+                self._found[key] = self._new_class(channel)
+            except UnknownTypeError as error:
+                self._found[key] = str(error)
+        if isinstance(self._found[key], str):
+            raise UnknownTypeError(self._found[key])
+        return self._found[key]
+
+    def own_class(self, channel: Channel) -> Any:
+        """Return the class of the messages of a channel if it is one of coframe's; None otherwise."""
+        try:
+            cls = self.message_class(channel)
+        except UnknownTypeError:
+            return None
+        return None if cls.__recorded__ else cls
+
+    def schema(self, channel: Channel) -> ResolvedSchema:
+        """Return the messages that a channel's definition describes.
+
+        Raises:
+            UnknownTypeError: The recording has no definition of the type that can be used.
+        """
+        key = _key(channel)
+        if key not in self._parsed:
+            self._parsed[key] = self._new_schema(channel)
+            self._parsed_text += _weight(key)
+            while len(self._parsed) > 1 and self._parsed_text > _KEPT_TEXT:
+                self._parsed_text -= _weight(self._parsed.popitem(last=False)[0])
+        self._parsed.move_to_end(key)
+        return self._parsed[key]
+
+    def stamp_reader(self, channel: Channel) -> StampReader | None:
+        """Return the reader for the stamps of a channel's messages; None if they do not begin with a stamp."""
+        if channel.definition and not _MAY_BEGIN_WITH_STAMP(channel.definition):
+            return None  # Reading the definition takes longer, and a recording can have tens of thousands.
+        first = self._beginning(channel).first
+        return None if first is None else StampReader(first, channel.encoding)
+
+    def peek_header(self, channel: Channel, data: bytes) -> HeaderPeek | None:
+        """Return the header of a message, which is not decoded; None if it does not begin with one that can be read."""
+        is_header = self._beginning(channel).first is FirstStamp.HEADER
+        return peek_header(data, channel.encoding) if is_header else None
+
+    def may_have_header(self, channel: Channel) -> bool:
+        """Return whether the messages of a channel have a field ``header``, as far as that is known."""
+        return self._beginning(channel).has_header is not False
+
+    def _beginning(self, channel: Channel) -> _Beginning:
+        if channel.encoding not in _ROS_ENCODINGS:
+            return _UNKNOWN
+        key = _key(channel)
+        if key not in self._beginnings:
+            self._beginnings[key] = self._new_beginning(channel)
+        return self._beginnings[key]
+
+    def _new_beginning(self, channel: Channel) -> _Beginning:
+        try:
+            known = None if channel.definition else known_class(_name(channel))
+            if known is not None:
+                return _Beginning(known_first_stamp(known.ROS_TYPE), hasattr(known, "header"))
+            schema = self.schema(channel)
+        except UnknownTypeError:
+            return _UNKNOWN
+        first, has_header = first_stamp(schema), schema.has_field("header")
+        return _NO_STAMP if first is None and not has_header else _Beginning(first, has_header)
+
+    def _new_class(self, channel: Channel) -> Any:
+        if not channel.definition:
+            known = known_class(_name(channel))
+            if known is not None:
+                return known
+        schema = self.schema(channel)
+        try:
+            return self._classes.of(schema, is_ros1=channel.encoding == "ros1")
+        except InterfaceError as error:
+            raise _unusable(error) from None
+
+    def _new_schema(self, channel: Channel) -> ResolvedSchema:
+        name = _name(channel)
+        self.count(channel)
+        try:
+            if not channel.definition:
+                return _schema_without_text(name)
+            return ResolvedSchema(parse_schema(channel.definition, name, channel.definition_format))
+        except InterfaceError as error:
+            raise _unusable(error) from None
+
+    def count(self, channel: Channel) -> None:
+        """Count the definition of a channel if it was not counted yet.
+
+        Raises:
+            UnknownTypeError: The definitions of the recording are too large together.
+        """
+        key = _key(channel)
+        if key in self._seen:
+            return
+        if self._text + len(channel.definition) > MAX_RECORDED_TEXT:
+            raise UnknownTypeError(f"the definitions of the recording have more than {MAX_RECORDED_TEXT} bytes")
+        self._text += len(channel.definition)
+        self._seen.add(key)
+
+
+def _weight(key: _Key) -> int:
+    return max(len(key[-1]), _SMALLEST_TEXT)
+
+
+def _key(channel: Channel) -> _Key:
+    return (channel.type, channel.encoding, channel.definition_format, channel.definition)
+
+
+def _name(channel: Channel) -> str:
+    try:
+        return ros_name(channel.type)
+    except ValueError as error:
+        raise UnknownTypeError(str(error)) from None
+
+
+def _schema_without_text(name: str) -> ResolvedSchema:
+    """Return the definition of the events of a service, which follows from the service."""
+    package, _, rest = name.partition("/srv/")
+    if not rest.endswith(_EVENT) or known_class(f"{package}/srv/{rest.removesuffix(_EVENT)}_Request") is None:
+        raise UnknownTypeError("the recording contains no definition")
+    return ResolvedSchema(Schema(name, {name: event(package, rest.removesuffix(_EVENT))}))
+
+
+def _unusable(error: InterfaceError) -> UnknownTypeError:
+    reason = str(error).partition("\n")[0]
+    return UnknownTypeError(f"its definition cannot be used ({reason[:300]})")

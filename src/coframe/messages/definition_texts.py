@@ -1,0 +1,129 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Definitions of message types as text; stored in a recording, they make it readable without ROS."""
+
+from __future__ import annotations
+
+import functools
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from coframe.messages.compounds import event, member_messages
+from coframe.messages.definition import (
+    AbstractNestedType,
+    AbstractType,
+    AbstractWString,
+    Array,
+    BasicType,
+    BoundedSequence,
+    BoundedString,
+    BoundedWString,
+    NamespacedType,
+)
+from coframe.messages.packages import find_package, is_generated, shipped
+from coframe.messages.parser import parse
+from coframe.messages.registry import find
+
+if TYPE_CHECKING:
+    from coframe.messages.parser import Structure
+
+__all__ = ["definition_of"]
+
+_SEPARATOR = "=" * 80
+_NAMES = {"boolean": "bool", "octet": "byte", "float": "float32", "double": "float64"}
+_EVENT = "_Event"
+
+
+@functools.cache
+def definition_of(ros_type: str) -> str:
+    """Return the definition of a message type and of all types inside it, as ``ros2msg``; "" if it is not known.
+
+    The text is that which rosbag2 writes: of the ``.msg`` files, each but the first after a line of 80 ``=`` and a line
+    such as ``MSG: std_msgs/Header``. Types that have no such file, because they belong to a service, an action or an
+    ``.idl`` file, are written as if they had one.
+    """
+    texts: dict[str, str] = {}
+    try:
+        _collect(ros_type, texts)
+    except LookupError:
+        return ""
+    parts: list[str] = []
+    for name, text in texts.items():
+        package, _, own = name.split("/")
+        parts.append(f"{_SEPARATOR}\nMSG: {package}/{own}\n{text}" if parts else text)
+    return "\n".join(parts) or "\n"
+
+
+class _Definition(NamedTuple):
+    text: str
+    structure: Structure
+
+
+def _collect(ros_type: str, texts: dict[str, str]) -> None:
+    """Add the text of a type, then those of the types in its fields."""
+    if ros_type in texts:
+        return
+    definition = _definition(ros_type)
+    texts[ros_type] = definition.text
+    for field in definition.structure.fields:
+        type_ = field.type.value_type if isinstance(field.type, AbstractNestedType) else field.type
+        if isinstance(type_, NamespacedType):
+            _collect("/".join(type_.namespaced_name()), texts)
+
+
+def _definition(ros_type: str) -> _Definition:
+    """Return the definition of one type.
+
+    Raises:
+        LookupError: coframe does not have the type.
+    """
+    package, _, rest = ros_type.partition("/")
+    kind, _, name = rest.partition("/")
+    if kind == "srv" and name.endswith(_EVENT):
+        find(ros_type.removesuffix(_EVENT))
+        return _written(event(package, name.removesuffix(_EVENT)))
+    find(ros_type)
+    found = shipped(package) if is_generated(package) else find_package(package)
+    if found is None:
+        raise LookupError(f"no package {package}")
+    if kind == "msg":
+        definition = found.definition(kind, name)
+        if not definition.is_idl:
+            (structure,) = parse(definition.text, package, file=definition.file)
+            return _Definition(definition.text.replace("\r\n", "\n").rstrip("\n") + "\n", structure)
+    owner = name.partition("_")[0]
+    return _written(member_messages(package, kind, owner, found.parse(kind, owner))[name])
+
+
+def _written(structure: Structure) -> _Definition:
+    """Return the definition of a message whose text is written here."""
+    lines = [f"{_type(constant.type)} {constant.name}={_value(constant.value)}" for constant in structure.constants]
+    for field in structure.fields:
+        default = "" if field.default is None else f" {_value(field.default)}"
+        lines.append(f"{_type(field.type)} {field.name}{default}")
+    return _Definition("".join(f"{line}\n" for line in lines), structure)
+
+
+def _type(type_: AbstractType) -> str:
+    if isinstance(type_, Array):
+        return f"{_type(type_.value_type)}[{type_.size}]"
+    if isinstance(type_, BoundedSequence):
+        return f"{_type(type_.value_type)}[<={type_.maximum_size}]"
+    if isinstance(type_, AbstractNestedType):
+        return f"{_type(type_.value_type)}[]"
+    if isinstance(type_, NamespacedType):
+        return f"{type_.namespaces[0]}/{type_.name}"
+    if isinstance(type_, BasicType):
+        return _NAMES.get(type_.typename, type_.typename)
+    text = "wstring" if isinstance(type_, AbstractWString) else "string"
+    return f"{text}<={type_.maximum_size}" if isinstance(type_, (BoundedString, BoundedWString)) else text
+
+
+def _value(value: Any) -> str:
+    if isinstance(value, list):
+        return f"[{', '.join(map(_value, value))}]"
+    if isinstance(value, bytes):
+        return str(value[0])
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, str):
+        return '"' + value.replace("\\", "\\\\").replace('"', '\\"').replace("\n", "\\n") + '"'
+    return repr(value)
