@@ -81,10 +81,10 @@ def test_texts_of_msg_files_in_all_forms(text):
 
 @pytest.mark.parametrize("kind", ["bare", "titled", "crlf", "commented", "dds"])
 def test_texts_of_idl_files_in_all_forms(kind):
-    titled = (
-        f"{LINE}IDL: {TYPE}\n// generated\n{PLAIN_IDL}\n{LINE}IDL: std_msgs/msg/Header\nmodule std_msgs {{ module msg {{"
-        "struct Header { builtin_interfaces::msg::Time stamp; string frame_id; }; }; };\n"
+    header = (
+        "module std_msgs { module msg { struct Header { builtin_interfaces::msg::Time stamp; string frame_id; }; }; };"
     )
+    titled = f"{LINE}IDL: {TYPE}\n// generated\n{PLAIN_IDL}\n{LINE}IDL: std_msgs/msg/Header\n{header}\n"
     text = {"bare": PLAIN_IDL, "titled": titled, "crlf": titled.replace("\n", "\r\n"), "dds": DDS_IDL}.get(kind)
     if kind == "commented":
         text = titled.replace("  struct", '  @verbatim (language="comment", text="a" "wheel")\n  struct')
