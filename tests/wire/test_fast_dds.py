@@ -152,6 +152,7 @@ def test_late_static_transforms_arrive_before_why_answers(run):
 SERVICES = """
 import rclpy
 from rclpy.executors import SingleThreadedExecutor
+from rclpy.qos import DurabilityPolicy, QoSProfile
 from std_srvs.srv import SetBool
 
 TOPICS = [("reader", "rq/lightRequest", "Request"), ("writer", "rr/lightReply", "Response"),
@@ -225,7 +226,16 @@ def test_calls_reach_only_the_server_that_understands_them(run):
                 future = client.call_async(SetBool.Request(data=True))
                 executor.spin_until_future_complete(future, timeout_sec=10)
                 assert future.result().success
-        time.sleep(0.5)
+        # With this quality of service, servers that appear later receive the requests of before.
+        durable = QoSProfile(depth=10, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+        node.create_client(SetBool, "late", qos_profile=durable).call_async(SetBool.Request(data=True))
+        late = ("reader", "rq/lateRequest", "Request")
+        TOPICS.append(late)
+        fast.ask("guid", late[0], late[1], "std_srvs::srv::dds_::SetBool_Request_", "transient")
+        asked = []
+        node.create_service(SetBool, "late", lambda q, r: asked.append(q) or r, qos_profile=durable)
+        eventually(lambda: executor.spin_once(timeout_sec=0.05) or asked)
+        time.sleep(3)
         assert_unmatched(fast)
         rclpy.shutdown()
         """)

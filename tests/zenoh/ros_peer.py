@@ -184,7 +184,6 @@ class Peer:
         )
         self.received.append([name, "gid", gid.hex()])
 
-
     def count_end(self) -> None:
         self.ended += 1
 

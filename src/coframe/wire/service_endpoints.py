@@ -113,7 +113,7 @@ class ServicePublisher(RawPublisher):
                 self.on_unreachable(self._text(peers.foreign))
 
     def _peers(self) -> _Peers:
-        handles = frozenset(self.matched_handles())
+        handles = frozenset(self._unless_closed(self._endpoint.matched_handles, []))
         known = self._known
         if known is not None and known[:2] == (self._graph.version, handles):
             return known[2]

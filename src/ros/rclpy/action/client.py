@@ -191,7 +191,8 @@ class ActionClient:
             goal_uuid: Identifier of the goal. None: a random identifier.
 
         Returns:
-            A future of a `ClientGoalHandle`, whose attribute `accepted` is the response of the server.
+            A future of a `ClientGoalHandle`, whose attribute `accepted` is the response of the server. Its
+            exceptions are those of `Client.call_async`.
 
         Raises:
             TypeError: `goal` is not a goal of the action's type.
