@@ -19,6 +19,7 @@ from coframe.escaping import shown
 from coframe.frame_names import renaming
 from coframe.messages.conversions import to_transform_stamped
 from coframe.wire import Participant
+from coframe.wire.system_clock import stamp_fault
 
 __all__ = ["static"]
 
@@ -93,6 +94,8 @@ def _add_prefix(arguments: StaticArguments) -> None:
 
 
 def _publish_until_stopped(arguments: StaticArguments, identity: NodeIdentity) -> None:
+    if (fault := stamp_fault()) is not None:
+        raise fault
     participant = Participant.get(arguments.domain)
     try:
         node = participant.add_node(identity["namespace"], identity["node_name"])

@@ -10,6 +10,7 @@ from coframe import _core
 from coframe.errors import WireError
 from coframe.wire import names
 from coframe.wire.graph import DiscoveredEndpoint, NodeInfo
+from coframe.wire.system_clock import clock_fault
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -261,6 +262,8 @@ class Publisher(LocalEndpoint):
                 hint="Publish less often, publish with best-effort reliability (qos_profile_sensor_data), "
                 "or find the subscriber that hangs.",
             )
+        if (fault := clock_fault()) is not None:
+            return WireError(f"Publishing on {topic} failed. {fault}", hint=fault.hint)
         return WireError(
             f"Publishing on {topic} failed: {error}.",
             hint=f"The bytes must be the CDR serialization of a {names.ros_type(self.description.type)}.",

@@ -26,6 +26,7 @@ from coframe.wire.parameter_services import ParameterServices
 from coframe.wire.rejected_transforms import RejectedTransformMonitor
 from coframe.wire.service_endpoints import ServicePublisher
 from coframe.wire.static_broadcaster import SharedStaticPublisher, StaticBroadcaster
+from coframe.wire.system_clock import clock_fault
 from coframe.wire.tf_reader import TfReader
 from coframe.wire.warn_once import WarnOnce
 
@@ -75,7 +76,8 @@ class Participant(EndpointFactory, GraphQueries):
 
         Raises:
             WireError: There is no usable middleware, an environment variable has an invalid value, the domain has no
-                free participant index, or this process was forked from a process that had joined a domain.
+                free participant index, this process was forked from a process that had joined a domain, or the system
+                clock is before 1970 or after 2106.
         """
         domain = domains.domain_id() if domain_id is None else domains.check_domain_id(domain_id)
         with cls._instances_lock:
@@ -86,6 +88,8 @@ class Participant(EndpointFactory, GraphQueries):
                 )
             participant = cls._instances.get(domain)
             if participant is None:
+                if (fault := clock_fault()) is not None:
+                    raise fault
                 participant = cls._instances[domain] = cls(domain)
             participant._references += 1
             return participant
@@ -200,6 +204,8 @@ class Participant(EndpointFactory, GraphQueries):
                 readers = [endpoint for endpoint in endpoints if isinstance(endpoint, TfReader)]
                 self._rejections.check(readers)
                 self._warn_of_naming_problems(readers)
+                if (fault := clock_fault()) is not None:  # The clock was set while the process runs.
+                    self._warn_once("clock", f"{fault} {fault.hint}")
             except Exception:
                 # A warning callback raised, or an endpoint was closed in the meantime.
                 if not self._closing:

@@ -6,16 +6,19 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 from coframe.messages import codec
 from rcl_interfaces.msg import Log
+from rclpy.constants import S_TO_NS
 from rclpy.impl.console import Record, console
 from rclpy.qos import qos_profile_rosout_default
 from rclpy.time import Time
 
 if TYPE_CHECKING:
     from coframe.wire import GraphNode, Participant
+
+_END_OF_STAMPS: Final = 2**31 * S_TO_NS
 
 
 class RosoutPublisher:
@@ -44,6 +47,8 @@ class RosoutPublisher:
 
     def _publish(self, record: Record) -> None:
         if self._publisher.closed:  # When the process exits, DDS is shut down before the last log message.
+            return
+        if not 0 <= record.stamp < _END_OF_STAMPS:  # The system clock is wrong; the terminal shows the message.
             return
         message = Log(
             stamp=Time(nanoseconds=record.stamp).to_msg(),

@@ -158,8 +158,12 @@ class Context:
 
     def _Coframe__get_participant(self) -> Participant:
         """Return the DDS participant. The caller closes it."""
-        from coframe.wire import Participant  # noqa: PLC0415 - Times, clocks and futures do not need DDS.
+        # Times, clocks and futures do not need DDS.
+        from coframe.wire import Participant  # noqa: PLC0415
+        from coframe.wire.system_clock import stamp_fault  # noqa: PLC0415
 
+        if (fault := stamp_fault()) is not None:
+            raise fault
         participant = Participant.get(self.__domain_id)
         # Exit handlers run in reverse order of registration, and executors must stop before DDS shuts down.
         atexit.unregister(_shut_down_at_exit)

@@ -10,6 +10,7 @@ from rclpy._clock_type import ClockType
 from rclpy._numbers import require_number
 from rclpy.constants import S_TO_NS
 from rclpy.duration import INT64_LIMIT, Duration
+from rclpy.exceptions import _with_hint
 
 if TYPE_CHECKING:
     from typing_extensions import Self
@@ -137,7 +138,11 @@ class Time:
     def to_msg(self) -> builtin_interfaces.msg.Time:
         """Return the time as a `builtin_interfaces/Time`."""
         seconds, nanoseconds = self.seconds_nanoseconds()
-        return builtin_interfaces.msg.Time(sec=seconds, nanosec=nanoseconds)
+        try:
+            return builtin_interfaces.msg.Time(sec=seconds, nanosec=nanoseconds)
+        except AssertionError as error:
+            hint = f"Times in messages end at 2038-01-19, {2**31 - 1} s after 1970. If this is now(), check the clock."
+            raise _with_hint(error, hint) from None
 
     @classmethod
     def from_msg(cls, msg: builtin_interfaces.msg.Time, clock_type: ClockType = ClockType.ROS_TIME) -> Self:

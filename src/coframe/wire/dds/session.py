@@ -16,6 +16,7 @@ from coframe.wire.dds.topics import create_topic
 from coframe.wire.dds.user_data import endpoint_user_data
 from coframe.wire.dds.vendors import SERVICE_PARTITIONS
 from coframe.wire.qos import GRAPH_WRITER, QoS
+from coframe.wire.system_clock import clock_fault
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -54,6 +55,7 @@ class DdsSession:
         self._announcements = Announcements(self.native, repeated=config.reaches_other_machines())
         self.gid_size = self._preferred_gid_size = gid_size(os.environ)
         self._announced: list[NodeInfo] = []
+        self._is_published = True  # whether the nodes of this process are on the graph as they are now
         self._info_writer = _core.Writer(
             self.native.entity, create_topic(self.native.entity, TOPIC, _GRAPH_TYPE), native_qos(GRAPH_WRITER), ADAPTS
         )
@@ -125,6 +127,8 @@ class DdsSession:
 
     def repeat_announcement(self) -> int:
         """Announce this process again if the network may have lost the first announcements."""
+        if not self._is_published:
+            self._publish_nodes()
         return self._announcements.send_due()
 
     def adapt(self) -> str:
@@ -143,7 +147,14 @@ class DdsSession:
         self.native.close()
 
     def _publish_nodes(self) -> None:
-        self._info_writer.write(encode_info(self.native.guid, self._announced, self.gid_size))
+        try:
+            self._info_writer.write(encode_info(self.native.guid, self._announced, self.gid_size))
+            self._is_published = True
+        except _core.EndpointError:
+            # A node must be able to end while the clock is wrong. The next announcement contains all nodes.
+            self._is_published = False
+            if clock_fault() is None:
+                raise
 
     def _create(self, endpoint: Endpoint, make: Callable[[int, str], EndpointT], user_data: str = "") -> EndpointT:
         """Create an endpoint with `make(handle of the topic, user data)`."""
