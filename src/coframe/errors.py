@@ -20,7 +20,8 @@
         ├── RecordingError(ValueError)          a recording without any readable data
         ├── TrajectoryError(ValueError)         a trajectory that cannot be read or compared
         ├── PlotError(ValueError)               something that cannot be plotted
-        └── CourseError(ValueError)             a folder of the lab that cannot be created or graded
+        ├── CourseError(ValueError)             a folder of the lab that cannot be created or graded
+        └── UnsuitableFileError(OSError)        a pipe, a device or a too large file in place of a file (regular_files)
 
 Wrong arguments of Python calls (a wrong type, shape or unit) raise TypeError and ValueError as usual.
 
@@ -32,13 +33,12 @@ Transform exceptions carry the facts behind their text as well.
 
 from __future__ import annotations
 
-import sys
-import traceback
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from coframe import _core
 from coframe.analysis.missing_edges import missing_edge
 from coframe.analysis.tree import FrameTrees
+from coframe.base_error import CoframeError
 from coframe.escaping import shown
 from coframe.formatting import LONGEST_COMPARED, listed, similar
 from coframe.lookup_hints import doctor_code, hint
@@ -70,51 +70,6 @@ __all__ = [
     "ViewerError",
     "WireError",
 ]
-
-
-# What a traceback shows in front of a hint.
-_HINT = "Hint: "
-
-
-class CoframeError(Exception):
-    """Base class of all exceptions that coframe raises by itself."""
-
-    # There is no __init__ here: the native core raises transform exceptions often, and they have to stay cheap.
-    _hint: str = ""
-
-    @property
-    def hint(self) -> str:
-        """What to do next, in one or two sentences; may be empty."""
-        return self._hint
-
-    @property
-    def doctor_code(self) -> str:
-        """The code of the doctor's page about this problem, such as ``"TF013"``; "" if there is none."""
-        return ""
-
-    # The interpreter reads the notes only when it prints a traceback, so other hints are never computed.
-    @property
-    def __notes__(self) -> list[str]:
-        """The notes below the text in a traceback: the hint, and what ``add_note`` has added."""
-        notes: list[str] | None = self.__dict__.get("__notes__")
-        if notes is None:
-            notes = self.__dict__["__notes__"] = [f"{_HINT}{self.hint}"] if self.hint else []
-        return notes
-
-    @__notes__.setter
-    def __notes__(self, notes: list[str]) -> None:
-        self.__dict__["__notes__"] = notes
-
-    def _render_traceback_(self) -> list[str]:
-        """Return the traceback for IPython, which calls this method; only its newer versions show notes."""
-        ipython = sys.modules.get("IPython")
-        shell = ipython.get_ipython() if ipython else None
-        if shell is None:
-            lines = traceback.format_exception(type(self), self, self.__traceback__)
-        else:
-            lines = list(shell.InteractiveTB.structured_traceback(type(self), self, self.__traceback__))
-        note = f"{_HINT}{self.hint}"
-        return lines if not self.hint or note in "\n".join(lines) else [*lines, note]
 
 
 class _Facts(NamedTuple):

@@ -16,6 +16,8 @@ import os
 import stat
 from typing import TYPE_CHECKING, BinaryIO, Final
 
+from coframe.base_error import CoframeError
+
 if TYPE_CHECKING:
     from collections.abc import Callable
 
@@ -38,7 +40,7 @@ _MIN_STORED: Final = 8 * _BLOCK  # some file systems state nothing or a block fo
 _UNNAMED_PIPES: Final = ("/dev/", "/proc/")  # a shell passes the output of a program as /dev/fd/63 or /dev/stdin
 
 
-class UnsuitableFileError(OSError, ValueError):
+class UnsuitableFileError(CoframeError, OSError, ValueError):
     """A file of another kind, or with more bytes than the limit; ``strerror`` says what it is."""
 
     def __str__(self) -> str:
