@@ -78,7 +78,11 @@ def read_regular(path: str | os.PathLike[str], max_bytes: int) -> bytes:
         OSError: The file cannot be read.
     """
     with open_regular(path) as file:
-        content = file.read(max_bytes + 1)
+        try:
+            content = file.read(max_bytes + 1)
+        except OSError as error:
+            error.filename = os.fspath(path)
+            raise
     if content is None:  # files of the kernel, which wait for events
         raise UnsuitableFileError(errno.EAGAIN, "it has no content yet", os.fspath(path))
     if len(content) > max_bytes:

@@ -7,6 +7,7 @@ import sqlite3
 import struct
 import subprocess
 import sys
+from contextlib import closing
 from pathlib import Path
 
 import pytest
@@ -271,3 +272,33 @@ def test_a_file_that_was_compressed_as_a_whole_does_not_fill_the_disk(tmp_path, 
     with coframe.open_bag(bag) as recording:
         recordings.assert_same(recording.buffer)
         assert f"{packed.name} unpacks to more than 8388608 bytes" in " ".join(recording.problems)
+
+
+def test_empty_blocks_without_end_are_not_read(tmp_path):
+    """A file of zero bytes after the magic number is a sequence of empty blocks."""
+    path = tmp_path / "run.db3.zstd"
+    path.write_bytes(b"\x28\xb5\x2f\xfd" + bytes(40 << 20))
+    with pytest.raises(coframe.RecordingError, match=r"is damaged: \d+ bytes unpack to only 0"):
+        coframe.open_bag(path)
+
+
+@pytest.mark.parametrize("topic", ["/tf", "/camera"])
+def test_messages_with_a_high_ratio_have_a_budget_together(tmp_path, monkeypatch, topic):
+    import zstandard
+    from rosbags.rosbag2 import CompressionMode, StoragePlugin
+
+    monkeypatch.setattr(storage, "MIN_BUDGET", 32 << 20)
+    bag = recordings.write_rosbag2(tmp_path / "bag", StoragePlugin.SQLITE3, CompressionMode.MESSAGE)
+    (database,) = bag.glob("*.db3")
+    message = zstandard.compress(bytes(8 << 20), 1)
+    with closing(sqlite3.connect(database)) as opened, opened:
+        opened.execute("INSERT INTO topics VALUES (99, '/camera', 'x', 'cdr', '', '')")
+        (number,) = opened.execute("SELECT id FROM topics WHERE name = ?", (topic,)).fetchone()
+        row = "INSERT INTO messages(topic_id, timestamp, data) VALUES (?, ?, ?)"
+        opened.executemany(row, [(number, START + index, message) for index in range(20)])
+    with coframe.open_bag(bag) as recording:
+        for _ in range(2):  # Reading a message again does not count again.
+            found = [message for message in recording.messages(topic) if len(message.data) == 8 << 20]
+            assert len(found) == 4
+        assert "a message of" in " ".join(recording.problems)
+        assert "bytes, the limit" in " ".join(recording.problems)

@@ -26,7 +26,9 @@ HERE = Path(__file__).resolve().parent
 BUILD = HERE.parents[1] / "build" / "fuzz"
 CORPORA = HERE / "corpus"
 NATIVE = sorted(file.stem for file in (HERE / "native").glob("*.cpp"))
+UNGUIDED = ["special_files"]  # scripts that need neither coverage nor a corpus
 PYTHON = re.findall(r"^@target\ndef (\w+)", (HERE / "python_targets.py").read_text(), re.MULTILINE)
+ALL = [*NATIVE, *PYTHON, *UNGUIDED]
 
 MOST_MEMORY = 1024  # MB
 MOST_SECONDS = 5  # per input
@@ -91,6 +93,8 @@ def environment(scratch: str) -> dict[str, str]:
 
 def fuzz(name: str, seconds: int, seed: int, extra: list[Path]) -> Outcome:
     """Run a target for some seconds; a seed of 0 is a random one."""
+    if name in UNGUIDED:
+        return run_unguided(name, seconds, seed)
     folder, seconds_per_input = corpus_of(name), SLOW.get(name, MOST_SECONDS)
     log = BUILD / f"{name}.log"
     options = [
@@ -106,6 +110,22 @@ def fuzz(name: str, seconds: int, seed: int, extra: list[Path]) -> Outcome:
     with scratch_folder() as scratch, log.open("wb") as output:
         ended = subprocess.run(
             [*command(name), *options, str(folder), *map(str, extra)],
+            stdout=output,
+            stderr=subprocess.STDOUT,
+            env=environment(scratch),
+            timeout=3 * seconds + 600,
+            check=False,
+        )
+    return read_log(name, log, ended.returncode)
+
+
+def run_unguided(name: str, seconds: int, seed: int) -> Outcome:
+    """Run a script for some seconds, which names the case that has failed in its last line."""
+    log = BUILD / f"{name}.log"
+    command = [sys.executable, str(HERE / f"{name}.py"), "--seconds", str(seconds), "--seed", str(seed)]
+    with scratch_folder() as scratch, log.open("wb") as output:
+        ended = subprocess.run(
+            command,
             stdout=output,
             stderr=subprocess.STDOUT,
             env=environment(scratch),
@@ -212,19 +232,20 @@ def main() -> int:
     parser = argparse.ArgumentParser(
         description="Fuzz coframe's decoders and readers.", epilog="Example: make fuzz SECONDS=600 ARGS='mcap urdf'"
     )
-    parser.add_argument("targets", nargs="*", metavar="TARGET", help=f"default: all of {', '.join([*NATIVE, *PYTHON])}")
+    parser.add_argument("targets", nargs="*", metavar="TARGET", help=f"default: all of {', '.join(ALL)}")
     parser.add_argument("--seconds", type=int, default=60, help="total time, divided between the targets (60)")
     parser.add_argument("--seed", type=int, default=0, help="repeat the mutations of a run (default: random)")
     parser.add_argument("--extra", type=Path, action="append", default=[], help="a folder with more seeds")
     parser.add_argument("--keep", action="store_true", help="minimise the corpora into the repository; no fuzzing")
     options = parser.parse_args()
-    if unknown := set(options.targets) - {*NATIVE, *PYTHON}:
-        parser.error(f"unknown targets: {', '.join(sorted(unknown))}. Known: {', '.join([*NATIVE, *PYTHON])}")
+    if unknown := set(options.targets) - set(ALL):
+        parser.error(f"unknown targets: {', '.join(sorted(unknown))}. Known: {', '.join(ALL)}")
     BUILD.mkdir(parents=True, exist_ok=True)
-    names = available(options.targets or [*NATIVE, *PYTHON])
+    names = available(options.targets or ALL)
     if options.keep:
         for name in names:
-            print(keep(name), flush=True)
+            if name not in UNGUIDED:
+                print(keep(name), flush=True)
         return 0
     outcomes = []
     for name in names:

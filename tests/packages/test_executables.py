@@ -165,3 +165,26 @@ def test_the_listener_escapes_what_it_received(make_node):
         listener.send_signal(signal.SIGINT)
     assert "hello" in received
     assert "\x1b" not in received
+
+
+HOSTILE_FILES = {
+    "setup.py": "a = 'x' * 9\na = 'xxxxxxxx'\n" + "a = a + a\n" * 60 + "setup(scripts=[a])",
+    "setup.cfg": "[options]\nscripts =\n" + " x\n" * 80_000,
+    "pyproject.toml": "a." * 120_000 + "a = 1",
+    "CMakeLists.txt": "install(PROGRAMS " * 15_000 + "install( PROGRAMS" + " " * 5000,
+}
+
+
+@pytest.mark.parametrize("name", HOSTILE_FILES)
+def test_a_hostile_package_takes_little_time(workspace, name):
+    write(workspace / "src/group/helpers_pkg" / name, HOSTILE_FILES[name])
+    started = time.monotonic()
+    executables("helpers_pkg")
+    assert time.monotonic() - started < 5
+
+
+def test_a_text_that_doubles_is_not_a_name(workspace):
+    doubling = "a = f'{a}{a}'\n" * 60
+    write(workspace / "src/group/helpers_pkg/setup.py", f"a = 'xxxxxxxx'\n{doubling}setup(scripts=[a, 'scripts/b'])")
+    write(workspace / "src/group/helpers_pkg/scripts/b", "#!/usr/bin/env python3\n")
+    assert list(executables("helpers_pkg")) == ["b"]

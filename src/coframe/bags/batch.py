@@ -22,6 +22,7 @@ from coframe.bags.batch_processes import run_jobs
 from coframe.bags.recording import open_bag
 from coframe.complete_files import write_complete
 from coframe.errors import RecordingError
+from coframe.regular_files import open_regular, read_regular
 from coframe.trajectories.formats import POSE_COLUMNS
 
 if TYPE_CHECKING:
@@ -34,6 +35,7 @@ __all__ = ["ENGINES", "QueryResult", "query_recording", "query_recordings"]
 
 _METADATA_KEY = b"coframe"
 _CHECKSUM_DIGITS = 64  # of SHA-256
+_MAX_CHECKSUM_FILE = 10_000  # bytes: the digits and the name of a file
 _REPORT_KEY = b"coframe.report"  # the number of missing poses, and the problems
 
 
@@ -153,7 +155,8 @@ def _existing(part: Path, bag: str, fingerprint: bytes) -> QueryResult | None:
     if not _is_intact(part):
         return None
     try:
-        metadata = importlib.import_module("pyarrow.parquet").read_metadata(part)
+        with open_regular(part) as file:
+            metadata = importlib.import_module("pyarrow.parquet").read_metadata(file)
     except Exception:  # noqa: BLE001 - a damaged file is written again
         return None
     stored = metadata.metadata or {}
@@ -190,7 +193,7 @@ def _write(part: Path, poses: Transform, result: QueryResult, fingerprint: bytes
 def _is_intact(part: Path) -> bool:
     """Return whether a file has the content that was written. A flipped byte would otherwise be another pose."""
     try:
-        return _checksum_file(part).read_bytes()[:_CHECKSUM_DIGITS].decode() == _checksum(part)
+        return read_regular(_checksum_file(part), _MAX_CHECKSUM_FILE)[:_CHECKSUM_DIGITS].decode() == _checksum(part)
     except (OSError, UnicodeDecodeError):
         return False
 
@@ -201,7 +204,7 @@ def _checksum_file(part: Path) -> Path:
 
 def _checksum(file: Path) -> str:
     digest = hashlib.sha256()
-    with file.open("rb") as stream:
+    with open_regular(file) as stream:
         while block := stream.read(1 << 20):
             digest.update(block)
     return digest.hexdigest()

@@ -5,8 +5,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from coframe.bags.compression import DamagedError, unpack_message
-from coframe.bags.storage import Batch, Storage
+from coframe.bags.compression import LARGEST_MESSAGE, DamagedError, unpack_beginning, unpack_message
+from coframe.bags.storage import MAX_RATIO, Batch, Storage, unpacked_budget
 from coframe.messages.slices import Slices
 
 if TYPE_CHECKING:
@@ -28,6 +28,9 @@ class UnpackedMessages(Storage):
         self.compressions = {f"{compression} (each message)"}
         self._packed = packed
         self._compression = compression
+        # All messages with an unusual ratio together have a limit. Each of them is counted once.
+        self._budget = unpacked_budget(packed.size)
+        self._counted: set[int] = set()  # their positions
 
     def channels(self) -> list[Channel]:
         """Return the channels of the wrapped storage."""
@@ -46,9 +49,11 @@ class UnpackedMessages(Storage):
         rows: list[int] = []
         unpacked: list[bytes] = []
         size = 0
-        for row, message in enumerate(messages.each()):
-            data = self._unpack(channel, message)
-            if data is None:
+        for row, (position, message) in enumerate(zip(packed.positions.tolist(), messages.each(), strict=True)):
+            try:
+                data = self._unpack(position, message)
+            except DamagedError as error:
+                self.add_problem(f"messages on {channel.topic} cannot be unpacked: {error}")
                 continue
             rows.append(row)
             unpacked.append(data)
@@ -58,16 +63,23 @@ class UnpackedMessages(Storage):
                 rows, unpacked, size = [], [], 0
         yield Batch(channel, packed.received[rows], packed.positions[rows], Slices.join(unpacked))
 
-    def _unpack(self, channel: Channel, message: memoryview) -> bytes | None:
-        try:
+    def _unpack(self, position: int, message: bytes | memoryview) -> bytes:
+        usual = MAX_RATIO * len(message)
+        if position in self._counted:
             return unpack_message(self._compression, message)
-        except DamagedError as error:
-            self.add_problem(f"messages on {channel.topic} cannot be unpacked: {error}")
-            return None
+        data = unpack_message(self._compression, message, min(LARGEST_MESSAGE, max(usual, self._budget)))
+        if len(data) > usual:
+            self._counted.add(position)
+            self._budget -= len(data)
+        return data
 
     def read(self, position: int) -> bytes:
         """Return the unpacked bytes of one message."""
-        return unpack_message(self._compression, self._packed.read(position))
+        return self._unpack(position, self._packed.read(position))
+
+    def head(self, position: int, size: int) -> bytes:
+        """Return the first bytes of one message, without unpacking the rest."""
+        return unpack_beginning(self._compression, self._packed.read(position), size)
 
     def close(self) -> None:
         """Close the file."""

@@ -14,7 +14,7 @@ from coframe.errors import CoframeError, RecordingError
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-__all__ = ["LARGEST", "LARGEST_MESSAGE", "DamagedError", "unpack", "unpack_message"]
+__all__ = ["LARGEST", "LARGEST_MESSAGE", "DamagedError", "unpack", "unpack_beginning", "unpack_message"]
 
 LARGEST = 512 << 20  # bytes of a record or an unpacked chunk: real ones are smaller
 LARGEST_MESSAGE = 128 << 20  # bytes of an unpacked message
@@ -61,19 +61,28 @@ def unpack(compression: str, data: bytes | memoryview, size: int) -> bytes:
     return unpacked
 
 
-def unpack_message(compression: str, data: bytes | memoryview) -> bytes:
+def unpack_beginning(compression: str, data: bytes | memoryview, size: int) -> bytes:
+    """Unpack the first `size` bytes of a message that was compressed by itself, fewer if it is shorter or damaged.
+
+    The arguments and errors are those of :func:`unpack_message`.
+    """
+    return unpack(compression, data, size)[:size]
+
+
+def unpack_message(compression: str, data: bytes | memoryview, largest: int = LARGEST_MESSAGE) -> bytes:
     """Unpack a message that was compressed by itself, or the part of it before the first damage.
 
     Args:
         compression: ``"zstd"``, ``"lz4"`` (frames), ``"bz2"`` or ``""``.
         data: The compressed bytes.
+        largest: The largest number of unpacked bytes.
 
     Raises:
-        DamagedError: No data can be unpacked, the message is larger than :data:`LARGEST_MESSAGE` or implausibly large
-            for its packed size, or the compression is unknown.
+        DamagedError: No data can be unpacked, the message is larger than `largest` or implausibly large for its packed
+            size, or the compression is unknown.
         RecordingError: The package for this compression is not installed.
     """
-    limit = min(LARGEST_MESSAGE, max(_PLAUSIBLE, _HIGHEST_RATIO * len(data)))
+    limit = min(largest, max(_PLAUSIBLE, _HIGHEST_RATIO * len(data)))
     # One byte more than the limit shows that the message is too large, also if the file states another size.
     if _stated_size(compression, data) > limit or len(unpacked := unpack(compression, data, limit + 1)) > limit:
         raise DamagedError(f"a message of {len(data)} bytes unpacks to more than {limit} bytes, the limit")

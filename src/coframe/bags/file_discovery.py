@@ -7,7 +7,6 @@ The first bytes of a file decide its format. Names and metadata.yaml only help t
 from __future__ import annotations
 
 import difflib
-import errno
 import importlib
 import re
 from contextlib import suppress
@@ -146,15 +145,12 @@ def _is_candidate(file: Path, problems: Problems) -> bool:
     is_named_so = bool(suffixes and suffixes[-1] in _SUFFIXES)
     try:
         start = _beginning(file)
-    except UnsuitableFileError as error:
-        if is_named_so and not file.is_dir():
-            problems.add(f"{file.name} cannot be read: {error.strerror}")
+    except FileNotFoundError:  # A running recorder renames its metadata between the listing and this line.
         return False
     except OSError as error:
-        # A running recorder renames its metadata between the listing and this line. Links can lead to themselves.
-        if error.errno in {errno.ENOENT, errno.ELOOP}:
-            return False
-        raise
+        if is_named_so and not file.is_dir():
+            problems.add(f"{file.name} cannot be read: {error.strerror or error}")
+        return False
     return is_named_so or any(start.startswith(magic) for magic in _READERS)
 
 

@@ -10,7 +10,11 @@ from __future__ import annotations
 import contextlib
 from pathlib import Path
 
+from coframe.regular_files import read_regular_text
+
 __all__ = ["complete_at_first_tab"]
+
+_MAX_BYTES = 1 << 20  # of a script; that of typer has 500
 
 
 def complete_at_first_tab(program: str) -> None:
@@ -19,6 +23,6 @@ def complete_at_first_tab(program: str) -> None:
     function = f"_{program}_completion"
     call = f'[[ $funcstack[1] == _{program} ]] && {function} "$@"'
     with contextlib.suppress(OSError, UnicodeDecodeError):
-        script = file.read_text(encoding="utf-8")
+        script = read_regular_text(file, _MAX_BYTES)
         if f"{function}()" in script and call not in script:
             file.write_text(f"{script.rstrip()}\n\n{call}\n", encoding="utf-8")

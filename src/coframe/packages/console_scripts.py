@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 __all__ = ["PythonPackage", "read"]
 
 MAX_BYTES = 1 << 18  # of a file
+_MAX_DOTS = 4000  # of pyproject.toml; a key takes quadratic time, and this many dots in one key half a second
 
 _SCRIPT = re.compile(r"\s*([\w.\-]+)\s*=\s*([\w.]+\s*:\s*[\w.]+)\s*(?:\[.*\])?\s*", re.ASCII)
 
@@ -77,6 +78,8 @@ def _setup_cfg(text: str) -> PythonPackage:
 
 
 def _pyproject(text: str) -> PythonPackage:
+    if text.count(".") > _MAX_DOTS:
+        return PythonPackage({})
     if sys.version_info >= (3, 11):
         import tomllib  # noqa: PLC0415 - Python 3.10 does not have it
 
@@ -121,6 +124,11 @@ def _from_setup_arguments(arguments: dict[str, Any]) -> PythonPackage:
     )
 
 
+def _short(value: str | list[Any]) -> Any:
+    """Return a value, None if it is longer than a file: a few lines can double a text any number of times."""
+    return value if len(value) <= MAX_BYTES else None
+
+
 def _called(function: ast.expr) -> str:
     return function.id if isinstance(function, ast.Name) else getattr(function, "attr", "")
 
@@ -136,8 +144,8 @@ def _value(node: ast.expr, names: dict[str, Any]) -> Any:
         return {_value(key, names): _value(item, names) for key, item in pairs if key}
     if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Add):
         left, right = _value(node.left, names), _value(node.right, names)
-        return left + right if type(left) is type(right) and isinstance(left, str | list) else None
+        return _short(left + right) if type(left) is type(right) and isinstance(left, str | list) else None
     if isinstance(node, ast.JoinedStr):
         parts = [_value(part.value if isinstance(part, ast.FormattedValue) else part, names) for part in node.values]
-        return "".join(map(str, parts))
+        return _short("".join(map(str, parts))) if all(isinstance(part, str | int) for part in parts) else None
     return [_value(item, names) for item in node.elts] if isinstance(node, ast.List | ast.Tuple) else None
