@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 import recordings
 
-from coframe.course.readable import _shared_paths
+from coframe.course.view import view_of
 from coframe.packages.folders import listed
 from coframe.wire.dds.library import places
 
@@ -140,6 +140,6 @@ def test_unreadable_folders_on_search_paths_are_skipped(monkeypatch):
         monkeypatch.setenv(name, os.pathsep.join([UNREADABLE, os.environ.get(name, "")]))
     words, options = command("--version")
     assert subprocess.run(words, stdout=subprocess.PIPE, check=False, **options).stderr == ""
-    assert UNREADABLE not in _shared_paths.__wrapped__()
+    assert UNREADABLE not in dict(view_of(Path(), [], []).entries)
     assert Path(UNREADABLE) not in set(listed("AMENT_PREFIX_PATH"))
     assert list(places({"LD_LIBRARY_PATH": UNREADABLE, "AMENT_PREFIX_PATH": UNREADABLE}))
