@@ -293,6 +293,24 @@ def test_other_installations_and_compiled_files_are_hidden(tmp_path, monkeypatch
     assert entries[str(tmp_path / "packages" / "coframe" / "lab")] is False
 
 
+def test_an_environment_in_the_current_folder_does_not_expose_the_folder(tmp_path, monkeypatch):
+    """As `python -m venv .` makes it; a student's folder can also contain the environment."""
+    for name in ("lib/python3/coframe/lab", "bin", "solutions", "class/mallory", "mine/.venv/lib/coframe/lab"):
+        (tmp_path / name).mkdir(parents=True)
+    monkeypatch.setattr(sys, "prefix", str(tmp_path))
+    monkeypatch.chdir(tmp_path)
+    own = tmp_path / "class" / "mallory"
+    lab = tmp_path / "lib" / "python3" / "coframe" / "lab"
+    entries = dict(view_of(own, private_folders(own), [str(lab)]).entries)
+    below = {path.removeprefix(f"{tmp_path}/"): value for path, value in entries.items() if str(tmp_path) in path}
+    assert below == {"bin": True, "class/mallory": True, "lib": True, "lib/python3/coframe/lab": False}
+    own = tmp_path / "mine"
+    lab = own / ".venv" / "lib" / "coframe" / "lab"
+    monkeypatch.setattr(sys, "prefix", str(own / ".venv"))
+    entries = dict(view_of(own, private_folders(own), [str(lab)]).entries)
+    assert (entries[str(own)], entries[str(lab)]) == (True, False)
+
+
 def test_rights_of_honest_programs(program):
     (program.folder / "mesh.stl").write_text("solid")
     (program.folder / "helper.py").write_text("VALUE = 7")

@@ -10,6 +10,7 @@ import os
 import stat
 import sys
 import sysconfig
+import tempfile
 from pathlib import Path
 from typing import TYPE_CHECKING, Final, NamedTuple
 from urllib.parse import unquote, urlparse
@@ -28,6 +29,7 @@ _SYSTEM: Final = (
 )
 # Variables with the folders of whole installations, and with folders of packages and libraries.
 _INSTALLATIONS: Final = ("AMENT_PREFIX_PATH", "VIRTUAL_ENV")
+_PARTS: Final = ("bin", "etc", "include", "lib", "lib64", "local", "pyvenv.cfg", "share", "ssl")  # of an installation
 _FOLDERS: Final = ("LD_LIBRARY_PATH", "PYTHONPATH")
 _CONFIGURATION: Final = "/etc"
 _FOR_EVERYONE = 0o4  # the permission to read that a file gives to all users
@@ -56,7 +58,8 @@ def private_folders(folder: Path) -> list[str]:
     Args:
         folder: The student's folder; the folder that contains it contains those of other students.
     """
-    found = [Path(path) for path in _PERSONAL] + [Path.cwd(), folder.resolve().parent, *_sources()]
+    found = [Path(path) for path in (*_PERSONAL, tempfile.gettempdir())]
+    found += [Path.cwd(), folder.resolve().parent, *_sources()]
     home = os.path.expanduser("~")  # noqa: PTH111 - pathlib fails if there is none
     found += [Path(path) for path in (home, _home_of_account()) if os.path.isabs(path)]  # noqa: PTH117
     return sorted({os.path.realpath(path) for path in found})
@@ -75,6 +78,7 @@ def view_of(folder: Path, private: Iterable[str], solutions: Iterable[str]) -> V
     packages = {os.path.realpath(path) for path in sysconfig.get_paths().values()}
     hidden = {path for path in private if not any(_is_below(path, each) for each in packages)}
     installed = {os.path.realpath(path) for path in _installations()} - {*map(os.path.realpath, _PERSONAL)}
+    installed = {part for path in installed for part in _installed_parts(path, hidden)}
     others = {os.path.realpath(path) for path in _packages()}
     others = {path for path in others if not any(_is_below(each, path) for each in hidden)}
     readable = {own} | {path for path in installed | others if exists(Path(path))}
@@ -103,6 +107,15 @@ def _is_below(path: str, folder: str) -> bool:
 def _installations() -> Iterator[str]:
     yield from (*_SYSTEM, sys.prefix, sys.base_prefix, sys.exec_prefix, sys.base_exec_prefix)
     yield from _listed(_INSTALLATIONS)
+
+
+def _installed_parts(path: str, private: set[str]) -> Iterator[str]:
+    """Yield an installation; only its own folders if it was made in a folder with other files, such as a project."""
+    is_system = any(_is_below(path, os.path.realpath(folder)) for folder in _SYSTEM)
+    if is_system or not any(_is_below(each, path) for each in private):
+        yield path
+    else:
+        yield from (f"{path}/{name}" for name in _PARTS)
 
 
 def _packages() -> Iterator[str]:

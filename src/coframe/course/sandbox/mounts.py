@@ -21,7 +21,8 @@ _READ_ONLY, _NO_SET_ID, _NO_DEVICES, _NO_PROGRAMS = 1, 2, 4, 8
 _REMOUNT, _BIND, _RECURSIVE, _PRIVATE = 32, 4096, 16384, 1 << 18
 _OPTIONS = {"ro": 1, "nosuid": 2, "nodev": 4, "noexec": 8, "noatime": 1024, "nodiratime": 2048, "relatime": 1 << 21}
 _MOUNTED = "/proc/self/mountinfo"
-_PIVOT_ROOT = {"x86_64": 155, "aarch64": 41}
+_PIVOT_ROOT = {"x86_64": 155}
+_PIVOT_ROOT_ELSEWHERE = 41
 _DETACH = 2
 _SMALL = b"size=1m,mode=755"
 
@@ -70,7 +71,7 @@ def enter_own_root(
     _restrict(root + home, _NO_SET_ID | _NO_DEVICES)
     _mount(b"proc", root + "/proc", b"proc", _READ_ONLY | _NO_SET_ID | _NO_DEVICES | _NO_PROGRAMS)
     os.chdir(root)
-    system_call(_PIVOT_ROOT[os.uname().machine], b".", b".")
+    system_call(_PIVOT_ROOT.get(os.uname().machine, _PIVOT_ROOT_ELSEWHERE), b".", b".")
     c_function("umount2", b".", _DETACH)
     os.chdir("/")
 
