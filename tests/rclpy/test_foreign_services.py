@@ -14,6 +14,7 @@ from example_interfaces.action import Fibonacci
 from rclpy.action import ActionClient
 from rclpy.parameter import Parameter
 from rclpy.parameter_client import AsyncParameterClient
+from rclpy.qos import HistoryPolicy, QoSProfile
 from std_srvs.srv import SetBool
 from tf2_ros import BufferClient, TimeoutException, TransformException
 
@@ -143,6 +144,21 @@ def test_fast_dds_in_a_partition_may_receive_requests(make_node, start_peer, wai
     wait_until(lambda: len(node._Coframe__participant.subscribers("/light", kind="request")) == 2)
     with pytest.raises(WireError, match="uses Fast DDS"):
         client.call(SetBool.Request(data=True))
+
+
+def test_requests_that_are_all_kept_are_not_sent_beside_fast_dds(make_node, start_peer, wait_until):
+    """A writer that keeps all requests would stop when Fast DDS, which does not match it, acknowledges none."""
+    node, server = make_node(), make_node("server")
+    keep_all = QoSProfile(history=HistoryPolicy.KEEP_ALL)
+    server.create_service(SetBool, "light", answer, qos_profile=keep_all)
+    client = node.create_client(SetBool, "light", qos_profile=keep_all)
+    assert client.wait_for_service(timeout_sec=10)
+    peer = start_peer(FAST_DDS)
+    requests = peer.serve("/light", TYPE)
+    wait_until(lambda: len(node._Coframe__participant.subscribers("/light", kind="request")) == 2)
+    with pytest.raises(WireError, match="uses Fast DDS"):
+        client.call(SetBool.Request(data=True))
+    assert peer.received_on(requests) == []
 
 
 def test_a_server_with_the_same_form_is_called(node, start_peer, wait_until):

@@ -92,9 +92,14 @@ class Graph:
         del guid
         return ""
 
-    def ignores_services(self, peer: DiscoveredEndpoint) -> bool:
-        """Return whether an endpoint with foreign services ignores the requests and replies of this process."""
-        del peer
+    def ignores_requests(self, peer: DiscoveredEndpoint, qos: QoS) -> bool:
+        """Return whether a reader with foreign services does not match writers of requests of this process.
+
+        Args:
+            peer: The reader.
+            qos: The quality of service of the writer.
+        """
+        del peer, qos
         return False
 
     def foreign_writer(self, handle: int) -> str:

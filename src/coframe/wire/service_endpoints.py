@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from coframe.wire.backend import BackendReader, BackendWriter
-    from coframe.wire.endpoints import GraphNode
+    from coframe.wire.endpoints import GraphNode, LocalEndpoint
     from coframe.wire.graph import DiscoveredEndpoint, Graph
     from coframe.wire.names import Endpoint
     from coframe.wire.qos import QoS
@@ -53,14 +53,14 @@ class _Peers(NamedTuple):
         return self.receiver if self.understood else self.foreign
 
 
-def _peers(graph: Graph, handles: frozenset[int], found: dict[int, DiscoveredEndpoint]) -> _Peers:
+def _peers(own: LocalEndpoint, graph: Graph, handles: frozenset[int], found: dict[int, DiscoveredEndpoint]) -> _Peers:
     understood, foreign, receiver = 0, None, None
     for handle, peer in found.items():
         if not graph.foreign_services(peer.guid):
             understood += handle in handles
             continue
         foreign = peer
-        if not graph.ignores_services(peer):
+        if not graph.ignores_requests(peer, own.qos):
             receiver = peer
     return _Peers(understood, foreign, receiver)
 
@@ -113,12 +113,12 @@ class ServicePublisher(RawPublisher):
                 self.on_unreachable(self._text(peers.foreign))
 
     def _peers(self) -> _Peers:
-        handles = frozenset(self._unless_closed(self._endpoint.matched_handles, []))
+        handles = frozenset(self.matched_handles())
         known = self._known
         if known is not None and known[:2] == (self._graph.version, handles):
             return known[2]
         version = self._graph.refresh()
-        peers = _peers(self._graph, handles, self._graph.readers(self.topic))
+        peers = _peers(self, self._graph, handles, self._graph.readers(self.topic))
         self._known = version, handles, peers
         return peers
 
@@ -153,7 +153,7 @@ class ServiceSubscription(Subscription):
         handles = self.matched_handles()
         if not handles:
             return 0
-        return _peers(self._graph, frozenset(handles), self._graph.writers(self.topic)).understood
+        return _peers(self, self._graph, frozenset(handles), self._graph.writers(self.topic)).understood
 
     def take(self, limit: int = 100) -> list[Sample]:
         """Return up to `limit` queued messages that can be understood, oldest first, without waiting."""

@@ -45,9 +45,9 @@ class DdsGraph(Graph):
         """Return the DDS implementation of an endpoint if it sends requests in another form; "" if not."""
         return "" if vendors.shares_services(guid) else vendors.vendor(guid) or vendors.unknown_vendor(guid)
 
-    def ignores_services(self, peer: DiscoveredEndpoint) -> bool:
-        """Return whether an endpoint does not match the partitions that service endpoints of this process have."""
-        return vendors.ignores_service_partitions(peer.guid, peer.partitions)
+    def ignores_requests(self, peer: DiscoveredEndpoint, qos: QoS) -> bool:
+        """Return whether a reader does not match the partitions of writers of requests."""
+        return vendors.uses_service_partitions(qos) and vendors.ignores_service_partitions(peer.guid, peer.partitions)
 
     def foreign_writer(self, handle: int) -> str:
         """Return what `foreign_services` returns for a writer, also after it has left."""

@@ -14,7 +14,7 @@ from coframe.wire.dds.discovery_info import ADAPTS, TOPIC, choose_gid_size, enco
 from coframe.wire.dds.graph import DdsGraph
 from coframe.wire.dds.topics import create_topic
 from coframe.wire.dds.user_data import endpoint_user_data
-from coframe.wire.dds.vendors import SERVICE_PARTITIONS
+from coframe.wire.dds.vendors import SERVICE_PARTITIONS, uses_service_partitions
 from coframe.wire.qos import GRAPH_WRITER, QoS
 from coframe.wire.system_clock import clock_fault
 
@@ -73,10 +73,11 @@ class DdsSession:
     ) -> _core.Writer:
         """Create a writer."""
         del node
+        partitions = SERVICE_PARTITIONS if endpoint.kind == "request" and uses_service_partitions(qos) else ()
         return self._create(
             endpoint,
             lambda topic, data: _core.Writer(
-                self.native.entity, topic, native_qos(qos, _partitions(endpoint)), data, checked, on_change
+                self.native.entity, topic, native_qos(qos, partitions), data, checked, on_change
             ),
             user_data,
         )
@@ -84,11 +85,10 @@ class DdsSession:
     def reader(self, node: GraphNode, endpoint: Endpoint, qos: QoS, on_data: _core.Event | None) -> _core.Reader:
         """Create a reader that queues messages."""
         del node
+        partitions = () if endpoint.kind == "topic" else SERVICE_PARTITIONS
         return self._create(
             endpoint,
-            lambda topic, data: _core.Reader(
-                self.native.entity, topic, native_qos(qos, _partitions(endpoint)), data, on_data
-            ),
+            lambda topic, data: _core.Reader(self.native.entity, topic, native_qos(qos, partitions), data, on_data),
         )
 
     def tap(self, node: GraphNode, endpoint: Endpoint, qos: QoS, limits: QueueLimits) -> _core.Tap:
@@ -167,10 +167,6 @@ class DdsSession:
                 f"DDS cannot create an endpoint on {endpoint.name}: {error}.",
                 hint="Check that the participant is not closed.",
             ) from error
-
-
-def _partitions(endpoint: Endpoint) -> Sequence[str]:
-    return () if endpoint.kind == "topic" else SERVICE_PARTITIONS
 
 
 def native_qos(qos: QoS, partitions: Sequence[str] = ()) -> _core.QosProfile:

@@ -3,7 +3,10 @@
 
 from __future__ import annotations
 
-from typing import Final
+from typing import TYPE_CHECKING, Final
+
+if TYPE_CHECKING:
+    from coframe.wire.qos import QoS
 
 _NAMES = {
     b"\x01\x01": "RTI Connext",
@@ -19,11 +22,15 @@ _NAMES = {
 _SAME_SERVICES = {"Cyclone DDS"}
 
 SERVICE_PARTITIONS: Final = ("*", "request-header")
-"""The partitions of all service endpoints of this process, which Fast DDS does not match.
+"""The partitions of the writers of requests and of the readers of requests and replies, which Fast DDS does not match.
 
 Most endpoints are in the default partition, the empty name. Cyclone DDS matches "*" with it, as the DDS standard says.
 Fast DDS compares patterns only with names in the list of the other side, which is empty. Patterns do not match each
 other, so that the endpoints of two processes that use coframe match by the second name.
+
+Writers of replies are in the default partition: a client on Fast DDS ignores replies without its identity. Cyclone DDS
+itself matches the reader of Fast DDS with "*". It waits for the acknowledgements of that reader in vain, for 1 s when
+the writer is closed, and keeps messages for it; therefore writers have these partitions only where it is necessary.
 """
 _WITHOUT_DEFAULT_PARTITION = {"Fast DDS"}
 
@@ -45,6 +52,14 @@ def unknown_vendor(guid: bytes) -> str:
 def shares_services(guid: bytes) -> bool:
     """Return whether an endpoint of a service sends requests and replies as Cyclone DDS does."""
     return vendor(guid) in _SAME_SERVICES
+
+
+def uses_service_partitions(qos: QoS) -> bool:
+    """Return whether writers of requests have `SERVICE_PARTITIONS`.
+
+    A writer with the history KEEP_ALL stops if a reader that it matches does not acknowledge messages.
+    """
+    return not qos.keep_all
 
 
 def ignores_service_partitions(guid: bytes, partitions: tuple[str, ...]) -> bool:
