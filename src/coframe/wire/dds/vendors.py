@@ -29,7 +29,7 @@ Fast DDS compares patterns only with names in the list of the other side, which 
 other, so that the endpoints of two processes that use coframe match by the second name.
 
 Writers of replies are in the default partition: a client on Fast DDS ignores replies without its identity. Cyclone DDS
-itself matches the reader of Fast DDS with "*". It waits for the acknowledgements of that reader in vain, for 1 s when
+itself matches the reader of Fast DDS with "*". It waits for acknowledgements that the reader does not send, 1 s when
 the writer is closed, and keeps messages for it; therefore writers have these partitions only where it is necessary.
 """
 _WITHOUT_DEFAULT_PARTITION = {"Fast DDS"}
