@@ -160,3 +160,19 @@ def test_a_deleted_field_is_named() -> None:
     del message._y
     with pytest.raises(TypeError, match="cannot serialize geometry_msgs/msg/Point, field x to z"):
         serialize(message)
+
+
+@pytest.mark.parametrize("cls", [String, Point, PointCloud2, ByteMultiArray])
+def test_whole_messages_have_at_most_their_padding_after_them(cls: Any) -> None:
+    data = serialize(cls())
+    assert codec.deserialize_whole(data + b"\x01\x02\x03", cls) == cls()
+    with pytest.raises(DecodeError, match=f"the message ends at byte {len(data)} of {len(data) + 4}"):
+        codec.deserialize_whole(data + bytes(4), cls)
+    assert deserialize(data + bytes(4), cls) == cls()
+
+
+def test_whole_messages_in_big_endian() -> None:
+    data = b"\x00\x00\x00\x00" + (5).to_bytes(8, "big")
+    assert codec.deserialize_whole(data, UInt64).data == 5
+    with pytest.raises(DecodeError, match="the message ends at byte 12 of 16"):
+        codec.deserialize_whole(data + bytes(4), UInt64)
