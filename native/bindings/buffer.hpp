@@ -54,6 +54,7 @@ struct BufferObject {
   // Before every other change: a buffer that reads shared transforms becomes a private one.
   void stop_sharing() {
     if (!core->following()) return;
+    core->check_memory();
     if (on_local_change.is_valid() && !on_local_change.is_none()) on_local_change();
     core->stop_following();
   }

@@ -19,9 +19,19 @@ struct Object {
 };
 
 PyTypeObject* failure_class = nullptr;  // both for as long as the process lives
-std::array<PyObject*, 7> exceptions{};  // in the order of Raised
+std::array<PyObject*, 9> exceptions{};  // in the order of Raised
 
-enum Raised { kTransform, kLookup, kConnectivity, kExtrapolation, kInvalidArgument, kDecode, kTimeout };
+enum Raised {
+  kTransform,
+  kLookup,
+  kConnectivity,
+  kExtrapolation,
+  kInvalidArgument,
+  kDecode,
+  kTimeout,
+  kFrozenFile,
+  kWire
+};
 
 const char* code_name(ErrorCode code) {
   switch (code) {
@@ -158,7 +168,7 @@ nb::object make_failure(FailureObject&& failure) {
 void register_errors(const nb::module_& errors) {
   constexpr std::array kNames{"TransformException",     "LookupException",          "ConnectivityException",
                               "ExtrapolationException", "InvalidArgumentException", "DecodeError",
-                              "TimeoutException"};
+                              "TimeoutException",       "FrozenFileError",          "WireError"};
   for (std::size_t i = 0; i < kNames.size(); ++i) exceptions[i] = nb::object(errors.attr(kNames[i])).release().ptr();
 }
 
@@ -175,6 +185,7 @@ std::string text_of(const FailureObject& object) {
 }
 
 nb::object raise_failure(FailureObject&& failure) {
+  failure.buffer->check_memory();  // the frames may only seem not to exist
   const CallingPython call;
   PyObject* exception = exceptions[exception_of(failure)];
   PyErr_SetObject(exception, make_failure(std::move(failure)).ptr());
@@ -189,12 +200,18 @@ void raise_decode_error(const DecodeFailure& failure) {
 
 void set_unfinished_change(const char* text) { PyErr_SetString(exceptions[kTimeout], text); }
 
+void set_lost_memory(const LostMemory& error) {
+  PyErr_SetString(exceptions[error.kind == LostMemory::Kind::shared ? kWire : kFrozenFile], error.what());
+}
+
 void define_failure(nb::module_& module) {
   nb::register_exception_translator([](const std::exception_ptr& thrown, void*) {
     try {
       std::rethrow_exception(thrown);
     } catch (const UnfinishedChange& error) {
       set_unfinished_change(error.what());
+    } catch (const LostMemory& error) {
+      set_lost_memory(error);
     }
   });
   const nb::object type = nb::steal(PyType_FromSpec(&failure_spec));

@@ -8,6 +8,7 @@
 
 #include "core/buffer.hpp"
 #include "core/error.hpp"
+#include "core/guarded_memory.hpp"
 
 namespace coframe::bindings {
 
@@ -29,7 +30,8 @@ std::string text_of(const FailureObject& failure);
 // than the lookup.
 nb::object raise_failure(FailureObject&& failure);
 [[noreturn]] void raise_decode_error(const DecodeFailure& failure);
-// Sets the exception for UnfinishedChange.
+// Sets the exceptions for UnfinishedChange and LostMemory.
 void set_unfinished_change(const char* text);
+void set_lost_memory(const LostMemory& error);
 
 }  // namespace coframe::bindings

@@ -84,6 +84,8 @@ PyObject* guarded(Body&& body) {
     PyErr_SetString(error.type() == nb::exception_type::type_error ? PyExc_TypeError : PyExc_ValueError, error.what());
   } catch (const UnfinishedChange& error) {
     set_unfinished_change(error.what());
+  } catch (const LostMemory& error) {
+    set_lost_memory(error);
   } catch (const std::exception& error) {
     PyErr_SetString(PyExc_RuntimeError, error.what());
   }

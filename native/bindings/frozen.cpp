@@ -11,6 +11,7 @@
 #include "bindings/arguments.hpp"
 #include "bindings/bindings.hpp"
 #include "core/frozen.hpp"
+#include "core/guarded_memory.hpp"
 
 namespace coframe::bindings {
 
@@ -36,13 +37,28 @@ nb::bytes chunks(nb::handle buffer, std::uint64_t first, std::uint64_t count) {
   return nb::bytes(bytes.data(), bytes.size());
 }
 
-// Memory of a Python object, kept as long as a core uses it; it may be released in any thread.
-std::shared_ptr<const Memory> held(nb::handle object) {
-  return {new Memory(object, PyBUF_SIMPLE), [](const Memory* memory) {
+// A mapped file, as a Python object that owns it.
+class MemoryGuard {
+ public:
+  MemoryGuard(nb::handle memory, const std::string& loss)
+      : memory_(memory, PyBUF_SIMPLE), guard_(memory_.data<void>(), memory_.size(), {LostMemory::Kind::frozen, loss}) {}
+
+  std::span<const std::uint8_t> bytes() const { return {memory_.data<const std::uint8_t>(), memory_.size()}; }
+  GuardedMemory* guard() { return &guard_; }
+
+ private:
+  const Memory memory_;
+  GuardedMemory guard_;
+};
+
+// Kept as long as a core uses it; it may be released in any thread.
+std::shared_ptr<GuardedMemory> held(nb::handle file) {
+  file.inc_ref();
+  return {nb::cast<MemoryGuard&>(file).guard(), [file](GuardedMemory*) {
             if (!Py_IsInitialized()) return;  // the process ends and releases its memory
             const CallingPython calling;
             const nb::gil_scoped_acquire acquire;
-            delete memory;
+            file.dec_ref();
           }};
 }
 
@@ -50,15 +66,14 @@ std::shared_ptr<const Memory> held(nb::handle object) {
 std::string become_frozen(nb::handle object, nb::handle file, std::uint64_t table, std::uint64_t table_size,
                           std::uint64_t samples, std::uint64_t samples_size) {
   BufferObject& self = buffer_of(object);
-  const std::shared_ptr<const Memory> memory = held(file);
-  const std::uint64_t size = memory->size();
+  const std::span bytes = nb::cast<MemoryGuard&>(file).bytes();
+  const std::uint64_t size = bytes.size();
   if (table > size || table_size > size - table || samples > size || samples_size > size - samples) {
     return "it is cut off";
   }
-  const std::span bytes(memory->data<const std::uint8_t>(), memory->size());
   const char* reason;
   auto core = Buffer::restored(self.core->cache_length(), bytes.subspan(table, table_size),
-                               bytes.subspan(samples, samples_size), memory, reason);
+                               bytes.subspan(samples, samples_size), held(file), reason);
   if (reason) return reason;
   self.core = std::move(core);
   return "";
@@ -92,6 +107,11 @@ nb::tuple samples_of(nb::handle buffer, std::string_view child) {
 
 void define_frozen(nb::module_& module) {
   using nb::arg;
+  nb::class_<MemoryGuard>(
+      module, "MemoryGuard",
+      "Lets reads of a mapped file fail that another program truncates, which would end this process.")
+      .def(nb::init<nb::handle, const std::string&>(), arg("memory"), arg("loss"))
+      .def("check", [](MemoryGuard& self) { self.guard()->check(); }, "Raise the error if the memory is lost.");
   module.def("frozen_parts", &frozen_parts, arg("buffer"),
              "Return the table of a frozen buffer for a file, and its number of sample chunks.");
   module.def("frozen_chunks", &chunks, arg("buffer"), arg("first"), arg("count"),

@@ -59,6 +59,7 @@ void define_shared(nb::module_& module) {
       .def_prop_ro("outdated", &Segment::outdated,
                    "Whether the tree contains static transforms that are no longer published.")
       .def_prop_ro("used", &Segment::used, "Bytes in use.")
+      .def_prop_ro("lost", &Segment::lost, "Whether another program has truncated the memory.")
       .def_prop_ro("shortage", &Segment::shortage, "Why the tree could not grow; empty if it could.")
       .def("close", &Segment::close, ReleaseGil(), "Stop writing, and no longer keep the tree.");
 }

@@ -5,6 +5,7 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <exception>
 #include <limits>
 #include <numeric>
 #include <stdexcept>
@@ -331,7 +332,7 @@ void Buffer::stop_following() {
     const std::lock_guard lock(writing_);
     if (!following()) return;
     follower_.reset();
-    tree_.become_private();
+    if (!tree_.become_private()) return;
     refusal_.store(0);
   }
   notify_of_other_data();
@@ -360,7 +361,7 @@ void Buffer::pause_reading(int attempt) {
 }
 
 std::shared_ptr<Buffer> Buffer::restored(Stamp cache_length, std::span<const std::uint8_t> table,
-                                         std::span<const std::uint8_t> chunks, std::shared_ptr<const void> memory,
+                                         std::span<const std::uint8_t> chunks, std::shared_ptr<GuardedMemory> memory,
                                          const char*& reason) {
   auto buffer = std::make_shared<Buffer>(cache_length);
   reason = restore(buffer->tree_, table, chunks, std::move(memory));
@@ -468,9 +469,14 @@ std::size_t Buffer::lookup_many(const LookupQuery& query, const Extrapolation* e
   threads = static_cast<unsigned>(std::clamp<std::size_t>(batch.count / kRowBlock, 1, std::max(threads, 1u)));
   std::vector<std::size_t> missing(threads);
   std::vector<Failure> failures(threads);
+  std::vector<std::exception_ptr> thrown(threads);
   const auto part = [&](unsigned i) {
-    missing[i] = lookup_rows(query, extrapolation, batch, batch.count * i / threads, batch.count * (i + 1) / threads,
-                             failures[i]);
+    try {
+      missing[i] = lookup_rows(query, extrapolation, batch, batch.count * i / threads, batch.count * (i + 1) / threads,
+                               failures[i]);
+    } catch (...) {
+      thrown[i] = std::current_exception();
+    }
   };
   std::vector<std::thread> others;
   for (unsigned i = 1; i < threads; ++i) {
@@ -482,6 +488,9 @@ std::size_t Buffer::lookup_many(const LookupQuery& query, const Extrapolation* e
   }
   part(0);
   for (std::thread& other : others) other.join();
+  for (const std::exception_ptr& exception : thrown) {
+    if (exception) std::rethrow_exception(exception);
+  }
   for (unsigned i = 0; i < threads; ++i) {
     if (missing[i] == batch.count) continue;
     failure = std::move(failures[i]);

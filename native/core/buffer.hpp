@@ -123,7 +123,7 @@ class Buffer {
   std::shared_ptr<Buffer> snapshot() const;
   // Opens the bytes of a frozen file in place. Returns nullptr if they are invalid; `reason` says why.
   static std::shared_ptr<Buffer> restored(Stamp cache_length, std::span<const std::uint8_t> table,
-                                          std::span<const std::uint8_t> chunks, std::shared_ptr<const void> memory,
+                                          std::span<const std::uint8_t> chunks, std::shared_ptr<GuardedMemory> memory,
                                           const char*& reason);
   // From now on, nothing is inserted or removed. Waits for an insertion that is in progress.
   void freeze() {
@@ -134,7 +134,7 @@ class Buffer {
 
   // Continues as a reader of shared data. Returns false if the buffer already contains a frame, or is frozen.
   bool follow(SharedTreeData shared);
-  // Stops: continues with a copy of the shared data, to which it can insert.
+  // Stops: continues with a copy of the shared data, to which it can insert. If they are lost, nothing changes.
   void stop_following();
   // Whether the buffer reads shared data, and refuses insertions.
   bool following() const { return refusal_.load() == kShared; }
@@ -202,6 +202,8 @@ class Buffer {
   }
 
   WaitQueue& wait_queue() { return wait_queue_; }
+  // Throws LostMemory if another program has truncated the file with the data.
+  void check_memory() const { tree_.check_memory(); }
   // The number of changes of the tree so far.
   std::uint64_t changes() const { return tree_.changes().load(); }
 

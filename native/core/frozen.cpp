@@ -174,7 +174,7 @@ std::string frozen_chunks(const Tree& tree, std::uint64_t first, std::uint64_t c
 }
 
 const char* restore(Tree& tree, std::span<const std::uint8_t> table, std::span<const std::uint8_t> chunks,
-                    std::shared_ptr<const void> memory) {
+                    std::shared_ptr<GuardedMemory> memory) {
   if (reinterpret_cast<std::uintptr_t>(chunks.data()) % alignof(Chunk) != 0) return "its samples are not aligned";
   if (chunks.size() % sizeof(Chunk) != 0) return "its samples are truncated";
   tree.keep(std::move(memory));

@@ -21,9 +21,10 @@ std::uint64_t frozen_chunk_count(const Tree& tree);
 // Returns the bytes of some of these chunks; fewer at the end.
 std::string frozen_chunks(const Tree& tree, std::uint64_t first, std::uint64_t count);
 
-// Fills a new tree. `memory` owns the chunks, which must be aligned to a cache line. The tree never reads out of
-// bounds, whatever the bytes contain. Returns nullptr, or what is wrong with the bytes; the tree must not be used then.
+// Fills a new tree. `memory` owns the chunks, which must be aligned to a cache line; see Tree::keep. The tree never
+// reads out of bounds, whatever the bytes contain. Returns nullptr, or what is wrong with the bytes; the tree must not
+// be used then.
 const char* restore(Tree& tree, std::span<const std::uint8_t> table, std::span<const std::uint8_t> chunks,
-                    std::shared_ptr<const void> memory);
+                    std::shared_ptr<GuardedMemory> memory);
 
 }  // namespace coframe

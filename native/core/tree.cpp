@@ -121,6 +121,7 @@ std::unique_ptr<Tree::Storage> Tree::shared_storage(SharedTreeData shared) {
   storage->data = shared.data;
   storage->shared = true;
   storage->access = std::move(shared.access);
+  storage->keep(std::move(shared.mapped));
   storage->authority = std::move(shared.authority);
   if (!storage->memory) return storage;
   storage->pool = std::make_shared<ChunkPool>(*storage->memory, storage->data->chunks);
@@ -143,7 +144,7 @@ Tree::Tree(SharedTreeData shared) { use(shared_storage(std::move(shared))); }
 Tree::Tree(const Tree& other) {
   const bool with_samples = other.shared();
   use(heap_storage(with_samples ? std::make_shared<ChunkPool>() : other.storage().pool, other.cache_length()));
-  keep(other.storage().kept);
+  if (!with_samples) keep(other.storage().mapped);
   copy_from(other, with_samples);
 }
 
@@ -157,10 +158,15 @@ Tree::~Tree() {
 
 void Tree::become(SharedTreeData shared) { use(shared_storage(std::move(shared))); }
 
-void Tree::become_private() {
-  Tree copy(*this);
-  use(std::move(copy.storages_.back()));
-  copy.storages_.clear();
+bool Tree::become_private() {
+  try {
+    Tree copy(*this);
+    use(std::move(copy.storages_.back()));
+    copy.storages_.clear();
+    return true;
+  } catch (const LostMemory&) {
+    return false;
+  }
 }
 
 // The writer is another process, which cannot be locked out, and which may change the tree faster than all samples of a
@@ -212,6 +218,7 @@ std::uint64_t Tree::wait_for_writer() const {
   constexpr int kPatience = 600;  // turns, about 5 ms: a writer that lives is faster, unless it is suspended
   const auto start = std::chrono::steady_clock::now();
   for (int turn = 0;; ++turn) {
+    check_memory();
     const std::uint64_t now = data().revision.number();
     if (now % 2 == 0) return now;
     back_off(turn);

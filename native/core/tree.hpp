@@ -77,6 +77,11 @@ class Tree {
   }
   bool unchanged(std::uint64_t since) const { return data().revision.unchanged(since); }
 
+  // Throws LostMemory if another program has truncated the file with the data.
+  void check_memory() const {
+    if (const GuardedMemory* mapped = storage().mapped.get()) mapped->check();
+  }
+
   // Whether the data are those of another writer, which cannot be locked out.
   bool read_only() const { return !storage().memory; }
   bool shared() const { return storage().shared; }
@@ -87,8 +92,9 @@ class Tree {
 
   // Continues with shared data instead of its own, which must not contain a frame. Other threads may be reading.
   void become(SharedTreeData shared);
-  // Continues with a copy of the shared data on the heap, with the same ids. Other threads may be reading.
-  void become_private();
+  // Continues with a copy of the shared data on the heap, with the same ids. Other threads may be reading. Returns
+  // false if the data are lost.
+  bool become_private();
 
   // The methods below are for the only writer.
 
@@ -105,8 +111,8 @@ class Tree {
     changes.store(changes.load(std::memory_order_relaxed) + 1, std::memory_order_release);
   }
   void set_outdated(bool outdated) { data().outdated.store(outdated, std::memory_order_release); }
-  // Keeps `memory` alive as long as the samples.
-  void keep(std::shared_ptr<const void> memory) { storage().kept = std::move(memory); }
+  // Keeps `memory`, which contains the samples, and fails once it is lost. It may point to nothing and own the samples.
+  void keep(std::shared_ptr<GuardedMemory> memory) { storage().keep(std::move(memory)); }
   std::size_t authority_count() const { return data().authorities.size(); }
   // Changes the authority of a frame whose newest transform came from `from`.
   void change_authority(FrameId id, AuthorityId from, AuthorityId to) {
@@ -143,9 +149,19 @@ class Tree {
     bool shared;
     std::shared_ptr<SharedAccess> access;
     std::string authority;  // of all transforms; empty: the recorded ones
-    std::shared_ptr<const void> kept;
+    std::shared_ptr<GuardedMemory> mapped;
     std::optional<HistoryStorage> parts;  // of a writer
 
+    Storage() = default;
+    Storage(const Storage&) = delete;
+    Storage& operator=(const Storage&) = delete;
+    ~Storage() {
+      if (mapped) mapped->remove(data->revision);
+    }
+    void keep(std::shared_ptr<GuardedMemory> memory) {
+      mapped = std::move(memory);
+      if (mapped) mapped->add(data->revision);
+    }
     const HistoryStorage& histories() const { return *parts; }
   };
 

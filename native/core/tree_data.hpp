@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 
+#include "core/guarded_memory.hpp"
 #include "core/history.hpp"
 #include "core/memory.hpp"
 #include "core/name_table.hpp"
@@ -94,7 +95,8 @@ struct SharedTreeData {
   TreeData* data = nullptr;
   std::shared_ptr<Memory> memory;  // of the writer; nullptr: read only
   std::shared_ptr<SharedAccess> access;
-  std::string authority = {};  // of a reader: the source of all transforms; empty: the recorded ones
+  std::shared_ptr<GuardedMemory> mapped = {};  // where the data are
+  std::string authority = {};                  // of a reader: the source of all transforms; empty: the recorded ones
 };
 
 }  // namespace coframe

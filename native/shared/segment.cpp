@@ -28,6 +28,7 @@
 #include <utility>
 
 #include "core/fork_guard.hpp"
+#include "core/guarded_memory.hpp"
 #include "core/tree.hpp"
 
 namespace coframe {
@@ -132,20 +133,31 @@ class File {
 // A part of the address space.
 class Mapping {
  public:
-  Mapping(const File& file, std::size_t size, bool writable)
-      : size_(size),
-        start_(mmap(nullptr, size, PROT_READ | (writable ? PROT_WRITE : 0), MAP_SHARED, file.number(), 0)) {
-    if (start_ == MAP_FAILED) fail("the shared memory cannot be mapped");
-  }
+  Mapping(const File& file, std::size_t size, bool writable, const std::string& path)
+      : size_(size), start_(map(file, size, writable)), guard_(start_, size, loss_of(path)) {}
   Mapping(const Mapping&) = delete;
   Mapping& operator=(const Mapping&) = delete;
   ~Mapping() { munmap(start_, size_); }
   Header& header() const { return *static_cast<Header*>(start_); }
   std::byte* data() const { return static_cast<std::byte*>(start_); }
+  std::size_t size() const { return size_; }
+  GuardedMemory& guard() { return guard_; }
 
  private:
+  static void* map(const File& file, std::size_t size, bool writable) {
+    void* start = mmap(nullptr, size, PROT_READ | (writable ? PROT_WRITE : 0), MAP_SHARED, file.number(), 0);
+    if (start == MAP_FAILED) fail("the shared memory cannot be mapped");
+    return start;
+  }
+  static LostMemory loss_of(const std::string& path) {
+    return {LostMemory::Kind::shared,
+            "The shared transforms in " + path +
+                " are lost, because another program has truncated this file. Restart the programs that share them."};
+  }
+
   std::size_t size_;
   void* start_;
+  GuardedMemory guard_;
 };
 
 // Reserves memory of the system for a part of a file; returns 0 or the error.
@@ -181,6 +193,7 @@ class SegmentMemory final : public Memory {
 
   // Without this, a write to memory that the system does not have would end the process.
   bool reserve(std::size_t start, std::size_t size) {
+    if (mapping_->guard().lost()) return false;
     Header& header = mapping_->header();
     if (start > end_ || size > end_ - start) {
       if (header.shortage.load() == 0) header.shortage.store(kNoCapacity);
@@ -280,6 +293,12 @@ class LinuxSegment final : public Segment {
 
   std::size_t used() const override { return mapping_->header().used.load(); }
 
+  bool lost() const override {
+    struct stat status;
+    return mapping_->guard().lost() ||
+           (fstat(memory_file_.number(), &status) == 0 && static_cast<std::size_t>(status.st_size) < mapping_->size());
+  }
+
   std::string shortage() const override {
     const Header& header = mapping_->header();
     const std::int64_t shortage = header.shortage.load();
@@ -331,7 +350,7 @@ class LinuxSegment final : public Segment {
         static_cast<std::size_t>(status.st_size) < sizeof(Header)) {
       throw SegmentError("the file " + path_ + " is not shared memory of this user");
     }
-    mapping_ = std::make_shared<Mapping>(file, static_cast<std::size_t>(status.st_size), false);
+    mapping_ = std::make_shared<Mapping>(file, static_cast<std::size_t>(status.st_size), false, path_);
     const Header& header = mapping_->header();
     if (header.layout != layout() || header.capacity != static_cast<std::size_t>(status.st_size)) {
       throw SegmentError("the file " + path_ + " was not written by this version of coframe");
@@ -356,7 +375,7 @@ class LinuxSegment final : public Segment {
       unlink(draft.c_str());
       fail("there is no room for shared memory in " + path_);
     }
-    const auto mapping = std::make_shared<Mapping>(file, capacity, true);
+    const auto mapping = std::make_shared<Mapping>(file, capacity, true, path_);
     auto* header = new (mapping->data()) Header;
     header->layout = layout();
     header->capacity = capacity;
@@ -414,17 +433,18 @@ class Access final : public SharedAccess {
 
 SharedTreeData LinuxSegment::reader() {
   const auto self = std::static_pointer_cast<LinuxSegment>(shared_from_this());
-  return {&mapping_->header().tree, nullptr, std::make_shared<Access>(self, mapping_)};
+  return {&mapping_->header().tree, nullptr, std::make_shared<Access>(self, mapping_),
+          std::shared_ptr<GuardedMemory>(mapping_, &mapping_->guard())};
 }
 
 SharedTreeData LinuxSegment::map_writable(bool as_writer) {
   File file = open_file(path_, O_RDWR);
   if (!file || !file.is_at(path_)) fail("the file " + path_ + " cannot be opened");
-  const auto mapping = std::make_shared<Mapping>(file, mapping_->header().capacity, true);
+  const auto mapping = std::make_shared<Mapping>(file, mapping_->header().capacity, true, path_);
   if (as_writer) mapping->header().writer.store(getpid());
   const auto self = std::static_pointer_cast<LinuxSegment>(shared_from_this());
   return {&mapping->header().tree, std::make_shared<SegmentMemory>(std::move(file), mapping),
-          std::make_shared<Access>(self, mapping)};
+          std::make_shared<Access>(self, mapping), std::shared_ptr<GuardedMemory>(mapping, &mapping->guard())};
 }
 
 }  // namespace

@@ -54,6 +54,8 @@ class Segment : public std::enable_shared_from_this<Segment> {
   virtual bool outdated() const = 0;
   // Bytes of the tree in use.
   virtual std::size_t used() const = 0;
+  // Whether another program has truncated the memory.
+  virtual bool lost() const = 0;
   // Why the tree could not grow; empty if it could. From then on, it drops the oldest samples and refuses new frames.
   virtual std::string shortage() const = 0;
   // Gives up writing, and no longer counts as a process that has the tree open. Readers may continue to read.

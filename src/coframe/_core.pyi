@@ -388,6 +388,10 @@ class Segment:
         """Bytes in use."""
 
     @property
+    def lost(self) -> bool:
+        """Whether another program has truncated the memory."""
+
+    @property
     def shortage(self) -> str:
         """Why the tree could not grow; empty if it could."""
 
@@ -739,12 +743,26 @@ def frozen_parts(buffer: Buffer) -> tuple[bytes, int]:
 def frozen_chunks(buffer: Buffer, first: int, count: int) -> bytes:
     """Return the bytes of some of these chunks; fewer at the end."""
 
-def become_frozen(buffer: Buffer, file: Any, table: int, table_size: int, samples: int, samples_size: int) -> str:
+class MemoryGuard:
+    """Lets reads of a mapped file fail that another program truncates, which would end this process.
+
+    Args:
+        memory: The mapping, an `mmap.mmap`; kept as long as it is needed.
+        loss: The text of the error.
+    """
+
+    def __init__(self, memory: Any, loss: str) -> None: ...
+    def check(self) -> None:
+        """Raise the error if the memory is lost."""
+
+def become_frozen(
+    buffer: Buffer, file: MemoryGuard, table: int, table_size: int, samples: int, samples_size: int
+) -> str:
     """Restore a new buffer from a file's bytes, which are used in place.
 
     Args:
         buffer: A new buffer.
-        file: The whole file as an object with the buffer protocol; kept as long as it is needed.
+        file: The whole file; kept as long as it is needed.
         table: Where the table begins.
         table_size: How many bytes it has.
         samples: Where the chunks of samples begin, at a multiple of 64.

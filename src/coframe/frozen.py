@@ -1,26 +1,31 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Buffers in files that are mapped into memory, and that any number of processes share."""
+"""Buffers in files: small ones are copied, large ones are mapped into memory that any number of processes share."""
 
 from __future__ import annotations
 
 import mmap
+import os
 import zlib
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any, BinaryIO
 
 from coframe import _core
 from coframe.buffer import Buffer
 from coframe.dispatcher import Dispatcher
 from coframe.frozen_file import BLOCK_SIZE, damaged, opened, read_header
 
-if TYPE_CHECKING:
-    import os
-
 __all__ = ["FrozenBuffer", "load"]
+
+MAX_COPIED = 1 << 20  # bytes; copying them takes half a millisecond
+
+_LOSS = (
+    "{path} was truncated by another program while it was in use. Load it again. To replace a file that is in use, "
+    "save the buffer under its name, or use cp --remove-destination."
+)
 
 
 class FrozenBuffer(Buffer):
-    """A read-only :class:`coframe.Buffer` on a file that is mapped into memory, as :func:`load` returns it.
+    """A read-only :class:`coframe.Buffer` on a file, as :func:`load` returns it.
 
     Pickling stores only the path, so worker processes open the file themselves and share its memory.
     """
@@ -29,15 +34,28 @@ class FrozenBuffer(Buffer):
         self._path = Path(path).absolute()
         with opened(self._path) as file:
             header = read_header(self._path, file)
-            self._memory = mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ)
+            self._memory = self._copied(file) or mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ)
+        self._guard = _core.MemoryGuard(self._memory, _LOSS.format(path=self._path))
         if zlib.crc32(memoryview(self._memory)[header.table : header.table + header.table_size]) != header.table_crc:
+            self._guard.check()
             raise damaged(self._path, "the checksum of its table is wrong")
         _core.Buffer.__init__(self, header.cache)
         positions = (header.table, header.table_size, header.samples, header.samples_size)
-        if reason := _core.become_frozen(self, self._memory, *positions):
+        if reason := _core.become_frozen(self, self._guard, *positions):
             raise damaged(self._path, reason)
         self._dispatcher = Dispatcher()
         self._header = header
+
+    def _copied(self, file: BinaryIO) -> mmap.mmap | None:
+        """Return a copy of a small file, which other programs cannot change; None for a large file."""
+        size = os.fstat(file.fileno()).st_size
+        if size > MAX_COPIED:
+            return None
+        memory = mmap.mmap(-1, size)
+        file.seek(0)
+        if memory.write(file.read(size)) != size:
+            raise damaged(self._path, "it was truncated meanwhile")
+        return memory
 
     @property
     def path(self) -> Path:
@@ -48,7 +66,7 @@ class FrozenBuffer(Buffer):
         """Read the whole file and compare its samples with their checksum.
 
         Raises:
-            FrozenFileError: The checksum is wrong.
+            FrozenFileError: The checksum is wrong, or the file was truncated since it was opened.
         """
         start, end = self._header.samples, self._header.samples + self._header.samples_size
         crc = 0
@@ -56,6 +74,7 @@ class FrozenBuffer(Buffer):
             for position in range(start, end, BLOCK_SIZE):
                 crc = zlib.crc32(memory[position : min(position + BLOCK_SIZE, end)], crc)
         if crc != self._header.samples_crc:
+            self._guard.check()
             raise damaged(self._path, "the checksum of its samples is wrong")
 
     def __reduce__(self) -> tuple[Any, ...]:
@@ -69,7 +88,9 @@ def load(path: str | os.PathLike[str], *, verify: bool = False) -> FrozenBuffer:
     """Open a file that :meth:`coframe.Buffer.save` wrote, as a read-only buffer; samples are read on first use.
 
     Args:
-        path: The file. It must not change while it is open; :meth:`coframe.Buffer.save` replaces it by a new file.
+        path: The file. Files up to 1 MiB are copied; larger ones are mapped, and must not change while they are open.
+            :meth:`coframe.Buffer.save` never changes a file, but replaces it by a new one. To replace it by a copy of
+            another file, use ``cp --remove-destination`` or rename the copy.
         verify: Whether to read the whole file first and compare it with its checksums. By default only the header and
             the table are checked.
 
@@ -77,7 +98,8 @@ def load(path: str | os.PathLike[str], *, verify: bool = False) -> FrozenBuffer:
         The buffer.
 
     Raises:
-        FrozenFileError: The file is not a frozen buffer, has another version, or is truncated or damaged.
+        FrozenFileError: The file is not a frozen buffer, has another version, or is truncated or damaged. If a mapped
+            file is truncated later, lookups in the buffer raise this error.
 
     Example:
         >>> import coframe, tempfile, pathlib

@@ -10,7 +10,8 @@ A frozen file is little endian throughout:
               its first and last stamp
 
 Opening a file reads and checks only the header and the table. The samples are mapped into memory, and the system reads
-the pages that lookups touch. No number in the file can make a lookup read outside it, even if the file is damaged.
+the pages that lookups touch; small files are copied instead. No number in the file can make a lookup read outside it,
+even if the file is damaged.
 """
 
 from __future__ import annotations

@@ -222,8 +222,14 @@ class SharedTransforms:
         self._report_shortage()
 
     def _report_shortage(self) -> None:
-        """Log once that the memory is full, as soon as it is."""
+        """Log once that the memory is full or lost, as soon as it is."""
         while self.writes:
+            if self._segment.lost:
+                _logger.error(
+                    "Another program has truncated the file of the shared transforms in /dev/shm: this process no "
+                    "longer stores transforms for others. Restart the programs that share them."
+                )
+                return
             if shortage := self._segment.shortage:
                 _logger.warning(full(shortage))
                 return

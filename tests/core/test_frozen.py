@@ -5,7 +5,11 @@ import concurrent.futures
 import multiprocessing
 import pickle
 import random
+import signal
 import struct
+import subprocess
+import sys
+import textwrap
 import zlib
 
 import numpy as np
@@ -236,3 +240,108 @@ def test_mutated_files_are_safe(path):
 @pytest.mark.timeout(1200)
 def test_ten_thousand_mutated_files_are_safe(path):
     fuzz(path, 10_000, np.random.SeedSequence().entropy)
+
+
+# A broken guard would end the test process, so the tests below run programs.
+TRUNCATED = """
+    import os, sys
+    import numpy as np
+    import coframe
+    from coframe import frozen
+    path, act, size = sys.argv[1], sys.argv[2], int(sys.argv[3])
+    stamps = np.arange(1, 30_001) * 1_000_000
+    source = coframe.Buffer(None)
+    for parent, child in (("map", "odom"), ("odom", "base")):
+        source.set_many(parent, child, stamps, np.tile([1.0, 0, 0, 0, 0, 0, 1], (len(stamps), 1)))
+    source.save(path)
+    assert os.path.getsize(path) > frozen.MAX_COPIED
+    buffer, middle = coframe.load(path), int(stamps[15_000])
+    buffer.lookup("map", "base", middle)
+    snapshot = buffer.snapshot()
+    os.truncate(path, size)
+    try:
+        print("returned", eval(act))
+    except coframe.CoframeError as error:
+        print(type(error).__name__, error)
+    try:
+        buffer.lookup("map", "base", middle)
+    except coframe.CoframeError as error:
+        print(type(error).__name__, error)
+    coframe.Buffer().set("map", "base", coframe.Transform(), 1)
+"""
+can_truncate = pytest.mark.skipif(sys.platform == "win32", reason="Windows does not truncate files that are mapped")
+
+
+def run(program, *arguments):
+    """Run a program and return its exit code, what it prints and what it reports."""
+    command = [sys.executable, "-c", textwrap.dedent(program), *map(str, arguments)]
+    ended = subprocess.run(command, capture_output=True, text=True, timeout=60, check=False)
+    return ended.returncode, ended.stdout, ended.stderr
+
+
+@can_truncate
+@pytest.mark.parametrize("size", [0, 5000])
+@pytest.mark.parametrize(
+    "act",
+    [
+        "buffer.lookup('map', 'base')",
+        "buffer.lookup('map', 'base', middle, timeout='10ms')",
+        "buffer.lookup_many('map', 'base', stamps, threads=2)",
+        "snapshot.lookup('map', 'base', middle)",
+        "buffer.can_transform('base', 'map', middle + 5)",
+        "buffer.trajectory('map', 'base')",
+        "buffer.edges()",
+        "buffer.verify()",
+        "buffer.save(path + '.copy')",
+        "buffer.why('map', 'base')",
+        "coframe.Buffer.snapshot(buffer).lookup('map', 'base')",
+    ],
+)
+def test_a_large_file_that_is_truncated_raises_an_error(tmp_path, act, size):
+    path = tmp_path / "run.cfz"
+    code, output, errors = run(TRUNCATED, path, act, size)
+    assert (code, errors) == (0, "")
+    lines = output.splitlines()
+    assert len(lines) == 2
+    for line in lines:
+        assert line.startswith(f"FrozenFileError {path} was truncated by another program while it was in use.")
+    assert list(tmp_path.iterdir()) == [path]
+
+
+@pytest.mark.parametrize("content", [b"", b"x" * 5000, bytes(200_000)])
+def test_a_small_file_can_be_overwritten_while_it_is_in_use(path, content):
+    buffer, saved = coframe.load(path), filled()
+    path.write_bytes(content)
+    for second in range(1, 21):
+        assert buffer.lookup("map", "lidar", second * SECOND) == saved.lookup("map", "lidar", second * SECOND)
+    buffer.verify()
+
+
+def test_a_file_that_is_saved_again_does_not_change_what_was_loaded(path):
+    buffer = coframe.load(path)
+    coframe.Buffer(None).save(path)
+    buffer.verify()
+    assert "lidar" in buffer
+    assert "lidar" not in coframe.load(path)
+
+
+@can_truncate
+def test_other_bus_errors_still_end_the_process(tmp_path):
+    program = """
+        import faulthandler, mmap, os, sys
+        import coframe
+        if sys.argv[2] == "faulthandler":
+            faulthandler.enable()
+        coframe.Buffer().save(sys.argv[1])
+        kept = coframe.load(sys.argv[1])
+        with open(sys.argv[1] + ".other", "w+b") as file:
+            file.write(bytes(100_000))
+            file.flush()
+            memory = mmap.mmap(file.fileno(), 0)
+            file.truncate(0)
+        memory[50_000]
+    """
+    assert run(program, tmp_path / "run.cfz", "nothing") == (-signal.SIGBUS, "", "")
+    code, _, errors = run(program, tmp_path / "run.cfz", "faulthandler")
+    assert code == -signal.SIGBUS
+    assert "Fatal Python error: Bus error" in errors

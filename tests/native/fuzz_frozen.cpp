@@ -98,8 +98,8 @@ class Fuzzer {
     const Exact head(table);
     const auto samples = std::make_shared<const Exact>(chunks);
     const char* reason;
-    const auto buffer =
-        Buffer::restored(kKeepAll, {head.data, head.size}, {samples->data, samples->size}, samples, reason);
+    const auto buffer = Buffer::restored(kKeepAll, {head.data, head.size}, {samples->data, samples->size},
+                                         std::shared_ptr<GuardedMemory>(samples, nullptr), reason);
     if (!buffer) return;
     ++opened_;
     look_up_some(*buffer);

@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Shared transforms where /dev/shm is small: a container of Docker has 64 MB. Each test mounts one of its own."""
+"""Shared transforms in a /dev/shm that is small, as in containers, or truncated by another program.
+
+Each test mounts one of its own.
+"""
 
 import shlex
 import subprocess
@@ -11,7 +14,7 @@ import pytest
 pytestmark = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="transforms are shared on Linux only")
 
 PUBLISH = """
-    import logging, time
+    import logging, textwrap, threading, time
     import coframe
     from coframe import shared_transforms
     from coframe.messages import find
@@ -98,3 +101,68 @@ def test_memory_that_becomes_full_is_reported_and_known_frames_are_stored():
     assert "No space left on device. New frames are refused" in full
     assert rejected.startswith("Rejected ")
     assert rejected.endswith("their frames are new, and the buffer has no room for more frames of other nodes.")
+
+
+@pytest.mark.usefixtures("domain_id")
+@pytest.mark.parametrize("size", [0, 5000, 100_000])
+def test_transforms_that_another_program_truncates_raise_an_error(size):
+    output, logged = run(
+        64,
+        f"""
+        import os, subprocess, sys
+        from pathlib import Path
+        reader = '''
+        import coframe
+        ros = coframe.connect("reader", shared=True)
+        ros.buffer.wait("map", "base0")
+        print("ready", flush=True)
+        input()
+        try:
+            while True:
+                ros.buffer.lookup("base1", "base99", timeout="1s")
+        except coframe.CoframeError as error:
+            print(type(error).__name__, error)
+        change = lambda: ros.buffer.set("map", "own", coframe.Transform(), 1)
+        for act in (change, ros.buffer.snapshot, ros.buffer.clear):
+            try:
+                print(act())
+            except coframe.CoframeError as error:
+                print(type(error).__name__, error)
+        ros.close()
+        '''
+        writer = coframe.connect("writer", shared=True)
+        stopping = threading.Event()
+
+        def publish_all():
+            while not stopping.wait(0.005):
+                publish([f"base{{number}}" for number in range(100)])
+
+        thread = threading.Thread(target=publish_all)
+        thread.start()
+        writer.buffer.wait("map", "base0")
+        assert writer._shared.writes
+        program = [sys.executable, "-c", textwrap.dedent(reader)]
+        process = subprocess.Popen(program, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+        process.stdout.readline()
+        (file,) = (path for path in Path(f"/dev/shm/coframe-{{os.getuid()}}").iterdir() if not path.suffix)
+        os.truncate(file, {size})
+        print(process.communicate("\\n", timeout=60)[0], end="")
+        try:
+            while True:
+                writer.buffer.lookup("base1", "base99")
+                writer.buffer.edges()
+        except coframe.CoframeError as error:
+            print(type(error).__name__, error)
+        while not any("truncated" in record.getMessage() for record in logged):
+            time.sleep(0.01)
+        writer.close()
+        stopping.set()
+        thread.join()
+        """,
+    )
+    lines = output.splitlines()
+    assert len(lines) == 5
+    for line in lines:
+        assert line.startswith("WireError The shared transforms in /dev/shm/coframe-")
+        assert "are lost, because another program has truncated this file" in line
+    assert "Another program has truncated the file of the shared transforms in /dev/shm" in logged
