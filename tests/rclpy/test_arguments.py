@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Parsing of `--ros-args`."""
 
+import math
 import re
 
 import pytest
@@ -118,12 +119,30 @@ def test_first_rule_applies_and_services_have_separate_rules():
         ("[]", []),
         ("[1.0, .5]", [1.0, 0.5]),
         ("/a/b", "/a/b"),
+        # As C's strtol and strtod read them in rcl.
+        ("010", 8),
+        ("-017", -15),
+        ("08", 8.0),
+        ("0", 0),
+        ("9223372036854775807", 2**63 - 1),
+        ("9223372036854775808", 2.0**63),
+        ("inf", math.inf),
+        ("-Infinity", -math.inf),
+        (".inf", math.inf),
+        ("1e400", "1e400"),
+        ("9" * 5000, "9" * 5000),
+        ("infinite", "infinite"),
     ],
 )
 def test_types_of_parameter_values(text, value):
     parsed = _yaml.parse_value(text)
     assert parsed == value
     assert type(parsed) is type(value)
+
+
+@pytest.mark.parametrize("text", ["nan", "NaN", ".nan"])
+def test_parameters_that_are_not_a_number(text):
+    assert math.isnan(_yaml.parse_value(text))
 
 
 def test_parameter_rules_match_node_names():
@@ -150,6 +169,16 @@ def test_parameter_files(tmp_path):
     assert of("/robot1/leg") == {"use": True, "names": ["a", "b"]}
     assert of("/x/hand") == {"use": True, "size": 3}
     assert of("/hand") == {"use": True}
+
+
+def test_all_blocks_of_a_node_in_a_parameter_file_count(tmp_path):
+    pytest.importorskip("yaml")
+    path = tmp_path / "params.yaml"
+    blocks = [("/**", "a: 1"), ("/**", "b: 2"), ("arm", "b: 3"), ("arm", "gain: {p: 1, p: 2}"), ("arm", "gain: {i: 3}")]
+    path.write_text("".join(f"{name}:\n  ros__parameters:\n    {values}\n" for name, values in blocks))
+    parameters = _arguments.parse(["--ros-args", "--params-file", str(path)]).parameters
+    of_arm = {item.name: item.value for item in parameters if item.matches("/arm")}  # the last value applies
+    assert of_arm == {"a": 1, "b": 3, "gain.p": 2, "gain.i": 3}
 
 
 @pytest.mark.parametrize(

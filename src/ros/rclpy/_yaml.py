@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from typing import TYPE_CHECKING, Any, Final
 
@@ -15,6 +16,10 @@ if TYPE_CHECKING:
 _TRUE: Final = {"y", "yes", "true", "on"}
 _FALSE: Final = {"n", "no", "false", "off"}
 _SPECIAL_FLOATS: Final = {".nan": "nan", ".inf": "inf", "+.inf": "inf", "-.inf": "-inf"}
+_NOT_FINITE: Final = {"nan", "inf", "infinity"}
+_INTEGER: Final = re.compile(r"[-+]?(0[xX][0-9a-fA-F]+|0[0-7]*|[1-9]\d*)")
+_FLOAT: Final = re.compile(r"[-+]?((\d+\.?\d*|\.\d+)([eE][-+]?\d+)?|nan|inf|infinity)", re.IGNORECASE)
+_MAX_DIGITS: Final = 30  # of an integer with 64 bits, in any form
 _ITEM: Final = re.compile(r"""\s*("(?:[^"\\]|\\.)*"|'(?:[^']|'')*'|[^,\]]*?)\s*(,|$)""")
 
 
@@ -25,11 +30,21 @@ def parse_scalar(text: str) -> bool | int | float | str:
         return lower in _TRUE
     if lower in _SPECIAL_FLOATS:
         return float(_SPECIAL_FLOATS[lower])
-    if re.fullmatch(r"[-+]?(0[xX][0-9a-fA-F]+|\d+)", text):
-        return int(text, 16 if "x" in lower else 10)
-    if re.fullmatch(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?", text):
-        return float(text)
+    if _INTEGER.fullmatch(text) and (number := _integer(lower)) is not None:
+        return number
+    if _FLOAT.fullmatch(text):
+        value = float(text)
+        is_in_range = math.isfinite(value) or lower.lstrip("+-") in _NOT_FINITE
+        return value if is_in_range else text
     return text
+
+
+def _integer(text: str) -> int | None:
+    """Return an integer as C's strtol reads it, also in hexadecimal or octal form; None above 64 bits."""
+    digits = text.lstrip("+-")
+    base = 16 if digits.startswith("0x") else 8 if digits.startswith("0") else 10
+    number = int(text, base) if len(text) <= _MAX_DIGITS else 2**63
+    return number if -(2**63) <= number < 2**63 else None
 
 
 def parse_value(text: str) -> Any:
@@ -89,12 +104,16 @@ def load_parameters(path: str) -> Iterator[tuple[str, str, Any]]:
     yield from _nodes(_python_of(root), "")
 
 
+class _Mapping(list[tuple[str, Any]]):
+    """The names and values of a YAML mapping. A name may occur several times: ROS 2 reads all blocks of a node."""
+
+
 def _python_of(node: Any) -> Any:
     """Return a YAML node as Python values. PyYAML's own typing differs from ROS's (1e5, .5, ...)."""
     if node is None:
-        return {}
+        return _Mapping()
     if node.id == "mapping":
-        return {_name(key): _python_of(value) for key, value in node.value}
+        return _Mapping((_name(key), _python_of(value)) for key, value in node.value)
     if node.id == "sequence":
         return [_python_of(value) for value in node.value]
     return node.value if node.style else parse_scalar(node.value)
@@ -107,9 +126,9 @@ def _name(node: Any) -> str:
 
 
 def _nodes(tree: Any, prefix: str) -> Iterator[tuple[str, str, Any]]:
-    if not isinstance(tree, dict):
+    if not isinstance(tree, _Mapping):
         raise ValueError(f"expected node names with `ros__parameters:` below them, found {tree!r}")  # noqa: TRY004
-    for key, value in tree.items():
+    for key, value in tree:
         if key == "ros__parameters":
             for name, parameter in _flatten(value, ""):
                 yield prefix or "/**", name, parameter
@@ -118,10 +137,10 @@ def _nodes(tree: Any, prefix: str) -> Iterator[tuple[str, str, Any]]:
 
 
 def _flatten(tree: Any, prefix: str) -> Iterator[tuple[str, Any]]:
-    if not isinstance(tree, dict) and tree not in (None, ""):
+    if not isinstance(tree, _Mapping) and tree not in (None, ""):
         raise ValueError(f"expected names and values below `ros__parameters:`, found {tree!r}")
-    for key, value in (tree or {}).items():
-        if isinstance(value, dict):
+    for key, value in tree or ():
+        if isinstance(value, _Mapping):
             yield from _flatten(value, f"{prefix}{key}.")
         else:
             yield f"{prefix}{key}", value
