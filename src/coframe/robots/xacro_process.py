@@ -2,35 +2,34 @@
 """Expands one xacro file in a process of its own, whose memory is limited; see :mod:`coframe.robots.files`.
 
 With arguments, it runs them as a command with the same limits. Otherwise the request and the answer are JSON on
-standard input and output. The file is run as a script, and imports coframe only
-for ``$(find PACKAGE)``, because that takes longer than the rest.
+standard input and output. The file is run as a script, and imports the native core only for ``$(find PACKAGE)``,
+because that takes longer than the rest.
 """
 
 from __future__ import annotations
 
 import contextlib
-import importlib.util
 import io
 import json
 import os
 import sys
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
+    from collections.abc import Mapping
 
 __all__ = ["MAX_MEMORY", "MAX_OUTPUT", "MAX_SECONDS"]
 
 MAX_SECONDS = 20.0
 MAX_MEMORY = 2 << 30  # bytes
 MAX_OUTPUT = 64 << 20  # characters of a URDF
-_REGULAR_FILES = Path(__file__).parents[1] / "regular_files.py"
 
 
 def _answer(request: Mapping[str, Any]) -> dict[str, Any]:
     import xacro  # noqa: PLC0415 - found in the folders of the request
     from xacro import substitution_args  # noqa: PLC0415
+
+    from coframe.regular_files import read_regular_text  # noqa: PLC0415
 
     def find(name: str) -> str:
         from coframe.robots.packages import Packages  # noqa: PLC0415
@@ -39,7 +38,7 @@ def _answer(request: Mapping[str, Any]) -> dict[str, Any]:
 
     # xacro has no public hook for $(find PACKAGE), which otherwise requires an installed ROS, and none for its files.
     substitution_args._eval_find = find  # noqa: SLF001
-    xacro.open = _file_reader()
+    xacro.open = lambda path: io.StringIO(read_regular_text(path, MAX_OUTPUT))
     try:
         text = xacro.process_file(request["path"], mappings=request["arguments"]).toprettyxml(indent="  ")
     except OSError as error:
@@ -55,16 +54,6 @@ def _answer(request: Mapping[str, Any]) -> dict[str, Any]:
     if len(text) > MAX_OUTPUT:
         return {"error": f"the expanded file has more than {MAX_OUTPUT >> 20} MiB, the limit"}
     return {"text": text}
-
-
-def _file_reader() -> Callable[[str], io.StringIO]:
-    """Return a function that opens the file and all that it includes in place of `open`."""
-    spec = importlib.util.spec_from_file_location("regular_files", _REGULAR_FILES)
-    assert spec is not None
-    assert spec.loader is not None
-    module = importlib.util.module_from_spec(spec)  # without the package coframe, whose import takes longer
-    spec.loader.exec_module(module)
-    return lambda path: io.StringIO(module.read_regular_text(path, MAX_OUTPUT))
 
 
 def _main() -> None:
