@@ -3,13 +3,13 @@
 
 from __future__ import annotations
 
+import os
 import uuid
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    import os
     from collections.abc import Iterator
 
 __all__ = ["complete_or_absent", "write_complete"]
@@ -29,7 +29,7 @@ def complete_or_absent(path: str | os.PathLike[str]) -> Iterator[Path]:
     if path.exists() and not path.is_file():
         yield path
         return
-    path = path.resolve()  # A symbolic link stays.
+    path = Path(os.path.realpath(path))  # A symbolic link stays, also one that leads to itself.
     part = path.with_name(f".{path.name}.{uuid.uuid4().hex[:12]}.part")
     try:
         yield part

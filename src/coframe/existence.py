@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Whether a file or folder exists, for the folders that environment variables list.
+"""Whether a file or folder exists and where it is, for the folders that environment variables list.
 
 What the user is not permitted to read counts as absent, as in Python's own search for modules. The methods of
 `pathlib.Path` raise PermissionError instead, before Python 3.14.
@@ -8,12 +8,9 @@ What the user is not permitted to read counts as absent, as in Python's own sear
 from __future__ import annotations
 
 import os
-from typing import TYPE_CHECKING
+from pathlib import Path
 
-if TYPE_CHECKING:
-    from pathlib import Path
-
-__all__ = ["exists", "is_dir", "is_file"]
+__all__ = ["exists", "is_dir", "is_file", "resolved"]
 
 
 def exists(path: Path) -> bool:
@@ -29,3 +26,8 @@ def is_file(path: Path) -> bool:
 def is_dir(path: Path) -> bool:
     """Return whether the path is a folder that the user can reach."""
     return os.path.isdir(path)  # noqa: PTH112 - see above
+
+
+def resolved(path: str | os.PathLike[str]) -> Path:
+    """Return the absolute path without links. A link to itself stays, for which `Path.resolve` can raise RuntimeError."""
+    return Path(os.path.realpath(path))

@@ -8,7 +8,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
-from coframe.existence import is_file
+from coframe.existence import is_file, resolved
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -88,4 +88,4 @@ def _packages_in(path: Iterable[str]) -> dict[str, str]:
 def _position(path: list[str]) -> int:
     """Return the index of the folder of coframe's ROS packages, or the length of the path."""
     home = ros_folder()
-    return next((index for index, entry in enumerate(path) if Path(entry or ".").resolve() == home), len(path))
+    return next((index for index, entry in enumerate(path) if resolved(entry or ".") == home), len(path))

@@ -163,3 +163,23 @@ def test_opening_a_special_file_takes_no_memory(tmp_path):
     )
     assert (done.returncode, done.stderr) == (0, "")
     assert len(done.stdout.splitlines()) == 4 * len(KINDS)
+
+
+@posix
+def test_links_that_lead_to_themselves(tmp_path, monkeypatch):
+    """They are neither a traceback as an output, nor as a folder of meshes, nor on the path of Python."""
+    monkeypatch.chdir(tmp_path)
+    recordings.write_mcap(tmp_path / "run.mcap")
+    for name in ("loop", "loop.svg", "loop.mcap"):
+        (tmp_path / name).symlink_to(name)
+    monkeypatch.setenv("PYTHONPATH", str(tmp_path / "loop"))
+    run = [sys.executable, "-m", "coframe.cli"]
+    for words, sentence in (
+        (["frames", "run.mcap", "-o", "loop.svg"], ""),
+        (["view", "run.mcap", "--mesh-root", "loop", "-o", "out.html"], ""),
+        (["bag", "info", "loop.mcap"], "loop.mcap cannot be read: Too many levels of symbolic links"),
+    ):
+        done = subprocess.run([*run, *words], capture_output=True, text=True, timeout=60, check=False)
+        assert "Traceback" not in done.stderr
+        assert sentence in done.stderr
+        assert "Did you mean" not in done.stderr

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import difflib
 import importlib
+import os
 import re
 from contextlib import suppress
 from pathlib import Path
@@ -100,7 +101,7 @@ def recording_stem(file: Path) -> str:
 def _existing_instead(path: Path) -> str:
     """Return a hint that names what is there instead of an absent path; "" if there is nothing, or if it exists."""
     try:
-        entries = [] if path.exists() else sorted(path.parent.iterdir())
+        entries = [] if os.path.lexists(path) else sorted(path.parent.iterdir())
     except FileNotFoundError:
         return f"There is no folder {str(path.parent)!r}."
     except OSError:

@@ -8,6 +8,7 @@ import re
 from typing import TYPE_CHECKING, NamedTuple
 
 from coframe.errors import PackageError
+from coframe.existence import resolved
 from coframe.formatting import did_you_mean
 from coframe.packages import builtin, console_scripts
 from coframe.packages.finding import Package, candidates, find_package
@@ -114,7 +115,7 @@ def _from_source(package: Package) -> dict[str, Executable]:
     }
     for relative in [*declared.files, *_programs_of_cmake(package.share)]:
         file = package.share / relative
-        if file.is_file() and file.resolve().is_relative_to(package.share.resolve()):
+        if file.is_file() and resolved(file).is_relative_to(resolved(package.share)):
             found.setdefault(file.name, Executable(package.name, file.name, _command_of(file), path))
     return found
 
@@ -122,7 +123,7 @@ def _from_source(package: Package) -> dict[str, Executable]:
 def _python_path(package: Path, root: str) -> tuple[str, ...]:
     """Return the folders of the package and of its neighbors, whose modules it may import."""
     neighbors = [each for each in crawl(package.parent, _MAX_DEPTH) if each != package and _has_modules(each)]
-    return tuple(map(str, [(package / root).resolve(), *neighbors]))
+    return tuple(map(str, [resolved(package / root), *neighbors]))
 
 
 def _has_modules(package: Path) -> bool:

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 from coframe.errors import PackageError
-from coframe.existence import is_dir, is_file
+from coframe.existence import is_dir, is_file, resolved
 from coframe.formatting import did_you_mean
 from coframe.packages import builtin
 from coframe.packages.folders import crawl, listed, named, package_around, package_name
@@ -109,14 +109,14 @@ def source_folders(path: Path) -> list[Path]:
 def use_sources_near(*paths: Path) -> None:
     """Add the source folders around these paths to COFRAME_PACKAGE_PATH, for this process and its children."""
     known = [str(folder) for folder in listed(_SOURCES)]
-    found = [str(folder) for path in paths for folder in source_folders(path.resolve())]
+    found = [str(folder) for path in paths for folder in source_folders(resolved(path))]
     os.environ[_SOURCES] = os.pathsep.join(dict.fromkeys([*known, *found]))
 
 
 def _all_source_folders() -> list[Path]:
     near = [Path.cwd()]
     if sys.argv and sys.argv[0].endswith(".py"):
-        near.append(Path(sys.argv[0]).resolve().parent)
+        near.append(resolved(sys.argv[0]).parent)
     around = [folder for path in near for folder in source_folders(path)]
     return list(dict.fromkeys([*listed(_SOURCES), *around]))
 

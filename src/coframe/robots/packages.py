@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from urllib.parse import unquote
 
 from coframe.errors import PackageError
-from coframe.existence import is_dir
+from coframe.existence import is_dir, resolved
 from coframe.packages.folders import crawl, listed, named, package_around
 from coframe.regular_files import UnsuitableFileError, check_regular
 
@@ -41,7 +41,7 @@ class Packages:
     def __init__(
         self, near: str | os.PathLike[str] | None = None, folders: Iterable[str | os.PathLike[str]] = ()
     ) -> None:
-        self.near = None if near is None else Path(near).resolve()
+        self.near = None if near is None else resolved(near)
         self.folders = [Path(folder) for folder in folders]
         self._found: dict[str, Path] = {}
         self._crawled: dict[tuple[Path, int], dict[str, Path]] = {}

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from urllib.parse import quote, unquote, urlsplit
 
 from coframe.errors import CoframeError
+from coframe.existence import resolved
 from coframe.regular_files import check_regular
 
 if TYPE_CHECKING:
@@ -68,9 +69,9 @@ class MeshTable:
 
     def declare(self, folder: Path) -> None:
         """Allow the meshes and textures below a folder to be fetched."""
-        resolved = folder.resolve()
+        root = resolved(folder)
         with self._lock:
-            self._roots.setdefault(resolved, _Root(secrets.token_urlsafe(12), resolved))
+            self._roots.setdefault(root, _Root(secrets.token_urlsafe(12), root))
 
     def url(self, reference: str, folder: Path | None = None) -> str:
         """Return the URL of a mesh that a robot or marker names.
@@ -110,10 +111,10 @@ class MeshTable:
         file = root.folder
         for part in below.split("/"):
             file = (file.parent if file.suffix.lower() in MESH_TYPES and _is_file(file) else file) / part
-        resolved = _resolved(file)
-        self._root_of(resolved, below)
-        _check_file(resolved, below)
-        return resolved
+        found = _resolved(file)
+        self._root_of(found, below)
+        _check_file(found, below)
+        return found
 
     def _file_of(self, reference: str, folder: Path | None) -> Path:
         try:

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from coframe.existence import resolved
 from coframe.robots import Mesh, PackageError, Packages
 from coframe.viewer.protocol.server_messages import Robot as RobotMessage
 from coframe.viewer.protocol.server_messages import RobotJoint
@@ -32,7 +33,7 @@ def make_mesh_table(robot: Path | None, roots: Iterable[Path]) -> MeshTable:
         except PackageError:
             return None
 
-    return MeshTable(find, [*folders, *([robot.resolve().parent] if robot is not None else [])])
+    return MeshTable(find, [*folders, *([resolved(robot).parent] if robot is not None else [])])
 
 
 def robot_message(robot: Robot, number: int, source: str, topic: str | None, meshes: MeshTable) -> RobotMessage:
@@ -45,7 +46,7 @@ def robot_message(robot: Robot, number: int, source: str, topic: str | None, mes
         topic: The topic of the description; None for a file.
         meshes: The meshes that may be fetched.
     """
-    folder = None if robot.path is None else robot.path.resolve().parent
+    folder = None if robot.path is None else resolved(robot.path).parent
     urls: dict[str, str] = {}
     problems: list[str] = []
     for reference in dict.fromkeys(_files_of(robot)):
