@@ -29,5 +29,5 @@ def is_dir(path: Path) -> bool:
 
 
 def resolved(path: str | os.PathLike[str]) -> Path:
-    """Return the absolute path without links. A link to itself stays, for which `Path.resolve` can raise RuntimeError."""
+    """Return the absolute path without links. For a link to itself, `Path.resolve` can raise RuntimeError; it stays."""
     return Path(os.path.realpath(path))

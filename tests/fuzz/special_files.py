@@ -94,7 +94,7 @@ def replaced(path: Path, chance: random.Random, closing: contextlib.ExitStack) -
 
 
 def written(path: Path, chance: random.Random, closing: contextlib.ExitStack) -> str:
-    """Create a pipe into which somebody writes."""
+    """Create a pipe into which a thread writes."""
     os.mkfifo(path)
     content = MAGIC.get(path.suffix, b"# ") + chance.randbytes(1000)
 
