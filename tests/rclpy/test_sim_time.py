@@ -3,11 +3,12 @@
 
 import pytest
 
-from rclpy.clock import ClockChange, JumpThreshold
+from rclpy.clock import ClockChange, JumpThreshold, ROSClock
 from rclpy.duration import Duration
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.parameter import Parameter
 from rclpy.time import Time
+from rclpy.time_source import TimeSource
 from rosgraph_msgs.msg import Clock
 
 
@@ -63,3 +64,27 @@ def test_disabling_simulated_time_is_a_jump(simulation):
     assert simulation.set_parameters([Parameter("use_sim_time", value=False)])[0].successful
     assert jumps[-1].clock_change is ClockChange.ROS_TIME_DEACTIVATED
     assert simulation.get_clock().now().nanoseconds > 10**18
+
+
+def test_time_sources_of_the_user_follow_the_parameter_of_their_node(simulation, make_node, wait_until):
+    clock, late = ROSClock(), ROSClock()
+    source = TimeSource(node=simulation)
+    source.attach_clock(clock)
+    jumps = []
+    clock.create_jump_callback(JumpThreshold(min_forward=None, min_backward=None), post_callback=jumps.append)
+    assert (source.ros_time_is_active, clock.ros_time_is_active) == (True, True)
+    simulation.advance_to(100)
+    simulation.advance_to(101)
+    wait_until(lambda: clock.now() == simulation.get_clock().now(), simulation.spin_once)
+    assert simulation.set_parameters([Parameter("use_sim_time", value=False)])[0].successful
+    assert [jump.clock_change for jump in jumps] == [ClockChange.ROS_TIME_DEACTIVATED]
+    assert not clock.ros_time_is_active
+    assert simulation.set_parameters([Parameter("use_sim_time", value=True)])[0].successful
+    assert clock.ros_time_is_active
+    source.detach_node()
+    assert (clock.ros_time_is_active, simulation.get_clock().ros_time_is_active) == (False, True)
+    without_node = TimeSource()
+    without_node.attach_clock(late)
+    assert not late.ros_time_is_active
+    without_node.attach_node(make_node("other", parameter_overrides=[Parameter("use_sim_time", value=True)]))
+    assert late.ros_time_is_active

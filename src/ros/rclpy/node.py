@@ -113,8 +113,7 @@ class Node(_node_endpoints.Node):
         self.__rosout: RosoutPublisher | None = None
         if enable_rosout and arguments.logging.rosout:
             self.__rosout = RosoutPublisher(self._Coframe__participant, self._Coframe__graph_node, self.__logger.name)
-        self.__time_source = TimeSource(node=self)
-        self.__time_source.attach_clock(self.__clock)
+        self._Coframe__time_sources: list[TimeSource] = []
         try:
             self.__parameter_events = self.create_publisher(
                 ParameterEvent, "/parameter_events", qos_profile_parameter_events
@@ -125,6 +124,7 @@ class Node(_node_endpoints.Node):
                 allow_undeclared=allow_undeclared_parameters,
                 declare_overrides=automatically_declare_parameters_from_overrides,
             )
+            TimeSource(node=self).attach_clock(self.__clock)
             if not self.has_parameter(USE_SIM_TIME_NAME):
                 self.declare_parameter(USE_SIM_TIME_NAME, False)
             if start_parameter_services:
@@ -345,7 +345,8 @@ class Node(_node_endpoints.Node):
 
     def _Coframe__on_parameter_set(self, parameter: Parameter[Any]) -> None:
         if parameter.name == USE_SIM_TIME_NAME:
-            self.__time_source.ros_time_is_active = parameter.value is True
+            for source in tuple(self._Coframe__time_sources):
+                source.ros_time_is_active = parameter.value is True
 
     def _Coframe__publish_parameter_event(self, event: ParameterEvent) -> None:
         event.node = self.get_fully_qualified_name()

@@ -25,17 +25,21 @@ USE_SIM_TIME_NAME = "use_sim_time"
 class TimeSource:
     """Source of simulated time. While active, it sets the attached ROS clocks from /clock.
 
+    It is active while the parameter `use_sim_time` of its node is true.
+
     Args:
-        node: Node that subscribes to /clock.
+        node: Node that subscribes to /clock. None: `attach_node` sets it.
     """
 
-    def __init__(self, *, node: Node) -> None:
-        self._node = node
+    def __init__(self, *, node: Node | None = None) -> None:
+        self._node: Node | None = None
         self._clocks: list[ROSClock] = []
         self._subscription: Subscription | None = None
         self._last_time = Time()
         # A separate group, so that a busy callback of the node does not stop the clock for other threads.
         self._group = MutuallyExclusiveCallbackGroup()
+        if node is not None:
+            self.attach_node(node)
 
     @property
     def ros_time_is_active(self) -> bool:
@@ -44,7 +48,7 @@ class TimeSource:
 
     @ros_time_is_active.setter
     def ros_time_is_active(self, enabled: bool) -> None:
-        if enabled == self.ros_time_is_active:
+        if enabled == self.ros_time_is_active or self._node is None:
             return
         if enabled:
             qos = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
@@ -59,15 +63,19 @@ class TimeSource:
         self._node.context._Coframe__wakeup.set()
 
     def attach_node(self, node: Node) -> None:
-        """Subscribe to /clock with another node from now on."""
-        is_active = self.ros_time_is_active
+        """Follow the parameter `use_sim_time` of another node from now on, and subscribe to /clock with it."""
         self.detach_node()
         self._node = node
-        self.ros_time_is_active = is_active
+        node._Coframe__time_sources.append(self)
+        if node.has_parameter(USE_SIM_TIME_NAME):
+            self.ros_time_is_active = node.get_parameter(USE_SIM_TIME_NAME).value is True
 
     def detach_node(self) -> None:
-        """Unsubscribe from /clock."""
+        """Unsubscribe from /clock, and ignore the parameter."""
         self.ros_time_is_active = False
+        if self._node is not None:
+            self._node._Coframe__time_sources.remove(self)
+            self._node = None
 
     def attach_clock(self, clock: Any) -> None:
         """Add a clock that this time source sets.
