@@ -216,6 +216,27 @@ def test_a_program_has_no_privileges(filtered):
     )
 
 
+@pytest.mark.skipif(os.name != "posix" or os.getuid() != 0, reason="only the superuser can become another user")
+def test_a_program_of_the_superuser_runs_as_another_user(tmp_path):
+    made = Program(tmp_path / "open", has_namespaces=True, has_landlock=True)
+    with made.confinement:
+        tasks = "__import__('resource').getrlimit(__import__('resource').RLIMIT_NPROC)[1]"
+        found = made.results(user="os.getuid()", group="os.getgid()", groups="os.getgroups()", tasks=tasks)
+        assert found == {"user": "64000", "group": "64000", "groups": "[]", "tasks": "1024"}
+        assert made.results(home="pathlib.Path.home().joinpath('x').write_text('x')")["home"] == "1"
+    made = Program(tmp_path / "closed", has_namespaces=True, has_landlock=True)
+    with made.confinement:
+        (made.folder / "program.py").touch()
+        for path in (made.folder, made.folder / "program.py"):
+            os.chown(path, 4321, 4322)
+            path.chmod(0o700)
+        assert made.results(user="(os.getuid(), os.getgid())")["user"] == "(4321, 4322)"
+    made = Program(tmp_path / "own", has_namespaces=True, has_landlock=True)
+    with made.confinement:
+        made.folder.chmod(0o700)
+        assert made.results(user="os.getuid()")["user"] == "0"
+
+
 def test_the_grader_cannot_be_changed(filtered):
     """Without namespaces, the parent of the program is this test, as the grader would be."""
     program = filtered

@@ -72,6 +72,7 @@ def check_folder(
             "scratch": str(scratch),
             "variant": variant,
             "only": only,
+            "number": number,
             "record": None if record is None else str(record.resolve()),
             "private": private_folders(folder),
         }

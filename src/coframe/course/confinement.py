@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
     from typing_extensions import Self
 
-__all__ = ["MAX_CPU", "MAX_MEMORY", "MAX_OUTPUT", "Confinement", "passed_variables", "protection_problem"]
+__all__ = ["DECOYS", "MAX_CPU", "MAX_MEMORY", "MAX_OUTPUT", "Confinement", "passed_variables", "protection_problem"]
 
 MAX_MEMORY = 1 << 30  # bytes of all processes of a program
 MAX_OUTPUT = 10 << 20  # bytes of the output, and of each file that a program writes
@@ -51,6 +51,8 @@ PASSED: Final = (
     "VIRTUAL_ENV",
 )
 FOLDER_LISTS: Final = frozenset({"AMENT_PREFIX_PATH", "DYLD_LIBRARY_PATH", "LD_LIBRARY_PATH", "PATH"})
+DECOYS: Final = "decoys"  # the folder for what programs find in place of solutions
+_FIRST_USER, _USERS = 64_000, 1000  # numbers of users without an account, for programs of the superuser
 _START: Final = "import sys; sys.path.append({!r}); from sandbox.start import main; main()"
 
 
@@ -74,7 +76,9 @@ class Confinement:
         working_folder: Where the processes that start the programs work: an empty folder, as they are not confined.
     """
 
-    def __init__(self, folder: Path, scratch: Path, private: Iterable[str], *, has_namespaces: bool) -> None:
+    def __init__(
+        self, folder: Path, scratch: Path, private: Iterable[str], *, has_namespaces: bool, number: int = 0
+    ) -> None:
         """Prepare the programs of a folder.
 
         Args:
@@ -82,10 +86,12 @@ class Confinement:
             scratch: An empty folder.
             private: Folders that they cannot read, see `private_folders`.
             has_namespaces: Whether this process can create namespaces.
+            number: Number of the grade among those that run at the same time.
         """
         self.has_namespaces = has_namespaces
+        self._number = number
         self._folder = folder.resolve()
-        self._decoys = Decoys(scratch / "decoys") if has_namespaces else None
+        self._decoys = Decoys(scratch / DECOYS) if has_namespaces else None
         root = scratch / "root"
         root.mkdir()
         self.working_folder = root if os.name == "posix" else self._folder  # where nothing is started in between
@@ -118,6 +124,7 @@ class Confinement:
             "entries": self._entries,
             "links": self._links,
             "decoys": {} if self._decoys is None else self._decoys.folders,
+            "user": _FIRST_USER + self._number % _USERS,
             "limits": {"AS": _ADDRESS_SPACE, "FSIZE": MAX_OUTPUT, "CPU": MAX_CPU},
         }
         start = _START.format(str(Path(__file__).parent))
@@ -129,6 +136,7 @@ class Confinement:
         environment = passed_variables()
         environment |= {"HOME": str(home), "TMPDIR": str(home), "ROS_LOG_DIR": str(home)}
         environment |= {"PYTHONUNBUFFERED": "1", "PYTHONDONTWRITEBYTECODE": "1", GRADED: "1"}
+        environment |= {"USER": "student", "LOGNAME": "student"}  # where the user has no account
         return python_environment(environment)
 
     def attempt(self, output: bytes) -> str:

@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, TextIO
 
 from coframe.course.assignment import Assignment, assignment_of, read_assignment
-from coframe.course.confinement import Confinement
+from coframe.course.confinement import DECOYS, Confinement
 from coframe.course.isolation import bring_loopback_up, is_isolated, limit_disk
 from coframe.course.processes import adopt_orphans
 from coframe.course.program import HOMES
@@ -30,12 +30,15 @@ if TYPE_CHECKING:
 
 __all__ = ["main"]
 
+_SEARCHABLE = 0o711
+
 
 def main() -> None:
     """Grade a folder; print the assignment and each criterion that is done as lines of JSON.
 
     The argument is JSON: "folder"; "scratch", an empty folder; "variant", null for that of the folder; "only", the
-    criteria; "record", a folder for a recording or null; and "private", see `private_folders`.
+    criteria; "number", that of the grade among those at the same time; "record", a folder for a recording or null; and
+    "private", see `private_folders`.
     """
     job = json.loads(sys.argv[1])
     folder, scratch = Path(job["folder"]), Path(job["scratch"])
@@ -43,11 +46,14 @@ def main() -> None:
         forbid_tracing()
     bring_loopback_up()
     homes = scratch / HOMES
-    homes.mkdir()
-    limit_disk(homes)
+    for path in (homes, scratch / DECOYS):  # No other process of this machine sees these disks, or opens files there.
+        path.mkdir()
+        limit_disk(path)
+    for path in (scratch.parent, scratch, homes):
+        path.chmod(_SEARCHABLE)  # The programs of the superuser run as other users.
     adopt_orphans()
     signal.signal(signal.SIGINT, lambda _number, _frame: None)  # A program can send it to its parent.
-    confinement = Confinement(folder, scratch, job["private"], has_namespaces=is_isolated())
+    confinement = Confinement(folder, scratch, job["private"], has_namespaces=is_isolated(), number=job["number"])
     with _result_output() as output, _recorded(job["record"]), confinement:
 
         def write(kind: str, value: Any) -> None:

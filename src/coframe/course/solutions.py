@@ -52,8 +52,14 @@ def entry_files(folders: list[str]) -> list[str]:
 
 
 def solution_problem(name: str) -> str:
-    """Return the sentence in a grade about a program that uses one of these packages."""
-    return f"The program imports {name}, which contains solutions, or reads its files. It gets no points."
+    """Return the sentence in a grade about a program that uses one of these packages.
+
+    Args:
+        name: The package, or one of its files with the package in front, such as "coframe.lab/tf_listener.py".
+    """
+    package, _, file = name.partition("/")
+    files = f"its file {file}" if file else "its files"
+    return f"The program imports {package}, which contains solutions, or reads {files}. It gets no points."
 
 
 class Decoys:
@@ -74,9 +80,8 @@ class Decoys:
         self.folders: dict[str, str] = {}
         self._watched: dict[int, str] = {}
         self._events: int | None = None
-        with contextlib.suppress(
-            OSError
-        ):  # The user has too many of them. An import is still reported by its exception.
+        # A user can have too many of them. An import is then still reported by its exception.
+        with contextlib.suppress(OSError):
             self._events = c_function("inotify_init1", _NON_BLOCKING | _CLOSE_ON_EXEC)
         for number, folder in enumerate(solution_folders()):
             decoy = place / str(number)
@@ -89,14 +94,14 @@ class Decoys:
             os.close(self._events)
 
     def opened(self) -> str:
-        """Return which part of coframe was opened since the last call, such as "coframe.lab"; "" if none was."""
+        """Return what was opened first since the last call, such as "coframe.lab/tf_listener.py"; "" if nothing was."""
         found = ""
-        for number, flags in self._read():
+        for number, flags, name in self._read():
             if not flags & _IS_FOLDER:
-                found = found or self._watched.get(number, SOLUTIONS[0])
+                found = found or f"{self._watched.get(number, SOLUTIONS[0])}/{name}"
         return found
 
-    def _read(self) -> Iterator[tuple[int, int]]:
+    def _read(self) -> Iterator[tuple[int, int, str]]:
         while self._events is not None:
             try:
                 content = os.read(self._events, _BUFFER)
@@ -106,7 +111,7 @@ class Decoys:
             while offset < len(content):
                 number, flags, _, length = _EVENT.unpack_from(content, offset)
                 offset += _EVENT.size + length
-                yield number, flags
+                yield number, flags, os.fsdecode(content[offset - length : offset].rstrip(b"\0"))
 
     def _copy(self, source: Path, target: Path) -> None:
         package = f"coframe.{source.name}"

@@ -3,11 +3,15 @@
 
 from __future__ import annotations
 
-import os
 import struct
 from contextlib import suppress
+from typing import TYPE_CHECKING
 
 from .kernel import c_function, control_process
+from .users import become
+
+if TYPE_CHECKING:
+    from .users import User
 
 __all__ = ["drop_privileges", "forbid_new_privileges", "forbid_tracing"]
 
@@ -21,13 +25,13 @@ _LAST_POSSIBLE = 63
 _SECURE_BITS = 0xEF
 
 
-def drop_privileges(owner: tuple[int, int] | None = None) -> None:
+def drop_privileges(user: User | None = None) -> None:
     """Drop all capabilities of this process and of the programs that it will run.
 
     Each step fails for an ordinary user, who has none to drop.
 
     Args:
-        owner: The user and the group that this process becomes; None: it remains the same user.
+        user: The user that this process becomes; None: it remains the same one.
     """
     with suppress(OSError):
         control_process(_SET_SECUREBITS, _SECURE_BITS)
@@ -36,11 +40,8 @@ def drop_privileges(owner: tuple[int, int] | None = None) -> None:
             control_process(_CAPBSET_DROP, number)
     with suppress(OSError):
         control_process(_CAP_AMBIENT, _CLEAR_ALL)
-    if owner is not None:
-        with suppress(OSError):
-            os.setgroups([])
-            os.setresgid(*3 * owner[1:])
-            os.setresuid(*3 * owner[:1])
+    if user is not None:
+        become(user)
     with suppress(OSError):
         c_function("capset", struct.pack("Ii", _CAPABILITY_VERSION_3, 0), bytes(24))
 

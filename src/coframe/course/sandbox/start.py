@@ -14,14 +14,14 @@ import sys
 from contextlib import suppress
 from typing import Any, NoReturn
 
-from . import kernel, landlock, mounts, privileges, seccomp
+from . import kernel, landlock, mounts, privileges, seccomp, users
 
 __all__ = ["main"]
 
 _MAX_OPEN_FILES = 256
+_MAX_TASKS = 1024  # processes and threads of all programs of a user, until the grader ends one that has too many
 _NEW_MOUNTS, _NEW_COMMUNICATION, _NEW_PROCESSES = 0x20000, 0x08000000, 0x20000000
 _SET_PARENT_DEATH_SIGNAL = 1
-_LIST, _READ_AND_LIST = 0o1, 0o5  # permissions of users who are not the owner
 _SIGNAL_OFFSET = 128  # added to the number of the signal that has ended a program, as shells do
 
 
@@ -71,12 +71,13 @@ def _run(plan: dict[str, Any], program: list[str], *, visible: list[int]) -> NoR
         program: The program and its arguments.
         visible: The processes above this one, unless the program has a list of processes of its own.
     """
-    if (owner := _owner_if_closed(plan["folder"])) is not None:
-        with suppress(OSError):  # In the namespace of an ordinary user, there is no other user.
-            os.chown(plan["home"], *owner)
-    privileges.drop_privileges(owner)
+    user = users.choose_user(_users(plan), _needed(plan, program))
+    if user is not None:
+        os.chown(plan["home"], *user)
+    privileges.drop_privileges(user)
     os.chdir(plan["folder"])
-    _limit_resources(plan["limits"])
+    is_counted = user is not None or (plan["namespaces"] and users.is_counted())
+    _limit_resources(plan["limits"] | ({"NPROC": _MAX_TASKS} if is_counted else {}))
     with suppress(OSError):  # macOS has nothing of this kind.
         privileges.forbid_new_privileges()
     if landlock.landlock_version():
@@ -89,18 +90,21 @@ def _run(plan: dict[str, Any], program: list[str], *, visible: list[int]) -> NoR
     os.execv(program[0], program)  # noqa: S606 - the purpose of this file
 
 
-def _owner_if_closed(folder: str) -> tuple[int, int] | None:
-    """Return the user and the group of a folder if the superuser runs this and others cannot read what is in it.
+def _users(plan: dict[str, Any]) -> list[users.User]:
+    """Return the users that a program of the superuser should become: one without an account, or the folder's owner.
 
-    Without capabilities, the superuser cannot read it either. None: the user need not change.
+    Without capabilities, the superuser can read only what everyone or the superuser may read, such as no closed folder.
     """
-    status = os.stat(folder)  # noqa: PTH116 - without other imports
-    if os.getuid() or not status.st_uid:
-        return None
-    with os.scandir(folder) as entries:
-        modes = [entry.stat(follow_symlinks=False).st_mode | _LIST for entry in entries]
-    is_open = all(mode & _READ_AND_LIST == _READ_AND_LIST for mode in [status.st_mode, *modes])
-    return None if is_open else (status.st_uid, status.st_gid)
+    status = os.stat(plan["folder"])  # noqa: PTH116 - without other imports
+    return [(plan["user"], plan["user"]), (status.st_uid, status.st_gid)]
+
+
+def _needed(plan: dict[str, Any], program: list[str]) -> list[str]:
+    """Return what a user must be able to read: Python, packages, and the files of the folder."""
+    with os.scandir(plan["folder"]) as entries:
+        own = [entry.path for entry in entries if not entry.is_symlink()]
+    above_home = os.path.dirname(plan["home"])  # noqa: PTH120
+    return [program[0], above_home, *own, *(path for path, is_readable in plan["entries"] if is_readable)]
 
 
 def _limit_resources(limits: dict[str, int]) -> None:
