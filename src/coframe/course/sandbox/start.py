@@ -71,7 +71,7 @@ def _run(plan: dict[str, Any], program: list[str], *, visible: list[int]) -> NoR
         program: The program and its arguments.
         visible: The processes above this one, unless the program has a list of processes of its own.
     """
-    user = users.choose_user(_users(plan), _needed(plan, program))
+    user = users.choose_user(_users(plan), _needed(plan, program), os.path.dirname(plan["home"]))  # noqa: PTH120
     if user is not None:
         os.chown(plan["home"], *user)
     privileges.drop_privileges(user)
@@ -103,8 +103,7 @@ def _needed(plan: dict[str, Any], program: list[str]) -> list[str]:
     """Return what a user must be able to read: Python, packages, and the files of the folder."""
     with os.scandir(plan["folder"]) as entries:
         own = [entry.path for entry in entries if not entry.is_symlink()]
-    above_home = os.path.dirname(plan["home"])  # noqa: PTH120
-    return [program[0], above_home, *own, *(path for path, is_readable in plan["entries"] if is_readable)]
+    return [program[0], *own, *(path for path, is_readable in plan["entries"] if is_readable)]
 
 
 def _limit_resources(limits: dict[str, int]) -> None:

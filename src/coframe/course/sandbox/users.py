@@ -17,12 +17,22 @@ _FIRST_COUNTED = (5, 14)  # the version of Linux from which on processes are cou
 _USERS = "/proc/self/uid_map"
 
 
-def choose_user(candidates: Iterable[User], paths: Iterable[str]) -> User | None:
-    """Return the first user who can read some paths; None if there is none, or if this is not the superuser."""
-    paths = list(paths)
+def choose_user(candidates: Iterable[User], readable: Iterable[str], searchable: str) -> User | None:
+    """Return the first user who has the rights that a program needs.
+
+    Args:
+        candidates: The users.
+        readable: Files and folders that the user must be able to read.
+        searchable: A folder in which the user must be able to open a folder whose name is known.
+
+    Returns:
+        The user. None: there is none, or this is not the superuser, who alone can become another user.
+    """
+    readable = list(readable)
     if os.getuid() != _SUPERUSER:
         return None
-    return next((user for user in candidates if user[0] != _SUPERUSER and _can_read(user, paths)), None)
+    others = (user for user in candidates if user[0] != _SUPERUSER)
+    return next((user for user in others if _has_rights(user, readable, searchable)), None)
 
 
 def become(user: User) -> None:
@@ -45,13 +55,18 @@ def is_counted() -> bool:
     return has_namespace and version >= _FIRST_COUNTED
 
 
-def _can_read(user: User, paths: Iterable[str]) -> bool:
+def _has_rights(user: User, readable: Iterable[str], searchable: str) -> bool:
     child = os.fork()
     if child:
         return os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) == 0
     code = 1
     try:
         become(user)
-        code = 0 if all(os.access(path, os.R_OK | (os.X_OK if os.path.isdir(path) else 0)) for path in paths) else 1  # noqa: PTH112
+        has_rights = os.access(searchable, os.X_OK) and all(os.access(path, _needed(path)) for path in readable)
+        code = 0 if has_rights else 1
     finally:
         os._exit(code)
+
+
+def _needed(path: str) -> int:
+    return os.R_OK | os.X_OK if os.path.isdir(path) else os.R_OK  # noqa: PTH112 - without other imports
