@@ -25,6 +25,7 @@ from typing import TYPE_CHECKING, BinaryIO, NamedTuple
 from coframe import _core
 from coframe.complete_files import complete_or_absent
 from coframe.errors import FrozenFileError
+from coframe.regular_files import open_regular
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -115,7 +116,7 @@ def opened(path: Path) -> Iterator[BinaryIO]:
         FrozenFileError: The file cannot be opened or read.
     """
     try:
-        with path.open("rb") as file:
+        with open_regular(path) as file:
             yield file
     except (OSError, ValueError) as error:
         if isinstance(error, FrozenFileError):

@@ -186,6 +186,7 @@ def readers() -> dict[str, Reader]:
         "file_in_a_folder": Reader("run_0.mcap", recording_around, of_recordings),
         "repaired": Reader("run.mcap", repaired, of_recordings),
         "rosbag2_metadata": Reader("metadata.yaml", rosbag2_metadata, (RuntimeError,)),
+        "frozen": Reader("run.cfz", coframe.load, (coframe.FrozenFileError,)),
         "urdf": Reader("robot.urdf", load_robot, of_robots),
         "xacro": Reader("robot.xacro", load_robot, of_robots),
         "included_xacro": Reader("part.xacro", included, of_robots),

@@ -53,7 +53,6 @@ ALLOWED = {
     "coframe.doctor.codes": OWN_DATA,
     "coframe.entry_point": "runs the program that the user names, as Python does",
     "coframe.frozen": "maps a file that `coframe.frozen_file` has opened",
-    "coframe.frozen_file": "checks the header of the open file before anything else",
     "coframe.lab.launcher": OWN_FILES,
     "coframe.messages.packages": OWN_DATA,
     "coframe.plotting.html_page": OWN_DATA,
