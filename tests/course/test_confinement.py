@@ -273,6 +273,7 @@ def test_the_grader_cannot_be_ended(filtered):
 USES = {
     "import": "from coframe.lab.static_tf_broadcaster import main; print('SOLUTION')",
     "caught import": "try: import coframe.lab.tf_listener; print('SOLUTION')\nexcept ImportError: pass",
+    "silent import": "try: import coframe.lab.tf_listener; print('SOLUTION')\nexcept Exception: pass",
     "criteria": "from coframe.course.motion import joint_angles; print('SOLUTION')",
     "importlib": "import importlib; importlib.import_module('coframe.' + 'la' + 'b.tf_listener'); print('SOLUTION')",
     "runpy": "import runpy; runpy.run_module('coframe.lab.tf_listener'); print('SOLUTION')",
@@ -295,7 +296,17 @@ def test_solutions_in_coframe_cannot_be_used_and_attempts_are_reported(use, prog
     reported = program.confinement.attempt(output)
     if program.has_namespaces and use != "compiled":  # There are no compiled files then.
         assert "which contains solutions" in reported
-    elif use in {"import", "caught import", "criteria", "importlib", "runpy", "child", "reading", "description"}:
+    elif use in {
+        "import",
+        "caught import",
+        "silent import",
+        "criteria",
+        "importlib",
+        "runpy",
+        "child",
+        "reading",
+        "description",
+    }:
         assert reported.startswith("The program imports coframe.")
 
 
