@@ -215,8 +215,9 @@ def many_definitions(path, count, head="", type_="lab/msg/Own"):
         writer.finish()
 
 
-PROGRAM = """
-import resource, sys, time
+PROGRAM = r"""
+import re, sys, time
+from pathlib import Path
 import coframe
 from coframe.bags.summary import summarize
 from coframe.doctor import diagnose, observe_recording
@@ -224,12 +225,12 @@ with coframe.open_bag(sys.argv[1]) as recording:
     summarize(recording)
 for observation in observe_recording(sys.argv[1]).values():
     diagnose(observation)
-memory = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss // 1024
+memory = int(re.search(r"VmHWM:\s+(\d+)", Path("/proc/self/status").read_text())[1]) // 1024
 print(len(recording.topics), len(recording.problems), memory, time.process_time())
 """
 
 
-@pytest.mark.skipif(sys.platform != "linux", reason="the unit of ru_maxrss")
+@pytest.mark.skipif(sys.platform != "linux", reason="/proc")
 @pytest.mark.parametrize(
     ("head", "type_"), [("", "sensor_msgs/msg/JointState"), ("std_msgs/Header header\n", "lab/msg/Own")]
 )
@@ -284,3 +285,25 @@ def test_one_unusable_definition_affects_its_topic_only(tmp_path):
         ).stdout
     )
     assert shown["problems"] == [problem]
+
+
+DDS_TF = b"""module tf2_msgs { module msg { module dds_ {
+  struct TFMessage_ { sequence<geometry_msgs::msg::dds_::TransformStamped_> transforms_; };
+}; }; };
+"""
+
+
+@pytest.mark.parametrize("name", ["tf2_msgs::msg::dds_::TFMessage_", "tf2_msgs/TFMessage", "tf2_msgs::msg::TFMessage"])
+def test_transforms_with_other_names_of_their_type(tmp_path, name):
+    from coframe.bags.copying import copy_recordings
+
+    kind = (name, "omgidl", DDS_TF, "cdr") if "dds_" in name else (name, "ros2msg", b"", "cdr")
+    path = recordings.write_mcap(tmp_path / "a.mcap", types=dict.fromkeys(("/tf", "/tf_static"), kind))
+    with coframe.open_bag(path) as recording:
+        recordings.assert_same(recording.buffer)
+        assert recording.topics["/tf"].type == recordings.TF
+        assert type(next(recording.messages("/tf")).message) is find(recordings.TF)
+    copy_recordings([path], tmp_path / "copy")
+    with Reader(tmp_path / "copy") as reader:
+        assert {connection.msgtype for connection in reader.connections} == {recordings.TF}
+        assert all("string child_frame_id" in connection.msgdef.data for connection in reader.connections)

@@ -10,7 +10,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
-from coframe.bags.cdr_conversion import cdr_converter, decode_transforms
+from coframe.bags.cdr_conversion import cdr_converter, copied_definition, decode_transforms
 from coframe.bags.message_frames import FrameNames
 from coframe.bags.namespaces import namespace_of
 from coframe.bags.offered_qos import OfferedQos, from_yaml, to_yaml
@@ -226,13 +226,10 @@ class _Repair:
             )
             return _Route(topic, bytes, None, rename, transforms=False)
         ros_type, convert = converted
-        described = channel.encoding == "cdr" and channel.definition
+        is_copied = channel.encoding == "cdr"
+        definition, format_ = copied_definition(channel, self._recording.types) if is_copied else (None, "ros2msg")
         topic = self._writer.add_topic(
-            channel.topic,
-            ros_type,
-            offered_qos=offered,
-            definition=channel.definition.decode("utf-8", "replace") if described else None,
-            definition_format=channel.definition_format if described else "ros2msg",
+            channel.topic, ros_type, offered_qos=offered, definition=definition, definition_format=format_
         )
         names = FrameNames.of(channel, ros_type, self._recording.types)
         return _Route(topic, convert, names if names and names.exist else None, rename, ros_type == _TF)

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from coframe.bags.storage import Channel
     from coframe.messages.generated.geometry_msgs.msg import TransformStamped
 
-__all__ = ["cdr_converter", "decode_transforms"]
+__all__ = ["cdr_converter", "copied_definition", "decode_transforms"]
 
 
 def cdr_converter(channel: Channel, types: RecordedTypes) -> tuple[str, Callable[[bytes], bytes]] | None:
@@ -33,6 +33,17 @@ def cdr_converter(channel: Channel, types: RecordedTypes) -> tuple[str, Callable
     if cls is None:
         return None
     return cls.ROS_TYPE, lambda data: serialize(deserialize_ros1(data, cls))
+
+
+def copied_definition(channel: Channel, types: RecordedTypes) -> tuple[str | None, str]:
+    """Return the definition for a copy of a channel whose messages stay as they are, and its format.
+
+    Returns:
+        None in place of the definition for that of coframe: DDS's IDL has names that differ from that of the type.
+    """
+    if channel.definition_format == "omgidl" and types.own_class(channel) is not None:
+        return None, "ros2msg"
+    return channel.definition.decode("utf-8", "replace") or None, channel.definition_format or "ros2msg"
 
 
 def decode_transforms(convert: Callable[[bytes], bytes], data: bytes) -> list[TransformStamped]:

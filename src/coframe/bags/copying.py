@@ -10,7 +10,7 @@ from contextlib import ExitStack
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
-from coframe.bags.cdr_conversion import cdr_converter
+from coframe.bags.cdr_conversion import cdr_converter, copied_definition
 from coframe.bags.offered_qos import from_yaml
 from coframe.bags.recorded_types import RecordedTypes
 from coframe.bags.recording import open_bag
@@ -145,15 +145,15 @@ def _write(
 def _route(writer: Writer, channel: Channel, types: RecordedTypes) -> tuple[int, Callable[[bytes], bytes]] | None:
     """Return the number of a channel's topic in the copy and the conversion of its messages; None: not possible."""
     offered = from_yaml(channel.offered_qos)
-    definition = channel.definition.decode("utf-8", "replace")
     if channel.encoding != "ros1":
+        definition, definition_format = copied_definition(channel, types)
         topic = writer.add_topic(
             channel.topic,
             channel.type,
             offered_qos=offered,
             encoding=channel.encoding,
-            definition=definition or None,
-            definition_format=channel.definition_format or "ros2msg",
+            definition=definition,
+            definition_format=definition_format,
         )
         return topic, bytes
     converted = cdr_converter(channel, types)

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import struct
+import sys
 import zlib
 from typing import TYPE_CHECKING
 
@@ -12,6 +13,7 @@ import numpy as np
 from coframe import _core
 from coframe.bags.compression import LARGEST, DamagedError, unpack
 from coframe.bags.storage import MOST_DAMAGED, Batch, Channel, ChunkedStorage, next_chunk
+from coframe.messages.schemas import ros_name
 from coframe.messages.slices import Slices
 
 if TYPE_CHECKING:
@@ -195,22 +197,34 @@ class McapStorage(ChunkedStorage):
             if opcode == _SCHEMA:
                 name, position = _text(data, 2)
                 kind, position = _text(data, position)
+                name, kind = sys.intern(name), sys.intern(kind)  # Tens of thousands of schemas can have one name.
                 (length,) = struct.unpack_from("<I", data, position)
                 self._schemas[data[0] | data[1] << 8] = (name, kind, data[position + 4 : position + 4 + length])
                 return
             number, schema = struct.unpack_from("<HH", data)
             topic, position = _text(data, 4)
             encoding, position = _text(data, position)
+            encoding = sys.intern(encoding)
             offered_qos = _entry(data, position, "offered_qos_profiles")
         except (struct.error, ValueError, IndexError):
             self.add_problem("the definition of a channel is damaged")
             return
         if number not in self._channels:
             name, kind, definition = self._schemas.get(schema, ("", "", b""))
+            if encoding in {"cdr", "ros1"}:
+                name = _ros_type(name)
             self._channels[number] = Channel(topic, name, encoding, definition, kind, offered_qos)
 
 
 _TOO_LATE = np.uint64(1 << 63)
+
+
+def _ros_type(name: str) -> str:
+    """Return the full name of a message type; DDS and ROS 1 have others."""
+    try:
+        return name if "/msg/" in name else sys.intern(ros_name(name))
+    except ValueError:
+        return name
 
 
 def _is_record(opcode: int) -> bool:

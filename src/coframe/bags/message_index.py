@@ -29,6 +29,7 @@ if TYPE_CHECKING:
 
 __all__ = ["MessageIndex", "Track", "largest_track", "reread"]
 
+_FEW_MESSAGES = 8  # of a topic, whose rows are computed again: a recording can have tens of thousands of such topics
 _CLOCK_TYPE = "rosgraph_msgs/msg/Clock"
 
 
@@ -202,16 +203,19 @@ class MessageIndex:
             )
 
     def _rows_of(self, topic: str) -> _Rows:
-        if topic not in self._rows:
-            tracks = self._tracks[topic]
-            received = _joined([_int64(track.received) for track in tracks])
-            positions = _joined([np.asarray(track.positions, dtype=np.uint64) for track in tracks])
-            of_track = np.repeat(np.arange(len(tracks), dtype=np.uint32), [len(track.received) for track in tracks])
-            if not (received[1:] >= received[:-1]).all():
-                order = np.argsort(received, kind="stable")
-                received, positions, of_track = received[order], positions[order], of_track[order]
-            self._rows[topic] = _Rows(tracks, of_track, positions, received)
-        return self._rows[topic]
+        if topic in self._rows:
+            return self._rows[topic]
+        tracks = self._tracks[topic]
+        received = _joined([_int64(track.received) for track in tracks])
+        positions = _joined([np.asarray(track.positions, dtype=np.uint64) for track in tracks])
+        of_track = np.repeat(np.arange(len(tracks), dtype=np.uint32), [len(track.received) for track in tracks])
+        if not (received[1:] >= received[:-1]).all():
+            order = np.argsort(received, kind="stable")
+            received, positions, of_track = received[order], positions[order], of_track[order]
+        rows = _Rows(tracks, of_track, positions, received)
+        if len(received) > _FEW_MESSAGES:
+            self._rows[topic] = rows
+        return rows
 
     def _track_stamps(self, track: Track) -> NDArray[np.int64]:
         received = _int64(track.received)

@@ -24,7 +24,9 @@ class Problems:
             times: The number of occurrences; 0 for a sentence that is shown without a count.
         """
         # Names in recordings may contain control characters, and sentences are printed on terminals.
-        sentence = "".join(c if c.isprintable() else "\N{REPLACEMENT CHARACTER}" for c in sentence[:_MAX_LENGTH])
+        sentence = sentence[:_MAX_LENGTH]
+        if not sentence.isprintable():
+            sentence = "".join(c if c.isprintable() else "\N{REPLACEMENT CHARACTER}" for c in sentence)
         if sentence not in self._counts and len(self._counts) >= _MAX_SENTENCES:
             self._omitted += times
             return

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import re
+import threading
 from collections import OrderedDict
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -57,15 +58,15 @@ class UnknownTypeError(CoframeError):
 
 
 class RecordedTypes:
-    """The types of one recording. Equal definitions are read once, and all together have a limit."""
+    """The types of one recording. Equal definitions are read once, and all together have a limit. It is thread-safe."""
 
     def __init__(self) -> None:
+        self._lock = threading.RLock()
         self._classes = SchemaClasses()
         self._found: dict[_Key, Any] = {}  # a class, or the reason why there is none
         self._beginnings: dict[_Key, _Beginning] = {}
         self._parsed: OrderedDict[_Key, ResolvedSchema] = OrderedDict()
         self._parsed_text = 0
-        self._seen: set[_Key] = set()
         self._text = 0
 
     def message_class(self, channel: Channel) -> Any:
@@ -75,11 +76,12 @@ class RecordedTypes:
             UnknownTypeError: The recording has no definition of the type that can be used, and coframe has none.
         """
         key = _key(channel)
-        if key not in self._found:
-            try:
-                self._found[key] = self._new_class(channel)
-            except UnknownTypeError as error:
-                self._found[key] = str(error)
+        with self._lock:
+            if key not in self._found:
+                try:
+                    self._found[key] = self._new_class(channel)
+                except UnknownTypeError as error:
+                    self._found[key] = str(error)
         if isinstance(self._found[key], str):
             raise UnknownTypeError(self._found[key])
         return self._found[key]
@@ -99,13 +101,14 @@ class RecordedTypes:
             UnknownTypeError: The recording has no definition of the type that can be used.
         """
         key = _key(channel)
-        if key not in self._parsed:
-            self._parsed[key] = self._new_schema(channel)
-            self._parsed_text += _weight(key)
-            while len(self._parsed) > 1 and self._parsed_text > _KEPT_TEXT:
-                self._parsed_text -= _weight(self._parsed.popitem(last=False)[0])
-        self._parsed.move_to_end(key)
-        return self._parsed[key]
+        with self._lock:
+            if key not in self._parsed:
+                self._parsed[key] = self._new_schema(channel, key)
+                self._parsed_text += _weight(key)
+                while len(self._parsed) > 1 and self._parsed_text > _KEPT_TEXT:
+                    self._parsed_text -= _weight(self._parsed.popitem(last=False)[0])
+            self._parsed.move_to_end(key)
+            return self._parsed[key]
 
     def stamp_reader(self, channel: Channel) -> StampReader | None:
         """Return the reader for the stamps of a channel's messages; None if they do not begin with a stamp."""
@@ -153,9 +156,10 @@ class RecordedTypes:
         except InterfaceError as error:
             raise _unusable(error) from None
 
-    def _new_schema(self, channel: Channel) -> ResolvedSchema:
+    def _new_schema(self, channel: Channel, key: _Key) -> ResolvedSchema:
         name = _name(channel)
-        self.count(channel)
+        if key not in self._found and key not in self._beginnings:
+            self.count(channel)
         try:
             if not channel.definition:
                 return _schema_without_text(name)
@@ -164,18 +168,14 @@ class RecordedTypes:
             raise _unusable(error) from None
 
     def count(self, channel: Channel) -> None:
-        """Count the definition of a channel if it was not counted yet.
+        """Count the definition of a channel.
 
         Raises:
             UnknownTypeError: The definitions of the recording are too large together.
         """
-        key = _key(channel)
-        if key in self._seen:
-            return
         if self._text + len(channel.definition) > MAX_RECORDED_TEXT:
             raise UnknownTypeError(f"the definitions of the recording have more than {MAX_RECORDED_TEXT} bytes")
         self._text += len(channel.definition)
-        self._seen.add(key)
 
 
 def _weight(key: _Key) -> int:

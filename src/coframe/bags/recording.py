@@ -356,6 +356,18 @@ class Recording:
                 return self._frame(self._index.channel(name, row), data)
         return ""
 
+    def may_have_header(self, topic: str) -> bool:
+        """Return whether messages of a topic have a field ``header``, as far as their definitions are known.
+
+        Args:
+            topic: The name, with or without its leading slash.
+
+        Raises:
+            RecordingError: The topic does not exist.
+        """
+        tracks = self._index.tracks(self._index.find_topic(topic))
+        return any(self.types.may_have_header(track.channel) for track in tracks)
+
     def _frame(self, channel: Channel, data: bytes) -> str:
         header = self.types.peek_header(channel, data)
         if header is not None:

@@ -194,6 +194,8 @@ class _Facts:
 
     def _joints(self, topic: str) -> JointStates | None:
         """Return the joint states of a topic; None if its messages have other fields."""
+        if not self._recording.may_have_header(topic):
+            return None
         messages = list(self._decoded(topic, _MOST_DECODED))
         try:
             stamps = [int(message.header.stamp.sec) * SECOND + message.header.stamp.nanosec for message in messages]
