@@ -49,6 +49,7 @@ ALLOWED = {
     "coframe.course.sandbox.landlock": "opens no content (O_PATH)",
     "coframe.course.sandbox.mounts": "creates a file",
     "coframe.course.sandbox.start": PROC,
+    "coframe.course.sandbox.users": PROC,
     "coframe.course.view": PROC,
     "coframe.doctor.codes": OWN_DATA,
     "coframe.entry_point": "runs the program that the user names, as Python does",
