@@ -252,3 +252,18 @@ def test_an_unknown_type_is_received_and_announced_once_its_hash_is_known(
     assert subscription.take()[0].data == bytes.fromhex("000100002a000000")
     eventually(lambda: [token for token in ros_peer("tokens") if "/MS/" in token and "Thing_/RIHS01_abab" in token])
     participant.raw_publisher(node, "/thing", endpoint, QoS())  # the hash is known from the other node
+
+
+def test_a_client_does_not_displace_the_requests_of_others(participant, node, ros_peer, eventually):
+    other = participant.add_node("/", "other")
+    requests = participant.subscription(node, "/switch", SET_BOOL.Request, QoS(10), kind="request")
+    client = participant.publisher(other, "/switch", SET_BOOL.Request, SERVICE_QOS, kind="request")
+    request = codec.serialize(SET_BOOL.Request(data=True))
+    eventually(lambda: client.matched == 1 and [token for token in ros_peer("tokens") if "/SS/" in token])
+    client.write(request_header.join(RequestHeader(1, 77), request))
+    eventually(requests.pending)
+    for _ in range(30):
+        ros_peer("call", "/switch", "std_srvs/srv/SetBool", request.hex())
+    eventually(lambda: requests._endpoint.dropped == 21)
+    numbers = [request_header.split(sample.data)[0].sequence for sample in requests.take()]
+    assert numbers == [77, *range(22, 31)]

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import logging
 import threading
-from collections import deque
+from collections import Counter, deque
 from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
 from coframe import _core
@@ -30,6 +30,9 @@ if TYPE_CHECKING:
 # The result of an action is requested when the action starts, and may take any time.
 _UNLIMITED: Final = "/_action/get_result"
 _FOREVER: Final = 10 * 365 * 86_400.0  # seconds; Zenoh has no value for "no limit"
+
+# Requests that wait for the thread of their service, which ignores invalid ones: they must not displace the others.
+_MIN_RING: Final = 256
 
 _logger = logging.getLogger("coframe.wire")
 
@@ -104,15 +107,20 @@ class _Queue(ZenohEndpoint):
         super().__init__(place.graph, place.endpoint, place.type_hash, place.guid, on_data)
         self.key = place.key_list[0]
         self._queue: deque[tuple[bytes, int, int]] = deque()
+        self._lengths: Counter[int] = Counter()  # the number of queued messages of each writer
         self._queue_lock = threading.Lock()
         self._longest = queue_length(qos)
         self._on_data = on_data
 
     def push(self, message: bytes, sent: int, writer: int) -> bytes | None:
-        """Queue a message. If the queue is full, remove the oldest one and return it."""
+        """Queue a message. If the queue is full, remove one and return it.
+
+        It is the oldest message of the writer with the most messages, so that one writer cannot displace the others.
+        """
         with self._queue_lock:
-            removed = self._queue.popleft()[0] if len(self._queue) >= self._longest else None
+            removed = self._pop(self._longest_writer()) if len(self._queue) >= self._longest else None
             self._queue.append((message, sent, writer))
+            self._lengths[writer] += 1
         if self._on_data is not None:
             self._on_data.set()
         return removed
@@ -120,7 +128,20 @@ class _Queue(ZenohEndpoint):
     def take(self, limit: int) -> list[tuple[bytes, int, int]]:
         """Return up to `limit` messages, oldest first."""
         with self._queue_lock:
-            return [self._queue.popleft() for _ in range(min(limit, len(self._queue)))]
+            taken = [self._queue.popleft() for _ in range(min(limit, len(self._queue)))]
+            self._lengths -= Counter(writer for _, _, writer in taken)  # forgets writers without messages
+            return taken
+
+    def _longest_writer(self) -> int:
+        return max(self._lengths, key=self._lengths.__getitem__)
+
+    def _pop(self, writer: int) -> bytes:
+        """Remove the oldest message of a writer, and return it."""
+        index = next(index for index, queued in enumerate(self._queue) if queued[2] == writer)
+        message = self._queue[index][0]
+        del self._queue[index]
+        self._lengths -= Counter([writer])
+        return message
 
     @property
     def pending(self) -> bool:
@@ -154,7 +175,7 @@ class RequestReader(_Queue):
         self._table = table
         self._warn_of_invalid = CountedWarning(_logger.warning)
         self.dropped = 0
-        ring = module.handlers.RingChannel(ring_length(qos))
+        ring = module.handlers.RingChannel(max(ring_length(qos), _MIN_RING))
         self._queryable: Any = place.session.declare_queryable(self.key, ring, complete=True)
         self._thread = threading.Thread(target=self._run, name=f"coframe{place.endpoint.name}", daemon=True)
         self._thread.start()
