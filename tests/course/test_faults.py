@@ -7,6 +7,8 @@ import sys
 
 import pytest
 
+from coframe.course import faulty_node
+
 COFRAME = (sys.executable, "-m", "coframe.cli")
 CODES = dict(enumerate(("TF014", "TF014", "TF008", "TF014", "TF003", "TF013", "TF023", "TF023", "TF023", "TF026"), 1))
 
@@ -24,3 +26,14 @@ def test_the_doctor_finds_the_fault(number):
         finally:
             system.terminate()
     assert CODES[number] in {finding["code"] for finding in report["findings"]}
+
+
+def test_ctrl_c_during_a_fault_ends_the_node_without_a_traceback(monkeypatch):
+    def interrupted(_):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(faulty_node.time, "sleep", interrupted)
+    monkeypatch.setattr(sys, "argv", ["faulty_node", "late", "static_tf_broadcaster"])
+    with pytest.raises(SystemExit) as ended:
+        faulty_node.main()
+    assert ended.value.code == 130

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
 __all__ = ["main"]
 
 _LATE = 20.0  # seconds
+_INTERRUPTED = 130  # exit code: 128 + SIGINT
 _OFFSET = 5  # seconds
 _DROPOUT, _PERIOD = 1.0, 4.0  # seconds
 
@@ -85,9 +86,12 @@ def main() -> None:
     """Run the node in the second argument with the fault in the first one."""
     fault, name = sys.argv[1:3]
     del sys.argv[1:3]
-    module = importlib.import_module(f"coframe.lab.{name}")
-    _FAULTS[fault](module)
-    module.main()
+    try:
+        module = importlib.import_module(f"coframe.lab.{name}")
+        _FAULTS[fault](module)
+        module.main()
+    except KeyboardInterrupt:  # Ctrl-C before the node handles it
+        sys.exit(_INTERRUPTED)
 
 
 if __name__ == "__main__":
