@@ -39,7 +39,8 @@ Guards& guards = *new Guards;  // never destroyed: buffers may outlive static ob
 struct sigaction before;  // the handler of all other bus errors
 
 void on_bus_error(int number, siginfo_t* info, void* context) {
-  if (info->si_code == BUS_ADRERR && guards.handle(info->si_addr)) return;
+  const bool is_fault = info->si_code > 0;  // not a signal that a process has sent
+  if (is_fault && guards.handle(info->si_addr)) return;
   if (before.sa_flags & SA_SIGINFO) return before.sa_sigaction(number, info, context);
   if (before.sa_handler != SIG_DFL && before.sa_handler != SIG_IGN) return before.sa_handler(number);
   signal(number, SIG_DFL);
