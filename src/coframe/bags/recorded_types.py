@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import functools
 import re
 import threading
 from collections import OrderedDict
@@ -30,6 +31,7 @@ __all__ = ["RecordedTypes", "UnknownTypeError"]
 _ROS_ENCODINGS = {"cdr", "ros1"}
 _EVENT = "_Event"
 _KEPT_TEXT = 2 << 20  # bytes of the definitions that stay parsed
+_SHORT_TEXT = 1 << 13  # bytes of definitions whose beginning is stored for the next recording
 _SMALLEST_TEXT = 1 << 12  # bytes that a definition counts at least
 
 # What a definition contains whose messages begin with a stamp: its name, or a sequence of messages that have one.
@@ -139,11 +141,13 @@ class RecordedTypes:
             known = None if channel.definition else known_class(_name(channel))
             if known is not None:
                 return _Beginning(known_first_stamp(known.ROS_TYPE), hasattr(known, "header"))
-            schema = self.schema(channel)
-        except UnknownTypeError:
+            if not 0 < len(channel.definition) <= _SHORT_TEXT:
+                return _beginning_of(self.schema(channel))
+            if _key(channel) not in self._found:
+                self.count(channel)
+            return _beginning_of_text(channel.definition, _name(channel), channel.definition_format)
+        except (UnknownTypeError, InterfaceError):
             return _UNKNOWN
-        first, has_header = first_stamp(schema), schema.has_field("header")
-        return _NO_STAMP if first is None and not has_header else _Beginning(first, has_header)
 
     def _new_class(self, channel: Channel) -> Any:
         if not channel.definition:
@@ -176,6 +180,16 @@ class RecordedTypes:
         if self._text + len(channel.definition) > MAX_RECORDED_TEXT:
             raise UnknownTypeError(f"the definitions of the recording have more than {MAX_RECORDED_TEXT} bytes")
         self._text += len(channel.definition)
+
+
+def _beginning_of(schema: ResolvedSchema) -> _Beginning:
+    first, has_header = first_stamp(schema), schema.has_field("header")
+    return _NO_STAMP if first is None and not has_header else _Beginning(first, has_header)
+
+
+@functools.lru_cache(64)  # The same definitions, such as that of /tf, are in most recordings.
+def _beginning_of_text(definition: bytes, name: str, format_: str) -> _Beginning:
+    return _beginning_of(ResolvedSchema(parse_schema(definition, name, format_)))
 
 
 def _weight(key: _Key) -> int:
