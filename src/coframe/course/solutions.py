@@ -75,7 +75,7 @@ class Decoys:
         """Create the folders.
 
         Args:
-            place: A folder that does not exist.
+            place: An empty folder, or one that does not exist.
         """
         self.folders: dict[str, str] = {}
         self._watched: dict[int, str] = {}

@@ -28,7 +28,7 @@ _SIGNAL_OFFSET = 128  # added to the number of the signal that has ended a progr
 def main() -> None:
     """Confine this process by the plan in the first argument, and replace it by the program in the others.
 
-    The plan is JSON, see `coframe.course.sandbox.command`.
+    The plan is JSON, see `Confinement.command`.
     """
     plan, program = json.loads(sys.argv[1]), sys.argv[2:]
     if plan["namespaces"]:
