@@ -155,9 +155,13 @@ def test_other_files_and_the_environment_are_out_of_reach(folder, grade, tmp_pat
 
 @restricted
 def test_the_home_folder_of_the_teacher_is_out_of_reach(folder, grade):
+    import pwd  # not on Windows
+
     name = f".coframe-test-{os.getpid()}"
-    program = f"import os, pwd\nopen(os.path.join(pwd.getpwuid(os.getuid()).pw_dir, {name!r}), 'w')"
-    grade_of(folder, grade, program, "PermissionError|Read-only")
+    home = pwd.getpwuid(os.getuid()).pw_dir
+    program = f"import os\nopen(os.path.join({home!r}, {name!r}), 'w')"
+    grade_of(folder, grade, program, "PermissionError|Read-only|No such file")
+    assert not Path(home, name).exists()
     assert not Path("~", name).expanduser().exists()
 
 
