@@ -115,11 +115,15 @@ def _limit_resources(limits: dict[str, int]) -> None:
 
 
 def _ancestors() -> list[int]:
-    """Return the processes above this one, which the program must not end."""
-    found, process = [], os.getppid()
+    """Return the processes above this one and the leaders of their groups, which the program must not end.
+
+    A group can outlive its leader, as that of a shell that has started a program in the background.
+    """
+    found, process = {1}, os.getppid()
     with suppress(OSError, ValueError, IndexError):
         while process > 1:
-            found.append(process)
+            found.add(process)
             with open(f"/proc/{process}/stat", encoding="utf-8", errors="replace") as file:  # noqa: PTH123
-                process = int(file.read().rpartition(")")[2].split()[1])
-    return [*found, 1]
+                _, process, group = map(int, ["0", *file.read().rpartition(")")[2].split()[1:3]])
+            found.add(group)
+    return sorted(found - {0})
