@@ -1,17 +1,37 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Return freed memory to the system, for commands that run for hours."""
+"""Return freed memory to the system, for commands that run for hours; pause the collector, for many new objects."""
 
 from __future__ import annotations
 
 import ctypes
+import gc
 import sys
+from contextlib import contextmanager
 from functools import cache
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-__all__ = ["return_freed_arrays", "return_freed_blocks"]
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+__all__ = ["collection_paused", "return_freed_arrays", "return_freed_blocks"]
 
 _M_MMAP_THRESHOLD = -3
 _SMALLEST = 128 << 10  # bytes; also glibc's own value at first, before it adapts
+
+
+@contextmanager
+def collection_paused() -> Iterator[None]:
+    """Pause the cyclic garbage collector while a block creates many objects that stay, such as thousands of topics.
+
+    It would visit all of them again and again, and find nothing.
+    """
+    was_enabled = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if was_enabled:
+            gc.enable()
 
 
 def return_freed_arrays() -> None:

@@ -166,7 +166,7 @@ class McapStorage(ChunkedStorage):
             self._define(opcode, data[start:end])
         channels = np.frombuffer(columns[0], dtype=np.uint16)
         times, records, starts, ends = (np.frombuffer(column, dtype=np.uint64) for column in columns[1:])
-        for number in np.unique(channels).tolist():
+        for number in np.unique(channels).tolist() if len(channels) > 1 else channels.tolist():
             channel = self._channels.get(number)
             rows = (channels == number) & (times < _TOO_LATE)
             if channel is None:
@@ -193,13 +193,20 @@ class McapStorage(ChunkedStorage):
         ]
 
     def _define(self, opcode: int, data: bytes) -> None:
+        """Read a schema or a channel, unless it is known: the summary and later chunks repeat them."""
+        identifier = int.from_bytes(data[:2], "little")
+        if opcode == _CHANNEL and identifier in self._channels:
+            return
         try:
             if opcode == _SCHEMA:
+                known = self._schemas.get(identifier)
+                if known is not None and known[2] and data.endswith(known[2]):
+                    return
                 name, position = _text(data, 2)
                 kind, position = _text(data, position)
                 name, kind = sys.intern(name), sys.intern(kind)  # Tens of thousands of schemas can have one name.
                 (length,) = struct.unpack_from("<I", data, position)
-                self._schemas[data[0] | data[1] << 8] = (name, kind, data[position + 4 : position + 4 + length])
+                self._schemas[identifier] = (name, kind, data[position + 4 : position + 4 + length])
                 return
             number, schema = struct.unpack_from("<HH", data)
             topic, position = _text(data, 4)
@@ -209,11 +216,10 @@ class McapStorage(ChunkedStorage):
         except (struct.error, ValueError, IndexError):
             self.add_problem("the definition of a channel is damaged")
             return
-        if number not in self._channels:
-            name, kind, definition = self._schemas.get(schema, ("", "", b""))
-            if encoding in {"cdr", "ros1"}:
-                name = _ros_type(name)
-            self._channels[number] = Channel(topic, name, encoding, definition, kind, offered_qos)
+        name, kind, definition = self._schemas.get(schema, ("", "", b""))
+        if encoding in {"cdr", "ros1"}:
+            name = _ros_type(name)
+        self._channels[number] = Channel(topic, name, encoding, definition, kind, offered_qos)
 
 
 _TOO_LATE = np.uint64(1 << 63)

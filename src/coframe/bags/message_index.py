@@ -144,6 +144,14 @@ class MessageIndex:
         rows = self._rows_of(topic)
         return rows.tracks[int(rows.of_track[row])].channel
 
+    def first_message(self, topic: str) -> tuple[Channel, bytes] | None:
+        """Return the first message of a topic that can be read, with its channel; None if there is none."""
+        rows = self._rows_of(topic)
+        for number, position in zip(rows.of_track, rows.positions, strict=True):
+            if (data := self._bytes(rows.tracks[number], int(position))) is not None:
+                return rows.tracks[number].channel, data
+        return None
+
     def read(self, topic: str, row: int) -> bytes | None:
         """Return the bytes of a message; None if it can no longer be read, which is added to the problems."""
         rows = self._rows_of(topic)

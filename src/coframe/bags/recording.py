@@ -25,6 +25,7 @@ from coframe.bags.transforms import ingest_for
 from coframe.errors import DecodeError, RecordingError
 from coframe.formatting import count, listed
 from coframe.frame_names import absolute, kept, renaming
+from coframe.freed_memory import collection_paused
 
 if TYPE_CHECKING:
     import os
@@ -91,7 +92,8 @@ def open_bag(
     recording._renaming = renaming(prefix, keep)  # noqa: SLF001 - the second part of the constructor
     try:
         wanted = TopicFilter(namespace, tf_topics)
-        recording._scan(wanted, progress or (lambda _done, _total: None), on_transforms)  # noqa: SLF001
+        with collection_paused():
+            recording._scan(wanted, progress or (lambda _done, _total: None), on_transforms)  # noqa: SLF001
         recording._check_tf_topics(tf_topics or [])  # noqa: SLF001
     except BaseException:
         recording.close()
@@ -350,11 +352,8 @@ class Recording:
         Raises:
             RecordingError: The topic does not exist.
         """
-        name = self._index.find_topic(topic)
-        for row in range(len(self._index.received(name))):
-            if (data := self._index.read(name, row)) is not None:
-                return self._frame(self._index.channel(name, row), data)
-        return ""
+        first = self._index.first_message(self._index.find_topic(topic))
+        return "" if first is None else self._frame(*first)
 
     def may_have_header(self, topic: str) -> bool:
         """Return whether messages of a topic have a field ``header``, as far as their definitions are known.
