@@ -35,8 +35,7 @@ _SHORT_TEXT = 1 << 13  # bytes of definitions whose beginning is stored for the 
 _SMALLEST_TEXT = 1 << 12  # bytes that a definition counts at least
 
 # What a definition contains whose messages begin with a stamp: its name, or a sequence of messages that have one.
-_WORDS_OF_STAMPS = re.compile(rb"Header|[Tt]ime|\[|sequence").search
-_HEADER = b"header"  # the name of the field
+_MAY_BEGIN_WITH_STAMP = re.compile(rb"Header|[Tt]ime|\[|sequence").search
 
 _Key = tuple[str, str, str, bytes]
 
@@ -58,11 +57,6 @@ _UNKNOWN, _NO_STAMP = _Beginning(None, None), _Beginning(None, has_header=False)
 
 class UnknownTypeError(CoframeError):
     """The definition of a type is not available or cannot be used."""
-
-
-def _may_begin_with_stamp(channel: Channel) -> bool:
-    """Return whether the text of a definition has the words for it: parsing it takes longer."""
-    return _WORDS_OF_STAMPS(channel.definition) is not None
 
 
 class RecordedTypes:
@@ -120,8 +114,8 @@ class RecordedTypes:
 
     def stamp_reader(self, channel: Channel) -> StampReader | None:
         """Return the reader for the stamps of a channel's messages; None if they do not begin with a stamp."""
-        if channel.definition and not _may_begin_with_stamp(channel):
-            return None
+        if channel.definition and not _MAY_BEGIN_WITH_STAMP(channel.definition):
+            return None  # Reading the definition takes longer, and a recording can have tens of thousands.
         first = self._beginning(channel).first
         return None if first is None else StampReader(first, channel.encoding)
 
@@ -147,8 +141,6 @@ class RecordedTypes:
             known = None if channel.definition else known_class(_name(channel))
             if known is not None:
                 return _Beginning(known_first_stamp(known.ROS_TYPE), hasattr(known, "header"))
-            if channel.definition and _HEADER not in channel.definition and not _may_begin_with_stamp(channel):
-                return _NO_STAMP
             if not 0 < len(channel.definition) <= _SHORT_TEXT:
                 return _beginning_of(self.schema(channel))
             if _key(channel) not in self._found:

@@ -135,6 +135,7 @@ class Recording:
         self.types = RecordedTypes()
         self._index = MessageIndex(path, self.types)
         self._decoders: dict[int, Callable[[bytes], Any]] = {}
+        self._received_span: tuple[int, int] | None = None  # the first and last time of receipt
 
     def _scan(
         self,
@@ -156,7 +157,7 @@ class Recording:
         self.format = ", ".join(dict.fromkeys(storage.format for storage in storages))
         self.compression = ", ".join(sorted(set().union(*(storage.compressions for storage in storages)))) or "none"
         self._check_related(storages)
-        span = self._index.span()
+        self._received_span = span = self._index.span()
         self.topics = {name: self._topic(name, span) for name in self._index.topics()}
         self.buffers = collected.buffers()
         with_transforms = [track for track in self._index.tracks() if _has_transforms(track.channel)]
@@ -182,6 +183,8 @@ class Recording:
         groups: dict[str, list[Storage]] = {}
         for storage in storages:
             groups.setdefault(recording_stem(storage.path), []).append(storage)
+        if len(groups) == 1:
+            return
         spans = []
         for group in groups.values():
             parts = [span for storage in group if (span := self._index.span(storage)) is not None]
@@ -189,7 +192,7 @@ class Recording:
                 spans.append((min(first for first, _ in parts), max(last for _, last in parts)))
         spans.sort()
         apart = any(later[0] - earlier[1] > _MOST_APART for earlier, later in pairwise(spans))
-        if len(groups) > 1 and apart:
+        if apart:
             names = listed(group[0].path.name for group in groups.values())
             raise RecordingError(
                 f"{self.path} contains {len(groups)} recordings that were made at different times: {names}",
@@ -224,17 +227,15 @@ class Recording:
         """What could not be read or is unusual, one sentence each. Reading messages may add to it."""
         return self._problems.sentences()
 
-    @cached_property
+    @property
     def start(self) -> int:
         """Time of receipt of the first message, in nanoseconds; 0 if there is none."""
-        span = self._index.span()
-        return 0 if span is None else span[0]
+        return 0 if self._received_span is None else self._received_span[0]
 
-    @cached_property
+    @property
     def end(self) -> int:
         """Time of receipt of the last message, in nanoseconds; 0 if there is none."""
-        span = self._index.span()
-        return 0 if span is None else span[1]
+        return 0 if self._received_span is None else self._received_span[1]
 
     @property
     def duration(self) -> int:
