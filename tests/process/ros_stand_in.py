@@ -20,7 +20,7 @@ THEIRS = "theirs"  # the package with the copies of coframe.messages and coframe
 _OTHER = ("tf2_geometry_msgs", "sensor_msgs_py")
 _CHECK = re.compile(r"^from coframe import ros_side\n|^ros_side\.check\(.*\)\n", re.MULTILINE)
 _MODULES = re.compile(r"\bcoframe\.(messages|wire)\b")
-_CLASS_MODULE = 'cls.__module__ = f"{package}.{kind}'
+_CLASS_MODULE = 'cls.__module__ = ".".join(cls.ROS_TYPE.split("/")[:-1])'
 _PRIVATE = "_Coframe__"
 _RCL_ERROR = re.compile(r"\bRCLError\b")
 
@@ -41,7 +41,7 @@ def make(folder: Path) -> None:
         file.write_text(text)
     message = folder / THEIRS / "messages" / "message.py"
     assert _CLASS_MODULE in message.read_text()
-    message.write_text(message.read_text().replace(_CLASS_MODULE, f"{_CLASS_MODULE}._private"))
+    message.write_text(message.read_text().replace(_CLASS_MODULE, f"{_CLASS_MODULE} + '._private'"))
     (folder / THEIRS / "__init__.py").touch()
     _append(folder / "rclpy" / "_rclpy_pybind11.py", "RCLError = _RCLError")
     _append(
