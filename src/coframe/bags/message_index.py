@@ -216,8 +216,8 @@ class MessageIndex:
         tracks = self._tracks[topic]
         received = _joined([_int64(track.received) for track in tracks])
         positions = _joined([np.asarray(track.positions, dtype=np.uint64) for track in tracks])
-        of_track = np.repeat(np.arange(len(tracks), dtype=np.uint32), [len(track.received) for track in tracks])
-        if not (received[1:] >= received[:-1]).all():
+        of_track = _numbers([len(track.received) for track in tracks])
+        if len(received) > 1 and not (received[1:] >= received[:-1]).all():
             order = np.argsort(received, kind="stable")
             received, positions, of_track = received[order], positions[order], of_track[order]
         rows = _Rows(tracks, of_track, positions, received)
@@ -266,6 +266,13 @@ def reread(tracks: Iterable[Track]) -> Iterator[tuple[Channel, Slices]]:
         for position in track.positions:
             with suppress(DamagedError):  # The first reading of the file reported it.
                 yield track.channel, Slices.join([track.storage.read(position)])
+
+
+def _numbers(sizes: list[int]) -> NDArray[np.uint32]:
+    """Return the number of its track for each message; nearly all topics have one track."""
+    if len(sizes) == 1:
+        return np.zeros(sizes[0], dtype=np.uint32)
+    return np.repeat(np.arange(len(sizes), dtype=np.uint32), sizes)
 
 
 def _int64(values: array[int]) -> NDArray[np.int64]:
