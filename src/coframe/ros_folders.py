@@ -53,9 +53,9 @@ def imported_packages() -> list[ModuleType]:
 
 
 def folders_after_ros(path: Iterable[str]) -> list[str]:
-    """Return the folders of a search path that come after that of coframe's ROS packages; [] if it is not there."""
-    entries = list(path)
-    return entries[_position(entries) + 1 :]
+    """Return the other folders of a search path after that of coframe's ROS packages; [] if it is not there."""
+    entries, home = list(path), ros_folder()
+    return [entry for entry in entries[_position(entries) + 1 :] if Path(entry or ".").resolve() != home]
 
 
 @functools.lru_cache(maxsize=4)  # Each of coframe's ROS packages calls this when it is imported.

@@ -153,6 +153,15 @@ def test_packages_of_the_system_come_before_those_of_coframe(installed, write, t
         link.unlink()
 
 
+def test_the_folder_may_be_on_the_path_twice(installed, tmp_path):
+    """As if PYTHONPATH names it as well."""
+    folder = installed.packages / "coframe/ros"
+    code = f"import sys; sys.path.append({str(folder)!r}); import rclpy, tf2_ros; print(rclpy.__file__)"
+    for variables in ({}, {"PYTHONPATH": str(folder)}):
+        done = installed.run("-c", code, cwd=tmp_path, **variables)
+        assert done.stdout == f"{folder}/rclpy/__init__.py\n", done.stderr
+
+
 def test_removing_coframe_removes_it_from_the_search(installed, tmp_path):
     """As in isolated builds of pip: Python runs the .pth files of the environment, but cannot import its packages."""
     code = "import sys\nsys.path[:] = [f for f in sys.path if 'site-packages' not in f]\n" + FAILING

@@ -310,7 +310,11 @@ class _IdlParser:
                     return self._constants[known].value
             raise self._tokens.error(f"expected a value, found {token.text}", token.line)
 
-        return evaluate(self._tokens, constant, in_brackets=in_brackets)
+        line = self._tokens.peek().line
+        try:
+            return evaluate(self._tokens, constant, in_brackets=in_brackets)
+        except ValueError as error:
+            raise self._located(error, line) from None
 
     def _annotations(self) -> _Annotations:
         default, comment = None, ""
