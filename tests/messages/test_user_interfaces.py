@@ -327,7 +327,7 @@ def test_idl_files_define_services_and_actions(define: Callable[..., Any]) -> No
         ),
         ("module demo_msgs {\n\n ` };", 3, "unexpected character '`'"),
         ("module a { " * 50, 1, "more than 20 modules inside each other"),
-        ("module demo_msgs { module msg {\n @range(t%'') struct Thing { long x; }; }; };", 2, "cannot be applied to"),
+        ('module demo_msgs { module msg {\n @range(1 % "") struct Thing { long x; }; }; };', 2, "cannot be applied to"),
     ],
 )
 def test_invalid_definitions_are_refused_with_file_and_line(
