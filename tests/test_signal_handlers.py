@@ -70,3 +70,26 @@ def test_handlers_that_others_have_set_since_stay():
         handlers.restore()
         assert signal.getsignal(signal.SIGTERM) is mine
     """).split() == ["4", "5"]
+
+
+INTERRUPTED = """
+    from coframe.cli.lifecycle import run_until_interrupted
+
+    def main():
+        # What an import does that generates code, such as that of a dataclass.
+        with run_until_interrupted():
+            exec("raise KeyboardInterrupt")
+"""
+
+
+@pytest.mark.parametrize("module", ["coframe.entry_point", "command"])
+def test_an_interrupt_that_was_handled_in_generated_code_is_not_the_end(module, tmp_path):
+    (tmp_path / "program.py").write_text(textwrap.dedent(INTERRUPTED))
+    (tmp_path / "command.py").write_text(
+        "import coframe.cli, program\n"
+        "coframe.cli._app = lambda *_: lambda words, prog_name: program.main()\n"
+        "coframe.cli.run([])\n"
+    )
+    command = [sys.executable, "-m", module, "program:main"]
+    ended = subprocess.run(command, capture_output=True, text=True, timeout=60, check=False, cwd=tmp_path)
+    assert (ended.returncode, ended.stdout, ended.stderr) == (0, "", "")

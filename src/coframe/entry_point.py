@@ -18,6 +18,7 @@ import time
 from pathlib import Path
 
 from coframe import interface_imports
+from coframe.signal_handlers import clear_handled_interrupt
 
 __all__ = ["LAUNCHER", "main"]
 
@@ -70,4 +71,7 @@ def _wait_for_launcher() -> None:
 
 
 if __name__ == "__main__":
-    sys.exit(main())  # type: ignore[arg-type]
+    try:
+        sys.exit(main())  # type: ignore[arg-type]
+    finally:
+        clear_handled_interrupt()

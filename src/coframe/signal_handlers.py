@@ -9,7 +9,7 @@ from collections.abc import Callable
 from types import FrameType
 from typing import Any
 
-__all__ = ["SignalHandlers"]
+__all__ = ["SignalHandlers", "clear_handled_interrupt"]
 
 _Handler = Callable[[int, FrameType | None], object]
 
@@ -50,6 +50,16 @@ class SignalHandlers:
         self._installed.clear()
         if self in _in_use:
             _in_use.remove(self)
+
+
+def clear_handled_interrupt() -> None:
+    """Let a process started with ``python -m`` exit with its own exit code after a Ctrl-C that it has handled.
+
+    CPython notes a KeyboardInterrupt that leaves the code of ``exec(text)`` or ``eval(text)``, such as the code that
+    `dataclasses` and `collections.namedtuple` generate during an import. At its exit it ends itself with SIGINT then,
+    even if the exception was handled. The next ``exec(text)`` deletes the note (``run_eval_code_obj`` in pythonrun.c).
+    """
+    exec("")  # noqa: S102 - it runs nothing
 
 
 _in_use: list[SignalHandlers] = []

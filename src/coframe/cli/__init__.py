@@ -15,6 +15,7 @@ from coframe.cli.streams import (
     undecodable,
 )
 from coframe.cli.system_errors import description
+from coframe.signal_handlers import clear_handled_interrupt
 
 if TYPE_CHECKING:
     from collections.abc import Collection
@@ -73,6 +74,7 @@ def run(words: list[str], *, program: str = "coframe", shown: Collection[str] | 
         discard_output()
         sys.exit(description(error))
     finally:
+        clear_handled_interrupt()
         if "--install-completion" in words:
             from coframe.cli.zsh_completion import complete_at_first_tab  # noqa: PLC0415 - rarely needed
 
