@@ -21,6 +21,7 @@
         ├── TrajectoryError(ValueError)         a trajectory that cannot be read or compared
         ├── PlotError(ValueError)               something that cannot be plotted
         ├── CourseError(ValueError)             a folder of the lab that cannot be created or graded
+        ├── PluginError(RuntimeError)           a plug-in of another package that cannot be loaded
         └── UnsuitableFileError(OSError)        a pipe, a device or a too large file in place of a file (regular_files)
 
 Wrong arguments of Python calls (a wrong type, shape or unit) raise TypeError and ValueError as usual.
@@ -36,6 +37,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from coframe import _core
+from coframe._plugins import PluginError
 from coframe.analysis.missing_edges import missing_edge
 from coframe.analysis.tree import FrameTrees
 from coframe.base_error import CoframeError
@@ -62,6 +64,7 @@ __all__ = [
     "LookupException",
     "PackageError",
     "PlotError",
+    "PluginError",
     "RecordingError",
     "RobotDescriptionError",
     "TimeoutException",

@@ -31,6 +31,7 @@ ERRORS = {
     "LookupException",
     "PackageError",
     "PlotError",
+    "PluginError",
     "RecordingError",
     "RobotDescriptionError",
     "TimeoutException",
