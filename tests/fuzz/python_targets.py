@@ -19,7 +19,7 @@ import sys
 import tempfile
 from importlib.machinery import PathFinder
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -34,20 +34,6 @@ MESSAGE_TYPES = (
     "nav_msgs/msg/OccupancyGrid",
     "rcl_interfaces/msg/ParameterEvent",
     "diagnostic_msgs/msg/DiagnosticArray",
-)
-DISPLAYED_TYPES = (
-    "geometry_msgs/msg/PoseArray",
-    "geometry_msgs/msg/PoseStamped",
-    "nav_msgs/msg/OccupancyGrid",
-    "nav_msgs/msg/Path",
-    "sensor_msgs/msg/CameraInfo",
-    "sensor_msgs/msg/CompressedImage",
-    "sensor_msgs/msg/Image",
-    "sensor_msgs/msg/LaserScan",
-    "sensor_msgs/msg/PointCloud2",
-    "sensor_msgs/msg/Range",
-    "visualization_msgs/msg/Marker",
-    "visualization_msgs/msg/MarkerArray",
 )
 SENSOR_TYPES = ("sensor_msgs/msg/Image", "sensor_msgs/msg/LaserScan", "sensor_msgs/msg/PointCloud2")
 _LONGEST = 20_000  # most messages of a recording that a target reads
@@ -83,29 +69,38 @@ def messages() -> Callable[[bytes], object]:
     return run
 
 
+class OneMessage:
+    """A topic with one message, as displays read it."""
+
+    def __init__(self, message: Any) -> None:
+        from coframe.viewer.sources.topic_messages import StampedMessage
+
+        self.type = message.ROS_TYPE
+        self.message = StampedMessage(1, 1, lambda: message)
+
+    def before(self, _time: int, _count: int) -> list[Any]:
+        """Return the message."""
+        return [self.message]
+
+
 @target
 def displays() -> Callable[[bytes], object]:
     """Draw messages of all types that the viewer displays."""
     from coframe.errors import DecodeError
     from coframe.messages import deserialize, find
-    from coframe.viewer.displays import DRAW_FUNCTIONS, CannotDrawError, Drawing, Options
-    from coframe.viewer.displays.markers import MarkerSet
+    from coframe.viewer.displays import CannotDrawError, Options
+    from coframe.viewer.displays.rows import DISPLAY_OF_TYPE, make_renderer
 
-    classes = [find(name) for name in DISPLAYED_TYPES]
-
-    def drawings(name: str, message: object) -> list[Drawing]:
-        if name in DRAW_FUNCTIONS:
-            return [DRAW_FUNCTIONS[name](message, Options())]
-        markers = MarkerSet(lambda _name: (None, "no meshes"))
-        markers.apply(message, 0)
-        return markers.draw(Options())
+    types = sorted(DISPLAY_OF_TYPE)
+    classes = [find(name) for name in types]
 
     def run(data: bytes) -> None:
         if not data:
             return
         number = data[0] % len(classes)
         with contextlib.suppress(DecodeError, CannotDrawError):
-            for drawing in drawings(DISPLAYED_TYPES[number], deserialize(data[1:], classes[number])):
+            topic = OneMessage(deserialize(data[1:], classes[number]))
+            for drawing in make_renderer(topic, Options(), lambda _name: (None, "no meshes")).draw(topic.message, 0):
                 drawing.take_data()
 
     return run

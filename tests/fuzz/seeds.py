@@ -189,9 +189,9 @@ def messages() -> Iterable[bytes]:
 
 
 def displays() -> Iterable[bytes]:
-    from python_targets import DISPLAYED_TYPES
+    from coframe.viewer.displays.rows import DISPLAY_OF_TYPE
 
-    yield from _sensor_seeds(DISPLAYED_TYPES)
+    yield from _sensor_seeds(sorted(DISPLAY_OF_TYPE))
 
 
 def sensor_messages() -> Iterable[bytes]:

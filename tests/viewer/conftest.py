@@ -16,7 +16,8 @@ pytest.importorskip("websockets", reason="the viewer needs websockets")
 from websockets.sync.client import connect
 
 import coframe
-from coframe.viewer.protocol import binary_messages, client_messages, server_messages, shapes
+from coframe.viewer.displays.rows import DISPLAYS
+from coframe.viewer.protocol import binary_messages, client_messages, server_messages
 from coframe.viewer.protocol.layout import Layout
 from coframe.viewer.protocol.schema import record
 
@@ -26,12 +27,12 @@ SECOND = 1_000_000_000
 
 def by_literal(types, field):
     """Return the record of each TypedDict by the literal value of a field."""
-    records = [record(one) for one in get_args(types)]
+    records = [record(one) for one in types]
     return {value: one for one in records for part in one.fields if part.name == field for value in part.type.values}
 
 
-SERVER_MESSAGES = by_literal(server_messages.ServerMessage, "type")
-SHAPES_BY_KIND = by_literal(shapes.ShapesDescription, "kind")
+SERVER_MESSAGES = by_literal(get_args(server_messages.ServerMessage), "type")
+SHAPES_BY_KIND = by_literal([shape for row in DISPLAYS.values() for shape in row.shapes], "kind")
 CLIENT_FIELDS = {
     one.type: {part.name for part in record(one).fields} for one in get_args(client_messages.ClientMessage)
 }

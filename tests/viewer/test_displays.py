@@ -13,9 +13,9 @@ pytest.importorskip("dds_library", reason="live displays need DDS")
 import coframe
 from coframe.messages import find
 from coframe.viewer.displays import CannotDrawError, Options
-from coframe.viewer.displays.grids import draw_grid
-from coframe.viewer.displays.images import MAX_PIXELS, draw_compressed_image, draw_image
-from coframe.viewer.displays.points import draw_cloud, draw_scan
+from coframe.viewer.displays.kinds.grids import draw_grid
+from coframe.viewer.displays.kinds.images import MAX_PIXELS, draw_compressed_image, draw_image
+from coframe.viewer.displays.kinds.points import draw_cloud, draw_scan
 from coframe.wire.qos import QoS
 
 SECOND = 1_000_000_000

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+import { DISPLAYS, type OptionSpec } from "../src/generated/displays";
 import { describe, expect, it } from "vitest";
 import { Forest, Model } from "../src/model/model";
 import type { ClientMessage, FrameUpdate } from "../src/protocol/messages";
@@ -80,7 +81,7 @@ describe("the playhead", () => {
 describe("display options", () => {
   const options = (values: Record<string, never | string | number | boolean | null>) =>
     new Options(values, [
-      { key: "Alpha", kind: "number", value: 0.5, min: 0, max: 1 },
+      { key: "Alpha", kind: "number", value: 0.5, min: 0, max: 1, step: 0.1 },
       { key: "Color", kind: "colour", value: "#010203" },
       { key: "Style", kind: "choice", value: "Points", choices: ["Points", "Boxes"] },
     ]);
@@ -91,6 +92,20 @@ describe("display options", () => {
     const wrong = options({ Alpha: "x", Color: "999; 0; 0", Style: "Teapots" });
     expect([wrong.number("Alpha"), wrong.colour("Color"), wrong.choice("Style")]).toEqual([0.5, "#010203", "Points"]);
     expect(options({ Alpha: null }).number("Alpha")).toBe(0.5);
+  });
+
+  it("set the fields of a subscription, with defaults for invalid values", () => {
+    const scan = new Options<"LaserScan">({ "Color Transformer": "FlatColor", Axis: 1 }, DISPLAYS.LaserScan.options);
+    expect(scan.subscription()).toEqual({ color_by: "flat", axis: "z", decay: 0 });
+    const odometry = new Options<"Odometry">({ Keep: 12.4 }, DISPLAYS.Odometry.options);
+    expect(odometry.subscription()).toEqual({ keep: 12 });
+    expect(new Options<"Path">({}, DISPLAYS.Path.options).subscription()).toEqual({});
+  });
+
+  it("have no effect without the flag that they need", () => {
+    const [camera, image] = [DISPLAYS.Camera.options, DISPLAYS.Image.options].map((specs) => new Options({}, specs));
+    const rectified = DISPLAYS.Image.options.find(({ key }) => key === "Rectified") as OptionSpec;
+    expect([camera?.hasEffect(rectified), image?.hasEffect(rectified)]).toEqual([true, false]);
   });
 
   it("convert colours to and from the format of RViz", () => {

@@ -10,6 +10,7 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 from coframe.errors import ViewerError
+from coframe.viewer.displays.rows import displayable
 from coframe.viewer.findings import FindingsWatcher
 from coframe.viewer.panels import Panels
 from coframe.viewer.replay.page import DEFAULT_SETTINGS, FRAME_TIMEOUT, ReplayRequest, ReplaySettings
@@ -116,7 +117,7 @@ class ViewerState:
         if now >= self._topics_due:
             self._topics_due = now + TOPICS_PERIOD
             self.source.refresh()
-            self.topics = self.source.topics()
+            self.topics = displayable(self.source.topics())
 
     @property
     def span(self) -> tuple[int, int] | None:

@@ -4,18 +4,11 @@
 import * as THREE from "three";
 import { axesGeometry } from "../scene/frames";
 import type { FramePoses } from "../scene/frame_poses";
+import { FIXED_FRAME } from "../generated/displays";
 import type { FrameUpdate } from "../protocol/messages";
 import { Display, release, moveToFrame } from "./display";
-import { FIXED_FRAME, type OptionSpec } from "./options";
 
-export const AXES_SPECS: readonly OptionSpec[] = [
-  { key: "Length", kind: "number", value: 1, min: 0.001, max: 10000, step: 0.1, unit: "m" },
-  { key: "Radius", kind: "number", value: 0.1, min: 0.0001, max: 1000, step: 0.01, unit: "m" },
-  { key: "Alpha", kind: "number", value: 1, min: 0, max: 1, step: 0.05 },
-  { key: "Reference Frame", kind: "frame", value: FIXED_FRAME },
-];
-
-export class AxesDisplay extends Display {
+export class AxesDisplay extends Display<"Axes"> {
   private mesh: THREE.Mesh | null = null;
 
   override restyle(): void {

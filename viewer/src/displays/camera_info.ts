@@ -4,15 +4,8 @@
 import * as THREE from "three";
 import type { CameraShape, Shapes } from "../protocol/messages";
 import { MessageDisplay } from "./display";
-import type { OptionSpec } from "./options";
 
-export const CAMERA_SPECS: readonly OptionSpec[] = [
-  { key: "Far Clip", label: "Length", kind: "number", value: 0.5, min: 0.01, max: 1000, step: 0.1, unit: "m" },
-  { key: "Color", kind: "colour", value: "#f5d90a" },
-  { key: "Alpha", kind: "number", value: 0.15, min: 0, max: 1, step: 0.05 },
-];
-
-export class CameraDisplay extends MessageDisplay<Shapes> {
+export class CameraDisplay extends MessageDisplay<Shapes, "CameraInfo"> {
   /** The intrinsics of the newest visible message and the pose of its frame in the scene; null if there is none. */
   newest(): { intrinsics: CameraShape; pose: THREE.Matrix4 } | null {
     const { object, message } = [...this.drawn.values()].filter((entry) => entry.object.visible).at(-1) ?? {};

@@ -5,46 +5,16 @@ import * as THREE from "three";
 import { srgb } from "../scene/frames";
 import type { Cloud, DisplayOptions } from "../protocol/messages";
 import { MessageDisplay } from "./display";
-import type { OptionSpec } from "./options";
 
-const TRANSFORMERS = ["Intensity", "AxisColor", "RGB8", "FlatColor", "Distance"] as const;
-const MODES: Record<string, DisplayOptions["color_by"]> = {
-  Intensity: "intensity",
-  AxisColor: "axis",
-  RGB8: "rgb",
-  FlatColor: "flat",
-  Distance: "distance",
-};
 const SAMPLES = 4096;
 const VIEWPORT = new THREE.Vector4();
 /** Software rendering takes 2.5 microseconds per point, during which the page blocks. */
 const MAX_POINTS_IN_SOFTWARE = 40_000;
 
-export function cloudSpecs(size: number, colourBy: (typeof TRANSFORMERS)[number]): readonly OptionSpec[] {
-  return [
-    { key: "Color Transformer", kind: "choice", value: colourBy, choices: TRANSFORMERS },
-    { key: "Axis", kind: "choice", value: "Z", choices: ["X", "Y", "Z"] },
-    { key: "Use Fixed Frame", kind: "flag", value: true },
-    { key: "Color", kind: "colour", value: "#ff5a36" },
-    {
-      key: "Style",
-      kind: "choice",
-      value: "Points",
-      choices: ["Points", "Flat Squares", "Spheres", "Boxes", "Squares"],
-    },
-    { key: "Size (Pixels)", kind: "number", value: 3, min: 1, max: 40, step: 1 },
-    { key: "Size (m)", kind: "number", value: size, min: 0.001, max: 10, step: 0.01 },
-    { key: "Alpha", kind: "number", value: 1, min: 0, max: 1, step: 0.05 },
-    { key: "Decay Time", kind: "number", value: 0, min: 0, max: 3600, step: 0.5, unit: "s" },
-  ];
-}
-
-export class CloudDisplay extends MessageDisplay<Cloud> {
+export class CloudDisplay extends MessageDisplay<Cloud, "LaserScan" | "PointCloud2"> {
   override subscription(): DisplayOptions {
     return {
-      color_by: MODES[this.options.choice("Color Transformer")] ?? "flat",
-      axis: this.options.choice("Axis").toLowerCase() as "x" | "y" | "z",
-      decay: this.options.number("Decay Time"),
+      ...super.subscription(),
       ...(this.context.software() ? { most_points: MAX_POINTS_IN_SOFTWARE } : {}),
     };
   }

@@ -3,42 +3,10 @@
 
 import * as THREE from "three";
 import { principalAxes } from "../util/math";
-import type { OptionSpec, Options } from "./options";
-
-export const COVARIANCE_SPECS: readonly OptionSpec[] = [
-  { key: "Covariance/Value", label: "Covariance", kind: "flag", value: false },
-  flag("Position"),
-  number("Position", "Scale", { value: 1, max: 1000, step: 1 }),
-  colour("Position", "#cc33cc"),
-  number("Position", "Alpha", { value: 0.3, max: 1, step: 0.05 }),
-  flag("Orientation"),
-  number("Orientation", "Scale", { value: 1, max: 1000, step: 1 }),
-  number("Orientation", "Offset", { value: 1, max: 100, step: 0.1, unit: "m" }),
-  colour("Orientation", "#ffff7f"),
-  number("Orientation", "Alpha", { value: 0.5, max: 1, step: 0.05 }),
-];
+import type { Options } from "./options";
 
 type Part = "Position" | "Orientation";
-
-function flag(part: Part): OptionSpec {
-  return { key: `Covariance/${part}/Value`, label: part, needs: "Covariance/Value", kind: "flag", value: true };
-}
-
-function colour(part: Part, value: string): OptionSpec {
-  return { ...nested(part, "Color"), kind: "colour", value };
-}
-
-function number(
-  part: Part,
-  name: string,
-  rest: { value: number; max: number; step: number; unit?: string },
-): OptionSpec {
-  return { ...nested(part, name), kind: "number", min: 0, ...rest };
-}
-
-function nested(part: Part, name: string): { key: string; label: string; needs: string } {
-  return { key: `Covariance/${part}/${name}`, label: `${part} ${name}`, needs: "Covariance/Value" };
-}
+type CovarianceOptions = Options<"PoseWithCovariance" | "Odometry">;
 
 /** The largest half angle of the cone in radians; at π/2 it would be a disc. */
 const MAX_HALF_ANGLE = 1.5;
@@ -53,7 +21,7 @@ const MAX_HALF_ANGLE = 1.5;
 export function covarianceShapes(
   pose: Float32Array,
   covariance: readonly (number | null)[],
-  options: Options,
+  options: CovarianceOptions,
 ): THREE.Object3D {
   const group = new THREE.Group();
   if (!options.flag("Covariance/Value") || covariance.length !== 36 || !pose.every(Number.isFinite)) return group;
@@ -70,7 +38,7 @@ export function covarianceShapes(
 
 type Covariance = (i: number, j: number) => number;
 
-function ellipsoid(at: Covariance, options: Options): THREE.Mesh[] {
+function ellipsoid(at: Covariance, options: CovarianceOptions): THREE.Mesh[] {
   const indices = [0, 1, 2];
   const axes = principalAxes(indices.flatMap((i) => indices.map((j) => at(i, j))));
   const radii = axes.variances.map((variance) => Math.sqrt(variance) * options.number("Covariance/Position/Scale"));
@@ -83,7 +51,7 @@ function ellipsoid(at: Covariance, options: Options): THREE.Mesh[] {
 }
 
 /** A rotation about z moves the tip of the x axis along +y; a rotation about y moves it along -z. */
-function orientationCone(at: Covariance, options: Options): THREE.Mesh[] {
+function orientationCone(at: Covariance, options: CovarianceOptions): THREE.Mesh[] {
   const yz = -at(4, 5);
   const axes = principalAxes([0, 0, 0, 0, at(5, 5), yz, 0, yz, at(4, 4)]);
   const length = options.number("Covariance/Orientation/Offset");
@@ -99,7 +67,7 @@ function orientationCone(at: Covariance, options: Options): THREE.Mesh[] {
   return [mesh];
 }
 
-function material(options: Options, part: Part): THREE.Material {
+function material(options: CovarianceOptions, part: Part): THREE.Material {
   return new THREE.MeshLambertMaterial({
     color: options.colour(`Covariance/${part}/Color`),
     transparent: true,

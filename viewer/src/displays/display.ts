@@ -4,9 +4,10 @@
 import * as THREE from "three";
 import type { Model } from "../model/model";
 import type { FramePoses } from "../scene/frame_poses";
+import { DISPLAYS, type DisplayClass } from "../generated/displays";
 import type { DisplayMessage, DisplayPose, JsonObject, DisplayOptions, FrameUpdate } from "../protocol/messages";
 import type { Palette } from "../util/theme";
-import { Options, type OptionSpec } from "./options";
+import { Options } from "./options";
 
 export interface DisplayConfig {
   class: string;
@@ -34,9 +35,10 @@ export interface Status {
   text: string;
 }
 
-export abstract class Display {
+export abstract class Display<C extends DisplayClass = DisplayClass> {
   readonly object = new THREE.Group();
-  readonly options: Options;
+  readonly kind: C;
+  readonly options: Options<C>;
   status: Status = { state: "ok", text: "" };
   /** A short note next to the name, such as the thinning of a cloud. */
   note = "";
@@ -46,10 +48,10 @@ export abstract class Display {
   constructor(
     readonly id: number,
     readonly config: DisplayConfig,
-    readonly specs: readonly OptionSpec[],
     protected readonly context: Context,
   ) {
-    this.options = new Options(config.options, specs);
+    this.kind = displayClass(config.class) as C;
+    this.options = new Options(config.options, DISPLAYS[this.kind].options);
     this.object.visible = config.enabled;
   }
 
@@ -75,9 +77,10 @@ export abstract class Display {
   }
 }
 
-/** The class of a display without its package. */
-export function kindOf(display: Display): string {
-  return display.config.class.replace(/^.*\//, "");
+/** Removes the package of a class: "rviz_default_plugins/TF" and "rviz/TF" are both TF. Null if there is no such display. */
+export function displayClass(name: string): DisplayClass | null {
+  const kind = name.replace(/^.*\//, "");
+  return Object.hasOwn(DISPLAYS, kind) ? (kind as DisplayClass) : null;
 }
 
 const MAX_WAITING = 16;
@@ -85,7 +88,10 @@ const MAX_WAITING = 16;
 const MAX_FIT_COORDINATE_M = 200;
 
 /** A display of a topic. Each message is an object, whose pose and visibility are set by frame updates. */
-export abstract class MessageDisplay<M extends DisplayMessage = DisplayMessage> extends Display {
+export abstract class MessageDisplay<
+  M extends DisplayMessage = DisplayMessage,
+  C extends DisplayClass = DisplayClass,
+> extends Display<C> {
   /** Removed objects whose resources are not freed yet. */
   private readonly removed: THREE.Object3D[] = [];
   /** The number of removed objects at the last frame update. */
@@ -93,8 +99,9 @@ export abstract class MessageDisplay<M extends DisplayMessage = DisplayMessage> 
   private origin: readonly number[] = [0, 0, 0];
   protected readonly drawn = new Map<number, { object: THREE.Object3D; message: M }>();
 
+  /** How the server prepares the messages. */
   subscription(): DisplayOptions {
-    return {};
+    return this.options.subscription();
   }
 
   receive(message: DisplayMessage): void {

@@ -3,20 +3,11 @@
 
 import * as THREE from "three";
 import type { FramePoses } from "../scene/frame_poses";
+import { FIXED_FRAME } from "../generated/displays";
 import type { FrameUpdate } from "../protocol/messages";
 import { Display, release, moveToFrame } from "./display";
-import { FIXED_FRAME, type OptionSpec } from "./options";
 
-export const GRID_SPECS: readonly OptionSpec[] = [
-  { key: "Cell Size", kind: "number", value: 1, min: 0.001, max: 10000, step: 0.1, unit: "m" },
-  { key: "Plane Cell Count", kind: "number", value: 10, min: 1, max: 1000, step: 1 },
-  { key: "Plane", kind: "choice", value: "XY", choices: ["XY", "XZ", "YZ"] },
-  { key: "Color", kind: "colour", value: "" },
-  { key: "Alpha", kind: "number", value: 0.5, min: 0, max: 1, step: 0.05 },
-  { key: "Reference Frame", kind: "frame", value: FIXED_FRAME },
-];
-
-export class GridDisplay extends Display {
+export class GridDisplay extends Display<"Grid"> {
   private lines: THREE.LineSegments | null = null;
 
   override restyle(): void {

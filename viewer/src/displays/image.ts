@@ -10,24 +10,13 @@ import { CameraDisplay } from "./camera_info";
 import { MessageDisplay, type Context, type Display, type DisplayConfig } from "./display";
 import { ImageOverlay } from "./image_overlay";
 import { cameraTopicOf, contentOf } from "./projected_content";
-import type { OptionSpec } from "./options";
 
-/** The option that draws the scene above the image. */
-export const PROJECT = "Project";
 const AUTO = "By topic";
 
-export const IMAGE_SPECS: readonly OptionSpec[] = [
-  { key: "Width", kind: "number", value: 260, min: 60, max: 1600, step: 20, unit: "px" },
-  { key: PROJECT, label: "Project the scene", kind: "flag", value: false },
-  { key: "Project Frames", label: "Frames", kind: "flag", value: true, needs: PROJECT },
-  { key: "Project Clouds", label: "Clouds", kind: "flag", value: true, needs: PROJECT },
-  { key: "Project Shapes", label: "Markers and paths", kind: "flag", value: true, needs: PROJECT },
-  { key: "Rectified", kind: "choice", value: AUTO, choices: [AUTO, "Yes", "No"], needs: PROJECT },
-];
 /** Projections above an image are drawn at most this often. */
 const PROJECTION_INTERVAL_MS = 100;
 
-export class ImageDisplay extends MessageDisplay<Image> {
+export class ImageDisplay extends MessageDisplay<Image, "Camera" | "Image"> {
   private readonly canvas = h("canvas", { role: "img" });
   private readonly caption = h("figcaption");
   private readonly overlay = new ImageOverlay();
@@ -38,8 +27,8 @@ export class ImageDisplay extends MessageDisplay<Image> {
   /** The sequence number of the message on the canvas, or of the one being decoded. */
   private painted = -1;
 
-  constructor(id: number, config: DisplayConfig, specs: readonly OptionSpec[], context: Context) {
-    super(id, config, specs, context);
+  constructor(id: number, config: DisplayConfig, context: Context) {
+    super(id, config, context);
     this.canvas.setAttribute("aria-label", `Image of ${config.topic ?? config.name}`);
     byId("images").append(this.figure);
   }
@@ -78,7 +67,7 @@ export class ImageDisplay extends MessageDisplay<Image> {
 
   /** Whether the scene is projected into the image. */
   get projects(): boolean {
-    return this.options.flag(PROJECT);
+    return this.options.flag("Project");
   }
 
   /** The topic of the CameraInfo of this image, by the convention of image_transport; null if there is none. */

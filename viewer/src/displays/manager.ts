@@ -3,6 +3,7 @@
 
 import * as THREE from "three";
 import { Meshes } from "../scene/meshes";
+import { DISPLAYS, MAX_AUTOMATIC_DISPLAYS } from "../generated/displays";
 import type {
   DisplayMessage,
   DisplayStatus,
@@ -19,14 +20,10 @@ import type { Model } from "../model/model";
 import { AXIS_M } from "../scene/frames";
 import { CameraDisplay } from "./camera_info";
 import { ImageDisplay } from "./image";
-import { MessageDisplay, type Context, type Display, type DisplayConfig } from "./display";
-import { KINDS, kindName } from "./registry";
+import { displayClass, MessageDisplay, type Context, type Display, type DisplayConfig } from "./display";
+import { MAKERS } from "./registry";
 import { RobotDisplay } from "./robot";
 import { TfDisplay } from "./tf";
-
-const MAX_AUTOMATIC = 12;
-/** Displays without surfaces on which tools could find points. */
-const FLAT = new Set(["Axes", "Grid", "TF"]);
 
 export class Displays {
   list: Display[] = [];
@@ -78,7 +75,7 @@ export class Displays {
     });
     view.addSurfaces(() =>
       this.list
-        .filter(({ config }) => config.enabled && !FLAT.has(kindName(config.class)))
+        .filter(({ config, kind }) => config.enabled && DISPLAYS[kind].surfaces)
         .map((display) => display.object),
     );
     theme.onChange(() => {
@@ -95,7 +92,7 @@ export class Displays {
   }
 
   /** Adds a display that the user has chosen. */
-  add(className: string, topic: string | null, name = kindName(className)): void {
+  add(className: string, topic: string | null, name = className): void {
     this.automatic = false;
     this.create({ class: className, name: this.freeName(name), enabled: true, topic, options: {} });
     this.changed();
@@ -177,8 +174,9 @@ export class Displays {
   private offer(topics: Topic[]): void {
     if (!this.automatic || !this.started) return;
     for (const { topic, display } of topics) {
+      const kind = displayClass(display);
       const shown = this.list.filter((other) => other instanceof MessageDisplay).length;
-      if (this.offered.has(topic) || !KINDS[display]?.topic || KINDS[display].heavy || shown >= MAX_AUTOMATIC) continue;
+      if (this.offered.has(topic) || !kind || !DISPLAYS[kind].automatic || shown >= MAX_AUTOMATIC_DISPLAYS) continue;
       this.offered.add(topic);
       this.create({ class: display, name: this.freeName(display), enabled: true, topic, options: {} });
     }
@@ -207,11 +205,12 @@ export class Displays {
   }
 
   private create(config: DisplayConfig): Display | null {
-    const kind = KINDS[kindName(config.class)];
+    const kind = displayClass(config.class);
     if (!kind) return null;
-    const id = this.nextId++;
-    const display = kind.make(id, { ...config, options: { ...config.options } }, kind.specs, this.context, this.meshes);
-    if (kind.topic && !config.topic) display.status = { state: "waiting", text: "No topic selected" };
+    const own = { ...config, options: { ...config.options } };
+    const display = new MAKERS[kind](this.nextId++, own, this.context, this.meshes);
+    if (display instanceof MessageDisplay && !config.topic)
+      display.status = { state: "waiting", text: "No topic selected" };
     this.list.push(display);
     this.view.renderer.scene.add(display.object);
     if (!(display instanceof RobotDisplay)) display.restyle();

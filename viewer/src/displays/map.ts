@@ -4,17 +4,10 @@
 import * as THREE from "three";
 import type { Grid } from "../protocol/messages";
 import { MessageDisplay } from "./display";
-import type { OptionSpec } from "./options";
-
-export const MAP_SPECS: readonly OptionSpec[] = [
-  { key: "Alpha", kind: "number", value: 0.7, min: 0, max: 1, step: 0.05 },
-  { key: "Color Scheme", kind: "choice", value: "map", choices: ["map", "costmap", "raw"] },
-  { key: "Draw Behind", kind: "flag", value: false },
-];
 
 const MAX_TEXTURE_SIZE = 8192;
 
-export class MapDisplay extends MessageDisplay<Grid> {
+export class MapDisplay extends MessageDisplay<Grid, "Map"> {
   protected build(message: Grid): THREE.Object3D {
     const { width, height, resolution } = message;
     const group = new THREE.Group();

@@ -9,23 +9,19 @@ import { materialsOf, type Meshes } from "../scene/meshes";
 import { slice, type DisplayMessage, type MarkerItem, type Shapes, type Vector } from "../protocol/messages";
 import { arrowGeometry } from "./arrows";
 import { MessageDisplay, type Context, type DisplayConfig } from "./display";
-import type { OptionSpec } from "./options";
-
-export const MARKER_SPECS: readonly OptionSpec[] = [];
 
 const MAX_NAMESPACES = 200;
 const MAX_TEXT = 200;
 const TEXT_PX = 48;
 
-export class MarkersDisplay extends MessageDisplay<Shapes> {
+export class MarkersDisplay extends MessageDisplay<Shapes, "Marker" | "MarkerArray"> {
   constructor(
     id: number,
     config: DisplayConfig,
-    specs: readonly OptionSpec[],
     context: Context,
     private readonly meshes: Meshes,
   ) {
-    super(id, config, specs, context);
+    super(id, config, context);
   }
 
   /** The namespaces received so far. */

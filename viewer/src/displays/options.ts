@@ -4,53 +4,74 @@
  * Nested options have paths, for example "Covariance/Position/Alpha".
  */
 
-import type { Json, JsonObject } from "../protocol/messages";
+import type { DisplayClass, OptionKey, OptionSpec } from "../generated/displays";
+import type { DisplayOptions, Json, JsonObject } from "../protocol/messages";
 
-/** An option. `needs` is the key of a flag; if it is off, the option has no effect and is hidden. */
-export type OptionSpec = { key: string; label?: string; needs?: string } & (
-  | { kind: "number"; value: number; min?: number; max?: number; step?: number; unit?: string }
-  | { kind: "flag"; value: boolean }
-  | { kind: "colour"; value: string }
-  | { kind: "choice"; value: string; choices: readonly string[] }
-  | { kind: "frame"; value: string }
-);
-
-export const FIXED_FRAME = "<Fixed Frame>";
+type Spec<K extends OptionSpec["kind"]> = Extract<OptionSpec, { kind: K }>;
 
 /** Reads option values; missing and invalid values are replaced by the default. */
-export class Options {
+export class Options<C extends DisplayClass = DisplayClass> {
   constructor(
     readonly values: JsonObject,
     private readonly specs: readonly OptionSpec[],
   ) {}
 
-  number(key: string): number {
-    const given = this.value(key);
-    const value = Number(given);
-    const spec = this.spec(key, "number");
-    if (given === undefined || given === null || !Number.isFinite(value)) return spec.value;
-    return Math.max(spec.min ?? -Infinity, Math.min(spec.max ?? Infinity, value));
+  number(key: OptionKey<C, "number">): number {
+    return this.numberOf(this.spec(key, "number"));
   }
 
-  flag(key: string): boolean {
-    const value = this.value(key);
-    return typeof value === "boolean" ? value : this.spec(key, "flag").value;
+  flag(key: OptionKey<C, "flag">): boolean {
+    return this.flagOf(this.spec(key, "flag"));
   }
 
-  choice(key: string): string {
-    const { choices, value } = this.spec(key, "choice");
-    const given = this.value(key);
-    return typeof given === "string" && choices.includes(given) ? given : value;
+  choice(key: OptionKey<C, "choice">): string {
+    return this.choiceOf(this.spec(key, "choice"));
   }
 
-  text(key: string): string {
-    const value = this.value(key);
-    return typeof value === "string" ? value : this.spec(key, "frame").value;
+  text(key: OptionKey<C, "text">): string {
+    return this.textOf(this.spec(key, "text"));
   }
 
   /** Returns a colour as "#rrggbb". */
-  colour(key: string): string {
-    return cssColour(this.value(key)) ?? this.spec(key, "colour").value;
+  colour(key: OptionKey<C, "colour">): string {
+    return this.colourOf(this.spec(key, "colour"));
+  }
+
+  numberOf(spec: Spec<"number">): number {
+    const given = this.value(spec.key);
+    const value = Number(given);
+    if (given === undefined || given === null || !Number.isFinite(value)) return spec.value;
+    return Math.max(spec.min, Math.min(spec.max, value));
+  }
+
+  flagOf(spec: Spec<"flag">): boolean {
+    const value = this.value(spec.key);
+    return typeof value === "boolean" ? value : spec.value;
+  }
+
+  choiceOf(spec: Spec<"choice">): string {
+    const given = this.value(spec.key);
+    return typeof given === "string" && spec.choices.includes(given) ? given : spec.value;
+  }
+
+  textOf(spec: Spec<"text">): string {
+    const value = this.value(spec.key);
+    return typeof value === "string" ? value : spec.value;
+  }
+
+  colourOf(spec: Spec<"colour">): string {
+    return cssColour(this.value(spec.key)) ?? spec.value;
+  }
+
+  /** Whether an option has an effect: the flag that it needs is on. */
+  hasEffect(spec: OptionSpec): boolean {
+    return spec.needs === undefined || this.flagOf(this.spec(spec.needs, "flag"));
+  }
+
+  /** The fields of the subscription that the options set. */
+  subscription(): DisplayOptions {
+    const fields = this.specs.flatMap((spec) => (spec.sets ? [[spec.sets, this.sent(spec)]] : []));
+    return Object.fromEntries(fields) as DisplayOptions;
   }
 
   set(key: string, value: Json): void {
@@ -64,16 +85,35 @@ export class Options {
     at[last] = value;
   }
 
+  private sent(spec: OptionSpec): Json {
+    switch (spec.kind) {
+      case "number": {
+        const value = this.numberOf(spec);
+        return Number.isInteger(spec.step) ? Math.round(value) : value;
+      }
+      case "flag":
+        return this.flagOf(spec);
+      case "choice": {
+        const value = this.choiceOf(spec);
+        return spec.meanings?.[spec.choices.indexOf(value)] ?? value;
+      }
+      case "text":
+        return this.textOf(spec);
+      case "colour":
+        return this.colourOf(spec);
+    }
+  }
+
   private value(key: string): Json | undefined {
     let at: Json | undefined = this.values;
     for (const part of key.split("/")) at = isObject(at) ? at[part] : undefined;
     return at;
   }
 
-  private spec<K extends OptionSpec["kind"]>(key: string, kind: K): Extract<OptionSpec, { kind: K }> {
+  private spec<K extends OptionSpec["kind"]>(key: string, kind: K): Spec<K> {
     const found = this.specs.find((spec) => spec.key === key && spec.kind === kind);
     if (!found) throw new Error(`No option ${key} of kind ${kind}.`);
-    return found as Extract<OptionSpec, { kind: K }>;
+    return found as Spec<K>;
   }
 }
 

@@ -8,19 +8,8 @@ import { LineGeometry } from "three/examples/jsm/lines/LineGeometry.js";
 import { slice, type Shapes } from "../protocol/messages";
 import { arrowGeometry, instances, poseAxes } from "./arrows";
 import { MessageDisplay } from "./display";
-import type { OptionSpec } from "./options";
 
-export const PATH_SPECS: readonly OptionSpec[] = [
-  { key: "Color", kind: "colour", value: "#19d245" },
-  { key: "Alpha", kind: "number", value: 1, min: 0, max: 1, step: 0.05 },
-  { key: "Line Style", kind: "choice", value: "Lines", choices: ["Lines", "Billboards"] },
-  { key: "Line Width", kind: "number", value: 0.03, min: 0.001, max: 10, step: 0.01, unit: "m" },
-  { key: "Pose Style", kind: "choice", value: "None", choices: ["None", "Axes", "Arrows"] },
-  { key: "Length", kind: "number", value: 0.3, min: 0.001, max: 100, step: 0.05, unit: "m" },
-  { key: "Radius", kind: "number", value: 0.03, min: 0.0005, max: 10, step: 0.005, unit: "m" },
-];
-
-export class PathDisplay extends MessageDisplay<Shapes> {
+export class PathDisplay extends MessageDisplay<Shapes, "Path"> {
   protected build({ description, payload }: Shapes): THREE.Object3D {
     const group = new THREE.Group();
     if (description.kind !== "path") return group;

@@ -2,37 +2,12 @@
 /** The Pose, PoseArray, PoseWithCovariance and Odometry displays: arrows or axes; Odometry has a trail. */
 
 import * as THREE from "three";
-import { slice, type Shapes, type DisplayOptions } from "../protocol/messages";
+import { slice, type Shapes } from "../protocol/messages";
 import { arrowGeometry, instances, poseAxes } from "./arrows";
-import { COVARIANCE_SPECS, covarianceShapes } from "./covariance";
+import { covarianceShapes } from "./covariance";
 import { MessageDisplay } from "./display";
-import type { OptionSpec } from "./options";
 
-export const POSE_SPECS: readonly OptionSpec[] = [
-  { key: "Shape", kind: "choice", value: "Arrow", choices: ["Arrow", "Axes"] },
-  { key: "Color", kind: "colour", value: "#ff8a1f" },
-  { key: "Alpha", kind: "number", value: 1, min: 0, max: 1, step: 0.05 },
-  { key: "Shaft Length", kind: "number", value: 0.35, min: 0.001, max: 100, step: 0.05, unit: "m" },
-  { key: "Shaft Radius", kind: "number", value: 0.02, min: 0.0005, max: 10, step: 0.005, unit: "m" },
-  { key: "Head Length", kind: "number", value: 0.12, min: 0.001, max: 100, step: 0.01, unit: "m" },
-  { key: "Head Radius", kind: "number", value: 0.045, min: 0.001, max: 10, step: 0.005, unit: "m" },
-  { key: "Axes Length", kind: "number", value: 0.3, min: 0.001, max: 100, step: 0.05, unit: "m" },
-  { key: "Axes Radius", kind: "number", value: 0.02, min: 0.0005, max: 10, step: 0.005, unit: "m" },
-];
-
-export const COVARIANT_POSE_SPECS: readonly OptionSpec[] = [...POSE_SPECS, ...COVARIANCE_SPECS];
-
-export const ODOMETRY_SPECS: readonly OptionSpec[] = [
-  ...POSE_SPECS,
-  { key: "Keep", kind: "number", value: 100, min: 1, max: 1000, step: 10 },
-  ...COVARIANCE_SPECS,
-];
-
-export class PosesDisplay extends MessageDisplay<Shapes> {
-  override subscription(): DisplayOptions {
-    return this.specs === ODOMETRY_SPECS ? { keep: Math.round(this.options.number("Keep")) } : {};
-  }
-
+export class PosesDisplay extends MessageDisplay<Shapes, "Pose" | "PoseArray" | "PoseWithCovariance" | "Odometry"> {
   protected build({ description, payload }: Shapes): THREE.Object3D {
     const group = new THREE.Group();
     if (description.kind !== "poses" && description.kind !== "odometry") return group;
@@ -40,7 +15,7 @@ export class PosesDisplay extends MessageDisplay<Shapes> {
     const count = Math.floor(poses.length / 7);
     if (count === 0) return group;
     const newest = poses.subarray((count - 1) * 7);
-    if (description.covariance && this.specs !== POSE_SPECS)
+    if (description.covariance && (this.kind === "PoseWithCovariance" || this.kind === "Odometry"))
       group.add(covarianceShapes(newest, description.covariance, this.options));
     if (description.kind === "poses") {
       group.add(this.shape(poses, 1));

@@ -4,11 +4,9 @@
 import * as THREE from "three";
 import type { Model } from "../model/model";
 import type { FramePoses } from "../scene/frame_poses";
-import { kindOf, type Display } from "./display";
+import { DISPLAYS } from "../generated/displays";
+import type { Display } from "./display";
 import type { OverlayContent } from "./image_overlay";
-
-/** The displays that are drawn as lines and meshes above an image. */
-const SHAPES = new Set(["Marker", "MarkerArray", "Odometry", "Path", "Pose", "PoseArray", "PoseWithCovariance"]);
 
 /** Collects the visible parts of the scene. */
 export function contentOf(
@@ -21,7 +19,7 @@ export function contentOf(
   const shapes: THREE.Object3D[] = [];
   for (const display of displays) {
     if (!display.config.enabled) continue;
-    const drawsShapes = wanted.shapes && SHAPES.has(kindOf(display));
+    const drawsShapes = wanted.shapes && DISPLAYS[display.kind].projected;
     display.object.updateMatrixWorld();
     display.object.traverseVisible((part) => {
       if (part instanceof THREE.Points && part.material instanceof THREE.ShaderMaterial) {

@@ -4,14 +4,8 @@
 import * as THREE from "three";
 import type { Shapes } from "../protocol/messages";
 import { MessageDisplay } from "./display";
-import type { OptionSpec } from "./options";
 
-export const RANGE_SPECS: readonly OptionSpec[] = [
-  { key: "Color", kind: "colour", value: "#ffffff" },
-  { key: "Alpha", kind: "number", value: 0.5, min: 0, max: 1, step: 0.05 },
-];
-
-export class RangeDisplay extends MessageDisplay<Shapes> {
+export class RangeDisplay extends MessageDisplay<Shapes, "Range"> {
   protected build({ description }: Shapes): THREE.Object3D {
     const group = new THREE.Group();
     if (description.kind !== "range" || description.range === null || !(description.range > 0)) return group;

@@ -7,16 +7,8 @@ import { dropEmptyTextures, hasImage, materialsOf, FORBIDDEN_URL, type Meshes } 
 import type { FramePoses } from "../scene/frame_poses";
 import type { Robot, FrameUpdate } from "../protocol/messages";
 import { Display, release, type Context, type DisplayConfig } from "./display";
-import type { OptionSpec } from "./options";
 
-export const ROBOT_SPECS: readonly OptionSpec[] = [
-  { key: "Visual Enabled", kind: "flag", value: true },
-  { key: "Collision Enabled", kind: "flag", value: false },
-  { key: "Alpha", kind: "number", value: 1, min: 0, max: 1, step: 0.05 },
-  { key: "TF Prefix", kind: "frame", value: "" },
-];
-
-export class RobotDisplay extends Display {
+export class RobotDisplay extends Display<"RobotModel"> {
   robot: Robot | null = null;
   model: URDFRobot | null = null;
   /** Joint positions set with the sliders. */
@@ -30,11 +22,10 @@ export class RobotDisplay extends Display {
   constructor(
     id: number,
     config: DisplayConfig,
-    specs: readonly OptionSpec[],
     context: Context,
     private readonly meshes: Meshes,
   ) {
-    super(id, config, specs, context);
+    super(id, config, context);
     this.status = { state: "waiting", text: "No robot description received" };
   }
 

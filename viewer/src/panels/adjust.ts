@@ -109,7 +109,10 @@ export class AdjustPanel {
     );
     staticCommands(parent, child, pose).forEach(({ name, text }, k) => {
       setText((this.commands[k] as { label: HTMLElement }).label, name);
-      setText((this.commands[k] as { text: HTMLElement }).text, text.length > 1000 ? "The frame names are too long." : shorten(text, 1000));
+      setText(
+        (this.commands[k] as { text: HTMLElement }).text,
+        text.length > 1000 ? "The frame names are too long." : shorten(text, 1000),
+      );
     });
     const possible = this.model.hello?.can_publish ?? false;
     this.publish.disabled = !possible;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The Displays panel: the displays with their options, and a list of displays to add. */
 
-import type { Display } from "../displays/display";
+import { displayClass, MessageDisplay, type Display } from "../displays/display";
 import type { Displays } from "../displays/manager";
 import { MarkersDisplay } from "../displays/markers";
-import { FIXED_FRAME, rvizColour, type OptionSpec } from "../displays/options";
-import { KINDS, kindName } from "../displays/registry";
+import { rvizColour } from "../displays/options";
+import { DISPLAYS, FIXED_FRAME, type OptionSpec } from "../generated/displays";
 import { fillSelect, h, iconButton, setText, shorten } from "../util/dom";
 import type { Model } from "../model/model";
 
@@ -19,7 +19,7 @@ interface Card {
   body: HTMLElement | null;
 }
 
-const BUILT_IN = ["TF", "Grid", "Axes", "RobotModel"];
+const WITHOUT_TOPIC = Object.entries(DISPLAYS).flatMap(([kind, { types }]) => (types.length === 0 ? [kind] : []));
 
 export class DisplaysPanel {
   readonly element: HTMLElement;
@@ -40,12 +40,12 @@ export class DisplaysPanel {
   }
 
   private fillAddSelect(): void {
-    const topics = this.model.topics.filter(({ display }) => KINDS[display]);
+    const topics = this.model.topics.filter(({ display }) => displayClass(display));
     fillSelect(
       this.addSelect,
       [
         ["", "Add a display…"],
-        ...BUILT_IN.map((name) => [JSON.stringify([name, null]), name] as const),
+        ...WITHOUT_TOPIC.map((name) => [JSON.stringify([name, null]), name] as const),
         ...topics.map(({ topic, display }) => [JSON.stringify([display, topic]), `${display}: ${topic}`] as const),
       ],
       "",
@@ -122,7 +122,7 @@ export class DisplaysPanel {
       box.checked = display.config.enabled;
       const { state, text } = display.config.enabled ? display.status : { state: "ok", text: "" };
       if (head.dataset.state !== state) head.dataset.state = state;
-      const kind = kindName(display.config.class);
+      const { kind } = display;
       const what = display.config.topic ?? (kind === display.config.name ? "" : kind);
       const label = state === "error" ? "Status: Error" : state === "waiting" ? "Status: Warn" : "";
       const facts = [label, what, display.note, display.omitted].filter(Boolean).join(" · ");
@@ -134,12 +134,11 @@ export class DisplaysPanel {
 
   private options(display: Display): HTMLElement {
     const body = h("div", { class: "card-body" });
-    const kind = KINDS[kindName(display.config.class)];
-    if (kind?.topic) body.append(this.topicField(display));
-    const fields = display.specs.map((spec) => ({ spec, element: this.field(display, spec) }));
+    if (display instanceof MessageDisplay) body.append(this.topicField(display));
+    const specs: readonly OptionSpec[] = DISPLAYS[display.kind].options;
+    const fields = specs.map((spec) => ({ spec, element: this.field(display, spec) }));
     const hide = (): void => {
-      for (const { spec, element } of fields)
-        element.hidden = spec.needs !== undefined && !display.options.flag(spec.needs);
+      for (const { spec, element } of fields) element.hidden = !display.options.hasEffect(spec);
     };
     hide();
     body.append(...fields.map(({ element }) => element));
@@ -173,8 +172,8 @@ export class DisplaysPanel {
   }
 
   private topicField(display: Display): HTMLElement {
-    const kind = kindName(display.config.class);
-    const available = this.model.topics.filter((topic) => topic.display === kind).map(({ topic }) => topic);
+    const types: readonly string[] = DISPLAYS[display.kind].types;
+    const available = this.model.topics.filter(({ type }) => types.includes(type)).map(({ topic }) => topic);
     const current = display.config.topic ?? "";
     const names = [...new Set([current, ...available])];
     const element = h("select", { aria: { label: "Topic" } });
@@ -201,7 +200,7 @@ export class DisplaysPanel {
     switch (spec.kind) {
       case "flag": {
         const box = h("input", { type: "checkbox", aria: { label } });
-        box.checked = options.flag(spec.key);
+        box.checked = options.flagOf(spec);
         box.addEventListener("change", () => change(box.checked));
         return field(label, box);
       }
@@ -209,11 +208,11 @@ export class DisplaysPanel {
         const input = h("input", {
           type: "number",
           aria: { label },
-          step: String(spec.step ?? 0.1),
-          ...(spec.min === undefined ? {} : { min: String(spec.min) }),
-          ...(spec.max === undefined ? {} : { max: String(spec.max) }),
+          step: String(spec.step),
+          min: String(spec.min),
+          max: String(spec.max),
         });
-        input.value = String(options.number(spec.key));
+        input.value = String(options.numberOf(spec));
         input.addEventListener("change", () => {
           if (Number.isFinite(input.valueAsNumber)) change(input.valueAsNumber);
         });
@@ -221,7 +220,7 @@ export class DisplaysPanel {
       }
       case "colour": {
         const input = h("input", { type: "color", aria: { label } });
-        input.value = options.colour(spec.key) || "#808890";
+        input.value = options.colourOf(spec) || "#808890";
         input.addEventListener("input", () => change(rvizColour(input.value)));
         return field(label, input);
       }
@@ -230,14 +229,14 @@ export class DisplaysPanel {
         fillSelect(
           input,
           spec.choices.map((choice) => [choice, choice] as const),
-          options.choice(spec.key),
+          options.choiceOf(spec),
         );
         input.addEventListener("change", () => change(input.value));
         return field(label, input);
       }
-      case "frame": {
+      case "text": {
         const input = h("input", { type: "text", aria: { label }, placeholder: spec.value || FIXED_FRAME });
-        input.value = options.text(spec.key);
+        input.value = options.textOf(spec);
         input.addEventListener("change", () => change(input.value.trim() || spec.value));
         return field(label, input);
       }

@@ -18,7 +18,7 @@ import numpy as np
 from coframe.errors import ConnectivityException, ExtrapolationException, LookupException, TransformException
 from coframe.formatting import count
 from coframe.time import SECOND
-from coframe.viewer.displays.renderers import make_renderer
+from coframe.viewer.displays.rows import make_renderer
 from coframe.viewer.protocol.encoding import EntryPose, set_owner
 
 if TYPE_CHECKING:

@@ -5,17 +5,41 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+import numpy as np
 
 from coframe.errors import CoframeError
+from coframe.time import stamp_ns
 from coframe.viewer.protocol.client_messages import MAX_POINTS, DisplayOptions
+from coframe.viewer.protocol.encoding import encode_shapes
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable, Mapping, Sequence
+
+    from numpy.typing import NDArray
     from typing_extensions import Self
 
     from coframe.viewer.protocol.common import ColorBy
 
-__all__ = ["CannotDrawError", "Drawing", "Options", "finite", "pose_row", "rgba_of"]
+__all__ = [
+    "NO_NUMBERS",
+    "CannotDrawError",
+    "Drawing",
+    "Options",
+    "PoseRow",
+    "drawing_of_shapes",
+    "finite",
+    "finite_all",
+    "header_of",
+    "pose_row",
+    "pose_rows",
+    "rgba_of",
+]
+
+PoseRow: TypeAlias = tuple[float, ...]
+"""x, y, z, qx, qy, qz, qw."""
+NO_NUMBERS = np.zeros(0, np.float32)
 
 
 class CannotDrawError(CoframeError, ValueError):
@@ -84,7 +108,7 @@ def finite(value: Any) -> float | None:
     return float(value) if math.isfinite(value) else None
 
 
-def pose_row(pose: Any) -> tuple[float, ...]:
+def pose_row(pose: Any) -> PoseRow:
     """Return x, y, z, qx, qy, qz, qw of a Pose message.
 
     A quaternion of zeros, which is the default of the message, is treated as the identity.
@@ -99,3 +123,24 @@ def pose_row(pose: Any) -> tuple[float, ...]:
 def rgba_of(color: Any) -> list[float | None]:
     """Return red, green, blue and alpha of a ColorRGBA message."""
     return [finite(part) for part in (color.r, color.g, color.b, color.a)]
+
+
+def finite_all(values: Iterable[Any]) -> list[float | None]:
+    """Return numbers, with None for NaN and infinity."""
+    return [finite(value) for value in values]
+
+
+def pose_rows(rows: Sequence[PoseRow]) -> NDArray[np.float32]:
+    """Return poses as the numbers of a drawing, (N, 7)."""
+    with np.errstate(over="ignore"):  # Values that are too large for float32 become infinite.
+        return np.array(rows, np.float64).reshape(-1, 7).astype(np.float32)
+
+
+def header_of(message: Any, options: Options) -> tuple[str, float]:
+    """Return the frame of a message, and its stamp in nanoseconds relative to the origin of times."""
+    return message.header.frame_id, stamp_ns(message.header.stamp) - options.origin
+
+
+def drawing_of_shapes(message: Any, description: Mapping[str, Any], numbers: NDArray[np.float32]) -> Drawing:
+    """Return a drawing in the frame and at the stamp of a message, from its shapes and the numbers they refer to."""
+    return Drawing(message.header.frame_id, stamp_ns(message.header.stamp), encode_shapes(description, numbers))

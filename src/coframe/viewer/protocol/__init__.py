@@ -11,7 +11,7 @@ Conventions:
     names, topics and robot descriptions are data and must never be interpreted as HTML.
 
 Modules:
-    server_messages, binary_messages, shapes: What the server sends.
+    server_messages, binary_messages: What the server sends; the rows of `coframe.viewer.displays` have its shapes.
     client_messages: What the page sends.
     replay_block: What a replay file contains.
     common: The types of fields that several of them use.

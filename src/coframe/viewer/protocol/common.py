@@ -20,6 +20,8 @@ Variance: TypeAlias = Annotated[float, Range(0.0, 1e18)]
 Position: TypeAlias = tuple[Metres, Metres, Metres]
 Variances: TypeAlias = tuple[Variance, Variance, Variance]
 Nanoseconds: TypeAlias = Annotated[float, Range(-(2.0**62), 2.0**62)]
+PayloadRows: TypeAlias = tuple[int, int]
+"""An offset into the numbers of a drawing, and a number of rows: 7 numbers per pose, 3 per point, 4 per colour."""
 
 ViewerMode: TypeAlias = Literal["live", "recording", "buffer", "replay"]
 FrameActivity: TypeAlias = Literal["static", "fresh", "stale", "gone"]

@@ -31,7 +31,6 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from coframe.viewer.protocol.server_messages import ServerMessage
-    from coframe.viewer.protocol.shapes import ShapesDescription
 
 __all__ = [
     "CurvePoints",
@@ -166,8 +165,8 @@ def encode_grid(resolution: float, corner: Sequence[float], cells: NDArray[np.in
     return _join(header, np.ascontiguousarray(cells))
 
 
-def encode_shapes(description: ShapesDescription, payload: NDArray[np.float32]) -> bytearray:
-    """Return shapes from their description and the numbers to which it refers."""
+def encode_shapes(description: Mapping[str, Any], payload: NDArray[np.float32]) -> bytearray:
+    """Return shapes from their description, a TypedDict of a `DisplayRow`, and the numbers to which it refers."""
     text = json.dumps(description, separators=(",", ":"), allow_nan=False).encode()
     text += b" " * (-len(text) % 4)
     return _join(_SHAPES.pack(BinaryKind.SHAPES, 0, 0, len(text)), text, payload.astype("<f4"))

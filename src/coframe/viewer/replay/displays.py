@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias, TypeVar
 import numpy as np
 
 from coframe.viewer.displays.display import Display
+from coframe.viewer.displays.rows import DISPLAY_OF_TYPE
 from coframe.viewer.protocol.encoding import relative_to
 from coframe.viewer.protocol.replay_block import ReplayDisplayBlock
-from coframe.viewer.sources.display_types import DISPLAY_OF_TYPE
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
@@ -47,7 +47,6 @@ Progress: TypeAlias = "Callable[[str, int, int], object]"
 
 MAX_BYTES = 48 << 20  # Of all displays together, and a third more as text.
 MAX_CLOUD_POINTS = 10_000
-_LARGE_TYPES = {"sensor_msgs/msg/CompressedImage", "sensor_msgs/msg/Image", "sensor_msgs/msg/PointCloud2"}
 
 
 class ReplayDisplay(NamedTuple):
@@ -107,7 +106,7 @@ def record_displays(
     all remaining bytes.
     """
     known = [one for one in displays if one.topic in messages and messages[one.topic].type in DISPLAY_OF_TYPE]
-    order = sorted(range(len(known)), key=lambda index: messages[known[index].topic].type in _LARGE_TYPES)
+    order = sorted(range(len(known)), key=lambda index: _is_large(messages[known[index].topic].type))
     blocks: dict[int, ReplayDisplayBlock] = {}
     left = MAX_BYTES
     for index in order:
@@ -117,6 +116,10 @@ def record_displays(
         left -= recorder.size
         blocks[index] = recorder.block()
     return [blocks[index] for index in range(len(known))]
+
+
+def _is_large(ros_type: str) -> bool:
+    return DISPLAY_OF_TYPE[ros_type].large_in_replay
 
 
 class ImmediateExecutor(Executor):
@@ -175,7 +178,7 @@ class _DisplayRecorder:
         return ReplayDisplayBlock(
             topic=self._topic,
             type=self._messages.type,
-            display=DISPLAY_OF_TYPE[self._messages.type],
+            display=DISPLAY_OF_TYPE[self._messages.type].name,
             color_by=self._options.color_by,
             every=self._every,
             statuses=self._statuses,

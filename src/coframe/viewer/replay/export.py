@@ -4,13 +4,12 @@
 from __future__ import annotations
 
 import time
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from coframe.time import SECOND
 from coframe.viewer.displays import Options
+from coframe.viewer.displays.rows import DISPLAYS, MAX_AUTOMATIC_DISPLAYS, displayable
 from coframe.viewer.page_files import STATIC
-from coframe.viewer.protocol.client_messages import DisplayOptions, ReplayRviz
-from coframe.viewer.protocol.schema import record
 from coframe.viewer.replay.displays import ImmediateExecutor, ReplayDisplay
 from coframe.viewer.replay.page import (
     FRAME_TIMEOUT,
@@ -27,23 +26,18 @@ if TYPE_CHECKING:
     from collections.abc import Collection, Sequence
 
     from coframe.robots import Robot
+    from coframe.viewer.protocol.client_messages import ReplayRviz
     from coframe.viewer.protocol.common import RvizDisplay
+    from coframe.viewer.protocol.server_messages import Topic
     from coframe.viewer.replay.displays import Progress
     from coframe.viewer.robots.meshes import MeshTable
     from coframe.viewer.rviz.config import RvizConfig
-    from coframe.viewer.sources.source import Source, Topic
+    from coframe.viewer.sources.source import Source
     from coframe.viewer.sources.topic_messages import TopicMessages
 
 __all__ = ["export_replay"]
 
 _DEFAULT_RATE, _LOWEST_RATE = 30.0, 1.0
-# As in the page: how many topics are displayed without a configuration, and those that are too large for this.
-_MAX_AUTOMATIC = 12
-_HEAVY = frozenset({"Image"})
-# The options of the page's displays that change what the server prepares, with the page's defaults.
-_COLOR_BY = {"Intensity": "intensity", "AxisColor": "axis", "RGB8": "rgb", "FlatColor": "flat", "Distance": "distance"}
-_DEFAULT_TRANSFORMER = {"LaserScan": "Intensity", "PointCloud2": "AxisColor"}
-_DEFAULT_TRAIL = 100
 _FIRST_MESSAGE_TIMEOUT = 2.0  # seconds
 
 
@@ -75,7 +69,7 @@ def export_replay(
     Raises:
         ViewerError: The span is empty or too large.
     """
-    displays = _displays(rviz, source.topics())
+    displays = _displays(rviz, displayable(source.topics()))
     topics = [ROBOT_DESCRIPTION, *(rviz.description_topics if rviz is not None else [])]
     descriptions = RobotDescriptions(robot, dict.fromkeys(topics), meshes)
     descriptions.refresh(source, ImmediateExecutor())
@@ -126,7 +120,7 @@ def _displays(rviz: RvizConfig | None, topics: Sequence[Topic]) -> list[RvizDisp
     """Return the displays of a configuration, or those that the page chooses by itself."""
     if rviz is not None:
         return rviz.description()["displays"]
-    chosen = [topic for topic in topics if topic["display"] not in _HEAVY][:_MAX_AUTOMATIC]
+    chosen = [topic for topic in topics if DISPLAYS[topic["display"]].automatic][:MAX_AUTOMATIC_DISPLAYS]
     return [
         *(_display(name, name, None) for name in ("Grid", "TF")),
         *(_display(topic["display"], topic["topic"], topic["topic"]) for topic in chosen),
@@ -138,32 +132,16 @@ def _display(kind: str, name: str, topic: str | None) -> RvizDisplay:
 
 
 def _shows_topic(display: RvizDisplay) -> bool:
-    return bool(display["enabled"] and display["topic"] and display["class"] != "RobotModel")
+    return bool(display["enabled"] and display["topic"] and DISPLAYS[display["class"]].messages)
 
 
 def _shown(displays: Sequence[RvizDisplay], origin: int) -> list[ReplayDisplay]:
     """Return the topics of enabled displays, with the options with which the page would subscribe to them."""
     return [
-        ReplayDisplay(display["topic"] or "", Options.from_message(_options(display), origin))
+        ReplayDisplay(
+            display["topic"] or "",
+            Options.from_message(DISPLAYS[display["class"]].server_options(display["options"]), origin),
+        )
         for display in displays
         if _shows_topic(display)
     ]
-
-
-def _options(display: RvizDisplay) -> DisplayOptions:
-    options, kind = display["options"], display["class"]
-    chosen: dict[str, Any] = {}
-    if kind in _DEFAULT_TRANSFORMER:
-        transformer = options.get("Color Transformer")
-        chosen["color_by"] = _COLOR_BY[transformer if transformer in _COLOR_BY else _DEFAULT_TRANSFORMER[kind]]
-        chosen["axis"] = {"X": "x", "Y": "y"}.get(str(options.get("Axis")), "z")
-        chosen["decay"] = _number(options.get("Decay Time"), 0.0)
-    if kind == "Odometry":
-        chosen["keep"] = round(_number(options.get("Keep"), _DEFAULT_TRAIL))
-    # The checks of the protocol limit numbers from the file, which may be anything.
-    checked: DisplayOptions = record(DisplayOptions).build(chosen)
-    return checked
-
-
-def _number(value: Any, default: float) -> float:
-    return value if isinstance(value, int | float) and not isinstance(value, bool) else default

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from coframe.errors import ViewerError
 from coframe.regular_files import read_regular_text, reading_hint
+from coframe.viewer.displays.rows import DISPLAYS
 from coframe.viewer.protocol.server_messages import RvizConfiguration, RvizGlobalOptions, UnknownRvizPart
 from coframe.viewer.rviz.reading import MAX_FILE_BYTES, read_yaml, yaml_module
 from coframe.viewer.rviz.tools import merge_tools, read_tools
@@ -20,31 +21,7 @@ if TYPE_CHECKING:
 
     from coframe.viewer.protocol.common import RvizDisplay, RvizTool, RvizView
 
-__all__ = ["DISPLAY_CLASSES", "RvizConfig"]
-
-DISPLAY_CLASSES = frozenset(
-    {
-        "Axes",
-        "Camera",
-        "CameraInfo",
-        "Grid",
-        "Image",
-        "LaserScan",
-        "Map",
-        "Marker",
-        "MarkerArray",
-        "Odometry",
-        "Path",
-        "PointCloud2",
-        "Pose",
-        "PoseArray",
-        "PoseWithCovariance",
-        "Range",
-        "RobotModel",
-        "TF",
-    }
-)
-"""The displays of RViz that the page has, by class name without the package."""
+__all__ = ["RvizConfig"]
 
 VIEW_CLASSES = frozenset({"FPS", "FrameAligned", "Orbit", "ThirdPersonFollower", "TopDownOrtho", "XYOrbit"})
 
@@ -147,7 +124,7 @@ class RvizConfig:
         known: list[RvizDisplay] = []
         unknown: list[UnknownRvizPart] = []
         for found in _displays(self._manager, ""):
-            if found.plain_class in DISPLAY_CLASSES:
+            if found.plain_class in DISPLAYS:
                 options = {str(key): plain(value) for key, value in found.display.items() if key not in OWN_KEYS}
                 enabled = found.display.get("Enabled", True) is not False
                 known.append(
@@ -240,11 +217,11 @@ class RvizConfig:
         return "rviz" if any(name.startswith("rviz/") for name in classes) else "rviz_default_plugins"
 
     def _merge_displays(self, displays: Sequence[RvizDisplay]) -> None:
-        left = [found for found in _displays(self._manager, "") if found.plain_class in DISPLAY_CLASSES]
+        left = [found for found in _displays(self._manager, "") if found.plain_class in DISPLAYS]
         package = self._package
         new = []
         for shown in displays:
-            if shown["class"] not in DISPLAY_CLASSES:
+            if shown["class"] not in DISPLAYS:
                 continue
             key = (shown["class"], shown["name"] or shown["class"])
             match = next((found for found in left if (found.plain_class, found.name) == key), None)

@@ -9,8 +9,6 @@ from typing import TYPE_CHECKING, Any
 
 from coframe.time import MINUTE, SECOND
 from coframe.viewer.sources.adaptive_subscription import AdaptiveSubscription
-from coframe.viewer.sources.display_types import DISPLAY_OF_TYPE
-from coframe.viewer.sources.source import Mode, Topic
 from coframe.viewer.sources.topic_messages import LiveMessages
 
 if TYPE_CHECKING:
@@ -19,6 +17,7 @@ if TYPE_CHECKING:
     from coframe.bags import Recording
     from coframe.connection import Connection
     from coframe.doctor import Report
+    from coframe.viewer.sources.source import Mode
     from coframe.wire.endpoints import Subscription
     from coframe.wire.qos import QoS
 
@@ -53,15 +52,10 @@ class LiveSource:
         self._own = own
         self._subscriptions: weakref.WeakSet[AdaptiveSubscription] = weakref.WeakSet()
 
-    def topics(self) -> list[Topic]:
-        """Return the topics with a publisher or subscriber that can be displayed."""
+    def topics(self) -> list[tuple[str, str]]:
+        """Return the topics with a publisher or subscriber, with their types."""
         found = self._connection.participant.topics()
-        return [
-            Topic(topic=topic, type=ros_type, display=DISPLAY_OF_TYPE[ros_type])
-            for topic, ros_types in found.items()
-            for ros_type in ros_types
-            if ros_type in DISPLAY_OF_TYPE
-        ]
+        return [(topic, ros_type) for topic, ros_types in found.items() for ros_type in ros_types]
 
     def open(self, topic: str) -> LiveMessages | None:
         """Subscribe to a topic so that messages of all its publishers are received."""

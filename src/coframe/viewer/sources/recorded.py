@@ -10,8 +10,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from coframe.errors import DecodeError, ViewerError
-from coframe.viewer.sources.display_types import DISPLAY_OF_TYPE
-from coframe.viewer.sources.source import Mode, Topic
 from coframe.viewer.sources.topic_messages import StampedMessage
 
 if TYPE_CHECKING:
@@ -22,6 +20,7 @@ if TYPE_CHECKING:
     from coframe.bags import Recording
     from coframe.connection import Connection
     from coframe.doctor import Report
+    from coframe.viewer.sources.source import Mode
 
 __all__ = ["RecordedSource"]
 
@@ -49,13 +48,9 @@ class RecordedSource:
         self.recording: Recording | None = recording
         self._own = own
 
-    def topics(self) -> list[Topic]:
-        """Return the recorded topics that can be displayed."""
-        return [
-            Topic(topic=topic.name, type=topic.type, display=DISPLAY_OF_TYPE[topic.type])
-            for topic in self._recording.topics.values()
-            if topic.type in DISPLAY_OF_TYPE
-        ]
+    def topics(self) -> list[tuple[str, str]]:
+        """Return the recorded topics, with their types."""
+        return [(topic.name, topic.type) for topic in self._recording.topics.values()]
 
     def open(self, topic: str) -> RecordedMessages | None:
         """Return the messages of a topic; None if it was not recorded."""

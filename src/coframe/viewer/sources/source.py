@@ -5,8 +5,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Literal, Protocol
 
-from coframe.viewer.protocol.server_messages import Topic
-
 if TYPE_CHECKING:
     from collections.abc import Generator
 
@@ -16,7 +14,7 @@ if TYPE_CHECKING:
     from coframe.doctor import Report
     from coframe.viewer.sources.topic_messages import TopicMessages
 
-__all__ = ["BufferSource", "Mode", "Source", "Topic"]
+__all__ = ["BufferSource", "Mode", "Source"]
 
 Mode = Literal["live", "recording", "buffer"]
 
@@ -40,8 +38,8 @@ class Source(Protocol):
     recording: Recording | None
     span: tuple[int, int] | None
 
-    def topics(self) -> list[Topic]:
-        """Return the topics that can be displayed now, in order."""
+    def topics(self) -> list[tuple[str, str]]:
+        """Return the topics that exist now, with their types, in order."""
 
     def open(self, topic: str) -> TopicMessages | None:
         """Return the messages of a topic, which the caller closes; None if the topic does not exist."""
@@ -78,7 +76,7 @@ class BufferSource:
         self.title = title
         self.mode = mode
 
-    def topics(self) -> list[Topic]:
+    def topics(self) -> list[tuple[str, str]]:
         """Return no topics."""
         return []
 

@@ -3,24 +3,56 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypedDict
 
 import numpy as np
 
 from coframe.time import SECOND, stamp_ns
 from coframe.viewer.displays.drawing import CannotDrawError, Drawing, Options, finite, pose_row, rgba_of
+from coframe.viewer.displays.renderers import MeshUrl, NewMessages
+from coframe.viewer.displays.row import DisplayRow
+from coframe.viewer.protocol.common import PayloadRows  # noqa: TC001 - the protocol evaluates annotations
 from coframe.viewer.protocol.encoding import encode_shapes
-from coframe.viewer.protocol.shapes import MarkerItem, MarkersShape
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Sequence
 
-__all__ = ["MarkerSet"]
+    from coframe.viewer.sources.topic_messages import StampedMessage, TopicMessages
+
+__all__ = ["MARKER", "MARKER_ARRAY", "MarkerItem", "MarkerSet", "MarkersShape"]
 
 _ADD, _DELETE, _DELETE_ALL = 0, 2, 3
 MAX_MARKERS = 20_000
 MAX_NUMBERS = 10_000_000
+# How many earlier messages determine the markers after a jump in time.
+MAX_EARLIER_MESSAGES = 500
 _LARGE = MAX_NUMBERS // MAX_MARKERS  # Markers that are not larger cannot exceed the limit together.
+
+
+class MarkerItem(TypedDict):
+    """A marker; ``mesh`` is the URL of its mesh, ``mesh_problem`` the reason why there is none."""
+
+    ns: str
+    id: int
+    type: int
+    pose: list[float | None]
+    scale: list[float | None]
+    rgba: list[float | None]
+    text: str
+    use_materials: bool
+    mesh: str | None
+    mesh_problem: str | None
+    points: PayloadRows | None
+    colors: PayloadRows | None
+
+
+class MarkersShape(TypedDict):
+    """Markers that share a frame and a stamp."""
+
+    kind: Literal["markers"]
+    frame: str
+    stamp: float
+    items: list[MarkerItem]
 
 
 class _Group(NamedTuple):
@@ -44,7 +76,7 @@ class MarkerSet:
         mesh_url: Return the URL of a mesh that a marker names, or the reason why there is none.
     """
 
-    def __init__(self, mesh_url: Callable[[str], tuple[str | None, str | None]]) -> None:
+    def __init__(self, mesh_url: MeshUrl) -> None:
         self._mesh_url = mesh_url
         self._shown: dict[tuple[str, int], _Shown] = {}
         self._drawn: dict[_Group, tuple[tuple[int, ...], Drawing]] = {}
@@ -121,6 +153,29 @@ class MarkerSet:
         return Drawing(group.frame, group.stamp, encode_shapes(description, payload), group.locked)
 
 
+class MarkerRenderer:
+    """Maintains the set of markers that the messages define."""
+
+    def __init__(self, messages: TopicMessages, options: Options, mesh_url: MeshUrl) -> None:
+        self._new_messages = NewMessages(messages, MAX_EARLIER_MESSAGES)
+        self._options = options
+        self._set = MarkerSet(mesh_url)
+
+    def draw(self, message: StampedMessage, time: int) -> list[Drawing]:
+        """Return one drawing per group of visible markers."""
+        continues, new = self._new_messages.until(message)
+        if not continues:
+            self._set.clear()
+        for one in new:
+            self._set.apply(one.read(), one.time)
+        self._set.expire(time)
+        return self._set.draw(self._options)
+
+    def has_expired(self, time: int) -> bool:
+        """Return whether the lifetime of a marker is over."""
+        return self._set.has_expired(time)
+
+
 def _shown(marker: Any, time: int) -> _Shown:
     lifetime = marker.lifetime.sec * SECOND + marker.lifetime.nanosec
     locked = bool(marker.frame_locked)
@@ -153,3 +208,17 @@ def _item(marker: Any, points: Sequence[Any], colors: Sequence[Any], offset: int
 def _size(marker: Any) -> int:
     """Return how many numbers and characters of a marker are stored."""
     return 3 * len(marker.points) + 4 * len(marker.colors) + len(marker.text) + len(marker.ns)
+
+
+MARKER = DisplayRow(
+    name="Marker",
+    messages={"visualization_msgs/msg/Marker": MarkerRenderer},
+    shapes=(MarkersShape,),
+    projected=True,
+)
+MARKER_ARRAY = DisplayRow(
+    name="MarkerArray",
+    messages={"visualization_msgs/msg/MarkerArray": MarkerRenderer},
+    shapes=(MarkersShape,),
+    projected=True,
+)

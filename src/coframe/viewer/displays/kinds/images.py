@@ -11,10 +11,12 @@ import numpy as np
 
 from coframe.time import stamp_ns
 from coframe.viewer.displays.drawing import CannotDrawError, Drawing, Options
+from coframe.viewer.displays.renderers import each_message
+from coframe.viewer.displays.row import ChoiceOption, DisplayRow, FlagOption, NumberOption, Option
 from coframe.viewer.protocol.binary_messages import ImageFormat
 from coframe.viewer.protocol.encoding import encode_image
 
-__all__ = ["MAX_PIXELS", "draw_compressed_image", "draw_image"]
+__all__ = ["CAMERA", "IMAGE", "MAX_PIXELS", "draw_compressed_image", "draw_image"]
 
 MAX_PIXELS = 640 * 480
 """Raw images with more pixels are thinned to every n-th row and column."""
@@ -97,3 +99,37 @@ def _size_of_jpeg(head: bytes) -> tuple[int, int]:
         else:
             at += 2 + int.from_bytes(head[at + 2 : at + 4], "big")
     raise CannotDrawError("the JPEG data contains no image size")
+
+
+def _options(*, project: bool) -> tuple[Option, ...]:
+    needs = "Project"
+    return (
+        NumberOption("Width", 260.0, 60.0, 1600.0, 20.0, "px"),
+        FlagOption("Project", project, label="Project the scene"),
+        FlagOption("Project Frames", True, label="Frames", needs=needs),
+        FlagOption("Project Clouds", True, label="Clouds", needs=needs),
+        FlagOption("Project Shapes", True, label="Markers and paths", needs=needs),
+        ChoiceOption("Rectified", "By topic", ("By topic", "Yes", "No"), needs=needs),
+    )
+
+
+IMAGE = DisplayRow(
+    name="Image",
+    messages={
+        "sensor_msgs/msg/CompressedImage": each_message(draw_compressed_image),
+        "sensor_msgs/msg/Image": each_message(draw_image),
+    },
+    options=_options(project=False),
+    automatic=False,
+    large_in_replay=True,
+    has_surfaces=False,
+)
+CAMERA = DisplayRow(
+    name="Camera",
+    messages=IMAGE.messages,
+    options=_options(project=True),
+    selectable=False,
+    automatic=False,
+    large_in_replay=True,
+    has_surfaces=False,
+)

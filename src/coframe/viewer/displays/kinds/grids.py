@@ -9,11 +9,13 @@ import numpy as np
 
 from coframe.time import stamp_ns
 from coframe.viewer.displays.drawing import CannotDrawError, Drawing, Options, pose_row
+from coframe.viewer.displays.renderers import each_message
+from coframe.viewer.displays.row import ChoiceOption, DisplayRow, FlagOption, NumberOption
 from coframe.viewer.protocol.encoding import encode_grid
 
-__all__ = ["draw_grid"]
+__all__ = ["MAP", "draw_grid"]
 
-_LARGEST = float(np.finfo(np.float32).max)
+_MAX_FLOAT = float(np.finfo(np.float32).max)
 
 
 def draw_grid(grid: Any, _options: Options) -> Drawing:
@@ -23,7 +25,18 @@ def draw_grid(grid: Any, _options: Options) -> Drawing:
     if cells.size != info.width * info.height:
         raise CannotDrawError(f"a grid of {info.width} x {info.height} cells has data for {cells.size} cells")
     corner = pose_row(info.origin)
-    if not all(abs(number) <= _LARGEST for number in (info.resolution, *corner)):
+    if not all(abs(number) <= _MAX_FLOAT for number in (info.resolution, *corner)):
         raise CannotDrawError("the resolution or the origin of the grid is not a finite 32-bit number")
     data = encode_grid(float(info.resolution), corner, cells.reshape(info.height, info.width))
     return Drawing(grid.header.frame_id, stamp_ns(grid.header.stamp), data)
+
+
+MAP = DisplayRow(
+    name="Map",
+    messages={"nav_msgs/msg/OccupancyGrid": each_message(draw_grid)},
+    options=(
+        NumberOption("Alpha", 0.7, 0.0, 1.0, 0.05),
+        ChoiceOption("Color Scheme", "map", ("map", "costmap", "raw")),
+        FlagOption("Draw Behind", False),
+    ),
+)

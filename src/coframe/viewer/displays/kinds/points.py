@@ -11,13 +11,15 @@ from coframe.sensors import project_scan
 from coframe.sensors.layout import field_of, grid_of
 from coframe.time import stamp_ns
 from coframe.viewer.displays.drawing import CannotDrawError, Drawing, Options
+from coframe.viewer.displays.renderers import each_message
+from coframe.viewer.displays.row import ChoiceOption, ColorOption, DisplayRow, FlagOption, NumberOption, Option
 from coframe.viewer.protocol.client_messages import MAX_POINTS
 from coframe.viewer.protocol.encoding import encode_cloud
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-__all__ = ["draw_cloud", "draw_scan"]
+__all__ = ["LASER_SCAN", "POINT_CLOUD2", "draw_cloud", "draw_scan"]
 
 
 def draw_scan(scan: Any, options: Options) -> Drawing:
@@ -99,3 +101,36 @@ def _colors(packed: NDArray[Any], *, alpha: bool) -> NDArray[np.uint8]:
     if not alpha:
         colors[:, 3] = 255
     return colors
+
+
+def _options(size: float, transformer: str) -> tuple[Option, ...]:
+    return (
+        ChoiceOption(
+            "Color Transformer",
+            transformer,
+            choices=("Intensity", "AxisColor", "RGB8", "FlatColor", "Distance"),
+            meanings=("intensity", "axis", "rgb", "flat", "distance"),
+            sets="color_by",
+        ),
+        ChoiceOption("Axis", "Z", choices=("X", "Y", "Z"), meanings=("x", "y", "z"), sets="axis"),
+        FlagOption("Use Fixed Frame", True),
+        ColorOption("Color", "#ff5a36"),
+        ChoiceOption("Style", "Points", ("Points", "Flat Squares", "Spheres", "Boxes", "Squares")),
+        NumberOption("Size (Pixels)", 3.0, 1.0, 40.0, 1.0),
+        NumberOption("Size (m)", size, 0.001, 10.0, 0.01),
+        NumberOption("Alpha", 1.0, 0.0, 1.0, 0.05),
+        NumberOption("Decay Time", 0.0, 0.0, 3600.0, 0.5, "s", sets="decay"),
+    )
+
+
+LASER_SCAN = DisplayRow(
+    name="LaserScan",
+    messages={"sensor_msgs/msg/LaserScan": each_message(draw_scan)},
+    options=_options(0.03, "Intensity"),
+)
+POINT_CLOUD2 = DisplayRow(
+    name="PointCloud2",
+    messages={"sensor_msgs/msg/PointCloud2": each_message(draw_cloud)},
+    options=_options(0.01, "AxisColor"),
+    large_in_replay=True,
+)

@@ -1,0 +1,62 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The displays without a topic, which the page draws by itself: frames, grids, axes, and robots."""
+
+from __future__ import annotations
+
+from coframe.viewer.displays.row import (
+    FIXED_FRAME,
+    ChoiceOption,
+    ColorOption,
+    DisplayRow,
+    FlagOption,
+    NumberOption,
+    TextOption,
+)
+
+__all__ = ["AXES", "GRID", "ROBOT_MODEL", "TF"]
+
+TF = DisplayRow(
+    name="TF",
+    options=(
+        FlagOption("Show Names", True),
+        FlagOption("Show Axes", True),
+        FlagOption("Show Arrows", True),
+        NumberOption("Marker Scale", 1.0, 0.01, 1000.0, 0.1),
+        NumberOption("Frame Timeout", 15.0, 0.0, 86400.0, 1.0, "s"),
+    ),
+    has_surfaces=False,
+)
+
+GRID = DisplayRow(
+    name="Grid",
+    options=(
+        NumberOption("Cell Size", 1.0, 0.001, 10000.0, 0.1, "m"),
+        NumberOption("Plane Cell Count", 10.0, 1.0, 1000.0, 1.0),
+        ChoiceOption("Plane", "XY", ("XY", "XZ", "YZ")),
+        ColorOption("Color", ""),
+        NumberOption("Alpha", 0.5, 0.0, 1.0, 0.05),
+        TextOption("Reference Frame", FIXED_FRAME),
+    ),
+    has_surfaces=False,
+)
+
+AXES = DisplayRow(
+    name="Axes",
+    options=(
+        NumberOption("Length", 1.0, 0.001, 10000.0, 0.1, "m"),
+        NumberOption("Radius", 0.1, 0.0001, 1000.0, 0.01, "m"),
+        NumberOption("Alpha", 1.0, 0.0, 1.0, 0.05),
+        TextOption("Reference Frame", FIXED_FRAME),
+    ),
+    has_surfaces=False,
+)
+
+ROBOT_MODEL = DisplayRow(
+    name="RobotModel",
+    options=(
+        FlagOption("Visual Enabled", True),
+        FlagOption("Collision Enabled", False),
+        NumberOption("Alpha", 1.0, 0.0, 1.0, 0.05),
+        TextOption("TF Prefix", ""),
+    ),
+)

@@ -1,0 +1,166 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Poses: Pose, PoseArray, PoseWithCovariance, and Odometry with a trail."""
+
+from __future__ import annotations
+
+from collections import deque
+from typing import TYPE_CHECKING, Any, Literal, TypedDict
+
+from coframe.viewer.displays.drawing import (
+    Drawing,
+    Options,
+    PoseRow,
+    drawing_of_shapes,
+    finite_all,
+    header_of,
+    pose_row,
+    pose_rows,
+)
+from coframe.viewer.displays.renderers import MeshUrl, NewMessages, each_message
+from coframe.viewer.displays.row import ChoiceOption, ColorOption, DisplayRow, FlagOption, NumberOption
+from coframe.viewer.protocol.common import PayloadRows  # noqa: TC001 - the protocol evaluates annotations
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from coframe.viewer.sources.topic_messages import StampedMessage, TopicMessages
+
+__all__ = ["ODOMETRY", "POSE", "POSE_ARRAY", "POSE_WITH_COVARIANCE", "OdometryShape", "PosesShape"]
+
+
+class PosesShape(TypedDict):
+    """Poses of one message; 36 covariances, or none."""
+
+    kind: Literal["poses"]
+    frame: str
+    stamp: float
+    poses: PayloadRows
+    covariance: list[float | None] | None
+
+
+class OdometryShape(TypedDict):
+    """The trail of an odometry topic, newest pose last."""
+
+    kind: Literal["odometry"]
+    frame: str
+    child_frame: str
+    stamp: float
+    poses: PayloadRows
+    covariance: list[float | None] | None
+
+
+def draw_pose(message: Any, options: Options) -> Drawing:
+    """Draw a PoseStamped, or a PoseWithCovarianceStamped with its covariance."""
+    pose = message.pose
+    covariance = getattr(pose, "covariance", None)
+    if covariance is None:
+        return _draw_poses(message, [pose_row(pose)], None, options)
+    return _draw_poses(message, [pose_row(pose.pose)], finite_all(covariance), options)
+
+
+def draw_pose_array(message: Any, options: Options) -> Drawing:
+    """Draw a PoseArray."""
+    return _draw_poses(message, [pose_row(pose) for pose in message.poses], None, options)
+
+
+def draw_odometry(message: Any, trail: Sequence[PoseRow], options: Options) -> Drawing:
+    """Draw an Odometry message with a trail of the previous poses."""
+    poses = pose_rows(trail)
+    frame, stamp = header_of(message, options)
+    description = OdometryShape(
+        kind="odometry",
+        frame=frame,
+        child_frame=message.child_frame_id,
+        stamp=stamp,
+        poses=(0, len(poses)),
+        covariance=finite_all(message.pose.covariance),
+    )
+    return drawing_of_shapes(message, description, poses)
+
+
+class OdometryRenderer:
+    """Draws the last poses as a trail."""
+
+    def __init__(self, messages: TopicMessages, options: Options, _mesh_url: MeshUrl) -> None:
+        self._new_messages = NewMessages(messages, options.keep)
+        self._options = options
+        self._trail: deque[PoseRow] = deque(maxlen=options.keep)
+
+    def draw(self, message: StampedMessage, time: int) -> list[Drawing]:
+        """Return the drawing of the message and of the trail that ends there."""
+        del time
+        continues, new = self._new_messages.until(message)
+        if not continues:
+            self._trail.clear()
+        for one in new:
+            self._trail.append(pose_row(one.read().pose.pose))
+        return [draw_odometry(message.read(), list(self._trail), self._options)]
+
+    def has_expired(self, time: int) -> bool:
+        """Return False."""
+        del time
+        return False
+
+
+def _draw_poses(
+    message: Any, rows: Sequence[PoseRow], covariance: list[float | None] | None, options: Options
+) -> Drawing:
+    poses = pose_rows(rows)
+    frame, stamp = header_of(message, options)
+    description = PosesShape(kind="poses", frame=frame, stamp=stamp, poses=(0, len(poses)), covariance=covariance)
+    return drawing_of_shapes(message, description, poses)
+
+
+_SHAPE = (
+    ChoiceOption("Shape", "Arrow", ("Arrow", "Axes")),
+    ColorOption("Color", "#ff8a1f"),
+    NumberOption("Alpha", 1.0, 0.0, 1.0, 0.05),
+    NumberOption("Shaft Length", 0.35, 0.001, 100.0, 0.05, "m"),
+    NumberOption("Shaft Radius", 0.02, 0.0005, 10.0, 0.005, "m"),
+    NumberOption("Head Length", 0.12, 0.001, 100.0, 0.01, "m"),
+    NumberOption("Head Radius", 0.045, 0.001, 10.0, 0.005, "m"),
+    NumberOption("Axes Length", 0.3, 0.001, 100.0, 0.05, "m"),
+    NumberOption("Axes Radius", 0.02, 0.0005, 10.0, 0.005, "m"),
+)
+_SHOWN = "Covariance/Value"
+_COVARIANCE = (
+    FlagOption(_SHOWN, False, label="Covariance"),
+    FlagOption("Covariance/Position/Value", True, label="Position", needs=_SHOWN),
+    NumberOption("Covariance/Position/Scale", 1.0, 0.0, 1000.0, 1.0, label="Position Scale", needs=_SHOWN),
+    ColorOption("Covariance/Position/Color", "#cc33cc", label="Position Color", needs=_SHOWN),
+    NumberOption("Covariance/Position/Alpha", 0.3, 0.0, 1.0, 0.05, label="Position Alpha", needs=_SHOWN),
+    FlagOption("Covariance/Orientation/Value", True, label="Orientation", needs=_SHOWN),
+    NumberOption("Covariance/Orientation/Scale", 1.0, 0.0, 1000.0, 1.0, label="Orientation Scale", needs=_SHOWN),
+    NumberOption("Covariance/Orientation/Offset", 1.0, 0.0, 100.0, 0.1, "m", label="Orientation Offset", needs=_SHOWN),
+    ColorOption("Covariance/Orientation/Color", "#ffff7f", label="Orientation Color", needs=_SHOWN),
+    NumberOption("Covariance/Orientation/Alpha", 0.5, 0.0, 1.0, 0.05, label="Orientation Alpha", needs=_SHOWN),
+)
+
+POSE = DisplayRow(
+    name="Pose",
+    messages={"geometry_msgs/msg/PoseStamped": each_message(draw_pose)},
+    options=_SHAPE,
+    shapes=(PosesShape,),
+    projected=True,
+)
+POSE_ARRAY = DisplayRow(
+    name="PoseArray",
+    messages={"geometry_msgs/msg/PoseArray": each_message(draw_pose_array)},
+    options=_SHAPE,
+    shapes=(PosesShape,),
+    projected=True,
+)
+POSE_WITH_COVARIANCE = DisplayRow(
+    name="PoseWithCovariance",
+    messages={"geometry_msgs/msg/PoseWithCovarianceStamped": each_message(draw_pose)},
+    options=(*_SHAPE, *_COVARIANCE),
+    shapes=(PosesShape,),
+    projected=True,
+)
+ODOMETRY = DisplayRow(
+    name="Odometry",
+    messages={"nav_msgs/msg/Odometry": OdometryRenderer},
+    options=(*_SHAPE, NumberOption("Keep", 100.0, 1.0, 1000.0, 10.0, sets="keep"), *_COVARIANCE),
+    shapes=(OdometryShape,),
+    projected=True,
+)

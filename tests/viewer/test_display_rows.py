@@ -1,0 +1,340 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Every display of the viewer: its message types, its options in .rviz files, its drawings, its replay and its guide.
+
+`PROMISED` is what users' .rviz files and topics rely on. A display or a part of its row that is missing fails the test
+with its name.
+"""
+
+import dataclasses
+import re
+from array import array
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+pytest.importorskip("mcap", reason="the recordings of these tests are written by mcap")
+
+import recordings
+
+import coframe
+from coframe.messages import find, serialize
+from coframe.viewer.displays import CannotDrawError
+from coframe.viewer.displays.renderers import each_message
+from coframe.viewer.displays.row import DisplayRow, NumberOption
+from coframe.viewer.displays.rows import DISPLAY_OF_TYPE, DISPLAYS
+from coframe.viewer.replay.export import export_replay
+from coframe.viewer.robots.robot_message import make_mesh_table
+from coframe.viewer.rviz.config import RvizConfig
+from coframe.viewer.sources.recorded import RecordedSource
+
+SECOND = 1_000_000_000
+BEGIN = 1_700_000_000 * SECOND
+ROOT = Path(__file__).resolve().parents[2]
+
+POSE = {
+    "Shape": ("Arrow", "Axes"),
+    "Color": "#ff8a1f",
+    "Alpha": 1.0,
+    "Shaft Length": 0.35,
+    "Shaft Radius": 0.02,
+    "Head Length": 0.12,
+    "Head Radius": 0.045,
+    "Axes Length": 0.3,
+    "Axes Radius": 0.02,
+}
+COVARIANCE = {
+    "Covariance/Value": False,
+    "Covariance/Position/Value": True,
+    "Covariance/Position/Scale": 1.0,
+    "Covariance/Position/Color": "#cc33cc",
+    "Covariance/Position/Alpha": 0.3,
+    "Covariance/Orientation/Value": True,
+    "Covariance/Orientation/Scale": 1.0,
+    "Covariance/Orientation/Offset": 1.0,
+    "Covariance/Orientation/Color": "#ffff7f",
+    "Covariance/Orientation/Alpha": 0.5,
+}
+POINTS = {
+    "Color Transformer": ("Intensity", "AxisColor", "RGB8", "FlatColor", "Distance"),
+    "Axis": ("X", "Y", "Z"),
+    "Use Fixed Frame": True,
+    "Color": "#ff5a36",
+    "Style": ("Points", "Flat Squares", "Spheres", "Boxes", "Squares"),
+    "Size (Pixels)": 3.0,
+    "Alpha": 1.0,
+    "Decay Time": 0.0,
+}
+IMAGE = {
+    "Width": 260.0,
+    "Project Frames": True,
+    "Project Clouds": True,
+    "Project Shapes": True,
+    "Rectified": ("By topic", "Yes", "No"),
+}
+IMAGES = ("sensor_msgs/msg/CompressedImage", "sensor_msgs/msg/Image")
+
+# The message types of each display; the options with their keys in .rviz files and their defaults, or their choices;
+# and whether the page chooses it by itself, draws it above images, finds points on it, and a replay may thin it.
+PROMISED = {
+    "Axes": ((), {"Length": 1.0, "Radius": 0.1, "Alpha": 1.0, "Reference Frame": "<Fixed Frame>"}, "chosen"),
+    "Camera": (IMAGES, IMAGE | {"Project": True}, "large"),
+    "CameraInfo": (
+        ("sensor_msgs/msg/CameraInfo",),
+        {"Far Clip": 0.5, "Color": "#f5d90a", "Alpha": 0.15},
+        "chosen solid",
+    ),
+    "Grid": (
+        (),
+        {
+            "Cell Size": 1.0,
+            "Plane Cell Count": 10.0,
+            "Plane": ("XY", "XZ", "YZ"),
+            "Color": "",
+            "Alpha": 0.5,
+            "Reference Frame": "<Fixed Frame>",
+        },
+        "chosen",
+    ),
+    "Image": (IMAGES, IMAGE | {"Project": False}, "large"),
+    "LaserScan": (("sensor_msgs/msg/LaserScan",), POINTS | {"Size (m)": 0.03}, "chosen solid"),
+    "Map": (
+        ("nav_msgs/msg/OccupancyGrid",),
+        {"Alpha": 0.7, "Color Scheme": ("map", "costmap", "raw"), "Draw Behind": False},
+        "chosen solid",
+    ),
+    "Marker": (("visualization_msgs/msg/Marker",), {}, "chosen projected solid"),
+    "MarkerArray": (("visualization_msgs/msg/MarkerArray",), {}, "chosen projected solid"),
+    "Odometry": (("nav_msgs/msg/Odometry",), POSE | COVARIANCE | {"Keep": 100.0}, "chosen projected solid"),
+    "Path": (
+        ("nav_msgs/msg/Path",),
+        {
+            "Color": "#19d245",
+            "Alpha": 1.0,
+            "Line Style": ("Lines", "Billboards"),
+            "Line Width": 0.03,
+            "Pose Style": ("None", "Axes", "Arrows"),
+            "Length": 0.3,
+            "Radius": 0.03,
+        },
+        "chosen projected solid",
+    ),
+    "PointCloud2": (("sensor_msgs/msg/PointCloud2",), POINTS | {"Size (m)": 0.01}, "chosen large solid"),
+    "Pose": (("geometry_msgs/msg/PoseStamped",), POSE, "chosen projected solid"),
+    "PoseArray": (("geometry_msgs/msg/PoseArray",), POSE, "chosen projected solid"),
+    "PoseWithCovariance": (
+        ("geometry_msgs/msg/PoseWithCovarianceStamped",),
+        POSE | COVARIANCE,
+        "chosen projected solid",
+    ),
+    "Range": (("sensor_msgs/msg/Range",), {"Color": "#ffffff", "Alpha": 0.5}, "chosen solid"),
+    "RobotModel": (
+        (),
+        {"Visual Enabled": True, "Collision Enabled": False, "Alpha": 1.0, "TF Prefix": ""},
+        "chosen solid",
+    ),
+    "TF": (
+        (),
+        {
+            "Show Names": True,
+            "Show Axes": True,
+            "Show Arrows": True,
+            "Marker Scale": 1.0,
+            "Frame Timeout": 15.0,
+        },
+        "chosen",
+    ),
+}
+TYPES = sorted({ros_type for types, _, _ in PROMISED.values() for ros_type in types})
+SENT = {
+    "LaserScan": {"color_by": "intensity", "axis": "z", "decay": 0.0},
+    "PointCloud2": {"color_by": "axis", "axis": "z", "decay": 0.0},
+    "Odometry": {"keep": 100},
+}
+
+
+def traits(row):
+    found = {
+        "chosen": row.automatic,
+        "large": row.large_in_replay,
+        "projected": row.projected,
+        "solid": row.has_surfaces,
+    }
+    return " ".join(sorted(name for name, has in found.items() if has))
+
+
+@pytest.mark.parametrize("name", PROMISED)
+def test_the_row_of_a_display_is_complete(name):
+    types, options, properties = PROMISED[name]
+    row = DISPLAYS[name]
+    assert tuple(sorted(row.messages)) == types
+    defaults = {option.key: getattr(option, "choices", option.value) for option in row.options}
+    assert defaults == options
+    assert traits(row) == properties
+    sent = dataclasses.asdict(row.server_options({}))
+    assert {field: sent[field] for field in SENT.get(name, {})} == SENT.get(name, {})
+    assert {option.sets for option in row.options if option.sets} == SENT.get(name, {}).keys()
+    assert all(option.minimum <= option.value <= option.maximum for option in row.options if hasattr(option, "minimum"))
+    flags = {option.key for option in row.options if option.value in (True, False)}
+    assert {option.needs for option in row.options} - {""} <= flags
+
+
+def test_no_display_is_forgotten_in_this_test():
+    assert DISPLAYS.keys() == PROMISED.keys()
+
+
+def header(made, stamp=BEGIN + SECOND // 2):
+    made.header.frame_id = "base"
+    made.header.stamp.sec, made.header.stamp.nanosec = divmod(stamp, SECOND)
+    return made
+
+
+def sample(ros_type):  # noqa: PLR0911 - one per kind of message
+    """Return a message of a type with something to draw, and the kind of its drawing."""
+    made = find(ros_type)()
+    name = ros_type.rsplit("/", 1)[1]
+    if name == "MarkerArray":
+        made.markers = [sample("visualization_msgs/msg/Marker")[0]]
+        return made, "markers"
+    header(made)
+    if name == "Marker":
+        made.type, made.scale.x, made.color.a = 1, 1.0, 1.0
+        return made, "markers"
+    if name == "LaserScan":
+        made.ranges, made.range_max, made.angle_increment = [1.0, 2.0], 10.0, 0.1
+        return made, "cloud"
+    if name == "PointCloud2":
+        field = find("sensor_msgs/msg/PointField")
+        made.fields = [field(name=axis, offset=4 * i, datatype=7, count=1) for i, axis in enumerate("xyz")]
+        made.height, made.width, made.point_step, made.row_step = 1, 2, 12, 24
+        made.data = array("B", np.ones(6, "<f4").tobytes())
+        return made, "cloud"
+    if name == "OccupancyGrid":
+        made.info.width, made.info.height, made.info.resolution = 2, 1, 0.5
+        made.data = array("b", [0, 100])
+        return made, "grid"
+    if name == "Image":
+        made.width, made.height, made.step, made.encoding = 2, 1, 2, "mono8"
+        made.data = array("B", [1, 2])
+        return made, "image"
+    if name == "CompressedImage":
+        made.data = array("B", b"\x89PNG\r\n\x1a\n" + b"\0\0\0\rIHDR" + b"\0\0\0\2\0\0\0\1" + bytes(8))
+        return made, "image"
+    if name in {"Path", "PoseArray"}:
+        made.poses = [find("geometry_msgs/msg/PoseStamped" if name == "Path" else "geometry_msgs/msg/Pose")()]
+    kinds = {"Path": "path", "Odometry": "odometry", "Range": "range", "CameraInfo": "camera"}
+    return made, kinds.get(name, "poses")
+
+
+def topic_of(ros_type):
+    return "/" + ros_type.rsplit("/", 1)[1].lower()
+
+
+@pytest.fixture(scope="module")
+def recording(tmp_path_factory):
+    """Return a recording with a message of each type, and transforms of its frame."""
+    rows, types = recordings.messages(), {}
+    for ros_type in TYPES:
+        types[topic_of(ros_type)] = (ros_type, "ros2msg", b"", "cdr")
+        rows.append((topic_of(ros_type), BEGIN + SECOND // 2, serialize(sample(ros_type)[0])))
+    rows.sort(key=lambda row: row[1])
+    path = recordings.write_mcap(tmp_path_factory.mktemp("rows") / "all.mcap", rows=rows, types=types)
+    with coframe.open_bag(path) as bag:
+        yield bag
+
+
+@pytest.mark.parametrize("ros_type", TYPES)
+def test_a_tab_shows_messages_of_each_type(recording, view, open_tab, ros_type):
+    tab = open_tab(view(recording, fixed="odom"))
+    offered = {topic["topic"]: topic["display"] for topic in tab.has("hello")["topics"]}
+    (expected,) = (name for name, (types, _, _) in PROMISED.items() if ros_type in types and name != "Camera")
+    assert offered[topic_of(ros_type)] == expected
+    tab.send("subscribe", id=7, topic=topic_of(ros_type), options={})
+    update = tab.frame_update(lambda update: update.displays)
+    (owner,) = update.displays
+    drawn = tab.drawings[owner]
+    kind = sample(ros_type)[1]
+    assert (drawn.head["kind"] if hasattr(drawn, "head") else tab_kind(drawn)) == kind
+
+
+def tab_kind(drawn):
+    return "cloud" if hasattr(drawn, "points") else "grid" if hasattr(drawn, "cells") else "image"
+
+
+@pytest.fixture(scope="module")
+def replayed(recording):
+    """Return a replay of the displays that the viewer chooses by itself."""
+    return export_replay(RecordedSource(recording), make_mesh_table(None, []), rate=2.0).decode()
+
+
+@pytest.mark.parametrize("ros_type", [one for one in TYPES if one not in IMAGES])
+def test_a_replay_contains_messages_of_each_type(replayed, ros_type):
+    found = re.search(rf'"topic":"{topic_of(ros_type)}","type":"{ros_type}".*?"drawings":{{"\d+":"', replayed)
+    assert found is not None
+    assert len(found[0]) < 500, "the drawing belongs to this display"
+
+
+@pytest.mark.parametrize("name", PROMISED)
+def test_a_display_of_an_rviz_file_is_shown(name):
+    config = RvizConfig()
+    shown = {"class": name, "name": "mine", "enabled": True, "topic": "/t", "options": {}}
+    saved = RvizConfig.parse(config.merged([shown], {}, {}).text())
+    description = saved.description()
+    assert ([one["class"] for one in description["displays"]], description["unknown"]) == ([name], [])
+
+
+@pytest.mark.parametrize("name", PROMISED)
+def test_the_guide_lists_a_display_and_its_messages(name):
+    guide = (ROOT / "docs/how-to/viewer.md").read_text()
+    rows = re.findall(r"^ *\| ([\w, ]+?) \| (.+) \|$", guide, re.MULTILINE)
+    (content,) = (f"{names}: {content}" for names, content in rows if name in re.split(", ", names))
+    for ros_type in DISPLAYS[name].messages:
+        assert re.search(rf"\b{ros_type.rsplit('/', 1)[1]}\b", content)
+
+
+def test_the_guide_lists_no_other_displays():
+    guide = (ROOT / "docs/how-to/viewer.md").read_text()
+    table = guide[guide.index("| display | messages |") :].split("\n\n")[0]
+    names = re.findall(r"^ *\| ([\w, ]+?) \|", table, re.MULTILINE)[1:]
+    assert sorted(name for cell in names for name in cell.split(", ")) == sorted(PROMISED)
+
+
+@pytest.mark.parametrize("name", PROMISED)
+def test_the_page_has_a_class_for_each_display(name):
+    registry = (ROOT / "viewer/src/displays/registry.ts").read_text()
+    assert re.search(rf"^  {name}: \w+,$", registry, re.MULTILINE)
+
+
+def test_values_of_rviz_files_become_valid_options():
+    scan = DISPLAYS["LaserScan"]
+    odd = {"Color Transformer": ["x"], "Axis": 3, "Decay Time": float("nan")}
+    sent = scan.server_options(odd)
+    assert (sent.color_by, sent.axis, sent.decay) == ("intensity", "z", 0.0)
+    sent = scan.server_options({"Color Transformer": "RGB8", "Axis": "X", "Decay Time": 1e9})
+    assert (sent.color_by, sent.axis, sent.decay) == ("rgb", "x", 3600.0)
+    assert DISPLAYS["Odometry"].server_options({"Keep": 12.4}).keep == 12
+
+
+def test_a_row_is_all_that_a_new_display_needs(monkeypatch):
+    """A module with a row draws messages of its type; nothing else in the server knows displays."""
+    made, _ = sample("sensor_msgs/msg/Range")
+
+    def refuse(_message, _options):
+        raise CannotDrawError("drawn by the new row")
+
+    row = DisplayRow(
+        name="Echo", messages={"sensor_msgs/msg/Range": each_message(refuse)}, options=(NumberOption("A", 1, 0, 2, 1),)
+    )
+    monkeypatch.setitem(DISPLAY_OF_TYPE, "sensor_msgs/msg/Range", row)
+    monkeypatch.setitem(DISPLAYS, "Echo", row)
+    config = RvizConfig().merged(
+        [{"class": "Echo", "name": "mine", "enabled": True, "topic": "/t", "options": {}}], {}, {}
+    )
+    assert [one["class"] for one in config.description()["displays"]] == ["Echo"]
+    from coframe.viewer.displays.rows import displayable, make_renderer
+
+    assert displayable([("/r", "sensor_msgs/msg/Range")])[0]["display"] == "Echo"
+    messages = type("Messages", (), {"type": "sensor_msgs/msg/Range"})()
+    stamped = type("Stamped", (), {"read": lambda _self: made})()
+    with pytest.raises(CannotDrawError, match="drawn by the new row"):
+        make_renderer(messages, None, None).draw(stamped, 0)
