@@ -157,7 +157,7 @@ def test_hint_names_edges_without_a_common_time(tmp_path, stamps, at, text):
 
 
 def test_ctrl_c_before_completion_exits_with_130(bag, tmp_path, monkeypatch):
-    from coframe.bags import bag_repair, recording
+    from coframe.bags import bag_repair, contents
 
     def interrupted(*_arguments):
         raise KeyboardInterrupt
@@ -165,7 +165,7 @@ def test_ctrl_c_before_completion_exits_with_130(bag, tmp_path, monkeypatch):
     monkeypatch.setattr(bag_repair._Repair, "_repaired", interrupted)
     assert run("bag", "fix", bag, tmp_path / "new")[0] == 130
     assert list(tmp_path.iterdir()) == []
-    monkeypatch.setattr(recording.Recording, "_scan", interrupted)
+    monkeypatch.setattr(contents._Reading, "read", interrupted)
     for command in (("bag", "info", bag), ("lookup", bag, "odom", "base"), ("trajectory", bag, "odom", "base")):
         assert run(*command) == (130, "", "")
 

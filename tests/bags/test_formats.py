@@ -414,7 +414,7 @@ def test_files_that_are_not_recordings_are_errors(tmp_path):
     (tmp_path / "folder").mkdir()
     for name, reason in [
         ("empty.mcap", "the file is empty"),
-        ("text.db3", "neither MCAP nor SQLite"),
+        ("text.db3", "in none of these formats: MCAP, SQLite"),
         ("old.bag", "bags of version 1"),
         ("folder", "is not a recording"),
         ("gone", "cannot be read: No such file"),

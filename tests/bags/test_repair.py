@@ -79,8 +79,9 @@ def test_leading_slashes_of_frame_names_are_removed(shared, tmp_path):
     report = repair(shared / "recordings" / "tilt_laser.bag", tmp_path / "new")
     assert "/tf: 1422 frame names stripped of leading slashes" in report.changes
     assert "/scan: 178 frame names stripped of leading slashes" in report.changes
-    assert any("/temperature: 712 messages skipped: ROS 2 has no type" in sentence for sentence in report.changes)
     with coframe.open_bag(tmp_path / "new") as bag:
+        assert bag.topics["/temperature"].messages == 712  # of a type that ROS 2 does not have
+        assert not isinstance(next(bag.messages("/temperature")).message, bytes)
         assert {m.message.header.frame_id for m in bag.messages("/scan")} == {"laser"}
 
 

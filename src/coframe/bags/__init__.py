@@ -1,19 +1,24 @@
 # SPDX-License-Identifier: Apache-2.0
 """Recordings without ROS: rosbag2 (MCAP, SQLite) and bags of ROS 1."""
 
-from coframe.bags.bag_repair import RepairReport, repair
-from coframe.bags.batch import QueryResult, query_recording, query_recordings
-from coframe.bags.cloud_files import CLOUD_FORMATS, write_clouds
-from coframe.bags.clouds import Cloud, Clouds
-from coframe.bags.mcap_writer import COMPRESSIONS
-from coframe.bags.offered_qos import OfferedQos, from_yaml
-from coframe.bags.recording import RecordedMessage, Recording, Topic, open_bag
-from coframe.bags.summary import EdgeSummary, SensorSummary, Summary, TreeSummary, summarize
-from coframe.bags.time_points import parse_time_point
-from coframe.bags.trajectory_query import TrajectoryQuery
-from coframe.bags.writer import Writer
-from coframe.errors import RecordingError
-from coframe.trajectories import FORMATS, format_of, write_trajectory
+import importlib
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from coframe.bags.bag_repair import RepairReport, repair
+    from coframe.bags.batch import QueryResult, query_recording, query_recordings
+    from coframe.bags.cloud_files import CLOUD_FORMATS, write_clouds
+    from coframe.bags.clouds import Cloud, Clouds
+    from coframe.bags.mcap_writer import COMPRESSIONS
+    from coframe.bags.offered_qos import OfferedQos, from_yaml
+    from coframe.bags.recording import RecordedMessage, Recording, Topic, open_bag
+    from coframe.bags.recording_format import RecordingFormat
+    from coframe.bags.summary import EdgeSummary, SensorSummary, Summary, TreeSummary, summarize
+    from coframe.bags.time_points import parse_time_point
+    from coframe.bags.trajectory_query import TrajectoryQuery
+    from coframe.bags.writer import Writer
+    from coframe.errors import RecordingError
+    from coframe.trajectories import FORMATS, format_of, write_trajectory
 
 __all__ = [
     "CLOUD_FORMATS",
@@ -27,6 +32,7 @@ __all__ = [
     "RecordedMessage",
     "Recording",
     "RecordingError",
+    "RecordingFormat",
     "RepairReport",
     "SensorSummary",
     "Summary",
@@ -45,6 +51,46 @@ __all__ = [
     "write_clouds",
     "write_trajectory",
 ]
+
+# Names are imported on first use: completions and help texts need the suffixes in `formats`, without NumPy.
+_MODULES = {
+    "CLOUD_FORMATS": "coframe.bags.cloud_files",
+    "COMPRESSIONS": "coframe.bags.mcap_writer",
+    "Cloud": "coframe.bags.clouds",
+    "Clouds": "coframe.bags.clouds",
+    "EdgeSummary": "coframe.bags.summary",
+    "FORMATS": "coframe.trajectories",
+    "OfferedQos": "coframe.bags.offered_qos",
+    "QueryResult": "coframe.bags.batch",
+    "RecordedMessage": "coframe.bags.recording",
+    "Recording": "coframe.bags.recording",
+    "RecordingError": "coframe.errors",
+    "RecordingFormat": "coframe.bags.recording_format",
+    "RepairReport": "coframe.bags.bag_repair",
+    "SensorSummary": "coframe.bags.summary",
+    "Summary": "coframe.bags.summary",
+    "Topic": "coframe.bags.recording",
+    "TrajectoryQuery": "coframe.bags.trajectory_query",
+    "TreeSummary": "coframe.bags.summary",
+    "Writer": "coframe.bags.writer",
+    "format_of": "coframe.trajectories",
+    "from_yaml": "coframe.bags.offered_qos",
+    "open_bag": "coframe.bags.recording",
+    "parse_time_point": "coframe.bags.time_points",
+    "query_recording": "coframe.bags.batch",
+    "query_recordings": "coframe.bags.batch",
+    "repair": "coframe.bags.bag_repair",
+    "summarize": "coframe.bags.summary",
+    "write_clouds": "coframe.bags.cloud_files",
+    "write_trajectory": "coframe.trajectories",
+}
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _MODULES:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    value = globals()[name] = getattr(importlib.import_module(_MODULES[name]), name)
+    return value
 
 
 def __dir__() -> list[str]:

@@ -10,7 +10,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
-from coframe.bags.cdr_conversion import cdr_converter, copied_definition, decode_transforms
+from coframe.bags.cdr_conversion import cdr_conversion, copied_definition, decode_transforms
 from coframe.bags.message_frames import FrameNames
 from coframe.bags.namespaces import namespace_of
 from coframe.bags.offered_qos import OfferedQos, from_yaml, to_yaml
@@ -185,7 +185,7 @@ class _Repair:
                 progress(number, total)
             route = self._route(channel)
             if route is None:
-                self._count(channel, "messages skipped: ROS 2 has no type with the definition recorded in ROS 1")
+                self._count(channel, "messages skipped: their type of ROS 1 cannot be converted to ROS 2")
             elif not 0 <= received < 1 << 63:
                 self._count(channel, "messages skipped: invalid time of receipt")
             elif (message := self._repaired(channel, route, data)) is not None:
@@ -211,7 +211,7 @@ class _Repair:
     def _new_route(self, channel: Channel) -> _Route | None:
         offered = from_yaml(channel.offered_qos)
         rename = self._rename.on(channel.topic)
-        converted = cdr_converter(channel, self._recording.types)
+        converted = cdr_conversion(channel, self._recording.types)
         if converted is None:
             if channel.encoding == "ros1":
                 return None
@@ -225,14 +225,15 @@ class _Repair:
                 definition_format=channel.definition_format,
             )
             return _Route(topic, bytes, None, rename, transforms=False)
-        ros_type, convert = converted
-        is_copied = channel.encoding == "cdr"
-        definition, format_ = copied_definition(channel, self._recording.types) if is_copied else (None, "ros2msg")
+        definition, format_ = converted.definition, "ros2msg"
+        if channel.encoding == "cdr":
+            definition, format_ = copied_definition(channel, self._recording.types)
         topic = self._writer.add_topic(
-            channel.topic, ros_type, offered_qos=offered, definition=definition, definition_format=format_
+            channel.topic, converted.type, offered_qos=offered, definition=definition, definition_format=format_
         )
-        names = FrameNames.of(channel, ros_type, self._recording.types)
-        return _Route(topic, convert, names if names and names.exist else None, rename, ros_type == _TF)
+        names = FrameNames.of(channel, converted.type, self._recording.types)
+        frames = names if names and names.exist else None
+        return _Route(topic, converted.convert, frames, rename, converted.type == _TF)
 
     def _repaired(self, channel: Channel, route: _Route, data: bytes) -> bytes | None:
         """Return the repaired message; None if it is damaged."""
@@ -303,11 +304,11 @@ class _Repair:
         found: dict[str, tuple[Channel, dict[str, TransformStamped]]] = {}
         early: set[tuple[str, str]] = set()
         for channel, received, data in self._recording.in_order(filter(is_static, self._recording.topics)):
-            converted = cdr_converter(channel, self._recording.types)
-            if converted is None or converted[0] != _TF:
+            converted = cdr_conversion(channel, self._recording.types)
+            if converted is None or converted.type != _TF:
                 continue
             known = found.setdefault(channel.topic, (channel, {}))[1]
-            for transform in decode_transforms(converted[1], data):
+            for transform in decode_transforms(converted.convert, data):
                 key = (channel.topic, transform.child_frame_id)
                 if received <= self._recording.start:
                     early.add(key)

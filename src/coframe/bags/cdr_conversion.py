@@ -1,13 +1,18 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Conversion of recorded messages to CDR: those of ROS 1 are converted if ROS 2 has the type."""
+"""Conversion of recorded messages of ROS 1 to CDR."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
+from coframe.bags.recorded_types import UnknownTypeError
 from coframe.errors import DecodeError
-from coframe.messages import deserialize, find, serialize
+from coframe.messages import Message, deserialize, find, serialize
 from coframe.messages.codec import deserialize_ros1
+from coframe.messages.definition import AbstractNestedType, NamespacedType
+from coframe.messages.definition_texts import recorded_definition
+from coframe.messages.registry import class_of
+from coframe.messages.schema_classes import known_class
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -16,23 +21,83 @@ if TYPE_CHECKING:
     from coframe.bags.storage import Channel
     from coframe.messages.generated.geometry_msgs.msg import TransformStamped
 
-__all__ = ["cdr_converter", "copied_definition", "decode_transforms"]
+__all__ = ["Conversion", "cdr_conversion", "copied_definition", "decode_transforms"]
 
 
-def cdr_converter(channel: Channel, types: RecordedTypes) -> tuple[str, Callable[[bytes], bytes]] | None:
-    """Return the ROS 2 type of a channel and the function that converts its messages to CDR.
+class Conversion(NamedTuple):
+    """How the messages of a channel become messages of ROS 2 in CDR.
 
-    Returns:
-        None if the messages cannot be converted. The function raises an Exception if the bytes are damaged.
+    Attributes:
+        type: The type of ROS 2.
+        definition: Its definition, as ``ros2msg``; None: that of coframe.
+        convert: Converts the bytes of a message. It raises an Exception if they are damaged.
+    """
+
+    type: str
+    definition: str | None
+    convert: Callable[[bytes], bytes]
+
+
+def cdr_conversion(channel: Channel, types: RecordedTypes) -> Conversion | None:
+    """Return how the messages of a channel are converted to CDR; None if that is not possible.
+
+    A type of ROS 1 that coframe has with other fields is converted by the names of the fields: new ones have their
+    default. A type that coframe does not have keeps its name and its fields, as those of the teams themselves do.
     """
     if channel.encoding == "cdr":
-        return channel.type, bytes
+        return Conversion(channel.type, None, bytes)
     if channel.encoding != "ros1":
         return None
-    cls = types.own_class(channel)
-    if cls is None:
+    try:
+        recorded = types.message_class(channel)
+        known = known_class(recorded.ROS_TYPE)
+        unknown = None if known else recorded_definition(recorded, types.schema(channel))
+    except UnknownTypeError:
         return None
-    return cls.ROS_TYPE, lambda data: serialize(deserialize_ros1(data, cls))
+    if known is not None and not _has_fields(known, recorded):
+        return None
+
+    def convert(data: bytes) -> bytes:
+        message = deserialize_ros1(data, recorded)
+        return serialize(message if known is None else _with_fields(known, message))
+
+    return Conversion(recorded.ROS_TYPE if known is None else known.ROS_TYPE, unknown, convert)
+
+
+def _has_fields(cls: Any, recorded: Any) -> bool:
+    """Return whether a class has all fields of a recorded one; capital letters make no difference."""
+    if recorded is cls:
+        return True
+    own, theirs = _message_classes(cls), _message_classes(recorded)
+    return own.keys() >= theirs.keys() and all(
+        inner is None or (own[name] is not None and _has_fields(own[name], inner)) for name, inner in theirs.items()
+    )
+
+
+def _with_fields(cls: Any, message: Any) -> Any:
+    """Return a message of a class with the values of another one, whose fields the class has."""
+    if isinstance(message, cls):
+        return message
+    names = {slot.lower(): slot[1:] for slot in cls.__slots__}
+    inner = _message_classes(cls)
+    converted = cls()
+    for slot in message.__slots__:
+        value = getattr(message, slot)
+        if isinstance(value, Message):
+            value = _with_fields(inner[slot.lower()], value)
+        elif isinstance(value, list) and value and isinstance(value[0], Message):
+            value = [_with_fields(inner[slot.lower()], each) for each in value]
+        setattr(converted, names[slot.lower()], value)
+    return converted
+
+
+def _message_classes(cls: Any) -> dict[str, Any]:
+    """Return the class of the messages in each field, None for other fields, by the slot in lower case."""
+    found: dict[str, Any] = {}
+    for slot, type_ in zip(cls.__slots__, cls.SLOT_TYPES, strict=True):
+        inner = type_.value_type if isinstance(type_, AbstractNestedType) else type_
+        found[slot.lower()] = class_of(inner) if isinstance(inner, NamespacedType) else None
+    return found
 
 
 def copied_definition(channel: Channel, types: RecordedTypes) -> tuple[str | None, str]:
@@ -50,7 +115,7 @@ def decode_transforms(convert: Callable[[bytes], bytes], data: bytes) -> list[Tr
     """Return the transforms of a TFMessage; an empty list if it is damaged.
 
     Args:
-        convert: The function of :func:`cdr_converter`.
+        convert: The function of :func:`cdr_conversion`.
         data: The message as recorded.
     """
     kind: Any = find("tf2_msgs/msg/TFMessage")

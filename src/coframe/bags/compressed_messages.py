@@ -24,7 +24,7 @@ class UnpackedMessages(Storage):
 
     def __init__(self, packed: Storage, compression: str) -> None:
         super().__init__(packed.path, packed.problems)
-        self.format = packed.format  # type: ignore[misc]
+        self.format = packed.format
         self.compressions = {f"{compression} (each message)"}
         self._packed = packed
         self._compression = compression

@@ -10,7 +10,7 @@ from contextlib import ExitStack
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
-from coframe.bags.cdr_conversion import cdr_converter, copied_definition
+from coframe.bags.cdr_conversion import cdr_conversion, copied_definition
 from coframe.bags.offered_qos import from_yaml
 from coframe.bags.recorded_types import RecordedTypes
 from coframe.bags.recording import open_bag
@@ -156,7 +156,8 @@ def _route(writer: Writer, channel: Channel, types: RecordedTypes) -> tuple[int,
             definition_format=definition_format,
         )
         return topic, bytes
-    converted = cdr_converter(channel, types)
+    converted = cdr_conversion(channel, types)
     if converted is None:
         return None
-    return writer.add_topic(channel.topic, converted[0], offered_qos=offered), converted[1]
+    topic = writer.add_topic(channel.topic, converted.type, offered_qos=offered, definition=converted.definition)
+    return topic, converted.convert

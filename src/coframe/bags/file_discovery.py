@@ -14,12 +14,11 @@ from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO, NamedTuple
 
-from coframe.bags import mcap_file, ros1_file, sqlite_file
 from coframe.bags.compressed_messages import UnpackedMessages
+from coframe.bags.formats import COMPRESSED, METADATA, file_kinds, formats, has_known_suffix, is_recording, matches
 from coframe.bags.storage import Channel, unpacked_budget
 from coframe.bounded_yaml import read_yaml
 from coframe.errors import RecordingError
-from coframe.existence import is_file
 from coframe.formatting import listed
 from coframe.regular_files import UnsuitableFileError, open_regular, read_regular, reading_hint
 from coframe.temporary_folders import temporary_folder
@@ -31,20 +30,12 @@ if TYPE_CHECKING:
     from coframe.bags.problems import Problems
     from coframe.bags.storage import Storage
 
-__all__ = ["OpenedFiles", "open_files", "recording_stem"]
+__all__ = ["OpenedFiles", "open_files"]
 
 _ZSTD = b"\x28\xb5\x2f\xfd"
-_READERS: dict[bytes, type[Storage]] = {
-    mcap_file.MAGIC: mcap_file.McapStorage,
-    sqlite_file.MAGIC: sqlite_file.SqliteStorage,
-    ros1_file.MAGIC: ros1_file.Ros1Storage,
-}
-_SUFFIXES = (".mcap", ".db3", ".bag")
-_METADATA = "metadata.yaml"
 _UNPACKED_PIECE = 1 << 20  # bytes
 _LARGEST_METADATA = 16 << 20
 _MAX_EXPANSION = 16 << 20  # bytes; data that cannot be compressed grows by less than that
-_ROS1_DATE = re.compile(r"[_-]?\d{4}(-\d\d){5}$", re.ASCII)
 
 
 class OpenedFiles(NamedTuple):
@@ -65,10 +56,10 @@ def open_files(path: Path, problems: Problems, closing: ExitStack) -> OpenedFile
     Raises:
         RecordingError: No file can be read.
     """
-    if path.name == _METADATA:
+    if path.name == METADATA:
         path = path.parent
     try:
-        metadata = _metadata(path / _METADATA, problems) if path.is_dir() else {}
+        metadata = _metadata(path / METADATA, problems) if path.is_dir() else {}
         candidates = _candidates(path, metadata, problems) if path.is_dir() else [path]
         found = [storage for file in candidates if (storage := _open(file, problems, closing)) is not None]
     except OSError as error:
@@ -80,22 +71,12 @@ def open_files(path: Path, problems: Problems, closing: ExitStack) -> OpenedFile
         reasons = problems.sentences()
         raise RecordingError(
             f"{path} is not a recording" + (f": {reasons[0].removeprefix(f'{path}: ')}" if reasons else ""),
-            hint=_inner_recordings(path) or "Give a .mcap, .db3 or .bag file, or the folder that contains such files.",
+            hint=_inner_recordings(path) or f"Give a {file_kinds()}, or the folder that contains such files.",
         )
     if _word(metadata, "compression_mode").lower() == "message":
         compression = _word(metadata, "compression_format")
         found = [UnpackedMessages(storage, compression) for storage in found]
     return OpenedFiles(found, list(_listed_topics(metadata)))
-
-
-def recording_stem(file: Path) -> str:
-    """Return what the names of the files of one recording have in common: `run` for `run_0.mcap` and `run_1.mcap`.
-
-    The files of a split ROS 1 bag also have their own start time in the name, as in `2024-05-01-10-00-00_0.bag`.
-    """
-    stem = file.name.removesuffix(".zstd").rpartition(".")[0] or file.name
-    bare, numbered, number = stem.rpartition("_")
-    return _ROS1_DATE.sub("", bare) if numbered and number.isdigit() else stem
 
 
 def _existing_instead(path: Path) -> str:
@@ -110,14 +91,14 @@ def _existing_instead(path: Path) -> str:
     near = difflib.get_close_matches(path.name, names, n=1) or [name for name in names if Path(name).stem == path.name]
     if near:
         return f"Did you mean {str(path.with_name(near[0]))!r}?"
-    recordings = [each.name for each in entries if each.suffix in _SUFFIXES or is_file(each / _METADATA)]
+    recordings = [each.name for each in entries if is_recording(each)]
     return f"Recordings in {str(path.parent.absolute())!r}: {listed(recordings)}." if recordings else ""
 
 
 def _inner_recordings(folder: Path) -> str:
     """Return a hint that names the recordings inside a folder; "" if there are none."""
     try:
-        inner = [each.name for each in sorted(folder.iterdir()) if each.is_dir() and (each / _METADATA).is_file()]
+        inner = [each.name for each in sorted(folder.iterdir()) if each.is_dir() and (each / METADATA).is_file()]
     except OSError:
         return ""
     return f"Give one of the recordings in this folder: {listed(inner)}." if inner else ""
@@ -129,21 +110,20 @@ def _candidates(folder: Path, metadata: dict[str, Any], problems: Problems) -> l
     listed: list[Path] = []
     for name in _listed(metadata):
         file = folder / Path(name).name
-        same = [other for other in existing if other.name in {file.name, f"{file.name}.zstd"}]
+        same = [other for other in existing if other.name in {file.name, f"{file.name}{COMPRESSED}"}]
         listed += same
         if not same and not file.exists():
-            problems.add(f"{_METADATA} lists {Path(name).name}, which does not exist")
+            problems.add(f"{METADATA} lists {Path(name).name}, which does not exist")
     others = [file for file in existing if file not in listed]
     # The order of these files does not matter, because messages are sorted by time.
     if metadata and others:
         names = ", ".join(file.name for file in others)
-        problems.add(f"{_METADATA} does not list {names}; {'it was' if len(others) == 1 else 'they were'} read as well")
+        problems.add(f"{METADATA} does not list {names}; {'it was' if len(others) == 1 else 'they were'} read as well")
     return list(dict.fromkeys([*listed, *others]))
 
 
 def _is_candidate(file: Path, problems: Problems) -> bool:
-    suffixes = [suffix for suffix in file.suffixes if suffix != ".zstd"]
-    is_named_so = bool(suffixes and suffixes[-1] in _SUFFIXES)
+    is_named_so = has_known_suffix(file)
     try:
         start = _beginning(file)
     except FileNotFoundError:  # A running recorder renames its metadata between the listing and this line.
@@ -152,7 +132,7 @@ def _is_candidate(file: Path, problems: Problems) -> bool:
         if is_named_so and not file.is_dir():
             problems.add(f"{file.name} cannot be read: {error.strerror or error}")
         return False
-    return is_named_so or any(start.startswith(magic) for magic in _READERS)
+    return is_named_so or any(matches(each, file, start) for each in formats())
 
 
 def _beginning(file: Path) -> bytes:
@@ -172,19 +152,15 @@ def _open(file: Path, problems: Problems, closing: ExitStack) -> Storage | None:
     start = _beginning(file)
     if start.startswith(_ZSTD):
         file, start = _unpacked(file, problems, closing)
-    for magic, reader in _READERS.items():
-        if start.startswith(magic):
-            storage = reader(file, problems)
+    for each in formats():
+        if matches(each, file, start):
+            storage = each.open(file, problems)
             closing.callback(storage.close)
             return storage
-    if start.startswith(b"#ROSBAG V1"):
-        problems.add(
-            f"{file.name}: bags of version 1 are not supported; convert it to version 2.0 with `rosbag fix` of ROS 1"
-        )
-    elif not start:
-        problems.add(f"{file.name}: the file is empty")
-    else:
-        problems.add(f"{file.name}: the file is neither MCAP nor SQLite nor a bag of ROS 1")
+    names = [each.name for each in formats()]
+    reason = next(filter(None, (each.refusal(start) for each in formats())), "")
+    unknown = f"the file is in none of these formats: {', '.join(names)}" if start else "the file is empty"
+    problems.add(f"{file.name}: {reason or unknown}")
     return None
 
 
@@ -197,7 +173,7 @@ def _unpacked(file: Path, problems: Problems, closing: ExitStack) -> tuple[Path,
             f"{file} is compressed, and the package zstandard is not installed", hint="pip install 'coframe[bags]'"
         ) from None
     folder = Path(closing.enter_context(temporary_folder("coframe-unpacked-")))
-    target = folder / file.name.removesuffix(".zstd")
+    target = folder / file.name.removesuffix(COMPRESSED)
     budget = unpacked_budget(file.stat().st_size)
     # A damaged file yields a truncated one, and reading that reports the damage.
     with open_regular(file) as packed, target.open("wb") as whole, suppress(zstandard.ZstdError):
@@ -237,12 +213,12 @@ def _metadata(file: Path, problems: Problems) -> dict[str, Any]:
     except FileNotFoundError:
         pass
     except UnsuitableFileError as error:
-        problems.add(f"{_METADATA} cannot be read: {error.strerror}; the files were read without it")
+        problems.add(f"{METADATA} cannot be read: {error.strerror}; the files were read without it")
     except ModuleNotFoundError:
-        problems.add(f"{_METADATA} was not read: the package PyYAML is not installed")
+        problems.add(f"{METADATA} was not read: the package PyYAML is not installed")
     except (ValueError, TypeError, KeyError) as error:
         reason = " ".join(str(error).split())[:200]
-        problems.add(f"{_METADATA} is damaged ({reason}); the files were read without it")
+        problems.add(f"{METADATA} is damaged ({reason}); the files were read without it")
     return found
 
 

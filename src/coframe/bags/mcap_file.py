@@ -12,6 +12,7 @@ import numpy as np
 
 from coframe import _core
 from coframe.bags.compression import LARGEST, DamagedError, unpack
+from coframe.bags.formats import MCAP
 from coframe.bags.storage import MOST_DAMAGED, Batch, Channel, ChunkedStorage, next_chunk
 from coframe.messages.schemas import ros_name
 from coframe.messages.slices import Slices
@@ -22,9 +23,7 @@ if TYPE_CHECKING:
 
     from coframe.bags.problems import Problems
 
-__all__ = ["MAGIC", "McapStorage"]
-
-MAGIC = b"\x89MCAP0\r\n"
+__all__ = ["McapStorage"]
 
 _FOOTER, _SCHEMA, _CHANNEL, _MESSAGE, _CHUNK, _CHUNK_INDEX, _DATA_END = 0x02, 0x03, 0x04, 0x05, 0x06, 0x08, 0x0F
 _LAST_OPCODE = 0x0F  # opcodes from 0x80 are reserved for applications
@@ -33,13 +32,13 @@ _MESSAGE_RECORD = struct.Struct("<BQHIQQ")  # opcode, length, channel, sequence,
 _CHUNK_HEAD = struct.Struct("<QQQI")  # first and last log time, unpacked size, its CRC or 0
 _BLOCK = 4 << 20  # bytes to read at once of records outside chunks
 _FOOTER_RECORD = struct.Struct("<BQQQI")  # opcode, length, start of the summary, of its offsets, CRC
-_CRC_AND_MAGIC = 4 + len(MAGIC)  # bytes at the end of the file that the CRC of the summary does not cover
+_CRC_AND_MAGIC = 4 + len(MCAP.magic)  # bytes at the end of the file that the CRC of the summary does not cover
 
 
 class McapStorage(ChunkedStorage):
     """An MCAP file."""
 
-    format = "MCAP"
+    format = MCAP
 
     def __init__(self, path: Path, problems: Problems) -> None:
         super().__init__(path, problems)
@@ -69,7 +68,7 @@ class McapStorage(ChunkedStorage):
 
     def _walk(self, chunks: list[int]) -> Iterator[tuple[int, int, int]]:
         """Yield offset, opcode and end of each record of the data section; continue at the next chunk after damage."""
-        offset, damaged = len(MAGIC), 0
+        offset, damaged = len(MCAP.magic), 0
         while (head := self.bytes_at(offset, _RECORD.size)) and len(head) == _RECORD.size:
             opcode, length = _RECORD.unpack(head)
             end = offset + _RECORD.size + length
@@ -92,7 +91,7 @@ class McapStorage(ChunkedStorage):
 
     def _read_summary(self) -> list[int]:
         """Read the channels in the summary at the end of the file; return the offsets of the chunks it lists."""
-        tail = self.bytes_at(self.size - _FOOTER_RECORD.size - len(MAGIC), _FOOTER_RECORD.size)
+        tail = self.bytes_at(self.size - _FOOTER_RECORD.size - len(MCAP.magic), _FOOTER_RECORD.size)
         if len(tail) < _FOOTER_RECORD.size:
             return []
         opcode, _, start, _, crc = _FOOTER_RECORD.unpack(tail)
@@ -114,7 +113,7 @@ class McapStorage(ChunkedStorage):
 
     def _check_footer(self, data_end: int) -> None:
         """Report a footer that does not match the end of the data."""
-        tail = self.bytes_at(self.size - _FOOTER_RECORD.size - len(MAGIC), _FOOTER_RECORD.size)
+        tail = self.bytes_at(self.size - _FOOTER_RECORD.size - len(MCAP.magic), _FOOTER_RECORD.size)
         if len(tail) < _FOOTER_RECORD.size or tail[0] != _FOOTER:
             self.add_problem("the footer is missing; the recorder may have been killed")
             return

@@ -16,6 +16,7 @@ from array import array
 from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
+from coframe.bags.formats import MCAP
 from coframe.errors import RecordingError
 
 if TYPE_CHECKING:
@@ -26,7 +27,6 @@ __all__ = ["COMPRESSIONS", "McapWriter", "compressor"]
 
 COMPRESSIONS = ("none", "zstd", "lz4")
 
-_MAGIC = b"\x89MCAP0\r\n"
 _HEADER, _FOOTER, _SCHEMA, _CHANNEL, _CHUNK, _MESSAGE_INDEX, _CHUNK_INDEX = 0x01, 0x02, 0x03, 0x04, 0x06, 0x07, 0x08
 _STATISTICS, _SUMMARY_OFFSET, _DATA_END = 0x0B, 0x0E, 0x0F
 _RECORD = struct.Struct("<BQ")  # opcode, length
@@ -72,7 +72,7 @@ class McapWriter:
         self.counts: list[int] = []
         self.start = 0
         self.end = 0
-        self._append(_MAGIC + _record(_HEADER, _text("ros2") + _text("coframe")), with_summary=False)
+        self._append(MCAP.magic + _record(_HEADER, _text("ros2") + _text("coframe")), with_summary=False)
 
     @property
     def size(self) -> int:
@@ -226,7 +226,7 @@ class McapWriter:
                 summary += records
         footer = _RECORD.pack(_FOOTER, 20) + struct.pack("<QQ", start, start + len(summary))
         checksum = zlib.crc32(summary + offsets + footer)
-        return data_end + bytes(summary + offsets) + footer + struct.pack("<I", checksum) + _MAGIC
+        return data_end + bytes(summary + offsets) + footer + struct.pack("<I", checksum) + MCAP.magic
 
     def _definition_groups(self) -> list[tuple[int, bytearray]]:
         """Return the schemas and the channels, as two groups."""
@@ -272,7 +272,7 @@ def _text(text: str) -> bytes:
 
 
 # The end of a file without a summary.
-_END = _record(_DATA_END, bytes(4)) + _record(_FOOTER, bytes(20)) + _MAGIC
+_END = _record(_DATA_END, bytes(4)) + _record(_FOOTER, bytes(20)) + MCAP.magic
 
 
 def compressor(name: str) -> Callable[[bytes], bytes]:

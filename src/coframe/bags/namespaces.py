@@ -30,11 +30,15 @@ class TopicFilter:
     Args:
         namespace: The namespace of the topics; None: all.
         topics: The names of the topics; None: all.
+
+    Attributes:
+        names: The names of the topics as given; empty: all.
     """
 
     def __init__(self, namespace: str | None = None, topics: Iterable[str] | None = None) -> None:
+        self.names = list(topics or [])
         self._namespace = None if namespace is None else _bare(namespace)
-        self._topics = None if topics is None else {_bare(topic) for topic in topics}
+        self._topics = None if topics is None else {_bare(topic) for topic in self.names}
 
     def __call__(self, topic: str) -> bool:
         """Return whether the transforms on a topic are read."""

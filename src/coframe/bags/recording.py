@@ -4,28 +4,21 @@
 from __future__ import annotations
 
 import weakref
-from contextlib import ExitStack
 from functools import cached_property
-from itertools import pairwise
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from coframe import html_tables, time
+from coframe.bags.contents import read_contents
 from coframe.bags.decoding import decoder
-from coframe.bags.file_discovery import open_files, recording_stem
-from coframe.bags.message_index import MessageIndex, largest_track, reread
-from coframe.bags.namespaces import TopicFilter, TransformCollector, main_span, report_mixed_clocks
-from coframe.bags.problems import Problems
+from coframe.bags.namespaces import TopicFilter, main_span
 from coframe.bags.recorded_message import RecordedMessage, Topic
-from coframe.bags.recorded_types import RecordedTypes
 from coframe.bags.table import edge_table
-from coframe.bags.transforms import ingest_for
-from coframe.errors import DecodeError, RecordingError
-from coframe.formatting import count, listed
-from coframe.frame_names import absolute, kept, renaming
-from coframe.freed_memory import collection_paused
+from coframe.errors import DecodeError
+from coframe.formatting import count
+from coframe.frame_names import kept, renaming
 
 if TYPE_CHECKING:
     import os
@@ -35,17 +28,13 @@ if TYPE_CHECKING:
     from typing_extensions import Self
 
     from coframe import _core
-    from coframe.bags.message_index import Track
-    from coframe.bags.storage import Channel, Storage
-    from coframe.buffer import Buffer
+    from coframe.bags.contents import Contents
+    from coframe.bags.storage import Channel
     from coframe.messages.slices import Slices
     from coframe.time import StampLike
     from coframe.viewer import Viewer
 
 __all__ = ["RecordedMessage", "Recording", "Topic", "open_bag"]
-
-_MOST_APART = 60 * time.SECOND  # between the files of one recording that do not have the same name
-_BURST_SHARE = 0.01  # of the recording's duration
 
 
 def open_bag(
@@ -87,18 +76,10 @@ def open_bag(
     """
     keep = kept(keep)
     tf_topics = None if tf_topics is None else list(tf_topics)
-    recording = Recording(Path(path))
-    recording.options = {"namespace": namespace, "tf_topics": tf_topics, "prefix": prefix, "keep": keep}
-    recording._renaming = renaming(prefix, keep)  # noqa: SLF001 - the second part of the constructor
-    try:
-        wanted = TopicFilter(namespace, tf_topics)
-        with collection_paused():
-            recording._scan(wanted, progress or (lambda _done, _total: None), on_transforms)  # noqa: SLF001
-        recording._check_tf_topics(tf_topics or [])  # noqa: SLF001
-    except BaseException:
-        recording.close()
-        raise
-    return recording
+    options = {"namespace": namespace, "tf_topics": tf_topics, "prefix": prefix, "keep": keep}
+    renamed = renaming(prefix, keep)
+    contents = read_contents(Path(path), TopicFilter(namespace, tf_topics), renamed, progress, on_transforms)
+    return Recording(contents, options, renamed)
 
 
 class Recording:
@@ -111,112 +92,34 @@ class Recording:
         buffers: The transforms by namespace: ``""`` for ``/tf``, ``/robot1`` for ``/robot1/tf``.
         topics: The topics by name, including those without messages.
         files: The path and the size in bytes of each file.
-        format: The file format: ``MCAP``, ``SQLite`` or ``ROS 1 bag``.
+        formats: The file formats, usually one.
         compression: The compression of chunks or messages: ``zstd``, ``lz4``, ``bz2`` or ``none``.
         options: The arguments of :func:`open_bag` about namespace, topics and names, to open the recording again.
         types: The types of its messages.
     """
 
-    buffer: Buffer
-    buffers: dict[str, Buffer]
-    topics: dict[str, Topic]
-    files: list[tuple[Path, int]]
-    format: str
-    compression: str
-    options: dict[str, Any]
-    types: RecordedTypes
-
-    def __init__(self, path: Path) -> None:
-        self.path = path
-        self._problems = Problems()
-        self._renaming: _core.Renaming | None = None
-        self._closing = ExitStack()
-        weakref.finalize(self, self._closing.close)  # closes the files if the user does not
-        self.types = RecordedTypes()
-        self._index = MessageIndex(path, self.types)
+    def __init__(self, contents: Contents, options: dict[str, Any], renaming: _core.Renaming | None) -> None:
+        self.path = contents.path
+        self.buffer = contents.buffer
+        self.buffers = contents.buffers
+        self.topics = contents.topics
+        self.files = contents.files
+        self.formats = contents.formats
+        self.compression = contents.compression
+        self.options = options
+        self.types = contents.types
+        self._index = contents.index
+        self._problems = contents.problems
+        self._received_span = contents.received_span
+        self._renaming = renaming
         self._decoders: dict[int, Callable[[bytes], Any]] = {}
-        self._received_span: tuple[int, int] | None = None  # the first and last time of receipt
+        self._closing = contents.closing
+        weakref.finalize(self, self._closing.close)  # closes the files if the user does not
 
-    def _scan(
-        self,
-        wanted: TopicFilter,
-        progress: Callable[[int, int], object],
-        on_transforms: Callable[[Channel, NDArray[np.int64], Slices], object] | None,
-    ) -> None:
-        storages, listed_topics = open_files(self.path, self._problems, self._closing)
-        total = sum(storage.size for storage in storages)
-        done = 0
-        collected = TransformCollector(self._problems, wanted, self._renaming, on_transforms)
-        for storage in storages:
-            self._scan_file(storage, collected, lambda bytes_, before=done: progress(before + bytes_, total))  # type: ignore[misc]
-            done += storage.size
-        for channel in listed_topics:
-            if channel.topic not in self._index.topics():
-                self._index.add_track(storages[0], channel)
-        self.files = [(storage.path, storage.size) for storage in storages]
-        self.format = ", ".join(dict.fromkeys(storage.format for storage in storages))
-        self.compression = ", ".join(sorted(set().union(*(storage.compressions for storage in storages)))) or "none"
-        self._check_related(storages)
-        self._received_span = span = self._index.span()
-        self.topics = {name: self._topic(name, span) for name in self._index.topics()}
-        self.buffers = collected.buffers()
-        with_transforms = [track for track in self._index.tracks() if _has_transforms(track.channel)]
-        self.buffer = collected.common_buffer(self.buffers, lambda: reread(with_transforms))
-        report_mixed_clocks(self.buffer, self._problems)
-
-    def _scan_file(self, storage: Storage, collected: TransformCollector, progress: Callable[[int], object]) -> None:
-        tracks: dict[Channel, tuple[Track, Callable[[NDArray[np.int64], Slices], None] | None]] = {}
-        for batch in storage.batches(_has_transforms, progress):
-            channel = batch.channel
-            if channel not in tracks:
-                tracks[channel] = self._index.add_track(storage, channel), collected.ingest(channel)
-            track, ingest = tracks[channel]
-            track.add(batch)
-            if batch.messages is not None and ingest is not None:
-                ingest(batch.received, batch.messages)
-        for channel in storage.channels():
-            if channel not in tracks:
-                self._index.add_track(storage, channel)
-
-    def _check_related(self, storages: list[Storage]) -> None:
-        """Raise an error if the folder contains files of several recordings that were made at different times."""
-        groups: dict[str, list[Storage]] = {}
-        for storage in storages:
-            groups.setdefault(recording_stem(storage.path), []).append(storage)
-        if len(groups) == 1:
-            return
-        spans = []
-        for group in groups.values():
-            parts = [span for storage in group if (span := self._index.span(storage)) is not None]
-            if parts:
-                spans.append((min(first for first, _ in parts), max(last for _, last in parts)))
-        spans.sort()
-        apart = any(later[0] - earlier[1] > _MOST_APART for earlier, later in pairwise(spans))
-        if apart:
-            names = listed(group[0].path.name for group in groups.values())
-            raise RecordingError(
-                f"{self.path} contains {len(groups)} recordings that were made at different times: {names}",
-                hint="Give the path of one of them.",
-            )
-
-    def _check_tf_topics(self, chosen: list[str]) -> None:
-        """Raise an error for a misspelled topic, which would look like a healthy recording; /tf may be missing."""
-        names = self._index.topics()
-        missing = set(map(absolute, chosen)) - set(map(absolute, names)) - {"/tf", "/tf_static"}
-        if missing:
-            existing = [name for name in names if _has_transforms(self._index.tracks(name)[0].channel)]
-            hint = f"Topics with transforms: {', '.join(existing) or 'none'}."
-            raise RecordingError(f"{self.path} has no topic {', '.join(sorted(missing))}", hint=hint)
-
-    def _topic(self, name: str, span: tuple[int, int] | None) -> Topic:
-        tracks = self._index.tracks(name)
-        main = largest_track(tracks)
-        types = {track.channel.type for track in tracks}
-        if len(types) > 1:
-            self._problems.add(f"{name} has messages of several types: {', '.join(sorted(types))}")
-        received = self._index.received(name)
-        rate = _rate(received, span)
-        return Topic(name, main.channel.type, len(received), rate, main.channel.encoding)
+    @property
+    def format(self) -> str:
+        """The file format: ``MCAP``, ``SQLite`` or ``ROS 1 bag``; several ones are separated by commas."""
+        return ", ".join(each.name for each in self.formats)
 
     def frame(self, name: str) -> str:
         """Return the name in the buffers of a frame in a message: without leading slash, and with the prefix."""
@@ -449,16 +352,3 @@ class Recording:
             html_tables.paragraph(f"The buffer has {count(len(self.buffer.frame_names()), 'frame')}."),
             html_tables.table(("problems",), problems, len(self.problems), "problem"),
         )
-
-
-def _rate(received: NDArray[np.int64], span: tuple[int, int] | None) -> float:
-    """Return the rate of messages in Hz; 0 for a single burst, such as the static transforms at the start."""
-    elapsed = int(received[-1]) - int(received[0]) if len(received) else 0
-    if span is None or elapsed <= 0:
-        return 0.0
-    is_burst = elapsed < time.SECOND and (len(received) == 2 or elapsed < _BURST_SHARE * (span[1] - span[0]))
-    return 0.0 if is_burst else (len(received) - 1) * time.SECOND / elapsed
-
-
-def _has_transforms(channel: Channel) -> bool:
-    return ingest_for(channel) is not None

@@ -10,6 +10,7 @@ import numpy as np
 
 from coframe import time
 from coframe.bags.compression import LARGEST, DamagedError, unpack
+from coframe.bags.formats import ROS1
 from coframe.bags.offered_qos import OfferedQos, to_yaml
 from coframe.bags.storage import MOST_DAMAGED, Batch, Channel, ChunkedStorage, next_chunk
 from coframe.messages.slices import Slices
@@ -20,9 +21,7 @@ if TYPE_CHECKING:
 
     from coframe.bags.problems import Problems
 
-__all__ = ["MAGIC", "Ros1Storage"]
-
-MAGIC = b"#ROSBAG V2.0\n"
+__all__ = ["Ros1Storage"]
 
 _MESSAGE, _CHUNK, _CHUNK_INFO, _CONNECTION = 0x02, 0x05, 0x06, 0x07
 _KNOWN = {0x02, 0x03, 0x04, 0x05, 0x06, 0x07}
@@ -34,7 +33,7 @@ _LONGEST_HEADER = 1 << 16
 class Ros1Storage(ChunkedStorage):
     """A bag of ROS 1."""
 
-    format = "ROS 1 bag"
+    format = ROS1
 
     def __init__(self, path: Path, problems: Problems) -> None:
         super().__init__(path, problems)
@@ -61,7 +60,7 @@ class Ros1Storage(ChunkedStorage):
 
     def _walk(self, chunks: list[int]) -> Iterator[tuple[int, int, dict[bytes, bytes], int, int]]:
         """Yield offset, opcode, header, start and end of each record; continue at the next chunk after damage."""
-        offset, damaged = len(MAGIC), 0
+        offset, damaged = len(ROS1.magic), 0
         while offset < self.size:
             later = next_chunk(chunks, offset)
             try:
@@ -81,9 +80,9 @@ class Ros1Storage(ChunkedStorage):
         """Read the connections in the index at the end of the file; return the offsets of the chunks it lists."""
         chunks: list[int] = []
         try:
-            header, _, _ = self._record(len(MAGIC))
+            header, _, _ = self._record(len(ROS1.magic))
             offset = int.from_bytes(header.get(b"index_pos", b"")[:8], "little")
-            while len(MAGIC) < offset < self.size:
+            while len(ROS1.magic) < offset < self.size:
                 header, start, end = self._record(offset)
                 if _opcode(header) == _CONNECTION:
                     self._connect(header, self.bytes_at(start, end - start))
@@ -92,7 +91,7 @@ class Ros1Storage(ChunkedStorage):
                 offset = end
         except DamagedError:
             pass  # A recorder that is killed leaves a bag without an index.
-        return sorted(chunk for chunk in chunks if len(MAGIC) < chunk < self.size)
+        return sorted(chunk for chunk in chunks if len(ROS1.magic) < chunk < self.size)
 
     def _record(self, offset: int, *, may_be_truncated: bool = True) -> tuple[dict[bytes, bytes], int, int]:
         """Return the header of a record of the file and the start and end of its data; a chunk may be truncated."""

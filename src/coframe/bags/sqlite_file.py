@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from coframe.bags.compression import LARGEST, DamagedError
+from coframe.bags.formats import SQLITE
 from coframe.bags.sqlite_database import DAMAGE, Database
 from coframe.bags.storage import Batch, Channel, Storage
 from coframe.messages.slices import Slices
@@ -20,9 +21,7 @@ if TYPE_CHECKING:
 
     from coframe.bags.problems import Problems
 
-__all__ = ["MAGIC", "SqliteStorage"]
-
-MAGIC = b"SQLite format 3\0"
+__all__ = ["SqliteStorage"]
 
 _BATCH_SIZE = 2000  # rows
 _BATCH_BYTES = 64 << 20
@@ -36,7 +35,7 @@ _DATA, _SIZE = (
 class SqliteStorage(Storage):
     """A ``.db3`` file; the position of a message is the id of its row."""
 
-    format = "SQLite"
+    format = SQLITE
 
     def __init__(self, path: Path, problems: Problems) -> None:
         super().__init__(path, problems)

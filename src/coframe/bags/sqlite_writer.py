@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Writer for one SQLite file in the schema of rosbag2's storage plugin, version 3, which Humble writes."""
+"""Writer for one SQLite file in the schema of rosbag2's storage plugin, version 4.
+
+Iron and later write it: it has the definitions of the types. Humble reads it as well.
+"""
 
 from __future__ import annotations
 
@@ -17,11 +20,13 @@ _SCHEMA = """
 CREATE TABLE schema(schema_version INTEGER PRIMARY KEY, ros_distro TEXT NOT NULL);
 CREATE TABLE metadata(id INTEGER PRIMARY KEY, metadata_version INTEGER NOT NULL, metadata TEXT NOT NULL);
 CREATE TABLE topics(id INTEGER PRIMARY KEY, name TEXT NOT NULL, type TEXT NOT NULL, serialization_format TEXT NOT NULL,
-    offered_qos_profiles TEXT NOT NULL);
+    offered_qos_profiles TEXT NOT NULL, type_description_hash TEXT NOT NULL);
+CREATE TABLE message_definitions(id INTEGER PRIMARY KEY, topic_type TEXT NOT NULL, encoding TEXT NOT NULL,
+    encoded_message_definition TEXT NOT NULL, type_description_hash TEXT NOT NULL);
 CREATE TABLE messages(id INTEGER PRIMARY KEY, topic_id INTEGER NOT NULL, timestamp INTEGER NOT NULL,
     data BLOB NOT NULL);
 CREATE INDEX timestamp_idx ON messages (timestamp ASC);
-INSERT INTO schema(schema_version, ros_distro) VALUES (3, 'humble');
+INSERT INTO schema(schema_version, ros_distro) VALUES (4, 'iron');
 """
 
 
@@ -40,6 +45,7 @@ class SqliteWriter:
         with _os_errors():
             self._database = sqlite3.connect(path, check_same_thread=False)
             self._database.executescript(_SCHEMA)
+        self._described: set[str] = set()  # the types whose definitions were written
         self._written = 0
         self._pending: list[tuple[int, int, bytes]] = []
         self.pending = 0
@@ -63,8 +69,8 @@ class SqliteWriter:
         ros_type: str,
         *,
         encoding: str,
-        definition: str,  # noqa: ARG002 - the format has no place for it
-        definition_format: str,  # noqa: ARG002
+        definition: str,
+        definition_format: str,
         metadata: Mapping[str, str],
     ) -> int:
         """Add a topic with messages of a type; return its number."""
@@ -72,9 +78,15 @@ class SqliteWriter:
         qos = metadata.get("offered_qos_profiles", "")
         with _os_errors():
             self._database.execute(
-                "INSERT INTO topics(id, name, type, serialization_format, offered_qos_profiles) VALUES (?, ?, ?, ?, ?)",
-                (len(self.counts), topic, ros_type, encoding, qos),
+                "INSERT INTO topics VALUES (?, ?, ?, ?, ?, '')", (len(self.counts), topic, ros_type, encoding, qos)
             )
+            if definition_format and ros_type not in self._described:
+                self._described.add(ros_type)
+                self._database.execute(
+                    "INSERT INTO message_definitions(topic_type, encoding, encoded_message_definition, "
+                    "type_description_hash) VALUES (?, ?, ?, '')",
+                    (ros_type, definition_format, definition),
+                )
         return len(self.counts) - 1
 
     def write(self, channel: int, data: bytes, log_time: int, publish_time: int) -> None:  # noqa: ARG002

@@ -8,7 +8,7 @@ import threading
 from abc import ABC, abstractmethod
 from collections import OrderedDict
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, BinaryIO, ClassVar, NamedTuple
+from typing import TYPE_CHECKING, BinaryIO, NamedTuple
 
 from coframe.bags.compression import LARGEST, DamagedError
 from coframe.regular_files import open_regular
@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from coframe.bags.problems import Problems
+    from coframe.bags.recording_format import RecordingFormat
     from coframe.messages.slices import Slices
 
 __all__ = ["MOST_DAMAGED", "Batch", "Channel", "ChunkedStorage", "Storage", "next_chunk"]
@@ -77,7 +78,7 @@ class Batch(NamedTuple):
 class Storage(ABC):
     """A file of a recording. Reading is thread-safe."""
 
-    format: ClassVar[str] = ""  # name of the file format
+    format: RecordingFormat
 
     def __init__(self, path: Path, problems: Problems) -> None:
         self.path = path

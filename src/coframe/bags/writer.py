@@ -10,10 +10,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from coframe import time
+from coframe.bags.formats import MCAP, METADATA, storage_formats
 from coframe.bags.latched_messages import LatchedMessages, LatchedSpace
-from coframe.bags.mcap_writer import McapWriter, compressor
+from coframe.bags.mcap_writer import compressor
 from coframe.bags.offered_qos import OfferedQos, to_yaml
-from coframe.bags.sqlite_writer import SqliteWriter
 from coframe.bags.transforms import is_static
 from coframe.complete_files import write_complete
 from coframe.errors import RecordingError
@@ -26,10 +26,10 @@ if TYPE_CHECKING:
 
     from typing_extensions import Self
 
-__all__ = ["STORAGES", "Writer"]
+    from coframe.bags.recording_format import FileWriter
 
-# Formats by rosbag2's names, with the suffix of their files.
-STORAGES = {"mcap": ".mcap", "sqlite3": ".db3"}
+__all__ = ["Writer"]
+
 _MAX_TOPICS = 65_000  # channels have numbers of 16 bits
 _MAX_TIME = 1 << 63
 _LARGEST_CHUNK = 4 << 20  # bytes before compression
@@ -103,16 +103,17 @@ class Writer:
         path: str | os.PathLike[str],
         *,
         compression: str = "zstd",
-        storage: str = "mcap",
+        storage: str = MCAP.storage_id,
         max_size: int | None = None,
         max_duration: str | int | timedelta | None = None,
     ) -> None:
         if max_size is not None and max_size < 1:
             raise ValueError(f"max_size must be at least 1 byte, not {max_size}")
-        if storage not in STORAGES:
-            raise ValueError(f"No storage named {storage!r}. Known storages: {', '.join(STORAGES)}.")
+        written = storage_formats(written=True)
+        if storage not in written:
+            raise ValueError(f"No storage named {storage!r}. Known storages: {', '.join(written)}.")
         self.path = Path(path)
-        self._storage = storage
+        self._format = written[storage]
         self.undescribed: list[str] = []
         self._compression = compression
         self._max_size = max_size
@@ -299,12 +300,10 @@ class Writer:
                 self._put(topic, message.data, received, message.published)
         self._first_time, self._first_size = received, self._file.size
 
-    def _open(self) -> McapWriter | SqliteWriter:
-        name = f"{self.path.name}_{len(self._contents.files)}{STORAGES[self._storage]}"
+    def _open(self) -> FileWriter:
+        name = f"{self.path.name}_{len(self._contents.files)}{self._format.suffixes[0]}"
         self._contents.files.append(_File(name))
-        if self._storage == "sqlite3":
-            return SqliteWriter(self.path / name)
-        return McapWriter(self.path / name, self._compression)
+        return self._format.create(self.path / name, self._compression)
 
     def _writing(self, write: Callable[[], T]) -> T:
         try:
@@ -327,14 +326,14 @@ class Writer:
         self._note_file()
         text = self._dump({"rosbag2_bagfile_information": self._metadata()})
         with suppress(OSError):
-            write_complete(self.path / "metadata.yaml", text.encode())
+            write_complete(self.path / METADATA, text.encode())
 
     def _metadata(self) -> dict[str, Any]:
         files = [file for file in self._contents.files if file.count] or self._contents.files[:1]
         start, end = min(file.start for file in files), max(file.end for file in files)
         return {
             "version": _VERSION,
-            "storage_identifier": self._storage,
+            "storage_identifier": self._format.storage_id,
             "duration": {"nanoseconds": end - start},
             "starting_time": {"nanoseconds_since_epoch": start},
             "message_count": sum(file.count for file in files),

@@ -11,6 +11,7 @@ import typer
 
 from coframe.bags import TrajectoryQuery, query_recordings
 from coframe.bags.batch import ENGINES
+from coframe.bags.formats import file_kinds
 from coframe.cli.lifecycle import run_to_completion
 from coframe.cli.options import (
     KeepOption,
@@ -34,7 +35,7 @@ def batch(
     target: Annotated[str, typer.Argument(metavar="TARGET", help="Frame in which the poses are expressed.")],
     source: Annotated[str, typer.Argument(metavar="SOURCE", help="Frame whose poses are written.")],
     bags: Annotated[
-        list[Path], typer.Argument(metavar="BAG...", help="Recordings: .mcap, .db3 or .bag files, or rosbag2 folders.")
+        list[Path], typer.Argument(metavar="BAG...", help=f"Recordings: {file_kinds()}s, or rosbag2 folders.")
     ],
     output: Annotated[
         Path, typer.Option("--output", "-o", metavar="FOLDER", help="Dataset: a folder of Parquet files.")

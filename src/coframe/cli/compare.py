@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 import numpy as np
 import typer
 
+from coframe.bags.formats import has_known_suffix
 from coframe.cli.lifecycle import run_to_completion
 from coframe.cli.options import (
     KeepOption,
@@ -38,7 +39,6 @@ __all__ = ["compare"]
 
 _SUFFIXES = tuple(f".{kind}" for kind in (*FIGURE_FORMATS, "json", "csv"))
 _MAX_DIFFERENCE = NonNegativeDuration("10ms")
-_RECORDINGS = {".mcap", ".db3", ".bag"}
 
 
 def compare(
@@ -111,7 +111,7 @@ def _read(text: str, options: tuple[str | None, str | None, str | None, str, str
     path, _, frames = text.partition(":") if Path(text).exists() else _split(text)
     if not frames:
         file = Path(path)
-        if file.is_dir() or file.suffix.lower() in _RECORDINGS:
+        if file.is_dir() or has_known_suffix(file):
             fail(
                 f"{path} is a recording: name two frames of it",
                 f"Write BAG:TARGET:SOURCE, such as {path}:map:base_link.",

@@ -12,6 +12,8 @@ import time
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
+from coframe.bags.formats import is_recording
+
 if TYPE_CHECKING:
     from collections.abc import Callable
 
@@ -28,7 +30,6 @@ _TF_TYPE = "tf2_msgs/msg/TFMessage"
 _DISCOVERY = 0.6  # seconds: the longest discovery of topics or frames
 _UNCHANGED = 0.2  # seconds without a new name, after which the known names are complete
 _LARGEST = 200 << 20  # bytes: reading more takes longer than typing the name
-_RECORDINGS = {".mcap", ".bag", ".db3"}
 
 
 def _silent(complete: Callable[..., list[str]]) -> Callable[..., list[str]]:
@@ -57,7 +58,7 @@ def complete_recordings(incomplete: str) -> list[str]:
     inside = Path(f"{folder}/" if "/" in incomplete else ".")
     prefix = f"{folder}/" if "/" in incomplete else ""
     entries = sorted(entry for entry in inside.iterdir() if entry.name.startswith(start) and _is_visible(entry, start))
-    found = [f"{prefix}{entry.name}" for entry in entries if _is_recording(entry)]
+    found = [f"{prefix}{entry.name}" for entry in entries if is_recording(entry)]
     if found or not os.environ.get("_COFRAME_COMPLETE", "").endswith("fish"):
         return found  # Other shells complete paths by themselves if there are no recordings.
     return [f"{prefix}{entry.name}/" for entry in entries if entry.is_dir()]
@@ -65,10 +66,6 @@ def complete_recordings(incomplete: str) -> list[str]:
 
 def _is_visible(entry: Path, start: str) -> bool:
     return start.startswith(".") or not entry.name.startswith(".")
-
-
-def _is_recording(path: Path) -> bool:
-    return (path / "metadata.yaml").is_file() if path.is_dir() else path.suffix in _RECORDINGS
 
 
 @_silent

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Annotated, TypedDict
 import typer
 
 from coframe import frame_names
+from coframe.bags.formats import file_kinds
 from coframe.cli.completion import complete_recordings, complete_tf_topics
 from coframe.cli.output import fail, warn
 from coframe.time import SECOND, duration_ns
@@ -134,7 +135,7 @@ BagArgument = Annotated[
     Path,
     typer.Argument(
         metavar="BAG",
-        help="Recording: a .mcap, .db3 or .bag file, or a rosbag2 folder.",
+        help=f"Recording: a {file_kinds()}, or a rosbag2 folder.",
         autocompletion=complete_recordings,
     ),
 ]

@@ -20,12 +20,14 @@ from coframe.messages.definition import (
 )
 from coframe.messages.packages import find_package, is_generated, shipped
 from coframe.messages.parser import parse
-from coframe.messages.registry import find
+from coframe.messages.registry import class_of, find
 
 if TYPE_CHECKING:
+    from coframe.messages.message import Message
     from coframe.messages.parser import Structure
+    from coframe.messages.schema_classes import ResolvedSchema
 
-__all__ = ["definition_of"]
+__all__ = ["definition_of", "recorded_definition"]
 
 _SEPARATOR = "=" * 80
 _NAMES = {"boolean": "bool", "octet": "byte", "float": "float32", "double": "float64"}
@@ -45,6 +47,22 @@ def definition_of(ros_type: str) -> str:
         _collect(ros_type, texts)
     except LookupError:
         return ""
+    return _joined(texts)
+
+
+def recorded_definition(cls: type[Message], schema: ResolvedSchema) -> str:
+    """Return the definition of a class that was made for a recording, as :func:`definition_of` returns those of others.
+
+    Args:
+        cls: The class.
+        schema: The definition in the recording.
+    """
+    texts: dict[str, str] = {}
+    _collect_recorded(cls, schema, texts)
+    return _joined(texts)
+
+
+def _joined(texts: dict[str, str]) -> str:
     parts: list[str] = []
     for name, text in texts.items():
         package, _, own = name.split("/")
@@ -67,6 +85,19 @@ def _collect(ros_type: str, texts: dict[str, str]) -> None:
         type_ = field.type.value_type if isinstance(field.type, AbstractNestedType) else field.type
         if isinstance(type_, NamespacedType):
             _collect("/".join(type_.namespaced_name()), texts)
+
+
+def _collect_recorded(cls: type[Message], schema: ResolvedSchema, texts: dict[str, str]) -> None:
+    """Add the text of a recorded class, then those of the classes in its fields."""
+    if not cls.__recorded__:
+        _collect(cls.ROS_TYPE, texts)
+    elif cls.ROS_TYPE not in texts:
+        structure = schema.structures[cls.ROS_TYPE]
+        texts[cls.ROS_TYPE] = _written(structure).text
+        for type_ in cls.SLOT_TYPES:
+            inner = type_.value_type if isinstance(type_, AbstractNestedType) else type_
+            if isinstance(inner, NamespacedType):
+                _collect_recorded(class_of(inner), schema, texts)
 
 
 def _definition(ros_type: str) -> _Definition:
@@ -95,7 +126,9 @@ def _definition(ros_type: str) -> _Definition:
 
 def _written(structure: Structure) -> _Definition:
     """Return the definition of a message whose text is written here."""
-    lines = [f"{_type(constant.type)} {constant.name}={_value(constant.value)}" for constant in structure.constants]
+    # ROS 1 and IDL allow small letters in names of constants, and readers of ROS 2's definitions refuse them.
+    constants = {constant.name.upper(): constant for constant in structure.constants}
+    lines = [f"{_type(constant.type)} {name}={_value(constant.value)}" for name, constant in constants.items()]
     for field in structure.fields:
         default = "" if field.default is None else f" {_value(field.default)}"
         lines.append(f"{_type(field.type)} {field.name}{default}")

@@ -6,7 +6,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from coframe.bags import from_yaml
-from coframe.bags.cdr_conversion import cdr_converter, decode_transforms
+from coframe.bags.cdr_conversion import cdr_conversion, decode_transforms
 from coframe.bags.message_frames import FrameNames
 from coframe.bags.transforms import is_static
 from coframe.errors import WireError
@@ -151,14 +151,14 @@ class TopicPublishers:
             )
 
     def _channel_publisher(self, channel: Channel, offered: list[QoS]) -> _ChannelPublisher | None:
-        converted = cdr_converter(channel, self._recording.types)
+        converted = cdr_conversion(channel, self._recording.types)
         if converted is None:
             self.problems.append(
                 f"{channel.topic} is not replayed: messages of type {channel.type} with the encoding "
                 f"{channel.encoding} cannot be converted to ROS 2"
             )
             return None
-        ros_type, convert = converted[0], self._renamed(channel, *converted)
+        ros_type, convert = converted.type, self._renamed(channel, converted.type, converted.convert)
         topic = self._remap.get(absolute(channel.topic), channel.topic)
         if is_static(channel.topic) and ros_type == _TF:
             writer = self._participant.static_broadcaster(self._node, topic)

@@ -5,6 +5,7 @@ from coframe import ros_side
 
 ros_side.check("rosbag2_py")
 
+from coframe.bags.formats import storage_formats
 from rosbag2_py._compression import (
     CompressionMode,
     CompressionOptions,
@@ -54,12 +55,12 @@ __all__ = [
 
 def get_registered_readers() -> set[str]:
     """Return the storage formats that can be read."""
-    return {"mcap", "sqlite3"}
+    return set(storage_formats())
 
 
 def get_registered_writers() -> set[str]:
     """Return the storage formats that can be written."""
-    return {"mcap", "sqlite3"}
+    return set(storage_formats(written=True))
 
 
 def get_registered_compressors() -> set[str]:

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from coframe.bags import Recording, RecordingError, open_bag
+from coframe.bags.formats import METADATA
 from coframe.bounded_yaml import MAX_BYTES, read_yaml
 from coframe.regular_files import read_regular
 from rosbag2_py._options import TopicMetadata
@@ -20,7 +21,6 @@ if TYPE_CHECKING:
 __all__ = ["BagMetadata", "FileInformation", "Info", "MetadataIo", "TopicInformation", "metadata_of"]
 
 _VERSION = 5  # of metadata.yaml, Humble's
-_STORAGE = {"MCAP": "mcap", "SQLite": "sqlite3"}
 
 
 class _Duration(timedelta):
@@ -120,12 +120,12 @@ class MetadataIo:
 
     def metadata_file_exists(self, uri: str) -> bool:
         """Return whether a folder has a metadata.yaml."""
-        return (Path(uri) / "metadata.yaml").is_file()
+        return (Path(uri) / METADATA).is_file()
 
     def read_metadata(self, uri: str) -> BagMetadata:
         """Return what the metadata.yaml of a folder contains."""
         try:
-            text = read_regular(Path(uri) / "metadata.yaml", MAX_BYTES)
+            text = read_regular(Path(uri) / METADATA, MAX_BYTES)
             return _from_yaml(read_yaml(text)["rosbag2_bagfile_information"], Path(uri))
         except Exception as error:
             raise RuntimeError(f"Exception on parsing info file: {error}") from error
@@ -133,7 +133,7 @@ class MetadataIo:
     def write_metadata(self, uri: str, metadata: BagMetadata) -> None:
         """Write the metadata.yaml of a folder."""
         text = _yaml().safe_dump({"rosbag2_bagfile_information": _to_yaml(metadata)}, sort_keys=False)
-        (Path(uri) / "metadata.yaml").write_text(text, encoding="utf-8")
+        (Path(uri) / METADATA).write_text(text, encoding="utf-8")
 
 
 def metadata_of(recording: Recording) -> BagMetadata:
@@ -148,7 +148,7 @@ def metadata_of(recording: Recording) -> BagMetadata:
     single = [FileInformation(recording.files[0][0].name, start, duration, count)] if len(recording.files) == 1 else []
     return BagMetadata(
         bag_size=sum(size for _, size in recording.files),
-        storage_identifier=_STORAGE.get(recording.format, recording.format),
+        storage_identifier=", ".join(each.storage_id or each.name for each in recording.formats),
         relative_file_paths=[path.name for path, _ in recording.files],
         files=single,
         duration=duration,

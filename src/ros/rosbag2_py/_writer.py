@@ -6,13 +6,14 @@ from __future__ import annotations
 from typing import NoReturn
 
 from coframe.bags import RecordingError, Writer, from_yaml
+from coframe.bags.formats import SQLITE
 from rosbag2_py._compression import CompressionMode, CompressionOptions
 from rosbag2_py._options import ConverterOptions, StorageOptions, TopicMetadata
 from rosbag2_py._reader import check_formats
 
 __all__ = ["SequentialCompressionWriter", "SequentialWriter"]
 
-_DEFAULT_STORAGE = "sqlite3"  # Humble's
+_DEFAULT_STORAGE = SQLITE.storage_id  # Humble's
 
 
 class SequentialWriter:

@@ -1,0 +1,166 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The file formats of recordings: one class each.
+
+All lists of formats and suffixes in coframe come from here. The first bytes of a file decide its format. Names only
+help to find and order the files.
+"""
+
+from __future__ import annotations
+
+import functools
+import re
+from pathlib import PurePath
+from typing import TYPE_CHECKING, Final
+
+from coframe.bags.recording_format import RecordingFormat, bare_name
+from coframe.existence import is_file
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from coframe.bags.problems import Problems
+    from coframe.bags.recording_format import FileWriter
+    from coframe.bags.storage import Storage
+
+__all__ = [
+    "COMPRESSED",
+    "MCAP",
+    "METADATA",
+    "ROS1",
+    "SQLITE",
+    "file_kinds",
+    "formats",
+    "has_known_suffix",
+    "is_recording",
+    "matches",
+    "recording_name",
+    "storage_formats",
+    "suffixes",
+]
+
+METADATA: Final = "metadata.yaml"  # in a folder of rosbag2
+COMPRESSED: Final = ".zstd"  # after the suffix of a file that rosbag2 compressed as a whole
+
+
+class Mcap(RecordingFormat):
+    """MCAP files, of rosbag2, Foxglove and others."""
+
+    name = "MCAP"
+    suffixes = (".mcap",)
+    magic = b"\x89MCAP0\r\n"
+    storage_id = "mcap"
+
+    def open(self, path: Path, problems: Problems) -> Storage:
+        """Open a file."""
+        from coframe.bags.mcap_file import McapStorage  # noqa: PLC0415 - see the base class
+
+        return McapStorage(path, problems)
+
+    def create(self, path: Path, compression: str) -> FileWriter:
+        """Create a file with compressed chunks."""
+        from coframe.bags.mcap_writer import McapWriter  # noqa: PLC0415 - see the base class
+
+        return McapWriter(path, compression)
+
+
+class Sqlite(RecordingFormat):
+    """SQLite databases of rosbag2."""
+
+    name = "SQLite"
+    suffixes = (".db3",)
+    magic = b"SQLite format 3\0"
+    storage_id = "sqlite3"
+
+    def open(self, path: Path, problems: Problems) -> Storage:
+        """Open a file."""
+        from coframe.bags.sqlite_file import SqliteStorage  # noqa: PLC0415 - see the base class
+
+        return SqliteStorage(path, problems)
+
+    def create(self, path: Path, compression: str) -> FileWriter:
+        """Create a file; it is not compressed."""
+        from coframe.bags.sqlite_writer import SqliteWriter  # noqa: PLC0415 - see the base class
+
+        del compression
+        return SqliteWriter(path)
+
+
+class Ros1(RecordingFormat):
+    """Bags of ROS 1."""
+
+    name = "ROS 1 bag"
+    suffixes = (".bag",)
+    magic = b"#ROSBAG V2.0\n"
+
+    _OLD = b"#ROSBAG V1"
+    _DATE = re.compile(r"[_-]?\d{4}(-\d\d){5}$", re.ASCII)
+
+    def refusal(self, beginning: bytes) -> str:
+        """Refuse bags of version 1."""
+        if not beginning.startswith(self._OLD):
+            return ""
+        return "bags of version 1 are not supported; convert it to version 2.0 with `rosbag fix` of ROS 1"
+
+    def open(self, path: Path, problems: Problems) -> Storage:
+        """Open a file."""
+        from coframe.bags.ros1_file import Ros1Storage  # noqa: PLC0415 - see the base class
+
+        return Ros1Storage(path, problems)
+
+    def recording_name(self, file: str) -> str:
+        """Return the common part of names; that of each file has its start time as well: ``2024-05-01-10-00-00_0``."""
+        bare = bare_name(file)
+        return file if bare is None else self._DATE.sub("", bare)
+
+
+MCAP: Final = Mcap()
+SQLITE: Final = Sqlite()
+ROS1: Final = Ros1()
+_BUILT_IN: Final = (MCAP, SQLITE, ROS1)
+
+
+@functools.cache
+def formats() -> tuple[RecordingFormat, ...]:
+    """Return all formats in the order in which they are tried."""
+    return _BUILT_IN
+
+
+def suffixes() -> tuple[str, ...]:
+    """Return the suffixes of all formats: ``.mcap``, ``.db3``, ``.bag``."""
+    return tuple(dict.fromkeys(suffix for each in formats() for suffix in each.suffixes))
+
+
+def storage_formats(*, written: bool = False) -> dict[str, RecordingFormat]:
+    """Return the formats that rosbag2 has a name for, by that name.
+
+    Args:
+        written: Return only formats that can be written.
+    """
+    return {each.storage_id: each for each in formats() if each.storage_id and (each.is_written or not written)}
+
+
+def file_kinds() -> str:
+    """Return what files of recordings are, for texts: ``.mcap, .db3 or .bag file``."""
+    *first, last = suffixes()
+    return f"{', '.join(first)} or {last} file"
+
+
+def matches(format_: RecordingFormat, path: Path, beginning: bytes) -> bool:
+    """Return whether a file with these first bytes is in a format."""
+    return format_.matches(path, beginning)
+
+
+def has_known_suffix(path: Path) -> bool:
+    """Return whether a path has the suffix of a format, also before that of a compressed file."""
+    return PurePath(path.name.removesuffix(COMPRESSED)).suffix.lower() in suffixes()
+
+
+def is_recording(path: Path) -> bool:
+    """Return whether a path is that of a file named like a recording, or of a folder of rosbag2."""
+    return is_file(path / METADATA) or (has_known_suffix(path) and is_file(path))
+
+
+def recording_name(path: Path, format_: RecordingFormat) -> str:
+    """Return what the names of the files of one recording have in common: ``run`` for ``run_0.mcap``."""
+    name = path.name.removesuffix(COMPRESSED)
+    return format_.recording_name(name.rpartition(".")[0] or path.name)
