@@ -229,7 +229,7 @@ def test_a_bag_of_ros_1(shared, listen):
     moved, scans = listen("/tf", TF), listen("/scan", "sensor_msgs/msg/LaserScan")
     with coframe.play(shared / "recordings" / "tilt_laser.bag", delay=SETTLED, rate=30) as player:
         assert player.wait(20)
-        assert [problem.partition(" ")[0] for problem in player.problems] == ["/info_gps", "/temperature"]
+        assert player.problems == []  # types that ROS 2 does not have are published as well
     assert len(moved()) == 711
     assert deserialize(scans()[0].data, find("sensor_msgs/msg/LaserScan")).header.frame_id == "/laser"
 
