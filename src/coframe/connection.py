@@ -12,13 +12,11 @@ import weakref
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 from coframe import _core
-from coframe.buffer import Buffer
 from coframe.errors import DecodeError, WireError
-from coframe.frame_names import kept, renaming
-from coframe.shared_transforms import SharedTransforms, Source
+from coframe.listener_config import ListenerConfig
+from coframe.shared_transforms import SharedTransforms
 from coframe.tf_publishers import TfPublisher, publishers_of
 from coframe.time import MILLISECOND, SECOND, duration_ns
-from coframe.wire import domains
 from coframe.wire.counted_warning import CountedWarning
 from coframe.wire.names import any_ros_name
 from coframe.wire.participant import Participant
@@ -160,30 +158,15 @@ class Connection:
 
     Attributes:
         buffer: The buffer, which contains all received transforms.
-        tf_topics: The topics of dynamic and of static transforms.
-        prefix: The prefix of the frames in the buffer.
-        keep: The frames without a prefix.
+        config: What the connection receives: topics, frame names, cache, domain and middleware.
     """
 
     def __init__(
-        self,
-        node_name: str,
-        *,
-        namespace: str,
-        domain: int | None,
-        tf_topic: str,
-        tf_static_topic: str,
-        cache: str | int | timedelta | None,
-        prefix: str,
-        keep: Iterable[str],
-        shared: bool,
+        self, node_name: str, config: ListenerConfig, *, node_namespace: str = "/", shared: bool = False
     ) -> None:
-        self._renaming = renaming(prefix, keep)
-        self.buffer = Buffer(cache)
-        self.tf_topics = (tf_topic, tf_static_topic)
-        self.prefix, self.keep = prefix, kept(keep)
-        self._name = (namespace, node_name)
-        self._domain = domains.domain_id() if domain is None else domain
+        self.config = config
+        self.buffer = config.new_buffer()
+        self._name = (node_namespace, node_name)
         self._participant: Participant | None = None
         self._closing = threading.RLock()
         self._closed = False
@@ -195,7 +178,7 @@ class Connection:
 
     @property
     def participant(self) -> Participant:
-        """The DDS participant of this process. A connection with shared transforms joins the graph at its first use."""
+        """The participant of this process. A connection with shared transforms joins the graph at its first use."""
         return self._join()[0]
 
     @property
@@ -218,7 +201,7 @@ class Connection:
 
         Raises:
             TypeError: The topic or the message class has the wrong type.
-            WireError: The connection is closed, or DDS cannot create the publisher.
+            WireError: The connection is closed, or the middleware cannot create the publisher.
         """
         self._check(topic, message_type)
         native = self.participant.publisher(self.node, self._qualified(topic), message_type, _qos(qos))
@@ -243,7 +226,7 @@ class Connection:
 
         Raises:
             TypeError: The topic, the message class or the callback has the wrong type.
-            WireError: The connection is closed, or DDS cannot create the subscription.
+            WireError: The connection is closed, or the middleware cannot create the subscription.
         """
         self._check(topic, message_type)
         if callback is not None and not callable(callback):
@@ -258,7 +241,7 @@ class Connection:
 
     def frame(self, name: str) -> str:
         """Return the name in the buffer of a frame in a message: with the prefix, if there is one."""
-        return name.removeprefix("/") if self._renaming is None else self._renaming(name)
+        return self.config.frame(name)
 
     def publishers(self) -> list[TfPublisher]:
         """Return the publishers that transforms were received from, including those that have left."""
@@ -331,7 +314,7 @@ class Connection:
             if self._participant is None:
                 if self._closed:
                     raise _closed_error(self._name[1])
-                participant = Participant.get(self._domain)
+                participant = Participant.get(self.config.domain, self.config.wire)
                 try:
                     self._node = participant.add_node(*self._name)
                 except BaseException:
@@ -345,8 +328,10 @@ class Connection:
         participant, node = self._join()
         try:
             self._readers = [
-                participant.tf_reader(node, topic, self.buffer, static=static, authority=None, renaming=self._renaming)
-                for topic, static in zip(self.tf_topics, (False, True), strict=True)
+                participant.tf_reader(
+                    node, topic, self.buffer, static=static, authority=None, renaming=self.config.renaming
+                )
+                for topic, static in zip(self.config.topics, (False, True), strict=True)
             ]
         except BaseException:
             self.close()
@@ -354,9 +339,8 @@ class Connection:
 
     def _share(self) -> SharedTransforms | None:
         """Let the buffer read the transforms that one process receives for all; return None if that is not possible."""
-        source = Source(self._domain, *self.tf_topics, self.buffer.cache_ns, self.prefix, tuple(sorted(self.keep)))
         try:
-            shared = SharedTransforms.join(source)
+            shared = SharedTransforms.join(self.config)
         except _core.SegmentError as error:
             _logger.warning("The transforms are not shared with other processes: %s", error)
             return None
@@ -421,10 +405,12 @@ def _qos(qos: QoS | int | None) -> QoS:
 def connect(
     node_name: str = "coframe",
     *,
-    namespace: str = "/",
+    node_namespace: str = "/",
     domain: int | None = None,
-    tf_topic: str = "/tf",
-    tf_static_topic: str = "/tf_static",
+    wire: str | None = None,
+    namespace: str | None = None,
+    tf_topic: str | None = None,
+    tf_static_topic: str | None = None,
     cache: str | int | timedelta | None = "10s",
     prefix: str = "",
     keep: Iterable[str] = (),
@@ -437,10 +423,13 @@ def connect(
 
     Args:
         node_name: The name of the node.
-        namespace: The namespace of the node: "/" or "/a/b".
+        node_namespace: The namespace of the node: "/" or "/a/b".
         domain: The ROS domain, 0 to 232. If None, it is ROS_DOMAIN_ID, or 0 if that is not set.
-        tf_topic: The topic of dynamic transforms.
-        tf_static_topic: The topic of static transforms.
+        wire: The middleware, "dds" or "zenoh". If None, it is COFRAME_WIRE, or what RMW_IMPLEMENTATION and this machine
+            suggest. Connections of one process may use different ones.
+        namespace: The namespace of the topics of transforms: "/robot1" for /robot1/tf and /robot1/tf_static.
+        tf_topic: The topic of dynamic transforms. If None, it is /tf in the namespace.
+        tf_static_topic: The topic of static transforms. If None, it is /tf_static in the namespace.
         cache: The length of the buffer's cache: a text such as "10s", nanoseconds or a timedelta. If None, the buffer
             keeps everything.
         prefix: The prefix of the frames in the buffer, used as given: "robot1/" makes "robot1/base_link" of
@@ -453,20 +442,20 @@ def connect(
 
     Raises:
         ValueError: The prefix begins with a slash.
-        WireError: There is no usable DDS library, or DDS cannot join the graph. `.hint` says what to do.
+        WireError: The middleware is not installed, or it cannot join the graph. `.hint` says what to do.
 
     Example:
         >>> with coframe.connect() as ros:                                    # doctest: +SKIP
         ...     ros.buffer.lookup("base_link", "end_effector", timeout="2s")
     """
-    return Connection(
-        node_name,
+    config = ListenerConfig.of(
         namespace=namespace,
-        domain=domain,
         tf_topic=tf_topic,
         tf_static_topic=tf_static_topic,
-        cache=cache,
         prefix=prefix,
         keep=keep,
-        shared=shared,
+        cache=cache,
+        domain=domain,
+        wire=wire,
     )
+    return Connection(node_name, config, node_namespace=node_namespace, shared=shared)

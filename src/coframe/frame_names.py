@@ -16,14 +16,17 @@ prefix        name             becomes                 reason
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 from coframe import _core
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-__all__ = ["absolute", "belongs", "kept", "naming_problems", "prefix_advice", "renaming"]
+__all__ = ["TF_STATIC_TOPIC", "TF_TOPIC", "absolute", "belongs", "kept", "naming_problems", "prefix_advice", "renaming"]
+
+TF_TOPIC: Final = "/tf"
+TF_STATIC_TOPIC: Final = "/tf_static"
 
 
 def renaming(prefix: str = "", keep: Iterable[str] = ()) -> _core.Renaming | None:
@@ -57,11 +60,17 @@ def renaming(prefix: str = "", keep: Iterable[str] = ()) -> _core.Renaming | Non
 def kept(keep: Iterable[str]) -> list[str]:
     """Return the names of the shared frames as a list, from names or from one string with commas.
 
+    Raises:
+        TypeError: A name is not a string.
+
     Example:
         >>> kept("map, world"), kept(["/map"])
         (['map', 'world'], ['map'])
     """
-    names = keep.split(",") if isinstance(keep, str) else keep
+    names = keep.split(",") if isinstance(keep, str) else list(keep)
+    for name in names:
+        if not isinstance(name, str):
+            raise TypeError(f"the names of shared frames must be strings, not {name!r}")
     return [bare for name in names if (bare := name.strip().removeprefix("/"))]
 
 

@@ -16,6 +16,7 @@ from coframe.ros_folders import foreign_packages, imported_packages, is_coframes
 TF2_PACKAGES: Final = ("tf2_py", "tf2_ros")
 
 _state = {"tf2_is_replaced": False}
+_listeners = {"wire": ""}
 
 
 def tf2_is_replaced() -> bool:
@@ -26,6 +27,20 @@ def tf2_is_replaced() -> bool:
 def allow_tf2() -> None:
     """Accept that coframe's tf2_py and tf2_ros are used with the rclpy and the messages of a ROS installation."""
     _state["tf2_is_replaced"] = True
+
+
+def choose_listener_wire(wire: str) -> None:
+    """Let the listeners of this process receive transforms in a way, with priority over COFRAME_ROS2_WIRE.
+
+    Args:
+        wire: "native" or "rclpy".
+    """
+    _listeners["wire"] = wire
+
+
+def listener_wire() -> str:
+    """Return what `choose_listener_wire` has chosen; "" if nothing was chosen."""
+    return _listeners["wire"]
 
 
 def check(importing: str, path: list[str] | None = None) -> None:

@@ -9,12 +9,11 @@ import hashlib
 import logging
 import os
 import threading
+from dataclasses import astuple
 from pathlib import Path
-from typing import TYPE_CHECKING, ClassVar, NamedTuple
+from typing import TYPE_CHECKING, ClassVar
 
 from coframe import _core
-from coframe.buffer import Buffer
-from coframe.frame_names import kept, renaming
 from coframe.time import MILLISECOND, SECOND
 from coframe.wire import selection
 from coframe.wire.participant import Participant
@@ -23,13 +22,15 @@ from coframe.wire.tf_reader import STATICS_TIMEOUT
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from coframe.wire import TfReader
+    from coframe.buffer.buffer import Buffer
+    from coframe.listener_config import ListenerConfig
     from coframe.wire.endpoints import GraphNode
+    from coframe.wire.tf_reader import TfReader
 
     Mismatch = Callable[[str, str], object]
     Mismatches = tuple[Mismatch | None, Mismatch | None]  # of the subscriptions to dynamic and static transforms
 
-__all__ = ["SharedTransforms", "Source"]
+__all__ = ["SharedTransforms", "open_segment"]
 
 _logger = logging.getLogger("coframe.wire")
 
@@ -37,48 +38,30 @@ _FOLDER = "/dev/shm/coframe-{user}"  # noqa: S108 - memory of this user only; th
 _VACANCY_TIMEOUT = 10 * SECOND  # the end of a writer is noticed at once; each turn costs every process some time
 _RETRY_PAUSE = 10 * MILLISECOND / SECOND
 _CHECK_PERIOD = 10.0  # seconds between two checks whether the memory is full
-GENERATIONS = 8  # of the memory of one source
+GENERATIONS = 8  # of the memory of one configuration
 _EXIT_TIMEOUT = 1.0  # seconds
 
 
-class Source(NamedTuple):
-    """What is received. Processes share the transforms if all of this is equal.
+def open_segment(config: ListenerConfig, generation: int = 0) -> _core.Segment:
+    """Open the memory of the transforms that processes with this configuration share.
 
-    Attributes:
-        domain: The ROS domain.
-        tf_topic: The topic of dynamic transforms.
-        tf_static_topic: The topic of static transforms.
-        cache: The length of the cache in nanoseconds; negative to keep everything.
-        prefix: The prefix of the frames.
-        keep: The frames without a prefix.
+    Args:
+        config: What is received.
+        generation: The number of the memory; see `SharedTransforms`.
+
+    Raises:
+        SegmentError: This system cannot share transforms.
     """
-
-    domain: int
-    tf_topic: str
-    tf_static_topic: str
-    cache: int
-    prefix: str = ""
-    keep: tuple[str, ...] = ()
-
-    def open(self, generation: int = 0) -> _core.Segment:
-        """Open the memory of the transforms.
-
-        Args:
-            generation: The number of the memory; see `SharedTransforms`.
-
-        Raises:
-            SegmentError: This system cannot share transforms.
-        """
-        if not hasattr(os, "getuid"):
-            raise _core.SegmentError("sharing transforms between processes is supported on Linux only")
-        # The name differs for every source, network namespace and configuration of the middleware.
-        text = repr((*self[:-1], sorted(kept(self.keep)), selection.network(), _network(), generation))
-        name = f"{self.domain}-{hashlib.sha256(text.encode()).hexdigest()[:16]}"
-        return _core.Segment.open(_FOLDER.format(user=os.getuid()), name, self.cache)
+    if not hasattr(os, "getuid"):
+        raise _core.SegmentError("sharing transforms between processes is supported on Linux only")
+    # The name differs for every configuration, network namespace and configuration of the middleware.
+    text = repr((*astuple(config), selection.network(config.wire), _network(), generation))
+    name = f"{config.domain}-{hashlib.sha256(text.encode()).hexdigest()[:16]}"
+    return _core.Segment.open(_FOLDER.format(user=os.getuid()), name, config.cache)
 
 
 class SharedTransforms:
-    """The shared transforms of one source, as this process uses them. Created by `join`.
+    """The shared transforms of one configuration, as this process uses them. Created by `join`.
 
     The first process becomes the writer: it receives the transforms. If it ends, another one takes over.
 
@@ -87,20 +70,22 @@ class SharedTransforms:
     generation number.
     """
 
-    _instances: ClassVar[dict[tuple[Source, int], SharedTransforms]] = {}
+    _instances: ClassVar[dict[tuple[ListenerConfig, int], SharedTransforms]] = {}
     _lock: ClassVar[threading.RLock] = threading.RLock()
 
-    def __init__(self, source: Source, generation: int, segment: _core.Segment, on_mismatch: Mismatches) -> None:
-        self.source = source
+    def __init__(
+        self, config: ListenerConfig, generation: int, segment: _core.Segment, on_mismatch: Mismatches
+    ) -> None:
+        self.config = config
         self._on_mismatch = on_mismatch
-        self._key = (source, generation)
+        self._key = (config, generation)
         self._users = 0
         self._closed = threading.Event()
         self._hub: _Hub | None = None
         self._segment = segment
         try:
             if self._segment.try_to_write():
-                self._hub = _Hub(self._segment, source, on_mismatch)
+                self._hub = _Hub(self._segment, config, on_mismatch)
         except BaseException:
             self._segment.close()
             raise
@@ -108,34 +93,34 @@ class SharedTransforms:
         self._thread.start()
 
     @classmethod
-    def join(cls, source: Source, on_mismatch: Mismatches = (None, None)) -> SharedTransforms:
-        """Return the shared transforms of a source. Each call needs one call of `leave`.
+    def join(cls, config: ListenerConfig, on_mismatch: Mismatches = (None, None)) -> SharedTransforms:
+        """Return the shared transforms of a configuration. Each call needs one call of `leave`.
 
         Args:
-            source: What is received.
+            config: What is received.
             on_mismatch: The attributes of the subscriptions to dynamic and static transforms, if this process has not
                 joined before; see `LocalEndpoint`.
 
         Raises:
             SegmentError: This system cannot share transforms.
-            WireError: This process is the first one, and DDS cannot join the graph.
+            WireError: This process is the first one, and the middleware cannot join the graph.
         """
         with cls._lock:
             for generation in range(GENERATIONS):
-                shared = cls._instances.get((source, generation)) or cls._open(source, generation, on_mismatch)
+                shared = cls._instances.get((config, generation)) or cls._open(config, generation, on_mismatch)
                 if shared is not None and not shared.outdated:
                     shared._users += 1  # noqa: SLF001 - of this class
                     return shared
         raise _core.SegmentError(f"static transforms were withdrawn in all {GENERATIONS} generations of the memory")
 
     @classmethod
-    def _open(cls, source: Source, generation: int, on_mismatch: Mismatches) -> SharedTransforms | None:
+    def _open(cls, config: ListenerConfig, generation: int, on_mismatch: Mismatches) -> SharedTransforms | None:
         """Return shared transforms that this process has not joined before; None if they are outdated."""
-        segment = source.open(generation)
+        segment = open_segment(config, generation)
         if segment.outdated:
             segment.close()
             return None
-        shared = cls._instances[source, generation] = cls(source, generation, segment, on_mismatch)
+        shared = cls._instances[config, generation] = cls(config, generation, segment, on_mismatch)
         return shared
 
     @classmethod
@@ -242,7 +227,7 @@ class SharedTransforms:
         while not self._closed.is_set() and self._hub is None:
             try:
                 if self._segment.try_to_write():
-                    hub = _Hub(self._segment, self.source, self._on_mismatch)
+                    hub = _Hub(self._segment, self.config, self._on_mismatch)
                     with self._lock:
                         self._hub = hub
                     if self._closed.is_set():
@@ -281,14 +266,13 @@ class SharedTransforms:
 class _Hub:
     """The subscriptions that store transforms in the shared memory."""
 
-    def __init__(self, segment: _core.Segment, source: Source, on_mismatch: Mismatches) -> None:
+    def __init__(self, segment: _core.Segment, config: ListenerConfig, on_mismatch: Mismatches) -> None:
         _remove_abandoned(Path(_FOLDER.format(user=os.getuid())))
-        self._buffer = Buffer(source.cache if source.cache >= 0 else None)
+        self._buffer = config.new_buffer()
         segment.write(self._buffer)
-        self.participant = Participant.get(source.domain)
+        self.participant = Participant.get(config.domain, config.wire)
         try:
             self._node: GraphNode = self.participant.add_node("/", f"coframe_hub_{os.getpid()}")
-            names = renaming(source.prefix, source.keep)
             self.readers = [
                 self.participant.tf_reader(
                     self._node,
@@ -296,10 +280,10 @@ class _Hub:
                     self._buffer,
                     static=static,
                     authority=None,
-                    renaming=names,
+                    renaming=config.renaming,
                     on_mismatch=report,
                 )
-                for topic, static, report in zip(source[1:3], (False, True), on_mismatch, strict=True)
+                for topic, static, report in zip(config.topics, (False, True), on_mismatch, strict=True)
             ]
         except BaseException:
             self.participant.close()

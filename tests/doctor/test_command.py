@@ -159,7 +159,6 @@ def test_explain_prints_every_page(code):
         (["nowhere.mcap"], 1, "nowhere.mcap cannot be read"),
         (["--duration", "soon"], 2, "--duration"),
         (["--json", "--sarif"], 2, "--json cannot be combined with --sarif"),
-        (["--namespace", "/robot1"], 2, "For live transforms, use --tf-topic /robot1/tf"),
     ],
 )
 def test_wrong_usage_is_a_sentence(arguments, code, text):

@@ -17,6 +17,7 @@ from nodes import ROBOT
 import coframe
 from coframe.doctor import diagnose
 from coframe.doctor.live import LiveObserver
+from coframe.listener_config import ListenerConfig
 from coframe.messages import find
 
 # Replaces the function by which a process reads the clock.
@@ -36,6 +37,10 @@ int clock_gettime(clockid_t which, struct timespec *time) {
   return result;
 }
 """
+
+
+def observer(domain, **options):
+    return LiveObserver(ListenerConfig.of(domain=domain), **options)
 
 
 @pytest.fixture
@@ -90,7 +95,7 @@ commands, grid = node.create_publisher(JointState, "/arm", 10), node.create_publ
 def test_departed_publisher_is_removed_with_its_transforms(domain_id, eventually):
     pytest.importorskip("dds_library", reason="transforms are received over DDS")
     message = find("tf2_msgs/msg/TFMessage")
-    with LiveObserver(domain_id, window=300_000_000) as listening:
+    with observer(domain_id, window=300_000_000) as listening:
 
         def observed():
             listening.poll()
@@ -110,7 +115,10 @@ def test_what_is_older_than_the_window_is_removed(domain_id, eventually):
     pytest.importorskip("cyclonedds", reason="messages are received over DDS")
     transforms, joints = find("tf2_msgs/msg/TFMessage"), find("sensor_msgs/msg/JointState")
     sent = transforms(transforms=[find("geometry_msgs/msg/TransformStamped")(child_frame_id="base_link")])
-    with LiveObserver(domain_id, window=100_000_000) as listening, coframe.connect("arm", domain=domain_id) as ros:
+    with (
+        observer(domain_id, window=100_000_000) as listening,
+        coframe.connect("arm", domain=domain_id) as ros,
+    ):
         tf, states = ros.publisher("/tf", transforms), ros.publisher("/joint_states", joints)
 
         def counts():
@@ -130,7 +138,7 @@ def test_what_is_older_than_the_window_is_removed(domain_id, eventually):
 def test_topics_have_a_limit_and_departed_ones_are_forgotten(domain_id, eventually, monkeypatch):
     pytest.importorskip("dds_library", reason="transforms are received over DDS")
     monkeypatch.setattr("coframe.doctor.live.MAX_TOPICS", 3)
-    with LiveObserver(domain_id, window=200_000_000) as listening:
+    with observer(domain_id, window=200_000_000) as listening:
 
         def topics():
             listening.poll()
@@ -153,7 +161,10 @@ def test_transforms_and_messages_beyond_the_limits_are_reported(domain_id, event
     stamped, transforms, imu = (
         find(name) for name in ("geometry_msgs/msg/TransformStamped", "tf2_msgs/msg/TFMessage", "sensor_msgs/msg/Imu")
     )
-    with LiveObserver(domain_id) as listening, coframe.connect("arm", domain=domain_id) as ros:
+    with (
+        observer(domain_id) as listening,
+        coframe.connect("arm", domain=domain_id) as ros,
+    ):
         tf, rates = ros.publisher("/tf", transforms), ros.publisher("/imu", imu)
         link, reading = stamped(child_frame_id="link"), imu()
         link.header.frame_id = reading.header.frame_id = "base"
@@ -177,7 +188,10 @@ def test_a_pause_does_not_enlarge_the_arrays_of_transforms(domain_id, eventually
     message = transforms(transforms=[stamped(child_frame_id=f"link{i}") for i in range(100)])
     for one in message.transforms:
         one.header.frame_id = "base"
-    with LiveObserver(domain_id, window=1_000_000_000) as listening, coframe.connect("arm", domain=domain_id) as ros:
+    with (
+        observer(domain_id, window=1_000_000_000) as listening,
+        coframe.connect("arm", domain=domain_id) as ros,
+    ):
         tf = ros.publisher("/tf", transforms)
         eventually(lambda: tf.publish(message) or listening.poll() or len(listening.observe().transforms) >= 1000)
         time.sleep(1.1)  # longer than the window, so that these rows are too old

@@ -15,6 +15,7 @@ from coframe.cli.monitor import _print_classic, _printer
 from coframe.doctor import observe_recording
 from coframe.doctor.figures import chain_figures, edge_figures, publisher_figures
 from coframe.doctor.live import LiveObserver
+from coframe.listener_config import ListenerConfig
 
 
 @pytest.fixture
@@ -167,7 +168,7 @@ def test_wrong_usage_gives_a_message(arguments, text):
 
 
 def test_a_silent_graph_says_what_to_check(domain_id, capsys):
-    with LiveObserver(domain_id, window=SECOND) as observer:
+    with LiveObserver(ListenerConfig.of(domain=domain_id), window=SECOND) as observer:
         observation = observer.observe()
     _printer(as_json=False, classic=False)(observation, None)
     question = "s a broadcaster running in the same ROS domain?"

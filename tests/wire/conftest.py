@@ -21,7 +21,7 @@ _PATIENCE = 20.0  # seconds; two cores that others use too
 def domain_id(domain_id: int, monkeypatch: pytest.MonkeyPatch) -> int:
     """A domain ID that no earlier test of this process has left open. IDs are reused."""
     number = domain_id
-    while number in Participant._instances:
+    while any(domain == number for _, domain in Participant._instances):
         number = 1 + (number + _WORKERS - 1) % 200
     monkeypatch.setenv("ROS_DOMAIN_ID", str(number))
     return number

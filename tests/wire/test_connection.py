@@ -23,7 +23,7 @@ def test_publish_and_receive(domain_id):
 
 
 def test_a_relative_topic_is_in_the_namespace_of_the_node(domain_id):
-    with coframe.connect("one", namespace="/robot", domain=domain_id) as ros:
+    with coframe.connect("one", node_namespace="/robot", domain=domain_id) as ros:
         ros.publisher("chatter", STRING)
         assert "/robot/chatter" in ros.participant.topics()
         assert ("/robot", "one") in ros.participant.nodes()

@@ -9,7 +9,7 @@ from rcl_interfaces.srv import GetParameters, ListParameters, SetParameters, Set
 
 QUIET = """
 import coframe
-with coframe.connect("quiet", namespace="/robot1") as ros:
+with coframe.connect("quiet", node_namespace="/robot1") as ros:
     print(sorted(ros.participant.services()), flush=True)
     input()
 """

@@ -10,9 +10,11 @@ import pytest
 from typer.testing import CliRunner
 from zenoh_router import Router
 
+from coframe import python_children
 from coframe.cli.app import app
 from coframe.cli.wire_option import take_wire
 from coframe.errors import WireError
+from coframe.python_children import child_environment, python_environment
 from coframe.wire import selection
 from coframe.wire.dds.library import Place
 
@@ -38,13 +40,18 @@ def test_without_a_dds_library_zenoh_is_used_if_it_is_installed(
 
 def test_the_option_is_taken_out_of_the_arguments(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("COFRAME_WIRE", "dds")
+    monkeypatch.setattr(selection, "_chosen", {})
+    monkeypatch.setattr(python_children, "_passed", {})
     assert take_wire(["a", "--wire", "zenoh", "b"], leading_only=False) == ["a", "b"]
-    assert os.environ["COFRAME_WIRE"] == "zenoh"
+    assert selection.select() == ("zenoh", "--wire is given")
+    assert os.environ["COFRAME_WIRE"] == "dds", "a choice for this process does not change its environment"
+    assert python_environment()["COFRAME_WIRE"] == "zenoh", "the processes that it starts use the same middleware"
+    assert child_environment({"COFRAME_WIRE": "mine"})["COFRAME_WIRE"] == "mine", "unless they are given another one"
     assert take_wire(["--wire=dds", "pkg", "exe"], leading_only=True) == ["pkg", "exe"]
-    assert os.environ["COFRAME_WIRE"] == "dds"
+    assert selection.select().wire == "dds"
     for words in (["pkg", "exe", "--wire", "zenoh"], ["--", "--wire", "zenoh"], ["--ros-args", "--wire", "zenoh"]):
         assert take_wire(words, leading_only=True) == words
-    with pytest.raises(ValueError, match="'foo' is neither dds nor zenoh"):
+    with pytest.raises(ValueError, match="'foo' is not dds or zenoh"):
         take_wire(["--wire", "foo"], leading_only=False)
 
 
@@ -72,7 +79,7 @@ def test_commands_join_over_zenoh(zenoh_domain: int, node, monkeypatch: pytest.M
 def test_a_wrong_value_is_one_sentence() -> None:
     done = CliRunner().invoke(app, ["echo", "--wire", "ros", "a", "b"])
     assert done.exit_code == 2
-    assert "Invalid value for '--wire': 'ros' is neither dds nor zenoh." in done.output
+    assert "Invalid value for '--wire': 'ros' is not dds or zenoh." in done.output
 
 
 def test_help_lists_the_option_only_for_commands_that_join_the_graph() -> None:

@@ -60,7 +60,7 @@ class Buffer(many_lookups.Buffer):
     """
 
     def __init__(self, cache: DurationLike | None = "10s") -> None:
-        super().__init__(_KEEP_EVERYTHING if cache is None else _cache_ns(cache))
+        super().__init__(cache_length(cache))
         self._dispatcher = Dispatcher()
 
     def set(
@@ -299,7 +299,15 @@ class Buffer(many_lookups.Buffer):
 _core.register_buffer_class(Buffer)
 
 
-def _cache_ns(cache: DurationLike) -> int:
+def cache_length(cache: DurationLike | None) -> int:
+    """Return the length of a cache in nanoseconds; negative to keep everything, which is None.
+
+    Raises:
+        TypeError: The length is not a duration.
+        ValueError: The length is negative, or not a number and a unit.
+    """
+    if cache is None:
+        return _KEEP_EVERYTHING
     nanoseconds = time.duration_ns(cache)
     if nanoseconds < 0:
         raise ValueError(f"cache must not be negative, but is {cache!r}. Use None to keep everything.")

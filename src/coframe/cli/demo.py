@@ -24,7 +24,6 @@ from coframe.cli.options import (
     DomainOption,
     DurationOption,
     KeepOption,
-    ListenerOptions,
     PrefixOption,
     TfStaticTopicOption,
     TfTopicOption,
@@ -33,8 +32,9 @@ from coframe.cli.output import fail
 from coframe.cli.robots_demo import show_robots
 from coframe.cli.tree_table import tree_table
 from coframe.cli.view import PortOption, optional_viewer
-from coframe.frame_names import renaming
+from coframe.connection import Connection
 from coframe.lab.launcher import COMPLETE_LAB, DESCRIBED_LAB, Launcher
+from coframe.listener_config import ListenerConfig
 from coframe.messages.generated.sensor_msgs.msg import PointCloud2
 from coframe.robots import Robot, load
 
@@ -102,27 +102,21 @@ def demo(
     """
     console = Console()
     seconds = None if duration is None else duration.seconds
-    listener_options = ListenerOptions(tf_topic=tf_topic, tf_static_topic=tf_static_topic, prefix=prefix, keep=keep)
+    config = ListenerConfig.of(
+        domain=domain, tf_topic=tf_topic, tf_static_topic=tf_static_topic, prefix=prefix, keep=keep
+    )
     if robots is not None:
         if urdf:
             fail("--robots cannot be combined with --urdf", "Several robots are simulated without a URDF.", code=2)
-        show_robots(
-            robots,
-            seconds,
-            own_topics=own_topics,
-            port=port,
-            browser=not no_browser,
-            domain=domain,
-            **listener_options,
-        )
+        show_robots(robots, seconds, config, own_topics=own_topics, port=port, browser=not no_browser)
         return
     remaps = ("-r", f"/tf:={tf_topic}", "-r", f"/tf_static:={tf_static_topic}")
     lab = DESCRIBED_LAB if urdf else COMPLETE_LAB
     commands = tuple(command._replace(arguments=(*command.arguments, *remaps)) for command in lab)
-    name = renaming(prefix, keep) or str
+    name = config.renaming or str
     with (
         run_until_interrupted(),
-        coframe.connect("coframe_demo", domain=domain, **listener_options) as ros,
+        Connection("coframe_demo", config) as ros,
         Launcher(commands, domain=domain) as nodes,
         optional_viewer(ros, port, browser=not no_browser, robot=None if urdf or prefix else _robot()),
     ):

@@ -16,8 +16,6 @@ from rich.text import Text
 
 from coframe.cli.lifecycle import run_to_completion, run_until_interrupted
 from coframe.cli.options import (
-    TF_STATIC_TOPIC,
-    TF_TOPIC,
     DomainOption,
     KeepOption,
     NamespaceOption,
@@ -27,7 +25,6 @@ from coframe.cli.options import (
     RecordedTfStaticTopicOption,
     RecordedTfTopicOption,
     recorded_tf_topics,
-    reject_namespace_of_live_graph,
 )
 from coframe.cli.output import fail, one_line, printable
 from coframe.cli.progress import reading_progress
@@ -36,6 +33,7 @@ from coframe.doctor.rendering.plain import as_data
 from coframe.doctor.rendering.sarif import as_sarif
 from coframe.doctor.rendering.text import lines
 from coframe.freed_memory import return_freed_arrays
+from coframe.listener_config import ListenerConfig
 
 if TYPE_CHECKING:
     from coframe.doctor import Report
@@ -114,8 +112,6 @@ def doctor(
     if watch and (sarif or bag is not None):
         fail(f"--watch cannot be combined with {'--sarif' if sarif else 'a recording'}", code=2)
     shared: Any = {"cache": cache, "prefix": prefix, "keep": keep}
-    if bag is None:
-        reject_namespace_of_live_graph(namespace)
     with run_until_interrupted() if watch else run_to_completion():
         if bag is not None:
             topics = recorded_tf_topics(tf_topic, tf_static_topic)
@@ -127,8 +123,10 @@ def doctor(
             _print_and_exit(reports, as_json, sarif, bag)
         from coframe.doctor.live import LiveObserver  # noqa: PLC0415 - recordings need no DDS
 
-        shared |= {"tf_topic": tf_topic or TF_TOPIC, "tf_static_topic": tf_static_topic or TF_STATIC_TOPIC}
-        with LiveObserver(domain, window=duration if watch else None, **shared) as observer:
+        config = ListenerConfig.of(
+            domain=domain, namespace=namespace, tf_topic=tf_topic, tf_static_topic=tf_static_topic, **shared
+        )
+        with LiveObserver(config, window=duration if watch else None) as observer:
             if watch:
                 _watch(observer, ignored, as_json)
                 return

@@ -15,8 +15,6 @@ from rich.text import Text
 from coframe.cli.frames_screen import tree_in_parts, watch
 from coframe.cli.lifecycle import run_to_completion, run_until_interrupted
 from coframe.cli.options import (
-    TF_STATIC_TOPIC,
-    TF_TOPIC,
     DomainOption,
     KeepOption,
     NamespaceOption,
@@ -26,13 +24,13 @@ from coframe.cli.options import (
     RecordedTfStaticTopicOption,
     RecordedTfTopicOption,
     recorded_tf_topics,
-    reject_namespace_of_live_graph,
 )
 from coframe.cli.output import fail, fail_to_write, printable, report_console, warn
 from coframe.cli.progress import reading_progress
 from coframe.cli.ros_arguments import node_identity
 from coframe.complete_files import write_complete
 from coframe.doctor import observe_recording
+from coframe.listener_config import ListenerConfig
 from coframe.optional_imports import importing_matplotlib
 from coframe.tree_drawing import grow
 from coframe.tree_drawing.graphviz import as_graphviz
@@ -114,8 +112,6 @@ def frames(
     if watching and (files or bag is not None):
         fail(f"--watch cannot be combined with {'--output' if files else 'a recording'}", code=2)
     names: dict[str, Any] = {"prefix": prefix, "keep": keep}
-    if bag is None:
-        reject_namespace_of_live_graph(namespace)
     with run_until_interrupted() if watching else run_to_completion():
         if bag is not None:
             topics = recorded_tf_topics(tf_topic, tf_static_topic)
@@ -132,8 +128,10 @@ def frames(
             return
         from coframe.doctor.live import LiveObserver  # noqa: PLC0415 - recordings need no DDS
 
-        names |= {"tf_topic": tf_topic or TF_TOPIC, "tf_static_topic": tf_static_topic or TF_STATIC_TOPIC}
-        with LiveObserver(domain, window=duration, **node_identity("coframe_frames"), **names) as observer:
+        config = ListenerConfig.of(
+            domain=domain, namespace=namespace, tf_topic=tf_topic, tf_static_topic=tf_static_topic, **names
+        )
+        with LiveObserver(config, window=duration, **node_identity("coframe_frames")) as observer:
             if watching:
                 watch(observer, as_json)
                 return
@@ -144,7 +142,7 @@ def frames(
             forest = grow(observer.observe())
         if not forest.frames:
             fail("no transforms received", "Check that a broadcaster is running in the same ROS domain.")
-        _write_or_print({"": forest}, files, as_json, f"live on {names['tf_topic']}")
+        _write_or_print({"": forest}, files, as_json, f"live on {config.tf_topic}")
 
 
 def _checked_output(path: Path) -> Path:

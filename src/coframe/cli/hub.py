@@ -4,11 +4,10 @@
 from __future__ import annotations
 
 import threading
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-import coframe
 from coframe import _core
 from coframe.cli.lifecycle import run_until_interrupted
 from coframe.cli.options import (
@@ -22,9 +21,11 @@ from coframe.cli.options import (
     TfTopicOption,
 )
 from coframe.cli.output import fail, log
-from coframe.frame_names import kept
-from coframe.shared_transforms import GENERATIONS, SharedTransforms, Source, full, is_suspended, suspension
-from coframe.wire.domains import domain_id
+from coframe.listener_config import ListenerConfig
+from coframe.shared_transforms import GENERATIONS, SharedTransforms, full, is_suspended, open_segment, suspension
+
+if TYPE_CHECKING:
+    from coframe.buffer.buffer import Buffer
 
 __all__ = ["hub"]
 
@@ -56,34 +57,40 @@ def hub(
 
     Example: coframe hub --domain 5
     """
-    joined = domain_id() if domain is None else domain
-    source = Source(joined, tf_topic, tf_static_topic, int(cache), prefix, tuple(sorted(kept(keep))))
     with run_until_interrupted():
+        config = ListenerConfig.of(
+            domain=domain,
+            tf_topic=tf_topic,
+            tf_static_topic=tf_static_topic,
+            prefix=prefix,
+            keep=keep,
+            cache=cache,
+        )
         try:
             if status:
-                _print_status(source)
+                _print_status(config)
             else:
-                _receive(source)
+                _receive(config)
         except _core.SegmentError as error:
             fail(str(error), "Use coframe.connect() without shared=True.")
 
 
-def _topics(source: Source) -> str:
-    return f"{source.tf_topic} and {source.tf_static_topic} in domain {source.domain}"
+def _topics(config: ListenerConfig) -> str:
+    return f"{config.tf_topic} and {config.tf_static_topic} in domain {config.domain}"
 
 
-def _print_status(source: Source) -> None:
+def _print_status(config: ListenerConfig) -> None:
     """Print which process receives the transforms. Exit with 1 if there is none, or if it is suspended."""
-    segment = source.open()
+    segment = open_segment(config)
     try:
         if segment.try_to_write():
-            print(f"No process receives {_topics(source)} for others.")
+            print(f"No process receives {_topics(config)} for others.")
             raise typer.Exit(1)
-        buffer = coframe.Buffer(source.cache)
+        buffer = config.new_buffer()
         segment.follow(buffer)
         process = segment.writer_process
         size = f"{len(buffer.frame_names())} frames in {segment.used / 1e6:.1f} MB of shared memory"
-        print(f"Process {process} receives {_topics(source)} for all programs that share transforms: {size}.")
+        print(f"Process {process} receives {_topics(config)} for all programs that share transforms: {size}.")
         if shortage := segment.shortage:
             print(full(shortage))
         if segment.outdated:
@@ -95,39 +102,39 @@ def _print_status(source: Source) -> None:
         segment.close()
 
 
-def _receive(source: Source) -> None:
-    generations = [SharedTransforms.join(source)]
+def _receive(config: ListenerConfig) -> None:
+    generations = [SharedTransforms.join(config)]
     try:
-        _report(source, generations)
+        _report(config, generations)
     finally:
         for shared in generations:
             shared.leave()
 
 
-def _report(source: Source, generations: list[SharedTransforms]) -> None:
+def _report(config: ListenerConfig, generations: list[SharedTransforms]) -> None:
     """Log what happens. Programs that start after a static transform was withdrawn share a further generation."""
     if not generations[0].writes:
         process = generations[0].writer_process
-        log("INFO", NODE, f"Process {process} receives {_topics(source)}. This one takes over when it ends.")
+        log("INFO", NODE, f"Process {process} receives {_topics(config)}. This one takes over when it ends.")
     frames = -1
     received = False
     pause = threading.Event()
-    buffer = _follow(source, generations[0])
+    buffer = _follow(config, generations[0])
     while True:
         if generations[-1].writes and not received:
             received = True
-            log("INFO", NODE, f"Receiving {_topics(source)} for all programs that share transforms. Ctrl-C stops.")
+            log("INFO", NODE, f"Receiving {_topics(config)} for all programs that share transforms. Ctrl-C stops.")
         if len(buffer.frame_names()) != frames:
             frames = len(buffer.frame_names())
             log("INFO", NODE, f"{frames} frames in {generations[-1].used / 1e6:.1f} MB of shared memory")
         pause.wait(REFRESH)
         if generations[-1].outdated and len(generations) < GENERATIONS:
-            generations.append(SharedTransforms.join(source))
-            buffer = _follow(source, generations[-1])
+            generations.append(SharedTransforms.join(config))
+            buffer = _follow(config, generations[-1])
             log("INFO", NODE, "Static transforms were withdrawn. Programs that start now share another memory.")
 
 
-def _follow(source: Source, shared: SharedTransforms) -> coframe.Buffer:
-    buffer = coframe.Buffer(source.cache)
+def _follow(config: ListenerConfig, shared: SharedTransforms) -> Buffer:
+    buffer = config.new_buffer()
     shared.follow(buffer)
     return buffer

@@ -22,7 +22,6 @@ from coframe.cli.options import (
     TF_TOPIC,
     DomainOption,
     KeepOption,
-    ListenerOptions,
     PrefixOption,
     TfStaticTopicOption,
     TfTopicOption,
@@ -30,7 +29,9 @@ from coframe.cli.options import (
 from coframe.cli.output import fail
 from coframe.cli.sliders import HELP, Sliders
 from coframe.cli.view import NoBrowserOption, PortOption, announce
+from coframe.connection import Connection
 from coframe.keys import keys
+from coframe.listener_config import ListenerConfig
 from coframe.robots import RobotDescriptionError, load
 
 if TYPE_CHECKING:
@@ -117,10 +118,10 @@ def joints(
         overrides = [Parameter(name, value=value) for name, value in values.items()]
         with reported_node_errors(), _running_node(["coframe", *words], robot, domain, overrides) as running:
             if gui:
-                listener_options = ListenerOptions(
-                    tf_topic=tf_topic, tf_static_topic=tf_static_topic, prefix=prefix, keep=keep
+                config = ListenerConfig.of(
+                    domain=domain, tf_topic=tf_topic, tf_static_topic=tf_static_topic, prefix=prefix, keep=keep
                 )
-                with coframe.connect("coframe_joints", domain=domain, **listener_options) as ros:
+                with Connection("coframe_joints", config) as ros:
                     _show_in_viewer(running, robot, ros, port, browser=not no_browser)
             elif sys.stdin.isatty() and sys.stdout.isatty():
                 _show_in_terminal(running)

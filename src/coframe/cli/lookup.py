@@ -9,29 +9,26 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-import coframe
 from coframe.bags import parse_time_point
 from coframe.cli.completion import complete_frames
 from coframe.cli.echo import MAX_DIGITS, as_json_line, format_transform
 from coframe.cli.lifecycle import run_to_completion
 from coframe.cli.options import (
-    TF_STATIC_TOPIC,
-    TF_TOPIC,
     TIMES,
     DomainOption,
     KeepOption,
-    ListenerOptions,
     NamespaceOption,
     PositiveDuration,
     PrefixOption,
     RecordedTfStaticTopicOption,
     RecordedTfTopicOption,
-    reject_namespace_of_live_graph,
 )
 from coframe.cli.output import awaited_statics_text, fail
 from coframe.cli.recordings import check_has_transforms, open_recording, parse_lookup_time
+from coframe.connection import Connection
 from coframe.errors import ExtrapolationException, TransformException
 from coframe.formatting import seconds
+from coframe.listener_config import ListenerConfig
 from coframe.time import SECOND
 
 if TYPE_CHECKING:
@@ -128,16 +125,17 @@ def lookup(
                     when = None if at is None else parse_lookup_time("--at", at, recording)
                     fail(str(error), available or recording.buffer.why(target, source, when).hint)
         else:
-            reject_namespace_of_live_graph(namespace)
             if Path(target).exists() and not {"/", "."}.isdisjoint(target):
                 fail(f"{target} is a file or a folder. Give TARGET and SOURCE after the recording.", code=2)
-            options = ListenerOptions(
-                tf_topic=tf_topic or TF_TOPIC,
-                tf_static_topic=tf_static_topic or TF_STATIC_TOPIC,
+            config = ListenerConfig.of(
+                domain=domain,
+                namespace=namespace,
+                tf_topic=tf_topic,
+                tf_static_topic=tf_static_topic,
                 prefix=prefix,
                 keep=keep,
             )
-            with coframe.connect("coframe_lookup", domain=domain, **options) as ros:
+            with Connection("coframe_lookup", config) as ros:
                 try:
                     found = _when_possible(lambda: transform(ros.buffer, _clock_time(duration)), duration)
                 except TransformException as error:

@@ -29,6 +29,7 @@ from coframe.cli.ros_arguments import node_identity
 from coframe.doctor.figures import chain_figures, edge_figures, publisher_figures
 from coframe.escaping import shown
 from coframe.formatting import count
+from coframe.listener_config import ListenerConfig
 from coframe.time import MILLISECOND, SECOND
 
 if TYPE_CHECKING:
@@ -84,15 +85,10 @@ def monitor(
     with run_until_interrupted():
         from coframe.doctor.live import LiveObserver  # noqa: PLC0415 - slow import
 
-        with LiveObserver(
-            domain,
-            window=duration,
-            tf_topic=tf_topic,
-            tf_static_topic=tf_static_topic,
-            **node_identity("coframe_monitor"),
-            prefix=prefix,
-            keep=keep,
-        ) as observer:
+        config = ListenerConfig.of(
+            domain=domain, tf_topic=tf_topic, tf_static_topic=tf_static_topic, prefix=prefix, keep=keep
+        )
+        with LiveObserver(config, window=duration, **node_identity("coframe_monitor")) as observer:
             if classic:
                 what = " -> ".join(pair) if pair else "all frames"
                 print(f"Gathering data on {what} for {duration.seconds:g} seconds...", flush=True)

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, TypedDict
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -16,6 +16,7 @@ from coframe import frame_names
 from coframe.bags.formats import file_kinds
 from coframe.cli.completion import complete_recordings, complete_tf_topics
 from coframe.cli.output import fail, warn
+from coframe.frame_names import TF_STATIC_TOPIC, TF_TOPIC
 from coframe.time import SECOND, duration_ns
 
 if TYPE_CHECKING:
@@ -31,7 +32,6 @@ __all__ = [
     "Duration",
     "DurationOption",
     "KeepOption",
-    "ListenerOptions",
     "NamespaceOption",
     "NonNegativeDuration",
     "OptionalBagArgument",
@@ -43,11 +43,9 @@ __all__ = [
     "TfTopicOption",
     "checked_prefix",
     "recorded_tf_topics",
-    "reject_namespace_of_live_graph",
     "with_leading_slash",
 ]
 
-TF_TOPIC, TF_STATIC_TOPIC = "/tf", "/tf_static"
 # How a duration is written.
 DURATIONS = "Write a number of seconds, or a number and a unit: 3, 3s, 500ms, 10min."
 _BARE_NUMBER = re.compile(r"\d+(\.\d+)?", re.ASCII)
@@ -152,7 +150,7 @@ NamespaceOption = Annotated[
     str | None,
     typer.Option(
         metavar="NAMESPACE",
-        help="Use only the transforms of this namespace of the recording, e.g. /robot1.",
+        help="Use only the transforms of this namespace, e.g. /robot1 for /robot1/tf and /robot1/tf_static.",
         show_default=False,
     ),
 ]
@@ -227,25 +225,8 @@ KeepOption = Annotated[
 ]
 
 
-class ListenerOptions(TypedDict):
-    """The arguments of :func:`coframe.connect` that the options above give."""
-
-    tf_topic: str
-    tf_static_topic: str
-    prefix: str
-    keep: str
-
-
 def recorded_tf_topics(tf_topic: str | None, tf_static_topic: str | None) -> tuple[str, str] | None:
     """Return the two topics of transforms to read from a recording; None, all of them, if neither was given."""
     if tf_topic is None and tf_static_topic is None:
         return None
     return tf_topic or TF_TOPIC, tf_static_topic or TF_STATIC_TOPIC
-
-
-def reject_namespace_of_live_graph(namespace: str | None) -> None:
-    """End the command if --namespace was given without a recording."""
-    if namespace is not None:
-        root = "/" + namespace.strip("/")
-        topics = f"--tf-topic {root}/tf --tf-static-topic {root}/tf_static"
-        fail("--namespace needs a recording", f"For live transforms, use {topics}.", code=2)

@@ -16,12 +16,11 @@ from rich.text import Text
 
 import coframe
 from coframe.cli.lifecycle import run_until_interrupted
-from coframe.cli.options import ListenerOptions
 from coframe.cli.output import fail, printable
 from coframe.cli.view import optional_viewer
+from coframe.connection import Connection
 from coframe.errors import TransformException
 from coframe.formatting import count
-from coframe.frame_names import renaming
 from coframe.lab.launcher import Launcher, NodeCommand
 from coframe.tf_publishers import publisher_state
 from coframe.time import MILLISECOND
@@ -30,6 +29,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from coframe.lab.launcher import FailedNode
+    from coframe.listener_config import ListenerConfig
     from coframe.tf_publishers import TfPublisher
     from coframe.tf_relay import Relay
 
@@ -45,42 +45,33 @@ FRAMES = ("odom", "base", "link1", "link2", "end_effector", "imu", "lidar", "cam
 def show_robots(
     number_of_robots: int,
     duration: float | None,
+    config: ListenerConfig,
     *,
     own_topics: bool,
     port: int | None,
     browser: bool,
-    domain: int | None,
-    tf_topic: str,
-    tf_static_topic: str,
-    prefix: str,
-    keep: str,
 ) -> None:
     """Start robot1, robot2, ... and show them until Ctrl-C; the end of one does not stop the others.
 
     Args:
         number_of_robots: Number of robots to start.
         duration: Seconds after which the demo stops; None: on Ctrl-C.
+        config: What is shown: the common topics of the robots, and the names of the frames.
         own_topics: Whether each robot publishes names without a prefix on its own topics, which a relay merges. If
             False, all robots publish names with a prefix on the same topics.
         port: Port of the viewer; see :func:`coframe.show`.
         browser: Whether to open a browser.
-        domain: ROS domain ID; None: the default.
-        tf_topic: Common topic of the transforms.
-        tf_static_topic: Common topic of the static transforms.
-        prefix: Prefix for all frame names as they are shown.
-        keep: Frames that get no prefix.
     """
     names = [f"robot{number}" for number in range(1, number_of_robots + 1)]
-    shown = renaming(prefix, keep) or str
-    listener_options = ListenerOptions(tf_topic=tf_topic, tf_static_topic=tf_static_topic, prefix=prefix, keep=keep)
-    topics = None if own_topics else (tf_topic, tf_static_topic)
+    shown = config.renaming or str
+    topics = None if own_topics else config.topics
     commands = tuple(_command(name, number, number_of_robots, topics) for number, name in enumerate(names))
     warnings: list[str] = []
     with (
         run_until_interrupted(),
-        coframe.connect("coframe_demo", domain=domain, **listener_options) as ros,
-        _optional_relay(names, tf_topic, tf_static_topic, domain, warnings.append, needed=own_topics) as relay,
-        Launcher(commands, domain=domain) as nodes,
+        Connection("coframe_demo", config) as ros,
+        _optional_relay(names, config, warnings.append, needed=own_topics) as relay,
+        Launcher(commands, domain=config.domain) as nodes,
         optional_viewer(ros, port, browser=browser),
     ):
         view = _View(names, ros, relay, nodes, shown)
@@ -98,19 +89,19 @@ def show_robots(
 
 
 def _optional_relay(
-    names: list[str],
-    common: str,
-    common_static: str,
-    domain: int | None,
-    warn: Callable[[str], None],
-    *,
-    needed: bool,
+    names: list[str], config: ListenerConfig, warn: Callable[[str], None], *, needed: bool
 ) -> contextlib.AbstractContextManager[Relay | None]:
     if not needed:
         return contextlib.nullcontext()
     try:
         return coframe.relay(
-            names, common=common, common_static=common_static, prefix_each=True, keep=SHARED, domain=domain, warn=warn
+            names,
+            common=config.tf_topic,
+            common_static=config.tf_static_topic,
+            prefix_each=True,
+            keep=SHARED,
+            domain=config.domain,
+            warn=warn,
         )
     except ValueError as error:
         fail(str(error), code=2)

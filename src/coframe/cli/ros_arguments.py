@@ -33,7 +33,7 @@ class NodeIdentity(TypedDict):
     """The name of a node, as keyword arguments of `coframe.connect`."""
 
     node_name: str
-    namespace: str
+    node_namespace: str
 
 
 class _Rule(NamedTuple):
@@ -54,7 +54,7 @@ class NodeCommand(PlainCommand):
         """Take ``--ros-args ... --`` out of the arguments, and parse the others with the remapped topics."""
         own, rules = _split(args)
         _rules.set(rules)
-        namespace = node_identity("")["namespace"]
+        namespace = node_identity("")["node_namespace"]
         for rule in rules:
             option = _OPTIONS.get(_full_name(rule.match, namespace))
             if option is not None and option not in own:
@@ -73,7 +73,7 @@ def node_identity(default: str) -> NodeIdentity:
         match = "__node" if rule.match == "__name" else rule.match
         if match in found and rule.node in {None, default}:
             found[match] = rule.replacement
-    return NodeIdentity(node_name=found["__node"], namespace=found["__ns"])
+    return NodeIdentity(node_name=found["__node"], node_namespace=found["__ns"])
 
 
 def _full_name(topic: str, namespace: str) -> str:

@@ -98,7 +98,7 @@ def _publish_until_stopped(arguments: StaticArguments, identity: NodeIdentity) -
         raise fault
     participant = Participant.get(arguments.domain)
     try:
-        node = participant.add_node(identity["namespace"], identity["node_name"])
+        node = participant.add_node(identity["node_namespace"], identity["node_name"])
         writer = participant.static_broadcaster(node, arguments.tf_static_topic)
         names = (arguments.frame_id, arguments.child_frame_id)
         writer.send([to_transform_stamped(*names, arguments.transform, time.time_ns())])

@@ -17,18 +17,17 @@ import coframe
 from coframe.cli.completion import complete_recordings
 from coframe.cli.lifecycle import run_until_interrupted
 from coframe.cli.options import (
-    TF_STATIC_TOPIC,
-    TF_TOPIC,
     DomainOption,
     KeepOption,
-    ListenerOptions,
     PrefixOption,
     RecordedTfStaticTopicOption,
     RecordedTfTopicOption,
     recorded_tf_topics,
 )
 from coframe.cli.output import fail, warn
+from coframe.connection import Connection
 from coframe.freed_memory import return_freed_arrays
+from coframe.listener_config import ListenerConfig
 from coframe.viewer import start_viewer
 from coframe.viewer.replay.page import MAX_RATE
 from coframe.wire import selection
@@ -165,13 +164,10 @@ def view(
             # The browser starts while the graph is joined or the recording is read.
             if live:
                 announce(viewer, browser=not no_browser)
-                options = ListenerOptions(
-                    tf_topic=tf_topic or TF_TOPIC,
-                    tf_static_topic=tf_static_topic or TF_STATIC_TOPIC,
-                    prefix=prefix,
-                    keep=keep,
+                config = ListenerConfig.of(
+                    domain=domain, tf_topic=tf_topic, tf_static_topic=tf_static_topic, prefix=prefix, keep=keep
                 )
-                node = coframe.connect("coframe_view", domain=domain, **options)
+                node = Connection("coframe_view", config)
                 from coframe.viewer.sources.live import LiveSource  # noqa: PLC0415 - recordings need no DDS
 
                 viewer.set_source(LiveSource(node, own=True))

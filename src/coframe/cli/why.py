@@ -18,13 +18,10 @@ from rich.console import Console, Group
 from rich.live import Live
 from rich.text import Text
 
-import coframe
 from coframe.bags import parse_time_point
 from coframe.cli.completion import complete_frames
 from coframe.cli.lifecycle import run_to_completion, run_until_interrupted
 from coframe.cli.options import (
-    TF_STATIC_TOPIC,
-    TF_TOPIC,
     TIMES,
     DomainOption,
     KeepOption,
@@ -34,23 +31,23 @@ from coframe.cli.options import (
     RecordedTfStaticTopicOption,
     RecordedTfTopicOption,
     recorded_tf_topics,
-    reject_namespace_of_live_graph,
 )
 from coframe.cli.output import awaited_statics_text, fail, one_line, with_doctor_command
 from coframe.cli.recordings import check_has_transforms, open_recording, parse_lookup_time
+from coframe.connection import Connection
 from coframe.doctor import Observation, diagnose
 from coframe.doctor.recorded import collecting
 from coframe.doctor.rendering.plain import as_data
 from coframe.doctor.rendering.text import headline
 from coframe.explanation.drawing import remark, verdict
 from coframe.frame_names import renaming
+from coframe.listener_config import ListenerConfig
 from coframe.messages import find
 from coframe.time import SECOND, stamp_ns
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
-    from coframe import Connection
     from coframe.bags import Recording
     from coframe.doctor import Finding, Report
     from coframe.doctor.collector import Collector
@@ -72,15 +69,6 @@ class _Names(NamedTuple):
 
     prefix: str
     keep: str
-
-
-class _LiveSource(NamedTuple):
-    """The domain and the topics to listen to."""
-
-    domain: int | None
-    tf_topic: str
-    tf_static_topic: str
-    names: _Names
 
 
 class _Answer(NamedTuple):
@@ -136,22 +124,20 @@ def why(
     if names is None or len(names) not in {2, 3}:
         fail("Give the frames TARGET and SOURCE, or a recording and the two frames.", code=2)
     *bags, target, source = names
-    if not bags:
-        reject_namespace_of_live_graph(namespace)
-        if Path(target).exists() and not {"/", "."}.isdisjoint(target):
-            fail(f"{target} is a file or a folder. Give TARGET and SOURCE after the recording.", code=2)
+    if not bags and Path(target).exists() and not {"/", "."}.isdisjoint(target):
+        fail(f"{target} is a file or a folder. Give TARGET and SOURCE after the recording.", code=2)
     if watch and bags:
         fail("--watch cannot be combined with a recording", code=2)
     renaming_options = _Names(prefix, keep)
-    live = _LiveSource(domain, tf_topic or TF_TOPIC, tf_static_topic or TF_STATIC_TOPIC, renaming_options)
+    topics: dict[str, Any] = {"tf_topic": tf_topic, "tf_static_topic": tf_static_topic}
     with run_until_interrupted() if watch else run_to_completion():
         if bags:
-            topics = {"tf_topic": tf_topic, "tf_static_topic": tf_static_topic}
             answer = _answer_recorded(Path(bags[0]), target, source, at, namespace, topics, renaming_options)
-        elif watch:
-            _watch(live, target, source, at, duration, as_json=as_json)
         else:
-            answer = _answer_live(live, target, source, at, duration)
+            config = ListenerConfig.of(domain=domain, namespace=namespace, **topics, **renaming_options._asdict())
+            if watch:
+                _watch(config, target, source, at, duration, as_json=as_json)
+            answer = _answer_live(config, target, source, at, duration)
         _print(answer, as_json=as_json)
         raise typer.Exit(0 if answer.found.possible else 1)
 
@@ -171,18 +157,12 @@ def _answer_recorded(
         return _Answer(found, _relevant_reports(found, seen), list(_other_namespaces(found, recording)))
 
 
-def _answer_live(graph: _LiveSource, target: str, source: str, at: str | None, window: int) -> _Answer:
+def _answer_live(config: ListenerConfig, target: str, source: str, at: str | None, window: int) -> _Answer:
     from coframe.doctor.live import LiveObserver  # noqa: PLC0415 - recordings need no DDS
 
     with (
-        _connection(graph) as ros,
-        LiveObserver(
-            graph.domain,
-            tf_topic=graph.tf_topic,
-            tf_static_topic=graph.tf_static_topic,
-            node_name="coframe_why_doctor",
-            **graph.names._asdict(),
-        ) as observer,
+        Connection("coframe_why", config) as ros,
+        LiveObserver(config, node_name="coframe_why_doctor") as observer,
     ):
         if Console(stderr=True).is_terminal:
             typer.echo(f"observing for {window / SECOND:g} s ...", err=True)
@@ -194,15 +174,15 @@ def _answer_live(graph: _LiveSource, target: str, source: str, at: str | None, w
         seen = observer.observe()
         clock = int(seen.clock.stamp[-1]) if seen.clock is not None else None
         found = ros.buffer.why(target, source, _lookup_time(at, clock, window), now=clock)
-        notes = [*_awaited(found, ros), *_other_topics(found, ros, graph)]
+        notes = [*_awaited(found, ros), *_other_topics(found, ros)]
         return _Answer(found, _relevant_reports(found, [seen]), notes)
 
 
-def _watch(graph: _LiveSource, target: str, source: str, at: str | None, window: int, *, as_json: bool) -> NoReturn:
+def _watch(config: ListenerConfig, target: str, source: str, at: str | None, window: int, *, as_json: bool) -> NoReturn:
     """Print an answer every second, without the doctor, until Ctrl-C."""
     from coframe.wire import QoS  # noqa: PLC0415 - recordings need no DDS
 
-    with _connection(graph) as ros, Live(console=Console(highlight=False), auto_refresh=False) as live:
+    with Connection("coframe_why", config) as ros, Live(console=Console(highlight=False), auto_refresh=False) as live:
         ticks: deque[Any] = deque(maxlen=1)
         ros.subscribe("/clock", find("rosgraph_msgs/msg/Clock"), ticks.append, QoS(depth=1, reliable=False))
         while True:
@@ -214,16 +194,6 @@ def _watch(graph: _LiveSource, target: str, source: str, at: str | None, window:
             else:
                 live.update(Group(*_texts(answer, live.console)), refresh=True)
             time.sleep(1.0)
-
-
-def _connection(graph: _LiveSource) -> Connection:
-    return coframe.connect(
-        "coframe_why",
-        domain=graph.domain,
-        tf_topic=graph.tf_topic,
-        tf_static_topic=graph.tf_static_topic,
-        **graph.names._asdict(),
-    )
 
 
 def _lookup_time(at: str | None, clock: int | None, window: int) -> int | None:
@@ -268,12 +238,12 @@ def _awaited(found: Explanation, ros: Connection) -> Iterator[str]:
         yield awaited_statics_text(nodes)
 
 
-def _other_topics(found: Explanation, ros: Connection, graph: _LiveSource) -> Iterator[str]:
+def _other_topics(found: Explanation, ros: Connection) -> Iterator[str]:
     if found.possible:
         return
     for topic, publishers in sorted(ros.participant.published().items()):
         types = {endpoint.ros_type for endpoint in publishers.values()}
-        if _TF_TYPE in types and topic not in {graph.tf_topic, graph.tf_static_topic}:
+        if _TF_TYPE in types and topic not in ros.config.topics:
             option = "--tf-static-topic" if topic.endswith("static") else "--tf-topic"
             yield f"transforms are also published on {topic}: coframe why ... {option} {shlex.quote(topic)}"
 

@@ -3,13 +3,17 @@
 
 from __future__ import annotations
 
-import os
 from typing import Any, Final
+
+from coframe.wire import selection
 
 __all__ = ["HELP", "joins_graph", "take_wire"]
 
 # For the help of each of these commands.
-HELP: Final = ("--wire [dds|zenoh]", "Middleware to use. [default: $COFRAME_WIRE, or DDS]")
+HELP: Final = (
+    f"--wire [{'|'.join(selection.WIRES)}]",
+    f"Middleware to use. [default: ${selection.VARIABLE}, or {selection.DEFAULT.title}]",
+)
 
 _NAME: Final = "--wire"
 _COMMANDS: Final = frozenset(
@@ -28,14 +32,14 @@ def joins_graph(context: Any) -> bool:
 
 
 def take_wire(args: list[str], *, leading_only: bool) -> list[str]:
-    """Return the words of a command line without `--wire VALUE`, which is set as COFRAME_WIRE for child processes, too.
+    """Return the words of a command line without `--wire VALUE`, which chooses the middleware of this process.
 
     Args:
         args: The words. Those after "--" and "--ros-args" belong to a node.
         leading_only: Whether the words after the first one that is not an option belong to another program.
 
     Raises:
-        ValueError: The value is neither "dds" nor "zenoh", or there is none.
+        ValueError: The value is not a middleware, or there is none.
     """
     end = next((index for index, word in enumerate(args) if word in ("--", "--ros-args")), len(args))
     for index, word in enumerate(args[:end]):
@@ -47,8 +51,8 @@ def take_wire(args: list[str], *, leading_only: bool) -> list[str]:
             break
         else:
             continue
-        if value not in ("dds", "zenoh"):
-            raise ValueError(f"Invalid value for '{_NAME}': {value!r} is neither dds nor zenoh.")
-        os.environ["COFRAME_WIRE"] = value
+        if value not in selection.WIRES:
+            raise ValueError(f"Invalid value for '{_NAME}': {value!r} is not {selection.alternatives()}.")
+        selection.choose(value)
         return args[:index] + rest
     return args

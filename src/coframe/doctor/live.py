@@ -14,7 +14,6 @@ import numpy as np
 from coframe.doctor.collector import Collector
 from coframe.doctor.joints import joint_states
 from coframe.doctor.observation import (
-    DEFAULT_CACHE,
     Clock,
     Endpoint,
     JointStates,
@@ -24,8 +23,8 @@ from coframe.doctor.observation import (
     TopicFacts,
 )
 from coframe.errors import DecodeError
-from coframe.frame_names import renaming
 from coframe.freed_memory import return_freed_blocks
+from coframe.listener_config import ListenerConfig
 from coframe.messages import deserialize, find
 from coframe.messages.header_peek import HEADER_BYTES, opens_with_header, peek_header
 from coframe.messages.slices import Slices
@@ -136,42 +135,32 @@ class LiveObserver:
     """Joins the graph and collects what the doctor checks. Can be used as a context manager.
 
     Args:
-        domain: The ROS domain. If None, it is ROS_DOMAIN_ID, or 0 if that is not set.
-        tf_topic: The topic of dynamic transforms.
-        tf_static_topic: The topic of static transforms.
-        cache: The assumed cache length of the listeners' buffers, in nanoseconds.
+        config: What to observe. Its cache is the assumed cache length of the listeners' buffers. If None, the
+            transforms on /tf and /tf_static are observed, in the domain of ROS_DOMAIN_ID.
         window: The duration that observations cover, in nanoseconds. If None, they cover everything since the start.
         node_name: The name of the node.
-        namespace: The namespace of the node: "/" or "/a/b".
-        prefix: A prefix for the frames of transforms and sensors, used as given.
-        keep: The frames that are shared by robots and get no prefix.
+        node_namespace: The namespace of the node: "/" or "/a/b".
 
     Raises:
-        ValueError: The prefix begins with a slash.
         WireError: The graph cannot be joined.
     """
 
     def __init__(
         self,
-        domain: int | None = None,
+        config: ListenerConfig | None = None,
         *,
-        tf_topic: str = "/tf",
-        tf_static_topic: str = "/tf_static",
-        cache: int = DEFAULT_CACHE,
         window: int | None = None,
         node_name: str = "coframe_doctor",
-        namespace: str = "/",
-        prefix: str = "",
-        keep: Iterable[str] = (),
+        node_namespace: str = "/",
     ) -> None:
-        names = renaming(prefix, keep)
-        self._rename: Callable[[str], str] = names or str
-        self.cache = cache
+        config = config or ListenerConfig.of()
+        self._rename: Callable[[str], str] = config.renaming or str
+        self.cache = config.cache
         self.window = window
         self.start = time.time_ns()
         self._started = time.monotonic_ns()
-        self._participant = Participant.get(domain)
-        self._collector = Collector(names)
+        self._participant = Participant.get(config.domain, config.wire)
+        self._collector = Collector(config.renaming)
         self._writers: dict[int, _Writer] = {}
         self._delays: dict[int, deque[_Delays]] = {}
         self._static_writers: set[int] = set()  # those that have delivered
@@ -180,10 +169,10 @@ class LiveObserver:
         self._dropped_at: dict[str, int] = {}  # by topic of transforms, the time of the last dropped message
         self._return_due = 0.0
         try:
-            self._node = self._participant.add_node(namespace, node_name)
+            self._node = self._participant.add_node(node_namespace, node_name)
             self._transforms = {
                 topic: (self._subscribe(topic, TF_TYPE, qos, _WHOLE_MESSAGE), static)
-                for topic, qos, static in ((tf_topic, TF, False), (tf_static_topic, TF_STATIC_READER, True))
+                for topic, qos, static in zip(config.topics, (TF, TF_STATIC_READER), (False, True), strict=True)
             }
         except BaseException:
             self._participant.close()

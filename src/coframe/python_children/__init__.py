@@ -15,12 +15,34 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-__all__ = ["python_command", "python_environment"]
+__all__ = ["child_environment", "pass_to_children", "python_command", "python_environment"]
 
 _START = str(Path(__file__).with_name("start.py"))
 # What would make a process without a terminal wait for input, or run a file at its start or end.
 _OMITTED = ("PYTHONINSPECT", "PYTHONSTARTUP")
 _PATH = "PYTHONPATH"
+
+# What this process passes on: variable -> (value, value in the environment of this process at that time).
+_passed: dict[str, tuple[str, str | None]] = {}
+
+
+def pass_to_children(name: str, value: str) -> None:
+    """Set an environment variable of the processes that this one starts, but not of this one."""
+    _passed[name] = (value, os.environ.get(name))
+
+
+def child_environment(base: Mapping[str, str] | None = None) -> dict[str, str]:
+    """Return the environment for a process, with what `pass_to_children` has set.
+
+    Args:
+        base: The variables to start from. None: those of this process. A variable that was changed in it, for example
+            by a launch file, keeps its value.
+    """
+    environment = dict(os.environ if base is None else base)
+    for name, (value, before) in _passed.items():
+        if environment.get(name) == before:
+            environment[name] = value
+    return environment
 
 
 def python_command(module: str, *arguments: str) -> list[str]:
@@ -44,7 +66,7 @@ def python_environment(base: Mapping[str, str] | None = None) -> dict[str, str]:
     Args:
         base: The variables to start from. None: those of this process.
     """
-    environment = dict(os.environ if base is None else base)
+    environment = child_environment(base)
     for name in _OMITTED:
         environment.pop(name, None)
     if _PATH in environment:

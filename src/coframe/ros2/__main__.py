@@ -4,11 +4,11 @@
 from __future__ import annotations
 
 import argparse
-import os
 import runpy
 import sys
 from pathlib import Path
 
+from coframe import ros_side
 from coframe.ros2 import _replacement
 
 
@@ -30,7 +30,7 @@ def main() -> None:
     parser.add_argument("arguments", nargs=argparse.REMAINDER, help="The arguments of the program.")
     options = parser.parse_args()
     if options.wire:
-        os.environ["COFRAME_ROS2_WIRE"] = options.wire
+        ros_side.choose_listener_wire(options.wire)
     if not options.module and not Path(options.program).is_file():
         parser.error(f"there is no file {options.program}; for a module, use -m")
     _replacement.install()

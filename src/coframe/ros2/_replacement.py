@@ -3,13 +3,13 @@
 
 from __future__ import annotations
 
-import os
 import sys
 from importlib.machinery import PathFinder
 from typing import TYPE_CHECKING
 
 from coframe import ros_side
 from coframe.ros_folders import foreign_packages, is_coframes, ros_folder
+from coframe.wire.dds.config import reach_subnet_by_default
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -33,7 +33,7 @@ def install() -> None:
                 "or run the program with: python -m coframe.ros2 PROGRAM.py"
             )
     # The native subscriptions must reach the nodes that this ROS reaches. ROS_LOCALHOST_ONLY=1 has priority.
-    os.environ.setdefault("ROS_AUTOMATIC_DISCOVERY_RANGE", "SUBNET")
+    reach_subnet_by_default()
     ros_side.allow_tf2()
     sys.meta_path.insert(0, _Finder())
 

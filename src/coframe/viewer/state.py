@@ -190,7 +190,7 @@ class ViewerState:
     @property
     def static_topic(self) -> str:
         """The topic of static transforms."""
-        return "" if self.source.connection is None else self.source.connection.tf_topics[1]
+        return "" if self.source.connection is None else self.source.connection.config.tf_static_topic
 
     def tool_publisher(self) -> ToolPublisher:
         """Return the publisher of what the pages' tools define.

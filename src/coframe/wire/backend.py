@@ -13,7 +13,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, NamedTuple, Protocol, runtime_checkable
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
 
     from coframe import Buffer, _core
     from coframe.wire.endpoints import GraphNode
@@ -121,6 +121,38 @@ class BackendTfReader(BackendEndpoint, Protocol):
     def forget_writer(self, writer: int) -> None: ...  # noqa: D102
     def writer_left(self, writer: int) -> None: ...  # noqa: D102
     def settle_statics(self) -> None: ...  # noqa: D102
+
+
+class Middleware(Protocol):
+    """A middleware, a row of `coframe.wire.selection`. It imports what it needs only when it is used."""
+
+    @property
+    def variables(self) -> Sequence[str]:
+        """The environment variables that only this middleware has, and that select it if one is set."""
+
+    def is_available(self, environment: Mapping[str, str]) -> bool:
+        """Return whether it is installed, without importing it."""
+
+    def check(self) -> None:
+        """Raise a `WireError` if it is not installed, without importing it."""
+
+    def network(self, environment: Mapping[str, str]) -> str:
+        """Return a text that is equal for two environments if processes in both join the same network.
+
+        Raises:
+            WireError: An environment variable has an invalid value.
+        """
+
+    def join(self, domain: int, changed: _core.Event) -> Session:
+        """Join a ROS domain.
+
+        Args:
+            domain: The domain ID.
+            changed: Set whenever the graph may have changed.
+
+        Raises:
+            WireError: It is not installed, its configuration is not valid, or it cannot join the domain.
+        """
 
 
 class Session(Protocol):

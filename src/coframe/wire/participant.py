@@ -38,23 +38,28 @@ _logger = logging.getLogger("coframe.wire")
 
 
 class Participant(EndpointFactory, GraphQueries):
-    """The participant of this process in a ROS domain. All methods are thread-safe.
+    """The participant of this process in a ROS domain over a middleware. All methods are thread-safe.
 
     The participant is shared by reference counting: each call of `get` needs one call of `close`.
+
+    Attributes:
+        domain_id: The domain ID.
+        wire: The middleware, "dds" or "zenoh".
     """
 
-    _instances: ClassVar[dict[int, Participant]] = {}
+    _instances: ClassVar[dict[tuple[str, int], Participant]] = {}
     _instances_lock: ClassVar[threading.RLock] = threading.RLock()
 
-    def __init__(self, domain_id: int) -> None:
+    def __init__(self, domain_id: int, wire: str) -> None:
         self.domain_id = domain_id
+        self.wire = wire
         self._process = os.getpid()
         self._references = 0
         self._lock = threading.RLock()
         self._nodes: list[GraphNode] = []
         self._statics: dict[str, SharedStaticPublisher] = {}
         self._wake = _core.Event()
-        self._session = selection.join(domain_id, self._wake)
+        self._session = selection.join(wire, domain_id, self._wake)
         self._graph = self._session.graph
         self._mismatches = MismatchMonitor(self._graph, self._warn)
         self._rejections = RejectedTransformMonitor(self._graph, self._warn)
@@ -68,29 +73,33 @@ class Participant(EndpointFactory, GraphQueries):
         self._thread.start()
 
     @classmethod
-    def get(cls, domain_id: int | None = None) -> Participant:
+    def get(cls, domain_id: int | None = None, wire: str | None = None) -> Participant:
         """Return the participant of this process in a domain, and join the domain if necessary.
+
+        A process may use several middlewares: it has one participant for each of them and for each domain.
 
         Args:
             domain_id: The domain, 0 to 232. If None, it is ROS_DOMAIN_ID, or 0 if that is not set.
+            wire: The middleware, "dds" or "zenoh". If None, the selected one; see `coframe.wire.selection`.
 
         Raises:
-            WireError: There is no usable middleware, an environment variable has an invalid value, the domain has no
-                free participant index, this process was forked from a process that had joined a domain, or the system
-                clock is before 1970 or after 2106.
+            WireError: There is no such middleware, or none that is usable, an environment variable has an invalid
+                value, the domain has no free participant index, this process was forked from a process that had joined
+                a domain, or the system clock is before 1970 or after 2106.
         """
         domain = domains.domain_id() if domain_id is None else domains.check_domain_id(domain_id)
+        key = (selection.resolve(wire), domain)
         with cls._instances_lock:
             if any(joined.is_inherited() for joined in cls._instances.values()):
                 raise WireError(
                     "This process was forked from one that had joined the ROS graph, which does not work after a fork.",
                     hint="Start processes with 'spawn': multiprocessing.set_start_method('spawn').",
                 )
-            participant = cls._instances.get(domain)
+            participant = cls._instances.get(key)
             if participant is None:
                 if (fault := clock_fault()) is not None:
                     raise fault
-                participant = cls._instances[domain] = cls(domain)
+                participant = cls._instances[key] = cls(domain, key[0])
             participant._references += 1
             return participant
 
@@ -237,7 +246,7 @@ class Participant(EndpointFactory, GraphQueries):
                 endpoint.name_writers(self._graph)
 
     def _end(self) -> None:
-        del self._instances[self.domain_id]
+        del self._instances[self.wire, self.domain_id]
         self._closing = True
         self._wake.set()
         if self._thread is not threading.current_thread():

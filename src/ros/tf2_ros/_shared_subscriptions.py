@@ -11,14 +11,15 @@ from typing import TYPE_CHECKING, Any
 from coframe._core import watch
 from rclpy.subscription import Subscription
 from tf2_msgs.msg import TFMessage
-from tf2_ros._sharing import SharedReader
+from tf2_ros._native_subscriptions import NativeSubscriptions
+from tf2_ros._sharing import SharedReader, share
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from coframe._core import Event
     from tf2_ros._sharing import Sharing
-    from tf2_ros._subscriptions import Request, Subscriptions, Topic
+    from tf2_ros._subscriptions import Request, Topic
 
 
 class SharedSubscriptions:
@@ -29,19 +30,17 @@ class SharedSubscriptions:
         static: The subscription to static transforms.
     """
 
-    def __init__(self, request: Request, sharing: Sharing, receive_alone: Callable[[], Subscriptions]) -> None:
+    def __init__(self, request: Request, sharing: Sharing) -> None:
         """Create the entities.
 
         Args:
             request: What the listener subscribes to.
             sharing: Its share.
-            receive_alone: Opens subscriptions of the listener's own, when the program changes the buffer.
         """
         assert request.dynamic is not None
         self._request = request
         self._sharing = sharing
-        self._receive_alone = receive_alone
-        self._own: Subscriptions | None = None
+        self._own: NativeSubscriptions | None = None  # when the program has changed the buffer
         self._closed = False
         self.dynamic = self._stand_in(request.dynamic, sharing.topics[0], self._dynamic_destroyed)
         self.static = self._stand_in(request.static, sharing.topics[1], self._static_destroyed)
@@ -56,6 +55,12 @@ class SharedSubscriptions:
                 method()
 
         sharing.on_local_change(receive_alone_unless_gone)
+
+    @classmethod
+    def open(cls, request: Request) -> SharedSubscriptions | None:
+        """Share the transforms; return None if this system cannot."""
+        sharing = share(request)
+        return None if sharing is None else cls(request, sharing)
 
     def close(self) -> None:
         """Destroy the subscriptions. Repeated calls have no effect."""
@@ -76,7 +81,7 @@ class SharedSubscriptions:
 
     def _dynamic_destroyed(self) -> None:
         own = self._own_of_the_other()
-        if own is not None:
+        if own is not None and own.dynamic is not None:
             self._request.node.destroy_subscription(own.dynamic)
 
     def _static_destroyed(self) -> None:
@@ -84,7 +89,7 @@ class SharedSubscriptions:
         if own is not None:
             self._request.node.destroy_subscription(own.static)
 
-    def _own_of_the_other(self) -> Subscriptions | None:
+    def _own_of_the_other(self) -> NativeSubscriptions | None:
         """Return own subscriptions, of which the program destroys one; None if it destroys both, or the node."""
         if self._closed or self._request.node._Coframe__entities.is_destroyed:
             self._sharing.leave()
@@ -93,7 +98,7 @@ class SharedSubscriptions:
         return self._own
 
     def _open_own(self) -> None:
-        self._own = self._receive_alone()
+        self._own = NativeSubscriptions(self._request)
         self._ignore_arrivals()
 
     def _ignore_arrivals(self) -> None:

@@ -11,46 +11,40 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from coframe._core import SegmentError
-from coframe.shared_transforms import SharedTransforms, Source
+from coframe.listener_config import ListenerConfig
+from coframe.shared_transforms import SharedTransforms
 from coframe.wire.qos import TF, TF_STATIC_READER
+from tf2_ros._rclpy_side import domain_and_middleware, reporter, to_wire
 from tf2_ros._subscriptions import AUTHORITY
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from coframe.wire import QoS, Sample
+    from coframe.wire.endpoints import Sample
     from rclpy.node import Node
-    from rclpy.qos import QoSProfile
-    from tf2_ros._subscriptions import Request, Topic
-
-    Mismatch = Callable[[str, str], object]
+    from tf2_ros._subscriptions import Request
 
 _logger = logging.getLogger("coframe.wire")
 _logged: set[str] = set()
 
 
-def share(
-    request: Request, domain: int, to_wire: Callable[[QoSProfile], QoS], reporter: Callable[[Topic], Mismatch]
-) -> Sharing | None:
+def share(request: Request) -> Sharing | None:
     """Let the buffer of a listener read the shared transforms, and return its share.
 
     Args:
-        request: What the listener subscribes to.
-        domain: The domain of its node.
-        to_wire: Converts the QoS profiles of the node's rclpy.
-        reporter: Returns a function that reports publishers of a topic with another QoS, for `TfReader.on_mismatch`.
+        request: What the listener subscribes to; `is_shareable` is true for it.
 
     Returns:
-        None if sharing is not enabled, not possible here, or does not suit this listener.
+        None if sharing is not possible on this system, or the buffer is not empty.
     """
-    if not _is_enabled() or not _is_usual(request, to_wire):
-        return None
     assert request.dynamic is not None
-    dynamic, static = (request.node.resolve_topic_name(topic.name) for topic in (request.dynamic, request.static))
+    topics = (request.dynamic.name, request.static.name)
+    dynamic, static = (request.node.resolve_topic_name(topic) for topic in topics)
     buffer = request.buffer._Coframe__buffer
+    domain, wire = domain_and_middleware(request.node)
+    config = ListenerConfig(dynamic, static, cache=buffer.cache_ns, domain=domain, wire=wire)
     try:
-        source = Source(domain, dynamic, static, cache=buffer.cache_ns)
-        shared = SharedTransforms.join(source, (reporter(request.dynamic), reporter(request.static)))
+        shared = SharedTransforms.join(config, (reporter(request.node, topics[0]), reporter(request.node, topics[1])))
     except SegmentError as error:
         _warn_once(f"The transforms are not shared with other processes: {error}")
         return None
@@ -58,6 +52,19 @@ def share(
         shared.leave()
         return None
     return Sharing(buffer, shared, (dynamic, static))
+
+
+def is_shareable(request: Request) -> bool:
+    """Return whether COFRAME_SHARED=1 is set and the listener subscribes like all others.
+
+    These subscribe to both topics, with the usual quality of service, names and clock.
+    """
+    if not _is_enabled() or not request.shared or request.dynamic is None or request.renaming is not None:
+        return False
+    clock: Any = request.node.get_clock()
+    qos = [to_wire(topic.qos) for topic in (request.dynamic, request.static)]
+    usual = [replace(one, depth=100) for one in (TF, TF_STATIC_READER)]
+    return not clock.ros_time_is_active and [replace(one, depth=100) for one in qos] == usual
 
 
 def _is_enabled() -> bool:
@@ -73,15 +80,6 @@ def _warn_once(text: str) -> None:
     if text not in _logged:
         _logged.add(text)
         _logger.warning(text)
-
-
-def _is_usual(request: Request, to_wire: Callable[[QoSProfile], QoS]) -> bool:
-    """Return whether the listener subscribes like all others: to both topics, with the usual QoS, names and clock."""
-    clock: Any = request.node.get_clock()
-    if not request.shared or request.dynamic is None or request.renaming is not None or clock.ros_time_is_active:
-        return False
-    qos = [to_wire(topic.qos) for topic in (request.dynamic, request.static)]
-    return [replace(one, depth=100) for one in qos] == [replace(usual, depth=100) for usual in (TF, TF_STATIC_READER)]
 
 
 class Sharing:

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """What tf2_ros needs from coframe's rclpy beyond the public API."""
 
-# ruff: noqa: SLF001 - Native ingestion requires private members of rclpy's nodes and tf2's buffers.
+# ruff: noqa: SLF001 - Private members of rclpy are what this module hides from the others.
 
 from __future__ import annotations
 
@@ -10,35 +10,41 @@ from typing import TYPE_CHECKING, Any
 from rclpy.event_handler import MismatchReporter, SubscriptionEventCallbacks
 from rclpy.publisher import Publisher
 from rclpy.qos import QoSProfile, as_qos_profile
-from rclpy.subscription import Subscription
 from tf2_msgs.msg import TFMessage
-from tf2_ros._shared_subscriptions import SharedSubscriptions
-from tf2_ros._sharing import share
-from tf2_ros._subscriptions import AUTHORITY, CallbackSubscriptions, Request, Subscriptions, Topic
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from coframe.wire import TfReader
+    from coframe.wire.qos import QoS
     from rclpy.node import Node
     from rclpy.task import Future
+    from tf2_ros._subscriptions import Request
 
+IS_SOURCED = False
 profile = as_qos_profile
 
 _PUBLISH = Publisher.publish
 
 
-def open_subscriptions(request: Request) -> Subscriptions:
-    """Subscribe, and insert transforms into the buffer without Python code unless the request says otherwise."""
-    if request.wire == "rclpy":
-        return CallbackSubscriptions(request)
+def receiving_wire(request: Request) -> str:
+    """Return how transforms are received: "native" unless the listener asks for "rclpy"."""
+    return request.wire or "native"
 
-    def receive_alone() -> Subscriptions:
-        return _NativeSubscriptions(request)
 
-    domain = request.node._Coframe__participant.domain_id
-    sharing = share(request, domain, lambda qos: qos._Coframe__to_wire(), lambda topic: _reporter(request.node, topic))
-    return receive_alone() if sharing is None else SharedSubscriptions(request, sharing, receive_alone)
+def domain_and_middleware(node: Node) -> tuple[int, str]:
+    """Return the domain and the middleware of a node."""
+    participant = node._Coframe__participant
+    return participant.domain_id, participant.wire
+
+
+def to_wire(qos: QoSProfile) -> QoS:
+    """Return a quality of service profile as coframe's wire takes it."""
+    return qos._Coframe__to_wire()
+
+
+def reporter(node: Node, topic: str) -> Callable[[str, str], object]:
+    """Return a function that reports publishers of a topic with another quality of service or type."""
+    return MismatchReporter(SubscriptionEventCallbacks(), node.get_logger(), topic)
 
 
 def static_publisher(node: Node, topic: str, qos: QoSProfile) -> Any:
@@ -77,69 +83,3 @@ def on_cancel(goal_handle: Any, callback: Callable[[], object]) -> None:
 
 def wake_executors() -> None:
     """Do nothing: a future of coframe's rclpy wakes the executor of a coroutine that awaits it."""
-
-
-def _reporter(node: Node, topic: Topic) -> MismatchReporter:
-    return MismatchReporter(SubscriptionEventCallbacks(), node.get_logger(), topic.name)
-
-
-class _NativeSubscriptions:
-    def __init__(self, request: Request) -> None:
-        self._node = request.node
-        self._readers: list[TfReader] = []
-        self.dynamic = None if request.dynamic is None else self._open(request, request.dynamic, static=False)
-        self.static = self._open(request, request.static, static=True)
-        self._arrivals = _Arrivals(self._readers)
-        self._node._Coframe__polled_subscriptions.append(self._arrivals)
-
-    def _open(self, request: Request, topic: Topic, *, static: bool) -> Subscription:
-        node, qos = request.node, topic.qos
-        name = node.resolve_topic_name(topic.name)
-        reader = node._Coframe__participant.tf_reader(
-            node._Coframe__graph_node,
-            name,
-            request.buffer._Coframe__buffer,
-            static=static,
-            qos=qos._Coframe__to_wire(),
-            authority=AUTHORITY,
-            renaming=request.renaming,
-            on_data=node.context._Coframe__wakeup.event,
-            on_mismatch=_reporter(node, topic),
-        )
-        self._readers.append(reader)
-        return node._Coframe__entities.add(
-            Subscription(reader, TFMessage, name, name, topic.callback, request.group, qos, raw=False)
-        )
-
-    def close(self) -> None:
-        for subscription in (self.dynamic, self.static):
-            if subscription is not None:
-                self._node.destroy_subscription(subscription)
-        if self._arrivals in self._node._Coframe__polled_subscriptions:
-            self._node._Coframe__polled_subscriptions.remove(self._arrivals)
-
-
-class _Arrivals:
-    """Polled subscription that reports natively inserted messages to `spin_once`, one by one."""
-
-    # The depth of the subscription, which also limits the number of messages that an executor can take.
-    _DEPTH = 100
-
-    def __init__(self, readers: list[TfReader]) -> None:
-        self._readers = readers
-        self._handled = 0
-
-    def arm(self) -> None:
-        for reader in self._readers:
-            reader.arm()
-
-    def take_one(self) -> bool:
-        count = self._count()
-        self._handled = max(self._handled, count - self._DEPTH)
-        if self._handled == count:
-            return False
-        self._handled += 1
-        return True
-
-    def _count(self) -> int:
-        return sum(reader.received for reader in self._readers)

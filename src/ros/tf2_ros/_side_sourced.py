@@ -7,26 +7,25 @@ import contextlib
 import os
 import threading
 import weakref
-from dataclasses import replace
-from functools import partial
 from typing import TYPE_CHECKING, Any
 
+from coframe import ros_side
 from coframe.errors import WireError
-from coframe.wire import Participant, QoS, selection
-from coframe.wire.qos import INFINITE
+from coframe.wire import selection
+from coframe.wire.qos import INFINITE, QoS
 from rclpy.qos import QoSProfile
 from rclpy.utilities import get_rmw_implementation_identifier
 from tf2_msgs.msg import TFMessage
-from tf2_ros._sharing import SharedReader, share
-from tf2_ros._subscriptions import AUTHORITY, WIRES, CallbackSubscriptions, Request, Subscriptions, Topic
+from tf2_ros._subscriptions import WIRES
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from coframe.wire import GraphNode, TfReader
     from rclpy.node import Node
     from rclpy.task import Future
-    from tf2_ros._sharing import Sharing
+    from tf2_ros._subscriptions import Request
+
+IS_SOURCED = True
 
 _logged: set[str] = set()
 
@@ -39,25 +38,47 @@ def profile(qos: QoSProfile | int) -> QoSProfile:
     return qos if isinstance(qos, QoSProfile) else QoSProfile(depth=qos)
 
 
-def open_subscriptions(request: Request) -> Subscriptions:
-    """Subscribe natively or with raw subscriptions of the node, as the request or `COFRAME_ROS2_WIRE` says.
+def receiving_wire(request: Request) -> str:
+    """Return how transforms are received: as the listener, the command line or COFRAME_ROS2_WIRE says.
 
-    By default, the subscriptions are native if coframe can use the middleware of this ROS. With COFRAME_SHARED=1,
-    native subscriptions are shared with the other processes of this user.
+    By default, it is "native" if coframe can use the middleware of this ROS.
 
     Raises:
-        ValueError: The environment variable has another value.
+        ValueError: The environment variable has an invalid value.
     """
     _add_guard_condition(request.node)
-    wire = request.wire or os.environ.get("COFRAME_ROS2_WIRE") or _default_wire(request.node)
+    if chosen := request.wire or ros_side.listener_wire():
+        return chosen
+    wire = os.environ.get("COFRAME_ROS2_WIRE") or _default_wire(request.node)
     if wire not in WIRES:
         raise ValueError(f"COFRAME_ROS2_WIRE is {wire!r}. Valid values: {', '.join(WIRES)}.")
-    if wire == "native":
-        report = _reporter(request.node)
-        sharing = share(request, request.node.context.get_domain_id(), _to_wire, lambda _: report)
-        return _NativeSubscriptions(request) if sharing is None else _SharedSubscriptions(request, sharing)
-    # Only the native wire renames frames.
-    return _RawSubscriptions(request) if request.renaming is None else CallbackSubscriptions(request)
+    return wire
+
+
+def domain_and_middleware(node: Node) -> tuple[int, str]:
+    """Return the domain of a node and the middleware of this ROS."""
+    return node.context.get_domain_id(), selection.row_of_rmw(get_rmw_implementation_identifier()).wire
+
+
+def to_wire(qos: QoSProfile) -> QoS:
+    """Return a quality of service profile as coframe's wire takes it."""
+    return QoS(
+        depth=max(qos.depth, 1),
+        reliable=qos.reliability.name != "BEST_EFFORT",
+        transient_local=qos.durability.name == "TRANSIENT_LOCAL",
+        keep_all=qos.history.name == "KEEP_ALL",
+        manual_liveliness=qos.liveliness.name == "MANUAL_BY_TOPIC",
+        deadline=qos.deadline.nanoseconds or INFINITE,
+        lifespan=qos.lifespan.nanoseconds or INFINITE,
+        lease=qos.liveliness_lease_duration.nanoseconds or INFINITE,
+    )
+
+
+def reporter(node: Node, topic: str) -> Callable[[str, str], object]:
+    """Return a function that reports publishers of a topic with another quality of service or type."""
+    del topic  # the text names it
+    logger = node.get_logger()  # not the node, which could never be garbage-collected
+    return lambda _, text: logger.warning(text)
 
 
 def static_publisher(node: Node, topic: str, qos: QoSProfile) -> Any:
@@ -110,15 +131,13 @@ def _default_wire(node: Node) -> str:
 def _native_problem() -> str | None:
     """Return why coframe cannot receive what the nodes of this ROS publish; None if it can."""
     middleware = get_rmw_implementation_identifier()
-    needed = "zenoh" if "zenoh" in middleware else "dds"
+    needed = selection.row_of_rmw(middleware).wire
     if needed == "zenoh" and os.environ.get("ROS_DISTRO") == "humble":
         return "the messages of Humble on Zenoh have no type hash, which coframe needs."
     try:
-        if selection.select().wire != needed:
-            if os.environ.get(selection.VARIABLE):
-                return f"{selection.VARIABLE} selects another middleware than {middleware}."
-            os.environ[selection.VARIABLE] = needed
-        selection.check()
+        if os.environ.get(selection.VARIABLE) and selection.select().wire != needed:
+            return f"{selection.VARIABLE} selects another middleware than {middleware}."
+        selection.check(needed)
     except WireError as error:
         return f"{error} {error.hint}".strip()
     return None
@@ -127,126 +146,3 @@ def _native_problem() -> str | None:
 def _add_guard_condition(node: Node) -> None:
     if node not in _guard_conditions:
         _guard_conditions[node] = node.create_guard_condition(lambda: None)
-
-
-class _NativeSubscriptions:
-    """Subscriptions of a hidden node of coframe with the name, namespace and domain of the ROS node.
-
-    They work with every middleware that coframe can use, and end with the node at the latest.
-    """
-
-    def __init__(self, request: Request) -> None:
-        node = request.node
-        participant = Participant.get(node.context.get_domain_id())
-        try:
-            hidden = participant.add_node(node.get_namespace(), f"_{node.get_name()}_coframe_tf")
-        except BaseException:
-            participant.close()
-            raise
-        # No reference to the node is kept, because it could never be garbage-collected.
-        self.close = weakref.finalize(node, _leave, participant, hidden)
-        self.dynamic = (
-            None if request.dynamic is None else _read(request, request.dynamic, participant, hidden, static=False)
-        )
-        self.static = _read(request, request.static, participant, hidden, static=True)
-
-
-def _leave(participant: Participant, hidden: GraphNode) -> None:
-    hidden.close()
-    participant.close()
-
-
-def _read(request: Request, topic: Topic, participant: Participant, hidden: GraphNode, *, static: bool) -> TfReader:
-    return participant.tf_reader(
-        hidden,
-        request.node.resolve_topic_name(topic.name),
-        request.buffer._Coframe__buffer,  # noqa: SLF001 - tf2's buffers have no public name for coframe's
-        static=static,
-        qos=_to_wire(topic.qos),
-        authority=AUTHORITY,
-        renaming=request.renaming,
-        on_mismatch=_reporter(request.node),
-    )
-
-
-def _reporter(node: Node) -> Callable[[str, str], object]:
-    logger = node.get_logger()  # not the node, which could never be garbage-collected
-    return lambda _, text: logger.warning(text)
-
-
-def _to_wire(qos: QoSProfile) -> QoS:
-    return QoS(
-        depth=max(qos.depth, 1),
-        reliable=qos.reliability.name != "BEST_EFFORT",
-        transient_local=qos.durability.name == "TRANSIENT_LOCAL",
-        keep_all=qos.history.name == "KEEP_ALL",
-        manual_liveliness=qos.liveliness.name == "MANUAL_BY_TOPIC",
-        deadline=qos.deadline.nanoseconds or INFINITE,
-        lifespan=qos.lifespan.nanoseconds or INFINITE,
-        lease=qos.liveliness_lease_duration.nanoseconds or INFINITE,
-    )
-
-
-class _SharedSubscriptions:
-    """The buffer reads the shared transforms, until the node ends or the program changes the buffer."""
-
-    def __init__(self, request: Request, sharing: Sharing) -> None:
-        # No reference to the node is kept, because it could never be garbage-collected.
-        self._sharing = sharing
-        self._own: _NativeSubscriptions | None = None
-        self._leave = weakref.finalize(request.node, sharing.leave)
-        self._node = weakref.ref(request.node)
-        self.dynamic, self.static = (SharedReader(self.close, partial(self._count, topic)) for topic in sharing.topics)
-        assert request.dynamic is not None
-        self._request = partial(
-            Request,
-            buffer=request.buffer,
-            group=request.group,
-            renaming=request.renaming,
-            dynamic=replace(request.dynamic, callback=_ignore),
-            static=replace(request.static, callback=_ignore),
-        )
-        sharing.on_local_change(self._receive_alone)
-
-    def _count(self, topic: str) -> int:
-        node = self._node()
-        return 0 if node is None else self._sharing.count_publishers(node, topic)
-
-    def close(self) -> None:
-        self._leave()
-        if self._own is not None:
-            self._own.close()
-
-    def _receive_alone(self) -> None:
-        node = self._node()
-        if node is not None:
-            self._own = _NativeSubscriptions(self._request(node=node))
-
-
-def _ignore(message: TFMessage) -> None:
-    del message
-
-
-class _RawSubscriptions:
-    """Subscriptions of the node to serialized messages, which coframe decodes: for any middleware of this ROS."""
-
-    def __init__(self, request: Request) -> None:
-        self._node = request.node
-        self.dynamic = None if request.dynamic is None else self._open(request, request.dynamic, static=False)
-        self.static = self._open(request, request.static, static=True)
-
-    def _open(self, request: Request, topic: Topic, *, static: bool) -> Any:
-        buffer = request.buffer._Coframe__buffer  # noqa: SLF001 - tf2's buffers have no public name for coframe's
-
-        def ingest(message: bytes) -> None:
-            with buffer._dispatcher.inserting():
-                buffer.ingest(message, static=static, authority=AUTHORITY)
-
-        return self._node.create_subscription(
-            TFMessage, topic.name, ingest, topic.qos, callback_group=request.group, raw=True
-        )
-
-    def close(self) -> None:
-        for subscription in (self.dynamic, self.static):
-            if subscription is not None:
-                self._node.destroy_subscription(subscription)

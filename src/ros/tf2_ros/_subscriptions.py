@@ -49,6 +49,7 @@ class Request:
         static: The topic of static transforms.
         shared: Whether the buffer may read shared transforms.
         wire: How the transforms are received, "native" or "rclpy"; None: as the environment says.
+        overridden: Whether a method on the path of the transforms into the buffer is overridden.
     """
 
     node: Node
@@ -59,6 +60,7 @@ class Request:
     static: Topic
     shared: bool = True
     wire: str | None = None
+    overridden: bool = False
 
 
 class Subscriptions(Protocol):

@@ -13,9 +13,10 @@ from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile
 from tf2_msgs.msg import TFMessage
-from tf2_ros._rclpy_side import open_subscriptions, profile
+from tf2_ros._rclpy_side import profile
 from tf2_ros._renaming import renamed
-from tf2_ros._subscriptions import AUTHORITY, WIRES, CallbackSubscriptions, Request, Topic
+from tf2_ros._subscriptions import AUTHORITY, WIRES, Request, Topic
+from tf2_ros._ways import open_subscriptions
 from tf2_ros.buffer import Buffer, clear_on_time_jump
 from tf2_ros.static_transform_broadcaster import DEFAULT_STATIC_TF_TOPIC
 from tf2_ros.transform_broadcaster import DEFAULT_TF_TOPIC
@@ -144,8 +145,9 @@ class TransformListener:
             Topic(self.__static_topic, qos[True], self.static_callback),
             shared,
             self.__wire,
+            overridden=not self.__is_plain(),
         )
-        self.__subscriptions = open_subscriptions(request) if self.__is_plain() else CallbackSubscriptions(request)
+        self.__subscriptions = open_subscriptions(request)
         self.tf_sub, self.tf_static_sub = self.__subscriptions.dynamic, self.__subscriptions.static
 
     def __is_plain(self) -> bool:

@@ -119,7 +119,7 @@ class CurveStore:
             if expression.quantity == "rate":
                 return EdgeRateCurve(expression, self._source.buffer)
             if connection is not None:
-                return EdgeDelayCurve(expression, connection, self._arrivals_of(connection, connection.tf_topics[0]))
+                return EdgeDelayCurve(expression, connection, self._arrivals_of(connection, connection.config.tf_topic))
         if connection is None:
             return FailedCurve(
                 PlotError(f"{expression.text} has no values: a buffer contains transforms only, no messages")

@@ -92,17 +92,10 @@ class LiveSource:
         # Imported here because the first frame update does not need the doctor.
         from coframe.doctor import diagnose  # noqa: PLC0415
         from coframe.doctor.live import LiveObserver  # noqa: PLC0415
+        from coframe.doctor.observation import DEFAULT_CACHE  # noqa: PLC0415
 
-        tf_topic, tf_static_topic = self._connection.tf_topics
-        with LiveObserver(
-            self._connection.participant.domain_id,
-            window=_WINDOW,
-            tf_topic=tf_topic,
-            tf_static_topic=tf_static_topic,
-            node_name="coframe_view_doctor",
-            prefix=self._connection.prefix,
-            keep=self._connection.keep,
-        ) as observer:
+        config = self._connection.config.with_cache(DEFAULT_CACHE)
+        with LiveObserver(config, window=_WINDOW, node_name="coframe_view_doctor") as observer:
             due = time.monotonic() + _FIRST_REPORT
             while True:
                 observer.poll()

@@ -129,7 +129,7 @@ class ToolPublisher:
             rotation.x, rotation.y, rotation.z, rotation.w = (part / norm for part in quaternion)
             if self._statics is None:
                 connection = self._connection
-                topic = connection.tf_topics[1]
+                topic = connection.config.tf_static_topic
                 self._statics = connection.participant.static_broadcaster(connection.node, topic)
             self._statics.send([message])
             return self._statics.matched
@@ -155,7 +155,7 @@ class ToolPublisher:
 
     def _name_on_graph(self, frame: str) -> str:
         """Return the name of a frame without the prefix that it has only in the buffer."""
-        return frame.removeprefix(self._connection.prefix)
+        return frame.removeprefix(self._connection.config.prefix)
 
     def _publish(self, topic: str, message: Any) -> int:
         if len(topic) > _MAX_TOPIC_LENGTH or not _TOPIC.fullmatch(topic):

@@ -58,15 +58,21 @@ _LOOPBACK_INTERFACE = (
 _UNICAST_DATA = "<AllowMulticast>spdp</AllowMulticast>"
 
 _RANGES = ("OFF", "LOCALHOST", "SUBNET", "SYSTEM_DEFAULT")
+_default = {"range": "LOCALHOST"}
 _PEER = re.compile(r"[A-Za-z0-9_.:%\-]+")
 _LOOPBACK = re.compile(r"localhost|127(\.\d+){3}|::1")
+
+
+def reach_subnet_by_default() -> None:
+    """Let this process discover nodes on the local network where no environment variable says otherwise, like ROS 2."""
+    _default["range"] = "SUBNET"
 
 
 def discovery_range(environment: Mapping[str, str] = os.environ) -> str:
     """Return the discovery range: "OFF", "LOCALHOST", "SUBNET" or "SYSTEM_DEFAULT".
 
     ROS_LOCALHOST_ONLY=1 has priority, then ROS_AUTOMATIC_DISCOVERY_RANGE, then ROS_LOCALHOST_ONLY=0, which enables the
-    network in Humble. If neither is set, the range is "LOCALHOST".
+    network in Humble. If neither is set, the range is "LOCALHOST"; see also `reach_subnet_by_default`.
 
     Raises:
         WireError: A variable has an invalid value.
@@ -85,7 +91,7 @@ def discovery_range(environment: Mapping[str, str] = os.environ) -> str:
         )
     if localhost_only == "1":
         return "LOCALHOST"
-    return requested or ("SUBNET" if localhost_only == "0" else "LOCALHOST")
+    return requested or ("SUBNET" if localhost_only == "0" else _default["range"])
 
 
 def static_peers(environment: Mapping[str, str] = os.environ) -> list[str]:

@@ -10,6 +10,7 @@ import shlex
 from pathlib import PurePath
 from typing import TYPE_CHECKING
 
+from coframe.python_children import child_environment
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 if TYPE_CHECKING:
@@ -122,7 +123,7 @@ class Executable:
         self.__final_name = f"{name}-{next(_numbers)}"
         self.__final_cmd = [*self._prefix_words(context, name), *program, *words]
         self.__final_cwd = None if self.__cwd is None else perform_substitutions(context, self.__cwd)
-        base = dict(context.environment) if self.__env is None else _performed(context, self.__env)
+        base = child_environment(context.environment) if self.__env is None else _performed(context, self.__env)
         self.__final_env = {**base, **program_env, **_performed(context, self.__additional_env or [])}
 
     def _program(self, context: LaunchContext, word: str) -> tuple[Sequence[str], Mapping[str, str]]:

@@ -1,0 +1,118 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What a listener receives: topics, frame names, cache, domain and middleware, as one value that is checked once."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import TYPE_CHECKING, Final
+
+import numpy as np
+
+from coframe import frame_names
+from coframe.buffer.buffer import Buffer, cache_length
+from coframe.frame_names import TF_STATIC_TOPIC, TF_TOPIC
+from coframe.time import SECOND
+from coframe.wire import domains, selection
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from typing_extensions import Self
+
+    from coframe import _core
+    from coframe.time import DurationLike
+
+__all__ = ["ListenerConfig"]
+
+_TEN_SECONDS: Final = 10 * SECOND  # as tf2's buffer
+
+
+@dataclass(frozen=True)
+class ListenerConfig:
+    """What a listener receives, and how its buffer stores it. Created by `of`, which checks the values.
+
+    Two listeners whose configurations are equal receive the same: processes share the transforms of these.
+
+    Attributes:
+        tf_topic: The topic of dynamic transforms.
+        tf_static_topic: The topic of static transforms.
+        prefix: The prefix of the frames in the buffer, used as given; "" for none.
+        keep: The frames without a prefix, sorted.
+        cache: The length of the buffer's cache in nanoseconds; negative to keep everything.
+        domain: The ROS domain, 0 to 232.
+        wire: The middleware, "dds" or "zenoh".
+    """
+
+    tf_topic: str = TF_TOPIC
+    tf_static_topic: str = TF_STATIC_TOPIC
+    prefix: str = ""
+    keep: tuple[str, ...] = ()
+    cache: int = _TEN_SECONDS
+    domain: int = 0
+    wire: str = selection.DEFAULT.wire
+
+    @classmethod
+    def of(
+        cls,
+        *,
+        namespace: str | None = None,
+        tf_topic: str | None = None,
+        tf_static_topic: str | None = None,
+        prefix: str = "",
+        keep: Iterable[str] = (),
+        cache: DurationLike | None = _TEN_SECONDS,
+        domain: int | None = None,
+        wire: str | None = None,
+    ) -> Self:
+        """Check what a caller has asked for, and replace None by the defaults.
+
+        Args:
+            namespace: The namespace of the topics: "/robot1" for /robot1/tf and /robot1/tf_static.
+            tf_topic: The topic of dynamic transforms. If None, it is /tf in the namespace.
+            tf_static_topic: The topic of static transforms. If None, it is /tf_static in the namespace.
+            prefix: The prefix of the frames in the buffer.
+            keep: The frames without a prefix.
+            cache: The length of the cache: a text such as "10s", nanoseconds or a timedelta. If None, everything is
+                kept.
+            domain: The ROS domain. If None, it is ROS_DOMAIN_ID, or 0 if that is not set.
+            wire: The middleware. If None, the selected one; see `coframe.wire.selection`.
+
+        Raises:
+            ValueError: The prefix begins with a slash, or the cache is negative.
+            TypeError: The cache is not a duration, or a name is not a string.
+            WireError: The domain or the middleware does not exist.
+        """
+        frame_names.renaming(prefix, keep)  # checks both
+        root = f"/{namespace.strip('/')}".rstrip("/") if namespace else ""
+        return cls(
+            tf_topic=tf_topic or root + TF_TOPIC,
+            tf_static_topic=tf_static_topic or root + TF_STATIC_TOPIC,
+            prefix=prefix,
+            keep=tuple(sorted(frame_names.kept(keep))),
+            cache=cache_length(cache),
+            domain=domains.domain_id() if domain is None else domains.check_domain_id(domain),
+            wire=selection.resolve(wire),
+        )
+
+    @property
+    def topics(self) -> tuple[str, str]:
+        """The topics of dynamic and of static transforms."""
+        return self.tf_topic, self.tf_static_topic
+
+    def new_buffer(self) -> Buffer:
+        """Return an empty buffer with this cache."""
+        return Buffer(None if self.cache < 0 else np.timedelta64(self.cache, "ns"))
+
+    @cached_property
+    def renaming(self) -> _core.Renaming | None:
+        """The renaming of frames; None if they keep their names."""
+        return frame_names.renaming(self.prefix, self.keep)
+
+    def frame(self, name: str) -> str:
+        """Return the name in the buffer of a frame in a message."""
+        return name.removeprefix("/") if self.renaming is None else self.renaming(name)
+
+    def with_cache(self, cache: int) -> Self:
+        """Return the same with another length of the cache, in nanoseconds."""
+        return replace(self, cache=cache)

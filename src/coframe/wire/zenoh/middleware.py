@@ -1,0 +1,44 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Zenoh as a middleware of coframe: whether it is available, and how a process joins a domain through it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from coframe.wire.zenoh import library
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from coframe import _core
+    from coframe.wire.backend import Session
+
+
+class ZenohMiddleware:
+    """Zenoh in the conventions of rmw_zenoh_cpp. Implements `coframe.wire.backend.Middleware`."""
+
+    variables = ()
+
+    def is_available(self, environment: Mapping[str, str]) -> bool:
+        """Return whether eclipse-zenoh is installed."""
+        del environment
+        return library.is_installed()
+
+    def check(self) -> None:
+        """Check that eclipse-zenoh is installed, without importing it."""
+        library.check()
+
+    def network(self, environment: Mapping[str, str]) -> str:
+        """Return the variables that configure Zenoh."""
+        names = sorted(name for name in environment if name.startswith("ZENOH_"))
+        return repr([(name, environment[name]) for name in names])
+
+    def join(self, domain: int, changed: _core.Event) -> Session:
+        """Open a session in a domain."""
+        library.load()
+        from coframe.wire.zenoh.session import ZenohSession  # noqa: PLC0415 - the selection must be cheap
+
+        return ZenohSession(domain, changed)
+
+
+MIDDLEWARE = ZenohMiddleware()

@@ -1,0 +1,69 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The middleware is chosen in code, and one process may use all of them."""
+
+import os
+
+import pytest
+
+pytest.importorskip("dds_library", reason="these tests use both middlewares")
+
+import coframe
+from coframe.messages import find
+from coframe.wire import selection
+from coframe.wire.participant import Participant
+
+STRING = find("std_msgs/msg/String")
+
+# Each row of `selection.MIDDLEWARES`.
+WIRES = ("dds", "zenoh")
+
+
+def test_each_middleware_has_a_test() -> None:
+    assert selection.WIRES == WIRES
+
+
+@pytest.mark.parametrize("wire", WIRES)
+def test_a_connection_over(wire: str, zenoh_domain: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Whatever the environment says, the call decides."""
+    monkeypatch.setenv("COFRAME_WIRE", next(other for other in WIRES if other != wire))
+    before = dict(os.environ)
+    with coframe.connect("listener", domain=zenoh_domain, wire=wire) as ros:
+        assert (ros.config.wire, ros.participant.wire) == (wire, wire)
+        node = ros.participant.add_node("/", "broadcaster")
+        broadcaster = ros.participant.static_broadcaster(node)
+        broadcaster.send([_static("map", "base")])
+        assert ros.buffer.wait("map", "base", timeout="20s").translation == pytest.approx((1.0, 2.0, 3.0))
+    assert dict(os.environ) == before
+
+
+def test_one_process_joins_a_domain_over_both(zenoh_domain: int) -> None:
+    with (
+        coframe.connect("one", domain=zenoh_domain, wire="dds") as dds,
+        coframe.connect("one", domain=zenoh_domain, wire="zenoh") as zenoh,
+        coframe.connect("two", domain=zenoh_domain) as default,
+    ):
+        assert dds.participant is not zenoh.participant
+        assert default.participant is zenoh.participant, "COFRAME_WIRE selects it"
+        received = {ros.config.wire: ros.subscribe("/news", STRING) for ros in (dds, zenoh)}
+        for ros in (dds, zenoh):
+            ros.publisher("/news", STRING).publish(STRING(data=f"over {ros.config.wire}"))
+        for wire, subscription in received.items():
+            message = subscription.receive(20)
+            assert message is not None
+            assert message.data == f"over {wire}"
+            assert subscription.receive(0) is None, "the middlewares do not mix"
+    assert not Participant._instances.keys() & {(wire, zenoh_domain) for wire in WIRES}
+
+
+@pytest.mark.parametrize("create", [coframe.connect, Participant.get])
+def test_an_unknown_middleware_is_one_clear_error(create) -> None:
+    with pytest.raises(coframe.WireError, match="'fastdds' is not a middleware") as caught:
+        create(wire="fastdds")
+    assert caught.value.hint == "Valid names: dds or zenoh."
+
+
+def _static(parent: str, child: str):
+    message = find("geometry_msgs/msg/TransformStamped")()
+    message.header.frame_id, message.child_frame_id = parent, child
+    message.transform.translation.x, message.transform.translation.y, message.transform.translation.z = 1.0, 2.0, 3.0
+    return message
