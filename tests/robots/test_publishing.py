@@ -31,6 +31,15 @@ def test_fixed_joints_are_separate(robot):
     assert (fixed.target, fixed.source) == ("c", "d")
 
 
+def test_planar_joints_are_published_as_fixed_ones_and_floating_joints_are_not_published():
+    joints = joint("slide", "planar", "a", "b", "<origin xyz='1 2 3'/>") + joint("fly", "floating", "b", "c")
+    robot = parse_urdf(f"<robot name='r'><link name='a'/><link name='b'/><link name='c'/>{joints}</robot>")
+    publisher = StatePublisher(robot)
+    (fixed,) = publisher.fixed()
+    assert (fixed.target, fixed.source, fixed.translation.tolist()) == ("a", "b", [1, 2, 3])
+    assert publisher.moving(SECOND, ["slide", "fly"], [0.5, 0.5]) == []
+
+
 def test_joints_of_the_state_and_their_mimic_joints_are_published(robot):
     published = StatePublisher(robot).moving(SECOND, ["turn", "unknown", "stay", "free"], [0.5, 1, 2, 3])
     assert {transform.source: transform.rpy[0] for transform in published} == pytest.approx(

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The parser of robot descriptions: valid documents, and the errors for invalid ones."""
 
+import math
 import random
 import time
 
@@ -102,10 +103,265 @@ def test_materials_can_be_defined_at_the_top_level_or_in_links():
     assert robot.warnings == ("line 1: material 'lost' is not defined",)
 
 
-def test_a_mimic_tag_of_a_fixed_joint_is_a_warning():
-    robot = parse_urdf(robot_of(joint("ab", "a", "b", "<mimic joint='bc'/>"), TREE[1]))
-    assert robot.joints["ab"].mimic is None
-    assert robot.warnings == ("line 5: joint 'ab' is fixed, so its <mimic> has no effect",)
+def with_version(version, *parts):
+    return robot_of(*parts).replace("<robot ", f"<robot version='{version}' ")
+
+
+VISUAL = "<link name='d'><visual>{}</visual></link>"
+SHAPE = "<geometry><box size='1 1 1'/></geometry>"
+D = joint("cd", "c", "d")
+
+
+@pytest.mark.parametrize(
+    ("part", "warning"),
+    [
+        (VISUAL.format(""), "<visual> has no <geometry>; the <visual> is ignored"),
+        (VISUAL.format("<geometry/>"), "<geometry> contains no shape; the <visual> is ignored"),
+        (VISUAL.format("<geometry><cone/></geometry>"), "<cone> is not a shape; the <visual> is ignored"),
+        (VISUAL.format("<geometry><mesh/></geometry>"), "<mesh> needs the attribute filename; the <visual>"),
+        (VISUAL.format("<geometry><mesh filename='a' scale='2'/></geometry>"), 'scale="2">: expected 3 numbers'),
+        (VISUAL.format("<geometry><sphere radius='big'/></geometry>"), "'big' is not a finite number; the <visual>"),
+        (VISUAL.format("<origin xyz='0 0'/>" + SHAPE), "expected 3 numbers separated by spaces; the <visual>"),
+        (
+            "<link name='d'><collision><geometry><box/></geometry></collision></link>",
+            "size; the <collision> is ignored",
+        ),
+        ("<link name='d'><inertial><mass value='1'/></inertial></link>", "has no <inertia>; the <inertial> is ignored"),
+        (
+            "<link name='d'><inertial><inertia ixx='1'/></inertial></link>",
+            "the attribute ixy; the <inertial> is ignored",
+        ),
+    ],
+)
+def test_faults_of_shapes_and_inertia_are_warnings(part, warning):
+    robot = parse_urdf(robot_of(part, *TREE, D))
+    (found,) = robot.warnings
+    assert found.startswith("line 5: ")
+    assert warning in found
+    link = robot.links["d"]
+    assert (link.visuals, link.collisions, link.inertial) == ((), (), None)
+    assert robot.frames().keys() == set("abcd")
+
+
+@pytest.mark.parametrize(
+    "inside", ["<color rgba='1 0 0'/>", "<color rgba='red'/>", "<color/>", "<color rgba='0 0 0 nan'/>"]
+)
+def test_a_shape_is_kept_if_only_its_color_is_not_valid(inside):
+    text = VISUAL.format(f"{SHAPE}<material name='m'>{inside}</material>")
+    robot = parse_urdf(robot_of(text, *TREE, D))
+    (visual,) = robot.links["d"].visuals
+    assert (visual.geometry, visual.material.color) == (Box((1, 1, 1)), None)
+    assert [warning.endswith("; the color is ignored") for warning in robot.warnings] == [True]
+
+
+@pytest.mark.parametrize(
+    ("parts", "warning"),
+    [
+        (["<material><color rgba='1 0 0 1'/></material>"], "line 5: a <material> has no name, so it is ignored"),
+        (
+            [f"<material name='m'><color rgba='{i} 0 0 1'/></material>" for i in (0, 1)],
+            "line 6: material 'm' is defined twice with different values; the first one is used",
+        ),
+    ],
+)
+def test_faults_of_materials_are_warnings(parts, warning):
+    robot = parse_urdf(robot_of(*parts, *TREE))
+    assert robot.warnings == (warning,)
+    assert {name: material.color for name, material in robot.materials.items()} in ({}, {"m": (0, 0, 0, 1)})
+
+
+def test_the_first_of_several_elements_counts():
+    parts = "<origin xyz='1 0 0'/><origin xyz='2 0 0'/><axis xyz='0 0 1'/><axis/>" + LIMIT + "<limit/><child link='a'/>"
+    shapes = "<geometry><box size='1 1 1'/><sphere/></geometry><geometry><sphere/></geometry><origin/><origin xyz='x'/>"
+    robot = parse_urdf(robot_of(VISUAL.format(shapes), joint("ab", "a", "b", parts, "revolute"), TREE[1], D))
+    moved = robot.joints["ab"]
+    assert (moved.origin.translation.tolist(), moved.axis, moved.limits.upper) == ([1, 0, 0], (0, 0, 1), 1)
+    assert robot.links["d"].visuals[0].geometry == Box((1, 1, 1))
+    assert [warning.partition(";")[0] for warning in robot.warnings] == [
+        "line 5: there is a second <origin> in one <visual>",
+        "line 5: there is a second <geometry> in one <visual>",
+        "line 5: <geometry> contains 2 shapes",
+        "line 6: there is a second <child> in one <joint>",
+        "line 6: there is a second <origin> in one <joint>",
+        "line 6: there is a second <axis> in one <joint>",
+        "line 6: there is a second <limit> in one <joint>",
+    ]
+
+
+def test_limits_that_do_not_matter_are_warnings():
+    limit = "<limit lower='x' upper='1' effort='inf' velocity='1'/><safety_controller soft_lower_limit=''/>"
+    robot = parse_urdf(robot_of(joint("ab", "a", "b", limit, "continuous"), TREE[1]))
+    limits = robot.limits["ab"]
+    assert (limits.lower, limits.upper, limits.effort, limits.velocity, limits.soft_lower) == (None, 1, None, 1, None)
+    assert [warning.rpartition("; ")[2] for warning in robot.warnings] == [
+        "the limit lower is ignored",
+        "the limit effort is ignored",
+        "the limit soft_lower_limit is ignored",
+    ]
+
+
+@pytest.mark.parametrize("kind", ["revolute", "continuous", "prismatic"])
+def test_a_joint_without_a_direction_does_not_move(kind):
+    robot = parse_urdf(
+        robot_of(joint("ab", "a", "b", f"<origin xyz='0 1 0'/><axis xyz='0 0 0'/>{LIMIT}", kind), TREE[1])
+    )
+    assert robot.warnings == ("line 5: the axis of joint 'ab' is zero, so the joint does not move",)
+    assert robot.frames({"ab": 0.5})["b"].values == (0, 1, 0, 0, 0, 0, 1)
+    assert robot.jacobian("b").tolist() == [[0, 0]] * 6
+
+
+@pytest.mark.parametrize(
+    ("version", "rpy", "warning"),
+    [
+        ("1.0", [0, 0, 0], 'line 5: quat_xyzw is ignored, because it needs <robot version="1.1">'),
+        ("1.1", [0, 0, 3], None),
+        ("1.2", [0, 0, 3], None),
+        ("1.7", [0, 0, 3], "line 1: the version '1.7' is unknown. ROS reads the versions 1.0, 1.1 and 1.2"),
+    ],
+)
+def test_quaternions_are_read_from_version_1_1_on(version, rpy, warning):
+    origin = f"<origin quat_xyzw='0 0 {math.sin(1.5)} {math.cos(1.5)}'/>"
+    robot = parse_urdf(with_version(version, joint("ab", "a", "b", origin), TREE[1]))
+    assert robot.joints["ab"].origin.rpy.tolist() == pytest.approx(rpy)
+    assert robot.warnings == (() if warning is None else (warning,))
+
+
+def test_a_zero_quaternion_is_no_rotation():
+    robot = parse_urdf(with_version("1.1", joint("ab", "a", "b", "<origin quat_xyzw='0 0 0 0'/>"), TREE[1]))
+    assert robot.joints["ab"].origin.rpy.tolist() == [0, 0, 0]
+    assert robot.warnings == ("line 5: the quaternion is zero, so there is no rotation",)
+
+
+def test_spaces_around_names_belong_to_them():
+    robot = parse_urdf(robot_of("<link name=' d'/>", *TREE, joint("", "c ", "d")))
+    assert list(robot.frames()) == ["a", "b", "c", " d"]
+    assert robot.warnings == (
+        "line 5: the name ' d' of a link is empty, or begins or ends with a space",
+        "line 8: the name '' of a joint is empty, or begins or ends with a space",
+    )
+
+
+def test_xacro_elements_without_effect_are_warnings():
+    robot = parse_urdf(robot_of("<xacro:property name='x' value='1'/>", *TREE))
+    assert robot.warnings[0].startswith("line 5: <xacro:property> is xacro, not URDF, and has no effect. Save it as")
+
+
+@pytest.mark.parametrize(
+    ("text", "links"),
+    [
+        ("<!-- a -- b --><link name='a'/>", ["a"]),
+        ("<!-- a ---><link name='a'/>", ["a"]),
+        ("<link name='a&b'/>", ["a&b"]),
+        ("<link name='a&nbsp;b&lt;&#67;'/>", ["a&nbsp;b<C"]),
+        ("<link name='a<b'/>", ["a<b"]),
+        ("<link name='a'\ntype='x'name2='y'/>", ["a"]),
+        ("<link name='&#1;'/>", ["&#1;"]),
+        ("\x02< link name = 'a'\n></link >]]>", ["a"]),
+        ("<![CDATA[<link name='no'/>]]><link name='&'/>", ["&"]),
+        ("<link name='a'/></robot><robot name='s'><link name='no'/></robot><!--", None),
+        ("<link name='a'/></robot><robot name='s'><link name='no'/>", ["a"]),
+    ],
+)
+def test_faults_of_xml_that_ros_accepts_are_repaired(text, links):
+    document = f"<?xml version='1.0'?>\n<robot name='r'>\n{text}</robot>"
+    if links is None:
+        with pytest.raises(RobotDescriptionError, match="not well-formed"):
+            parse_urdf(document)
+        return
+    robot = parse_urdf(document)
+    assert list(robot.links) == links
+    assert [("not well-formed XML" in warning, warning[-17:]) for warning in robot.warnings] == [
+        (True, ". It was repaired")
+    ]
+    assert list(parse_urdf(robot.text).links) == links
+    assert parse_urdf(robot.text).warnings == ()
+    assert len(robot.text.splitlines()) == len(document.splitlines())
+
+
+@pytest.mark.parametrize(
+    "prolog", ["\n<?xml version='1.0'?>", "<?xml version='1.0'?>" * 2, "<?xml encoding='utf-8'?>", "<a/>"]
+)
+def test_faults_before_the_robot_are_repaired(prolog):
+    robot = parse_urdf(f"{prolog}\n<robot name='r'>\n<link name='a'/><link name=' b'/>{joint('j', 'a', 'b')}</robot>\0")
+    lines = {warning.partition(":")[0] for warning in robot.warnings if "name" in warning}
+    assert lines == {f"line {2 + prolog.count(chr(10)) + 1}"}
+
+
+@pytest.mark.parametrize(
+    ("data", "name", "warning"),
+    [
+        (b"<robot name='\xe9'><link name='a'/></robot>", "\xe9", "cannot be decoded: 'utf-8' codec"),
+        (
+            b"<?xml version='1.0' encoding='klingon'?><robot name='\xc3\xa9'><link name='a'/></robot>",
+            "\xe9",
+            "'klingon'",
+        ),
+        (b"<?xml version='1.0' encoding='punycode'?><robot name='a-'><link name='a'/></robot>", "a-", "'punycode'"),
+        (b"<?xml version='1.0' encoding='us-ascii'?><robot name='\xc3\xa9'><link name='a'/></robot>", "\xe9", None),
+        (
+            "<?xml version='1.0' encoding='GB2312'?><robot name='\u81c2'><link name='a'/></robot>".encode("gb2312"),
+            "\u81c2",
+            None,
+        ),
+    ],
+)
+def test_texts_in_other_encodings_are_read(data, name, warning):
+    robot = parse_urdf(data)
+    assert robot.name == parse_urdf(robot.text.encode()).name == name
+    assert [warning in found for found in robot.warnings] == ([] if warning is None else [True])
+
+
+def test_the_time_for_a_repair_is_linear():
+    started = time.monotonic()
+    for part in (
+        "<" + "a" * 500_000,
+        "<a " + "b" * 500_000,
+        "<a " + " b='1'" * 100_000 + "!",
+        "<!--" * 100_000,
+        "<" * 500_000,
+    ):
+        with pytest.raises(RobotDescriptionError):
+            parse_urdf(f"<robot name='&'>{part}</robot>")
+    assert time.monotonic() - started < 10
+
+
+@pytest.mark.parametrize(
+    ("joints", "mimic", "warnings"),
+    [
+        (
+            [joint("ab", "a", "b", "<mimic joint='bc'/>"), TREE[1]],
+            None,
+            ["joint 'ab' is fixed, so its <mimic> has no effect"],
+        ),
+        (
+            [joint("ab", "a", "b", "<mimic joint='x'/>", "continuous"), TREE[1]],
+            None,
+            ["joint 'ab' mimics 'x', which is not a joint"],
+        ),
+        (
+            [joint("ab", "a", "b", "<mimic joint='bc'/>", "continuous"), joint("bc", "b", "c")],
+            None,
+            ["but 'bc' is fixed"],
+        ),
+        (
+            [joint("ab", "a", "b", "<mimic joint='bc'/>", "continuous"), joint("bc", "b", "c", "", "floating")],
+            None,
+            ["but 'bc' is floating"],
+        ),
+        ([joint("ab", "a", "b", "<mimic joint='bc'/>", "planar"), TREE[1]], None, ["but 'ab' is planar"]),
+        (
+            [joint("ab", "a", "b", "<mimic joint='ab'/>", "continuous"), TREE[1]],
+            None,
+            ["joints mimic each other in a circle: ab;"],
+        ),
+    ],
+)
+def test_mimic_tags_that_cannot_be_followed_are_warnings(joints, mimic, warnings):
+    robot = parse_urdf(robot_of(*joints))
+    assert robot.joints["ab"].mimic is mimic
+    assert [wanted in found for wanted, found in zip(warnings, robot.warnings, strict=True)] == [True]
+    assert robot.warnings[0].startswith("line 5: ")
+    assert set(robot.frames()) == set("abc")
 
 
 @pytest.mark.parametrize(
@@ -144,26 +400,12 @@ def test_a_mimic_tag_of_a_fixed_joint_is_a_warning():
         (robot_of(TREE[0], joint("bc", "b", "c", "<origin xyz='0 1_0 0'/>")), 6, "not a finite number"),
         (robot_of(TREE[0], joint("bc", "b", "c", "<origin xyz='0 0'/>")), 6, "expected 3 numbers"),
         (robot_of(TREE[0], joint("bc", "b", "c", "<origin xyz='0 0 0,1'/>")), 6, "'0,1' is not a finite number"),
-        (robot_of(TREE[0], joint("bc", "b", "c", "<origin/><origin/>")), 6, "a second <origin> in one <joint>"),
-        (
-            robot_of(TREE[0], joint("bc", "b", "c", "<axis xyz='0 0 0'/>", "continuous")),
-            6,
-            "axis of joint 'bc' is zero",
-        ),
-        (robot_of(TREE[0], joint("bc", "b", "c", "<mimic joint='no'/>", "continuous")), 6, "mimics 'no', which is not"),
-        (robot_of(TREE[0], joint("bc", "b", "c", "<mimic joint='bc'/>", "continuous")), 6, "in a circle: bc"),
-        (robot_of(TREE[0], joint("bc", "b", "c", "<mimic joint='ab'/>", "floating")), 6, "but 'bc' is floating"),
-        (
-            robot_of(joint("ab", "a", "b", "", "floating"), joint("bc", "b", "c", "<mimic joint='ab'/>", "continuous")),
-            6,
-            "joint 'bc' mimics 'ab', but 'ab' is floating",
-        ),
-        (robot_of("<link name='d'><visual/></link>", *TREE), 5, "<visual> has no <geometry>"),
-        (robot_of("<link name='d'><visual><geometry><cone/></geometry></visual></link>"), 5, "<cone> is not a shape"),
-        (robot_of("<link name='d'><inertial><mass value='1'/></inertial></link>"), 5, "<inertial> has no <inertia>"),
-        (b"<?xml version='1.0' encoding='klingon'?><robot name='r'/>", 1, "unknown encoding 'klingon'"),
-        (b"<?xml version='1.0' encoding='punycode'?><robot name='r'/>", 1, "unknown encoding 'punycode'"),
-        (b"<robot name='\xff'><link name='a'/></robot>", None, "cannot be decoded: 'utf-8' codec"),
+        (robot_of(TREE[0], joint("bc", "b", "c", "<limit lower='-inf' upper='1'/>", "revolute")), 6, "not a finite"),
+        (robot_of("<xacro:arm/>", TREE[0], joint("bc", "b", "tool")), 5, "<xacro:arm> is xacro"),
+        ("<robot name='r' version='1.1'><link name='a'/></robot><", 1, "not well-formed XML: unclosed token"),
+        ("hello <robot name='r'><link name='a'/></robot>", 1, "not well-formed XML: syntax error"),
+        ("<robot name='r'><!-- a -- b --><link name='a'></robot>", 1, "not well-formed (invalid token)"),
+        ("<robot name='r'><link name='&'/><link name=a/></robot>", 1, "not well-formed (invalid token)"),
         ("<robot name='\ud800'/>", None, "cannot be decoded"),
     ],
 )
@@ -176,13 +418,25 @@ def test_invalid_documents_raise_an_error_with_the_line(text, line, reason):
     assert line is None or str(caught.value).startswith(f"line {line}: ")
 
 
-def test_mimics_in_a_circle_of_three():
+def test_only_the_joints_of_a_circle_of_mimics_are_free():
     followers = [
         joint(name, parent, child, f"<mimic joint='{other}'/>", "continuous")
-        for name, parent, child, other in (("x", "a", "b", "y"), ("y", "b", "c", "z"), ("z", "c", "d", "x"))
+        for name, parent, child, other in (
+            ("w", "d", "e", "x"),
+            ("x", "a", "b", "y"),
+            ("y", "b", "c", "z"),
+            ("z", "c", "d", "x"),
+        )
     ]
-    with pytest.raises(RobotDescriptionError, match="in a circle: x, y, z"):
-        parse_urdf(robot_of(*followers, links="abcd"))
+    robot = parse_urdf(robot_of(*followers, links="abcde"))
+    assert {name: joint.mimic and joint.mimic.joint for name, joint in robot.joints.items()} == {
+        "w": "x",
+        "x": None,
+        "y": None,
+        "z": None,
+    }
+    assert len(robot.warnings) == 3
+    assert all("in a circle: x, y, z; the <mimic> of joint" in warning for warning in robot.warnings)
 
 
 def test_a_chain_of_three_thousand_links_is_parsed_quickly():

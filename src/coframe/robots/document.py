@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A strict XML parser with line numbers, which rejects entities, internal definitions and deep nesting."""
+"""XML with line numbers and warnings, without entities, internal definitions and deep nesting."""
 
 from __future__ import annotations
 
@@ -7,35 +7,58 @@ import codecs
 import contextlib
 import math
 import re
-from typing import TYPE_CHECKING, NoReturn
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, NoReturn, TypeVar
 from xml.parsers import expat
 
 from coframe.errors import RobotDescriptionError
+from coframe.robots.well_formed import repaired
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Callable, Iterator
 
-__all__ = ["Element", "decoded", "parse"]
+__all__ = ["Document", "Element", "read"]
+
+T = TypeVar("T")
 
 MAX_BYTES = 64 << 20  # a hundred times the largest known robot description
-MAX_DEPTH = 64
+MAX_DEPTH = 500  # as in TinyXML-2, the parser of ROS
 _DECLARATION = re.compile(r"""\A(\s*<\?xml\s[^>]*?)\sencoding\s*=\s*["']([\w.:-]+)["']""", re.ASCII)
 _LONGEST_DECLARATION = 200  # bytes
 # The supported encodings by their Python names. Some other codecs of Python do not give text or are very slow.
-_ENCODINGS = {"ascii", "cp1252", "iso8859-1", "iso8859-15", "utf-8"}
+_ENCODINGS = {
+    *(
+        "big5",
+        "cp1252",
+        "euc_jp",
+        "euc_kr",
+        "gb18030",
+        "gb2312",
+        "gbk",
+        "iso8859-1",
+        "iso8859-15",
+        "shift_jis",
+        "utf-8",
+    ),
+}
+_FALLBACK = "iso8859-1"  # every byte is a character
 # float() would also accept nan, 1_000 and the digits of all scripts.
 _NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?", re.ASCII)
 
 
 class Element:
-    """An XML element: its attributes, its child elements, and the line on which it begins."""
+    """An XML element: its attributes, its child elements, and the line on which it begins.
 
-    __slots__ = ("attributes", "children", "line", "tag")
+    `warnings` is the list of the document.
+    """
 
-    def __init__(self, tag: str, attributes: dict[str, str], line: int) -> None:
+    __slots__ = ("attributes", "children", "line", "tag", "warnings")
+
+    def __init__(self, tag: str, attributes: dict[str, str], line: int, warnings: list[str]) -> None:
         self.tag = tag
         self.attributes = attributes
         self.line = line
+        self.warnings = warnings
         self.children: list[Element] = []
 
     def all(self, tag: str) -> Iterator[Element]:
@@ -43,21 +66,18 @@ class Element:
         return (child for child in self.children if child.tag == tag)
 
     def one(self, tag: str) -> Element | None:
-        """Return the only child element with a tag; None if there is none.
-
-        Raises:
-            RobotDescriptionError: There are several.
-        """
-        found = list(self.all(tag))
-        if len(found) > 1:
-            found[1].fail(f"there is a second <{tag}> in one <{self.tag}>", hint=f"Remove one <{tag}>.")
-        return found[0] if found else None
+        """Return the first child element with a tag; None if there is none. Further ones cause a warning."""
+        found = self.all(tag)
+        first = next(found, None)
+        if (second := next(found, None)) is not None:
+            second.warn(f"there is a second <{tag}> in one <{self.tag}>; the first one is used")
+        return first
 
     def need(self, tag: str) -> Element:
-        """Return the only child element with a tag.
+        """Return the first child element with a tag.
 
         Raises:
-            RobotDescriptionError: There is none, or there are several.
+            RobotDescriptionError: There is none.
         """
         return self.one(tag) or self.fail(f"<{self.tag}> has no <{tag}>")
 
@@ -98,16 +118,46 @@ class Element:
             self.fail(f'<{self.tag} {name}="...">: {_short(word)!r} is not a finite number')
         return float(word)
 
+    def tolerate(self, parse: Callable[[Element], T], ignored: str) -> T | None:
+        """Return what `parse` makes of this element; None if a fault was found, with a warning.
+
+        Args:
+            parse: A function that raises RobotDescriptionError.
+            ignored: What the warning says is ignored.
+        """
+        try:
+            return parse(self)
+        except RobotDescriptionError as error:
+            self.warnings.append(f"{error}; {ignored} is ignored")
+            return None
+
+    def warn(self, text: str) -> None:
+        """Add a warning with the line of this element."""
+        self.warnings.append(f"line {self.line}: {text}")
+
     def fail(self, text: str, hint: str = "") -> NoReturn:
         """Raise a RobotDescriptionError with the line of this element."""
         raise RobotDescriptionError(text, line=self.line, hint=hint)
 
 
+@dataclass(frozen=True)
+class Document:
+    """A robot description: its root element, its text as well-formed XML, and its warnings.
+
+    The warnings of the elements are added to `warnings`.
+    """
+
+    root: Element
+    text: str
+    warnings: list[str]
+
+
 class _Builder:
     """Builds the tree of elements from the events of expat."""
 
-    def __init__(self, parser: expat.XMLParserType) -> None:
+    def __init__(self, parser: expat.XMLParserType, warnings: list[str]) -> None:
         self.parser = parser
+        self.warnings = warnings
         self.root: Element | None = None
         self.open: list[Element] = []
         parser.StartElementHandler = self.start
@@ -116,7 +166,7 @@ class _Builder:
         parser.EntityDeclHandler = self.entity
 
     def start(self, tag: str, attributes: dict[str, str]) -> None:
-        element = Element(tag, attributes, self.parser.CurrentLineNumber)
+        element = Element(tag, attributes, self.parser.CurrentLineNumber, self.warnings)
         if len(self.open) >= MAX_DEPTH:
             element.fail(f"<{tag}> is nested more than {MAX_DEPTH} elements deep")
         if self.open:
@@ -143,51 +193,70 @@ class _Builder:
         )
 
 
-def decoded(text: str | bytes) -> str:
-    """Return the text of a document. The declaration of an encoding other than UTF-8 is removed.
+def read(data: str | bytes) -> Document:
+    """Read a document. What ROS reads although it is not well-formed XML is repaired, with a warning.
 
     Raises:
-        RobotDescriptionError: The document is larger than 64 MiB, its encoding is not supported, or it cannot be
-            decoded.
+        RobotDescriptionError: The document is larger than 64 MiB, is not XML, defines entities, or is nested more than
+            500 levels deep.
     """
-    if len(text) > MAX_BYTES:
-        raise RobotDescriptionError(f"the robot description has {len(text)} bytes. The limit is {MAX_BYTES} bytes")
-    if isinstance(text, str):
-        return text
-    encoding = _encoding(text)
+    if len(data) > MAX_BYTES:
+        raise RobotDescriptionError(f"the robot description has {len(data)} bytes. The limit is {MAX_BYTES} bytes")
+    warnings: list[str] = []
+    text = data if isinstance(data, str) else _decoded(data, warnings)
     try:
-        plain = text.decode(encoding)
+        return Document(_parse(text, warnings), text, warnings)
+    except expat.ExpatError as error:
+        reason, line = expat.errors.messages[error.code], error.lineno
+    repair = repaired(text)
+    if repair is not None:
+        warnings.append(f"line {line}: not well-formed XML: {reason}. It was repaired")
+        with contextlib.suppress(expat.ExpatError):
+            return Document(_parse(repair, warnings), repair, warnings)
+    raise RobotDescriptionError(f"not well-formed XML: {reason}", line=line, hint=_xml_hint(text))
+
+
+def _decoded(data: bytes, warnings: list[str]) -> str:
+    """Return the text of a document. The declaration of an encoding other than UTF-8 is removed."""
+    encoding = _encoding(data, warnings)
+    try:
+        text = data.decode(encoding)
     except UnicodeError as error:
-        raise RobotDescriptionError(f"the text cannot be decoded: {error}", hint="Save it as UTF-8.") from None
-    return plain if encoding == "utf-8" else _DECLARATION.sub(r"\1", plain, count=1)
+        warnings.append(f"the text cannot be decoded: {error}. It is read as {_FALLBACK}; save it as UTF-8")
+        text = data.decode(_FALLBACK)
+    declaration = _DECLARATION.match(text)
+    if declaration is None or declaration[2].lower() in {"utf-8", "utf8"}:
+        return text
+    return declaration[1] + text[declaration.end() :]
 
 
-def _encoding(text: bytes) -> str:
-    if text.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
+def _encoding(data: bytes, warnings: list[str]) -> str:
+    if data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
         return "utf-16"
-    declaration = _DECLARATION.match(text[:_LONGEST_DECLARATION].decode("ascii", "replace"))
+    declaration = _DECLARATION.match(data[:_LONGEST_DECLARATION].decode("ascii", "replace"))
     if declaration is None:
         return "utf-8"
     with contextlib.suppress(LookupError):
-        if (encoding := codecs.lookup(declaration[2]).name) in _ENCODINGS:
+        encoding = codecs.lookup(declaration[2]).name
+        if encoding == "ascii":  # whatever else is in the file is UTF-8, if it is valid
+            return "utf-8"
+        if encoding in _ENCODINGS:
             return encoding
-    raise RobotDescriptionError(f"unknown encoding {declaration[2]!r}", line=1, hint="Save it as UTF-8.")
+    warnings.append(f"line 1: unknown encoding {declaration[2]!r}; the text is read as UTF-8")
+    return "utf-8"
 
 
-def parse(text: str) -> Element:
+def _parse(text: str, warnings: list[str]) -> Element:
     """Parse an XML document and return its root element.
 
     Raises:
-        RobotDescriptionError: The document is not well-formed, defines entities, or is nested more than 64 levels deep.
+        ExpatError: It is not well-formed.
+        RobotDescriptionError: It cannot be decoded, defines entities, or is nested more than 500 levels deep.
     """
     parser = expat.ParserCreate()
-    builder = _Builder(parser)
+    builder = _Builder(parser, warnings)
     try:
         parser.Parse(text, True)
-    except expat.ExpatError as error:
-        raise RobotDescriptionError(
-            f"not well-formed XML: {expat.errors.messages[error.code]}", line=error.lineno, hint=_xml_hint(text)
-        ) from None
     except UnicodeError as error:  # lone surrogates
         raise RobotDescriptionError(f"the text cannot be decoded: {error}") from None
     if builder.root is None:

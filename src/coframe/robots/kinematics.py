@@ -73,4 +73,6 @@ class KinematicTree:
 
 def _joint_tuple(joint: Joint) -> tuple[object, ...]:
     mimic = joint.mimic and (joint.mimic.joint, joint.mimic.multiplier, joint.mimic.offset)
-    return joint.name, joint.type, joint.parent, joint.child, joint.origin.values, joint.axis, mimic
+    # Without an axis, a joint does not move: it slides along nothing.
+    kind = "prismatic" if joint.size == 1 and not any(joint.axis) else joint.type
+    return joint.name, kind, joint.parent, joint.child, joint.origin.values, joint.axis, mimic

@@ -176,7 +176,7 @@ class Joint:
         child: The child link.
         origin: The pose of the child link relative to the parent link at position 0.
         axis: The unit vector of the rotation or translation axis, or the normal of a planar joint, expressed in the
-            child link.
+            child link; zero if the joint cannot move.
         limits: The limits, which revolute and prismatic joints always have; None if there are none.
         mimic: The rule by which it follows another joint; None if it does not.
     """

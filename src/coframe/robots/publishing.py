@@ -33,9 +33,12 @@ class StatePublisher:
         self._last_call = 0
 
     def fixed(self) -> list[Transform]:
-        """Return the transforms of the fixed joints: the pose of each child link relative to its parent link."""
+        """Return the transforms of the fixed and planar joints: the pose of each child link relative to its parent.
+
+        Upstream has no planar joints and treats them as fixed; it does not publish floating joints.
+        """
         transforms = self.robot.joint_transforms()
-        return [transforms[name] for name, joint in self.robot.joints.items() if joint.type == "fixed"]
+        return [transforms[name] for name, joint in self.robot.joints.items() if joint.type in {"fixed", "planar"}]
 
     def turned_back(self, now: int) -> bool:
         """Return whether the clock has jumped back since the last call. If so, all joints may be published again."""

@@ -40,8 +40,8 @@ class Robot:
         links: The links by name, in the order of the description.
         joints: The joints by name, parents before children.
         materials: The named materials by name.
-        text: The description as URDF.
-        warnings: A text for each part of the description that has no effect.
+        text: The description as URDF, which is well-formed XML even if the file is not.
+        warnings: A text for each fault of the description that does not prevent its use, with its line.
         path: The file of the description; None if it was not loaded from a file.
     """
 

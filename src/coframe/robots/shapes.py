@@ -5,7 +5,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from coframe.errors import InvalidArgumentException
 from coframe.robots.parts import (
     Box,
     Capsule,
@@ -33,13 +32,16 @@ _INERTIA = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 class Materials:
     """The materials that a description defines, at the top level or in links. Undefined ones cause warnings."""
 
-    def __init__(self, root: Element, warnings: list[str]) -> None:
+    def __init__(self, root: Element) -> None:
         self.defined: dict[str, Material] = {}
-        self.warnings = warnings
         for element in root.all("material"):
             material = _material(element)
-            if self.defined.setdefault(element.text("name"), material) != material:
-                element.fail(f"material {material.name!r} is defined twice with different values")
+            if not material.name:
+                element.warn("a <material> has no name, so it is ignored")
+            elif self.defined.setdefault(material.name, material) != material:
+                element.warn(
+                    f"material {material.name!r} is defined twice with different values; the first one is used"
+                )
         for link in root.all("link"):
             for visual in link.all("visual"):
                 for element in filter(_defines, visual.all("material")):
@@ -55,7 +57,7 @@ class Materials:
             return _material(element)
         name = element.attributes.get("name", "").strip()
         if name and name not in self.defined:
-            self.warnings.append(f"line {element.line}: material {name!r} is not defined")
+            element.warn(f"material {name!r} is not defined")
         return self.defined.get(name)
 
 
@@ -65,30 +67,36 @@ def _defines(element: Element) -> bool:
 
 def _material(element: Element) -> Material:
     color, texture = element.one("color"), element.one("texture")
-    rgba = None
-    if color is not None:
-        r, g, b, a = color.numbers("rgba", 4)
-        rgba = (r, g, b, a)
+    rgba = None if color is None else color.tolerate(_rgba, "the color")
     filename = None if texture is None else texture.attributes.get("filename", "").strip() or None
     return Material(element.attributes.get("name", "").strip(), rgba, filename)
 
 
-def parse_link(element: Element, materials: Materials) -> Link:
-    """Return the link that a <link> element describes.
+def _rgba(color: Element) -> tuple[float, float, float, float]:
+    r, g, b, a = color.numbers("rgba", 4)
+    return r, g, b, a
 
-    Raises:
-        RobotDescriptionError: A value is missing or is not a number.
-    """
-    name = element.text("name")
-    visuals = tuple(
-        Visual(visual.attributes.get("name", ""), origin(visual, name), _geometry(visual), materials.used_in(visual))
-        for visual in element.all("visual")
+
+def parse_link(name: str, element: Element, materials: Materials) -> Link:
+    """Return the link that a <link> element describes. What is not valid is ignored, with a warning."""
+
+    def visual(part: Element) -> Visual:
+        pose, geometry = origin(part, name), _geometry(part)
+        return Visual(part.attributes.get("name", ""), pose, geometry, materials.used_in(part))
+
+    def collision(part: Element) -> Collision:
+        return Collision(part.attributes.get("name", ""), origin(part, name), _geometry(part))
+
+    def inertial(part: Element) -> Inertial:
+        return _inertial(part, name)
+
+    mass = element.one("inertial")
+    return Link(
+        name,
+        tuple(filter(None, (part.tolerate(visual, "the <visual>") for part in element.all("visual")))),
+        tuple(filter(None, (part.tolerate(collision, "the <collision>") for part in element.all("collision")))),
+        None if mass is None else mass.tolerate(inertial, "the <inertial>"),
     )
-    collisions = tuple(
-        Collision(collision.attributes.get("name", ""), origin(collision, name), _geometry(collision))
-        for collision in element.all("collision")
-    )
-    return Link(name, visuals, collisions, _inertial(element, name))
 
 
 def origin(element: Element, target: str, source: str | None = None) -> Transform:
@@ -105,17 +113,20 @@ def origin(element: Element, target: str, source: str | None = None) -> Transfor
         return Transform.from_rpy(xyz, pose.numbers("rpy", 3, _ZEROS), target=target, source=source)
     if "rpy" in pose.attributes:
         pose.fail("<origin> has both rpy and quat_xyzw", hint="Remove one of them.")
-    try:
-        return Transform(xyz, pose.numbers("quat_xyzw", 4), target=target, source=source)
-    except InvalidArgumentException as error:
-        pose.fail(str(error), hint=error.hint)
+    quaternion = pose.numbers("quat_xyzw", 4)
+    if not any(quaternion):
+        pose.warn("the quaternion is zero, so there is no rotation")
+        quaternion = (0.0, 0.0, 0.0, 1.0)
+    return Transform(xyz, quaternion, target=target, source=source)
 
 
 def _geometry(element: Element) -> Geometry:
     geometry = element.need("geometry")
-    if len(geometry.children) != 1:
-        geometry.fail(f"<geometry> must contain one shape, not {len(geometry.children)}")
-    shape = geometry.children[0]
+    if not geometry.children:
+        geometry.fail("<geometry> contains no shape")
+    shape, *others = geometry.children
+    if others:
+        others[0].warn(f"<geometry> contains {len(geometry.children)} shapes; the first one is used")
     if shape.tag == "mesh":
         x, y, z = shape.numbers("scale", 3, (1.0, 1.0, 1.0))
         return Mesh(shape.text("filename"), (x, y, z))
@@ -131,10 +142,7 @@ def _geometry(element: Element) -> Geometry:
     return shape.fail(f"<{shape.tag}> is not a shape", hint="The shapes are box, cylinder, capsule, sphere and mesh.")
 
 
-def _inertial(link: Element, name: str) -> Inertial | None:
-    element = link.one("inertial")
-    if element is None:
-        return None
+def _inertial(element: Element, link: str) -> Inertial:
     inertia = element.need("inertia")
     ixx, ixy, ixz, iyy, iyz, izz = (inertia.number(component) for component in _INERTIA)
-    return Inertial(origin(element, name), element.need("mass").number("value"), (ixx, ixy, ixz, iyy, iyz, izz))
+    return Inertial(origin(element, link), element.need("mass").number("value"), (ixx, ixy, ixz, iyy, iyz, izz))

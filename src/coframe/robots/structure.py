@@ -1,18 +1,19 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Validation that links and joints form one tree, and that mimic joints follow an existing joint."""
+"""The tree that links and joints form, and the joints that mimic others."""
 
 from __future__ import annotations
 
+import dataclasses
 from collections import defaultdict
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
+    from collections.abc import Iterable, Iterator, Mapping
 
     from coframe.robots.document import Element
     from coframe.robots.parts import Joint
 
-__all__ = ["check_mimics", "ordered"]
+__all__ = ["ordered", "without_faulty_mimics"]
 
 
 def ordered(
@@ -72,36 +73,44 @@ def _fail_on_loop(joint: Joint, parent_joint: Mapping[str, Joint], elements: Map
     elements[joint.name].fail(f"the links form a loop: {names}", hint="URDF describes trees. Remove one of the joints.")
 
 
-def check_mimics(joints: list[Joint], elements: Mapping[str, Element]) -> None:
-    """Check that every mimic joint follows, directly or indirectly, a joint without a mimic tag.
+def without_faulty_mimics(joints: list[Joint], elements: Mapping[str, Element]) -> list[Joint]:
+    """Return the joints, without the mimic tags that cannot be followed, which cause warnings.
 
-    Raises:
-        RobotDescriptionError: The other joint does not exist, one of them is fixed, planar or floating, or the joints
-            mimic each other in a circle.
+    A joint cannot mimic a joint that does not exist or is fixed, planar or floating, and joints cannot mimic each other
+    in a circle. ROS accepts such tags, and they have no effect there.
     """
     by_name = {joint.name: joint for joint in joints}
-    checked: set[str] = set()
-    for joint in joints:
-        chain: dict[str, Joint] = {}
-        follower = joint
-        while follower.mimic is not None and follower.name not in checked:
-            if follower.name in chain:
-                elements[joint.name].fail(f"joints mimic each other in a circle: {', '.join(chain)}")
-            chain[follower.name] = follower
-            follower = _leader(follower, by_name, elements)
-        checked.update(chain)
+    faults = {joint.name: fault for joint in joints if (fault := _fault(joint, by_name))}
+    leaders = {j.name: j.mimic.joint for j in joints if j.mimic is not None and j.name not in faults}
+    for circle in _circles(leaders):
+        faults |= dict.fromkeys(circle, f"joints mimic each other in a circle: {', '.join(circle[:10])}")
+    for name, fault in faults.items():
+        elements[name].warn(f"{fault}; the <mimic> of joint {name!r} is ignored")
+    return [dataclasses.replace(joint, mimic=None) if joint.name in faults else joint for joint in joints]
 
 
-def _leader(follower: Joint, by_name: Mapping[str, Joint], elements: Mapping[str, Element]) -> Joint:
-    assert follower.mimic is not None
+def _fault(follower: Joint, by_name: Mapping[str, Joint]) -> str:
+    """Return why a joint cannot mimic another one; an empty text if it can, or does not."""
+    if follower.mimic is None:
+        return ""
     leader = by_name.get(follower.mimic.joint)
-    fail = elements[follower.name].fail
     if leader is None:
-        fail(f"joint {follower.name!r} mimics {follower.mimic.joint!r}, which is not a joint")
+        return f"joint {follower.name!r} mimics {follower.mimic.joint!r}, which is not a joint"
     for joint in (follower, leader):
         if joint.size != 1:
-            fail(
-                f"joint {follower.name!r} mimics {leader.name!r}, but {joint.name!r} is {joint.type}",
-                hint="Only revolute, continuous and prismatic joints can mimic and be mimicked.",
-            )
-    return leader
+            return f"joint {follower.name!r} mimics {leader.name!r}, but {joint.name!r} is {joint.type}"
+    return ""
+
+
+def _circles(leaders: Mapping[str, str]) -> Iterator[list[str]]:
+    """Return the joints of each circle of joints that mimic each other."""
+    checked: set[str] = set()
+    for start in leaders:
+        path: dict[str, int] = {}
+        name = start
+        while name in leaders and name not in checked and name not in path:
+            path[name] = len(path)
+            name = leaders[name]
+        if name in path:
+            yield list(path)[path[name] :]
+        checked.update(path)

@@ -1,26 +1,32 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A strict URDF parser, which reports contradictions with their line instead of guessing."""
+"""A URDF parser that loads what ROS loads, and reports contradictions and faults with their line."""
 
 from __future__ import annotations
 
 import math
+import re
 from typing import TYPE_CHECKING, get_args
 
+from coframe.errors import RobotDescriptionError
 from coframe.robots import document
 from coframe.robots.parts import Joint, JointType, Limits, Mimic
 from coframe.robots.robot import Robot
 from coframe.robots.shapes import Materials, origin, parse_link
-from coframe.robots.structure import check_mimics, ordered
+from coframe.robots.structure import ordered, without_faulty_mimics
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from coframe.robots.document import Element
     from coframe.robots.parts import Vector
 
 __all__ = ["parse_urdf"]
 
 _JOINT_TYPES: tuple[JointType, ...] = get_args(JointType)
-_LIMITS = ("lower", "upper", "effort", "velocity")
 _NEEDS_LIMITS = ("revolute", "prismatic")
+_VERSION = re.compile(r"\s*(\d{1,9})\.(\d{1,9})\s*", re.ASCII)
+_NEWEST_VERSION = (1, 2)
+_FIRST_WITH_QUATERNIONS = (1, 1)
 
 
 def parse_urdf(text: str | bytes) -> Robot:
@@ -30,12 +36,13 @@ def parse_urdf(text: str | bytes) -> Robot:
         text: The document. Xacro must be expanded first, as :func:`coframe.robots.load` does.
 
     Returns:
-        The robot. Problems that do not affect the frames, such as an undefined material, are in its `warnings`.
+        The robot. Its `warnings` contain the faults that do not affect the frames, such as a visual without a shape,
+        and those that ROS accepts, such as a second <origin>; for these, the robot is what ROS makes of them.
 
     Raises:
         RobotDescriptionError: The document is not valid URDF, for example because of loops, links with two parents,
-            duplicate names, values that are not numbers, missing limits, or because it has no links. The text contains
-            the line.
+            duplicate names, origins that are not numbers, missing or swapped limits, or because it has no links. The
+            text contains the line.
 
     Example:
         >>> from coframe.robots import parse_urdf
@@ -49,31 +56,19 @@ def parse_urdf(text: str | bytes) -> Robot:
         >>> robot.frames({"turn": 1.5})["tip"].rpy.round(3).tolist()
         [0.0, 0.0, 1.5]
     """
-    text = document.decoded(text)
-    root = document.parse(text)
-    _check_kind(root)
-    warnings: list[str] = []
-    materials = Materials(root, warnings)
-    parts = _named(root, "link")
-    links = {name: parse_link(element, materials) for name, element in parts.items()}
-    warnings += [
-        f"line {element.line}: link {name!r} begins with a slash, which tf2 removes"
-        for name, element in parts.items()
-        if name.startswith("/")
-    ]
-    if not links:
-        root.fail("the robot has no links", hint="Add at least one <link>.")
-    elements = _named(root, "joint")
-    joints = [_joint(element, warnings) for element in elements.values()]
-    check_mimics(joints, elements)
-    return Robot(
-        name=root.attributes.get("name", "").strip(),
-        links=links,
-        joints=ordered(links, joints, elements, root),
-        materials=materials.defined,
-        text=text,
-        warnings=tuple(warnings),
-    )
+    read = document.read(text)
+    _check_kind(read.root)
+    xacro = next((element for element in read.root.children if element.tag.startswith("xacro:")), None)
+    try:
+        robot = _robot(read)
+    except RobotDescriptionError:
+        if xacro is not None:
+            xacro.fail(f"<{xacro.tag}> is xacro, not URDF", hint=_XACRO_HINT)
+        raise
+    return robot
+
+
+_XACRO_HINT = "Save it as a file with the suffix .xacro and load that file."
 
 
 def _check_kind(root: Element) -> None:
@@ -83,26 +78,73 @@ def _check_kind(root: Element) -> None:
             f"the outermost element is <{root.tag}>, not <robot>",
             hint=f"The document is {other}, not URDF." if other else "",
         )
+
+
+def _robot(read: document.Document) -> Robot:
+    root = read.root
     for element in root.children:
         if element.tag.startswith("xacro:"):
-            element.fail(
-                f"<{element.tag}> is xacro, not URDF",
-                hint="Save it as a file with the suffix .xacro and load that file.",
-            )
+            element.warn(f"<{element.tag}> is xacro, not URDF, and has no effect. {_XACRO_HINT}")
+    if _version(root) < _FIRST_WITH_QUATERNIONS:
+        _ignore_quaternions(root)
+    materials = Materials(root)
+    parts = _named(root, "link")
+    if not parts:
+        root.fail("the robot has no links", hint="Add at least one <link>.")
+    links = {name: parse_link(name, element, materials) for name, element in parts.items()}
+    for name, element in parts.items():
+        if name.startswith("/"):
+            element.warn(f"link {name!r} begins with a slash, which tf2 removes")
+    elements = _named(root, "joint")
+    spellings = {name.strip(): name for name in parts} | {name: name for name in parts}
+    joints = [_joint(name, element, spellings) for name, element in elements.items()]
+    return Robot(
+        name=root.attributes.get("name", "").strip(),
+        links=links,
+        joints=ordered(links, without_faulty_mimics(joints, elements), elements, root),
+        materials=materials.defined,
+        text=read.text,
+        warnings=tuple(dict.fromkeys(read.warnings)),
+    )
+
+
+def _version(root: Element) -> tuple[int, int]:
+    written = root.attributes.get("version")
+    if written is None:
+        return 1, 0
+    found = _VERSION.fullmatch(written)
+    version = (1, 0) if found is None else (int(found[1]), int(found[2]))
+    if found is None or not (1, 0) <= version <= _NEWEST_VERSION:
+        root.warn(f"the version {written!r} is unknown. ROS reads the versions 1.0, 1.1 and 1.2")
+    return version
+
+
+def _ignore_quaternions(root: Element) -> None:
+    """Remove `quat_xyzw` from all elements, as ROS ignores it in documents of version 1.0."""
+    pending = [root]
+    while pending:
+        element = pending.pop()
+        pending += element.children
+        if element.tag == "origin" and element.attributes.pop("quat_xyzw", None) is not None:
+            element.warn('quat_xyzw is ignored, because it needs <robot version="1.1">')
 
 
 def _named(root: Element, tag: str) -> dict[str, Element]:
     found: dict[str, Element] = {}
     for element in root.all(tag):
-        name = element.text("name")
+        name = element.attributes.get("name")
+        if name is None:
+            element.fail(f"<{tag}> needs the attribute name")
         if name in found:
             element.fail(f"there is a second {tag} {name!r}; the first one is on line {found[name].line}")
+        if not name.strip() or name != name.strip():
+            element.warn(f"the name {name!r} of a {tag} is empty, or begins or ends with a space")
         found[name] = element
     return found
 
 
-def _joint(element: Element, warnings: list[str]) -> Joint:
-    name, parent, child = element.text("name"), _link_name(element, "parent"), _link_name(element, "child")
+def _joint(name: str, element: Element, links: Mapping[str, str]) -> Joint:
+    parent, child = _link_name(element, "parent", links), _link_name(element, "child", links)
     kind = next((known for known in _JOINT_TYPES if known == element.attributes.get("type")), None)
     if kind is None:
         written = element.attributes.get("type", "")
@@ -117,12 +159,15 @@ def _joint(element: Element, warnings: list[str]) -> Joint:
         origin=origin(element, parent, child),
         axis=_axis(element, name, kind),
         limits=_limits(element, name, kind),
-        mimic=_mimic(element, name, kind, warnings),
+        mimic=_mimic(element, name, kind),
     )
 
 
-def _link_name(joint: Element, role: str) -> str:
-    return joint.need(role).text("link")
+def _link_name(joint: Element, role: str, links: Mapping[str, str]) -> str:
+    """Return the link that a joint names; `links` has each name as it is and without spaces around it."""
+    element = joint.need(role)
+    written = element.attributes.get("link") or element.text("link")
+    return links.get(written) or links.get(written.strip(), written)
 
 
 def _axis(joint: Element, name: str, kind: JointType) -> Vector:
@@ -133,7 +178,11 @@ def _axis(joint: Element, name: str, kind: JointType) -> Vector:
     x, y, z = element.numbers("xyz", 3, (1.0, 0.0, 0.0))
     largest = max(abs(x), abs(y), abs(z))
     if largest == 0.0:
-        element.fail(f"the axis of joint {name!r} is zero", hint='Give it a direction, such as xyz="0 0 1".')
+        if kind == "planar":
+            element.warn(f"the axis of joint {name!r} is zero; z is used")
+            return 0.0, 0.0, 1.0
+        element.warn(f"the axis of joint {name!r} is zero, so the joint does not move")
+        return 0.0, 0.0, 0.0
     x, y, z = x / largest, y / largest, z / largest
     length = math.hypot(x, y, z)
     return x / length, y / length, z / length
@@ -149,8 +198,10 @@ def _limits(joint: Element, name: str, kind: JointType) -> Limits | None:
         )
     if element is None and safety is None:
         return None
-    lower, upper, effort, velocity = (_given(element, part) for part in _LIMITS)
-    if element is not None and kind in _NEEDS_LIMITS:
+    needed = kind in _NEEDS_LIMITS
+    lower, upper = (_given(element, part, required=needed) for part in ("lower", "upper"))
+    effort, velocity = (_given(element, part) for part in ("effort", "velocity"))
+    if element is not None and needed:
         lower, upper = lower or 0.0, upper or 0.0
         if lower > upper:
             element.fail(f"joint {name!r} has the lower limit {lower:g} above the upper limit {upper:g}")
@@ -158,15 +209,20 @@ def _limits(joint: Element, name: str, kind: JointType) -> Limits | None:
     return Limits(lower, upper, effort, velocity, soft_lower, soft_upper)
 
 
-def _given(element: Element | None, attribute: str) -> float | None:
-    return element.number(attribute) if element is not None and attribute in element.attributes else None
+def _given(element: Element | None, attribute: str, *, required: bool = False) -> float | None:
+    """Return a limit; None if it is not given, or is not valid and not required."""
+    if element is None or attribute not in element.attributes:
+        return None
+    if required:
+        return element.number(attribute)
+    return element.tolerate(lambda limit: limit.number(attribute), f"the limit {attribute}")
 
 
-def _mimic(joint: Element, name: str, kind: JointType, warnings: list[str]) -> Mimic | None:
+def _mimic(joint: Element, name: str, kind: JointType) -> Mimic | None:
     element = joint.one("mimic")
     if element is None:
         return None
     if kind == "fixed":  # usually a gripper joint that was fixed later
-        warnings.append(f"line {element.line}: joint {name!r} is fixed, so its <mimic> has no effect")
+        element.warn(f"joint {name!r} is fixed, so its <mimic> has no effect")
         return None
     return Mimic(element.text("joint"), element.number("multiplier", 1.0), element.number("offset", 0.0))
