@@ -12,7 +12,6 @@ pytestmark = pytest.mark.slow
 pinocchio = pytest.importorskip("pinocchio", reason="Pinocchio (pip install --group oracle) is not installed")
 
 BROKEN = {
-    "alex_psyonic_hands.urdf": "mimics 'index_q1', which is not a joint",
     "ur3.urdf": "the robot has no links",
 }
 
