@@ -80,6 +80,8 @@ struct EdgeSummary {
   std::uint64_t stored, late, repeated, old, self, nan, quaternion;
 };
 
+// Implemented in several files: buffer_ingest.cpp (received messages), buffer_insertions.cpp, buffer_lookups.cpp,
+// buffer_many_lookups.cpp, buffer_summaries.cpp (frames and edges), and buffer.cpp (clear, freeze, follow).
 class Buffer {
  public:
   // What other nodes and recordings can add; the program itself may insert more. The largest known trees have thousands
