@@ -211,7 +211,7 @@ def typescript(version: str) -> str:
             _alias(name)
             for name in (
                 *("ViewerMode", "FrameActivity", "DisplayState", "Severity", "FindingsState", "ColorBy"),
-                *("LogLevel", "CompletionKind"),
+                *("LogLevel", "CompletionKind", "NodeKind", "WidgetKind"),
             )
         ),
         *(_interface(one) for one in all_records),

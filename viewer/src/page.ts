@@ -21,7 +21,9 @@ import { Panel } from "./panels/side_panel";
 import { exposeProbe } from "./probe";
 import type { BinaryMessage, ServerMessage } from "./protocol/messages";
 import { openReplay } from "./replay/source";
+import { NodesView } from "./scene/nodes";
 import { RvizPanel } from "./panels/rviz";
+import { ScenePanel } from "./panels/scene";
 import { Shortcuts } from "./panels/shortcuts";
 import type { Source } from "./protocol/source";
 import { Theme } from "./util/theme";
@@ -39,6 +41,8 @@ export function showPage(source: Source): void {
   const model = new Model((message) => source.send(message));
   const view = new View(model, theme, byId("canvas") as HTMLCanvasElement, byId("labels"), byId("panes"));
   const displays = new Displays(model, view, theme);
+  const nodes = new NodesView(model, view, theme);
+  const scene = new ScenePanel(model, nodes, () => showScene());
   const toolSettings = new ToolSettings();
   const tree = new TreePanel(model);
   const rviz = new RvizPanel(model, displays, view, theme, toolSettings, source.live);
@@ -47,9 +51,11 @@ export function showPage(source: Source): void {
     { id: "frames", title: "Frames", body: tree.element },
     { id: "findings", title: "Findings", body: new FindingsPanel(model).element },
     { id: "displays", title: "Displays", body: new DisplaysPanel(model, displays).element },
+    { id: "scene", title: "Scene", body: scene.element },
     { id: "joints", title: "Joints", body: new JointsPanel(model, displays).element },
     { id: "rviz", title: "RViz file", body: rviz.element },
   ]);
+  panel.setAvailable("scene", false);
   model.on("findings", ({ findings }) =>
     panel.setTitle("findings", findings.length ? `Findings ${findings.length}` : "Findings"),
   );
@@ -106,7 +112,13 @@ export function showPage(source: Source): void {
     source.live,
   );
   if (source.live) dock.restore();
-  exposeProbe(model, view, displays);
+  exposeProbe(model, view, displays, nodes);
+
+  /** Shows the tab of what a program has added, and opens it when the program adds its first widget. */
+  function showScene(): void {
+    const isNew = panel.setAvailable("scene", !scene.isEmpty);
+    if (isNew && scene.hasWidgets) panel.choose("scene");
+  }
 
   function hideSelected(): void {
     const { frame } = model.selection;
@@ -167,6 +179,10 @@ export function showPage(source: Source): void {
       case "log":
       case "graph":
       case "completions":
+      case "node":
+      case "nodes_removed":
+      case "widget":
+      case "widgets_removed":
         model.emit(message.type, message as never);
         break;
       case "problem":
@@ -179,6 +195,10 @@ export function showPage(source: Source): void {
   function receiveBinary(message: BinaryMessage): void {
     if (message.kind === "curves") {
       model.emit("curves", message);
+      return;
+    }
+    if (message.kind === "node") {
+      model.emit("geometry", message);
       return;
     }
     if (message.kind !== "frames") {

@@ -5,6 +5,7 @@ import * as THREE from "three";
 import type { Displays } from "./displays/manager";
 import type { Model } from "./model/model";
 import type { Vector } from "./protocol/messages";
+import type { NodesView } from "./scene/nodes";
 import type { View } from "./scene/view";
 
 interface FrameProbe {
@@ -15,7 +16,7 @@ interface FrameProbe {
   state: number;
 }
 
-export function exposeProbe(model: Model, view: View, displays: Displays): void {
+export function exposeProbe(model: Model, view: View, displays: Displays, nodes: NodesView): void {
   const frames = (): Record<string, FrameProbe> => {
     const { framePoses } = view;
     const found: Record<string, FrameProbe> = {};
@@ -44,6 +45,9 @@ export function exposeProbe(model: Model, view: View, displays: Displays): void 
     },
     get displays() {
       return Object.fromEntries(displays.list.map((display) => [display.config.name, display.probe()]));
+    },
+    get nodes() {
+      return nodes.probe();
     },
     get updates() {
       return view.updates;

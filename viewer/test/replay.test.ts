@@ -42,6 +42,7 @@ const block: ReplayBlock = {
   robots: [],
   rviz: null,
   displays: [],
+  nodes: [],
   stats: [],
   edges: [],
   bins: 0,

@@ -8,15 +8,62 @@ Subpackages, from the ground up; imports point down only:
     sources: The ROS graph, a recording or a buffer.
     scene: Poses, statistics, the timeline and relations of a buffer's frames.
     displays: Messages converted to drawings.
+    scripting: What a Python program adds to the scene and the page.
     robots, rviz, tools: Robot descriptions, RViz configuration files, and what the page's tools publish.
     replay: A span of time as one HTML file.
     clients: What each connected tab shows, requests and receives.
     server: HTTP and WebSockets.
 """
 
+from coframe.viewer.scripting.errors import SceneError
+from coframe.viewer.scripting.gui_api import GuiApi
+from coframe.viewer.scripting.node_handles import (
+    ClickEvent,
+    FrameHandle,
+    ImageHandle,
+    LinesHandle,
+    MeshHandle,
+    NodeHandle,
+    PointsHandle,
+    TextHandle,
+)
+from coframe.viewer.scripting.scene_api import SceneApi
+from coframe.viewer.scripting.widget_handles import (
+    ButtonHandle,
+    CheckboxHandle,
+    DropdownHandle,
+    FolderHandle,
+    NumberHandle,
+    TextFieldHandle,
+    WidgetEvent,
+    WidgetHandle,
+)
 from coframe.viewer.show import Viewer, show, start_viewer
 
-__all__ = ["Viewer", "show", "start_viewer"]
+__all__ = [
+    "ButtonHandle",
+    "CheckboxHandle",
+    "ClickEvent",
+    "DropdownHandle",
+    "FolderHandle",
+    "FrameHandle",
+    "GuiApi",
+    "ImageHandle",
+    "LinesHandle",
+    "MeshHandle",
+    "NodeHandle",
+    "NumberHandle",
+    "PointsHandle",
+    "SceneApi",
+    "SceneError",
+    "TextFieldHandle",
+    "TextHandle",
+    "Viewer",
+    "WidgetEvent",
+    "WidgetHandle",
+    "show",
+    "start_viewer",
+]
 
 
 def __dir__() -> list[str]:

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from coframe import html_tables
 from coframe.buffer import Buffer
+from coframe.complete_files import write_complete
 from coframe.connection import Connection
 from coframe.errors import ViewerError
 from coframe.robots import load
@@ -19,6 +20,8 @@ from coframe.viewer.replay.export import export_replay
 from coframe.viewer.robots.joints import JOINT_STATES
 from coframe.viewer.robots.robot_message import make_mesh_table
 from coframe.viewer.rviz.config import RvizConfig
+from coframe.viewer.scripting.gui_api import GuiApi
+from coframe.viewer.scripting.scene_api import SceneApi
 from coframe.viewer.sources.source import BufferSource
 from coframe.viewer.sources.transforms import buffer_of_transform
 from coframe.viewer.state import ViewerState
@@ -38,7 +41,7 @@ __all__ = ["Viewer", "show", "start_viewer"]
 class Viewer:
     """A running viewer, returned by :func:`show`. In a notebook it is displayed below the cell.
 
-    It may be used by one thread at a time.
+    It may be used by one thread at a time; its scene and its widgets by any number of threads.
 
     Args:
         state: What is shown.
@@ -68,6 +71,8 @@ class Viewer:
         self._export = export
         self._inline = inline
         self._sources = [state.source]
+        self._scene = SceneApi(state.nodes, self._complete_buffer)
+        self._gui = GuiApi(state.widgets)
         self._server = ViewerServer(state, host=host, port=port)
 
     @property
@@ -80,6 +85,16 @@ class Viewer:
         """The page's address for other machines, with its token; empty if only this machine can connect."""
         return self._server.remote_url
 
+    @property
+    def scene(self) -> SceneApi:
+        """What the program draws in the scene: points, lines, meshes, text, images and axes."""
+        return self._scene
+
+    @property
+    def gui(self) -> GuiApi:
+        """The widgets that the program adds to the page: buttons, sliders, drop-downs, numbers, text and folders."""
+        return self._gui
+
     def set_source(self, source: Source) -> None:
         """Show another source, which the viewer closes at the end."""
         self._sources.append(source)
@@ -88,6 +103,22 @@ class Viewer:
     def set_title(self, title: str) -> None:
         """Change the title of the page."""
         self._server.call(self._state.set_title, title)
+
+    def save_replay(self, path: str | os.PathLike[str]) -> None:
+        """Write a replay: an HTML file with all frames, messages and nodes, which opens without a server.
+
+        Args:
+            path: The file.
+
+        Raises:
+            ViewerError: The replay would be too large.
+            OSError: The file cannot be written.
+        """
+        write_complete(path, self._export(self._sources[-1]))
+
+    def _complete_buffer(self) -> Buffer | None:
+        source = self._sources[-1]
+        return None if source.mode == "live" else source.buffer
 
     def close(self) -> None:
         """Stop the server; may be called more than once."""
@@ -218,7 +249,7 @@ def _viewer(
     state = ViewerState(
         make_source(), fixed=fixed, rviz=config, robot=description, meshes=meshes, joint_states=joint_states
     )
-    export = partial(export_replay, meshes=meshes, rviz=config, robot=description, fixed=fixed)
+    export = partial(export_replay, meshes=meshes, rviz=config, robot=description, fixed=fixed, nodes=state.nodes.all)
     return Viewer(state, export, host=host, port=port, inline=inline)
 
 

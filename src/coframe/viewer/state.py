@@ -18,6 +18,9 @@ from coframe.viewer.robots.descriptions import ROBOT_DESCRIPTION, RobotDescripti
 from coframe.viewer.robots.joints import JOINT_STATES, JointPublisher
 from coframe.viewer.robots.meshes import MeshTable
 from coframe.viewer.scene.scene import Scene
+from coframe.viewer.scripting.callbacks import CallbackThread
+from coframe.viewer.scripting.nodes import NodeStore
+from coframe.viewer.scripting.widgets import WidgetStore
 from coframe.viewer.tools.publisher import ToolPublisher
 
 if TYPE_CHECKING:
@@ -41,7 +44,7 @@ _MAX_PREPARED_REPLAYS = 8
 
 
 class ViewerState:
-    """What all clients share; used by one thread.
+    """What all clients share; used by one thread, apart from the nodes and widgets.
 
     Args:
         source: The source of transforms and messages.
@@ -69,6 +72,8 @@ class ViewerState:
         self.scene = Scene(source.buffer, ages=source.mode == "live")
         self.findings = FindingsWatcher()
         self.panels = Panels(source)
+        self.callbacks = CallbackThread()
+        self.nodes, self.widgets = NodeStore(self.callbacks), WidgetStore(self.callbacks)
         self.rviz = rviz.with_fixed_frame(fixed) if rviz is not None and fixed else rviz
         self._joint_states = joint_states
         self.fixed = fixed or (rviz.fixed_frame if rviz is not None else "")
@@ -160,6 +165,7 @@ class ViewerState:
 
     def close(self) -> None:
         """Stop all work and release what is still open for disconnected clients."""
+        self.callbacks.close()
         for topic in list(self._open):
             self._open.pop(topic).messages.close()
         self.findings.close()

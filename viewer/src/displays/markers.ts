@@ -6,13 +6,13 @@ import { LineMaterial } from "three/examples/jsm/lines/LineMaterial.js";
 import { LineSegments2 } from "three/examples/jsm/lines/LineSegments2.js";
 import { LineSegmentsGeometry } from "three/examples/jsm/lines/LineSegmentsGeometry.js";
 import { materialsOf, type Meshes } from "../scene/meshes";
+import { textSprite } from "../scene/text_sprite";
 import { slice, type DisplayMessage, type MarkerItem, type Shapes, type Vector } from "../protocol/messages";
 import { arrowGeometry } from "./arrows";
 import { MessageDisplay, type Context, type DisplayConfig } from "./display";
 
 const MAX_NAMESPACES = 200;
 const MAX_TEXT = 200;
-const TEXT_PX = 48;
 
 export class MarkersDisplay extends MessageDisplay<Shapes, "Marker" | "MarkerArray"> {
   constructor(
@@ -284,25 +284,5 @@ function triangles(item: DrawableMarker, points: Float32Array, colours: Float32A
 
 /** Text that faces the camera; scale.z is the height of a line in metres. */
 function text(item: DrawableMarker): THREE.Object3D | null {
-  const lines = item.text.slice(0, MAX_TEXT).split("\n");
-  const canvas = document.createElement("canvas");
-  const context = canvas.getContext("2d");
-  if (!context || !item.text.trim()) return null;
-  const font = `600 ${TEXT_PX}px system-ui, sans-serif`;
-  context.font = font;
-  canvas.width = Math.ceil(Math.max(...lines.map((line) => context.measureText(line).width))) + 8;
-  canvas.height = Math.ceil(lines.length * TEXT_PX * 1.2);
-  context.font = font;
-  context.textBaseline = "middle";
-  context.textAlign = "center";
-  context.fillStyle = `#${colourOf(item.rgba).getHexString()}`;
-  lines.forEach((line, i) => context.fillText(line, canvas.width / 2, (i + 0.5) * TEXT_PX * 1.2));
-  const texture = new THREE.CanvasTexture(canvas);
-  texture.colorSpace = THREE.SRGBColorSpace;
-  const sprite = new THREE.Sprite(
-    new THREE.SpriteMaterial({ map: texture, opacity: alphaOf(item), depthWrite: false }),
-  );
-  const height = item.scale[2] * lines.length * 1.2;
-  sprite.scale.set((height * canvas.width) / canvas.height, height, 1);
-  return sprite;
+  return textSprite(item.text.slice(0, MAX_TEXT), colourOf(item.rgba), item.scale[2], alphaOf(item));
 }

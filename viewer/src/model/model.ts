@@ -15,19 +15,24 @@ import type {
   Hello,
   Inspection,
   LogEntries,
+  NodeGeometry,
   NodeGraph,
   Problem,
   Published,
+  RemovedNodes,
+  RemovedWidgets,
   Relation,
   ReplayPrepared,
   Robot,
   RvizConfiguration,
   Saved,
+  SceneNode,
   Stats,
   FrameUpdate,
   Timeline,
   Topic,
   TreeFrame,
+  Widget,
 } from "../protocol/messages";
 
 export interface ModelEvents {
@@ -54,6 +59,11 @@ export interface ModelEvents {
   log: LogEntries;
   graph: NodeGraph;
   completions: Completions;
+  node: SceneNode;
+  geometry: NodeGeometry;
+  nodes_removed: RemovedNodes;
+  widget: Widget;
+  widgets_removed: RemovedWidgets;
   /** A request of a part of the page to plot an expression. */
   plot: string;
   /** A request of a part of the page to inspect a topic. */

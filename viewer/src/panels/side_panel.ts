@@ -65,6 +65,15 @@ export class Panel {
     remember("tab", chosen);
   }
 
+  /** Shows or hides a tab. Returns whether this has changed something. */
+  setAvailable(id: string, available: boolean): boolean {
+    const button = this.buttons[this.tabs.findIndex((tab) => tab.id === id)];
+    if (!button || button.hidden === !available) return false;
+    button.hidden = !available;
+    if (!available && button.getAttribute("aria-selected") === "true") this.choose("");
+    return true;
+  }
+
   setTitle(id: string, title: string): void {
     const button = this.buttons[this.tabs.findIndex((tab) => tab.id === id)];
     if (button) button.textContent = title;

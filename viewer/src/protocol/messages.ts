@@ -17,6 +17,7 @@ import {
   readFramesHeader,
   readGridHeader,
   readImageHeader,
+  readNodeHeader,
   readShapesHeader,
   type FieldReader,
   type ShapesDescription,
@@ -115,7 +116,21 @@ export interface Curves {
   curves: CurvePoints[];
 }
 
-export type BinaryMessage = FrameUpdate | DisplayMessage | Curves;
+/** The geometry of a node that a program has added. */
+export interface NodeGeometry {
+  kind: "node";
+  id: number;
+  /** Relative to `offset`. */
+  vertices: Float32Array;
+  indices: Uint32Array;
+  /** Red, green, blue and alpha of each vertex, or of each pixel of an image; or empty. */
+  colors: Uint8Array<ArrayBuffer>;
+  /** Pixels in each row of an image. */
+  width: number;
+  offset: Vector;
+}
+
+export type BinaryMessage = FrameUpdate | DisplayMessage | Curves | NodeGeometry;
 export type DisplayMessage = Cloud | Grid | Shapes | Image;
 
 /** Reads fields one after another; throws a ProtocolError if the data ends too early. */
@@ -157,6 +172,12 @@ class Reader implements FieldReader {
     return new Float32Array(this.buffer.slice(start, start + count * 4));
   }
 
+  integers(count: number): Uint32Array {
+    const start = this.take(count * 4);
+    if (start % 4 === 0) return new Uint32Array(this.buffer, start, count);
+    return new Uint32Array(this.buffer.slice(start, start + count * 4));
+  }
+
   doubles(count: number): Float64Array {
     const start = this.take(count * 8);
     if (start % 8 === 0) return new Float64Array(this.buffer, start, count);
@@ -185,6 +206,7 @@ export function decode(buffer: ArrayBuffer): BinaryMessage {
   if (kind === BinaryKind.shapes) return decodeShapes(new Reader(buffer, "shapes"));
   if (kind === BinaryKind.image) return decodeImage(new Reader(buffer, "image"));
   if (kind === BinaryKind.curves) return decodeCurves(new Reader(buffer, "curves"));
+  if (kind === BinaryKind.node) return decodeNode(new Reader(buffer, "node"));
   throw new ProtocolError(`a binary message of unknown kind ${kind}`);
 }
 
@@ -248,6 +270,15 @@ function decodeCurves(reader: Reader): Curves {
     values: reader.doubles(points),
   }));
   return { kind: "curves", curves };
+}
+
+function decodeNode(reader: Reader): NodeGeometry {
+  const { node: id, vertices: count, indices: used, colors: coloured, width, offset } = readNodeHeader(reader);
+  const vertices = reader.floats(count * 3);
+  const indices = reader.integers(used);
+  if (!indices.every((index) => index < count)) throw new ProtocolError("node: an index of a vertex is too large");
+  const colors = reader.bytes(coloured * 4);
+  return { kind: "node", id, vertices, indices, colors, width, offset };
 }
 
 /** Rows of a payload; empty if the pair is outside of it. */

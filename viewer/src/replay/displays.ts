@@ -58,7 +58,8 @@ export class ReplayDisplay {
     const packed = this.block.drawings[String(sequence)];
     if (packed === undefined) return null;
     const decoded = decode(bytes(packed, 1));
-    return decoded.kind === "frames" || decoded.kind === "curves" ? null : { ...decoded, id, sequence };
+    if (decoded.kind === "frames" || decoded.kind === "curves" || decoded.kind === "node") return null;
+    return { ...decoded, id, sequence };
   }
 
   /** The status of the display at a sample. */

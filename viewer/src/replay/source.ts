@@ -14,6 +14,7 @@ import {
 } from "../util/math";
 import { Forest } from "../model/model";
 import {
+  decode,
   FrameState,
   PROTOCOL_VERSION,
   type ClientMessage,
@@ -132,6 +133,10 @@ export class ReplaySource implements Source {
       components: forest.components,
     });
     block.robots.forEach((robot, id) => listener("text", { ...robot, id }));
+    for (const { node, geometry } of block.nodes) {
+      listener("text", node);
+      if (geometry) listener("binary", decode(bytes(geometry, 1)));
+    }
     if (block.stats.length === this.count) listener("text", { type: "stats", revision: 1, span, frames: block.stats });
     this.started = true;
     this.sendFrames();

@@ -10,6 +10,14 @@ const MAX_GROUND_DISTANCE_M = 1e4;
 
 export type SceneCamera = THREE.PerspectiveCamera | THREE.OrthographicCamera;
 
+export interface Hit {
+  object: THREE.Object3D;
+  /** In scene coordinates. */
+  point: THREE.Vector3;
+  /** The index of the point, the line or the triangle; null for other objects. */
+  index: number | null;
+}
+
 export class Picker {
   private readonly raycaster = new THREE.Raycaster();
 
@@ -35,22 +43,29 @@ export class Picker {
 
   /** The nearest point on a visible mesh or cloud; null if the ray hits none. */
   surface(roots: readonly THREE.Object3D[]): THREE.Vector3 | null {
+    return this.hit(roots, false)?.point ?? null;
+  }
+
+  /** The nearest visible mesh, cloud or sprite that the ray hits, with the point on it; null if it hits none. */
+  hit(roots: readonly THREE.Object3D[], sprites = true): Hit | null {
     const hits: THREE.Intersection[] = [];
     for (const root of roots)
       forEachVisible(root, (object) => {
         const isCloud = object instanceof THREE.Points;
-        if (!isCloud && !(object instanceof THREE.Mesh)) return;
+        if (!isCloud && !(object instanceof THREE.Mesh) && !(sprites && object instanceof THREE.Sprite)) return;
         if (isCloud) this.raycaster.params.Points.threshold = CLOUD_POINT_PX * this.pixels(this.distance(object));
         object.raycast(this.raycaster, hits);
       });
     hits.sort((a, b) => a.distance - b.distance);
     const nearest = hits[0];
     if (!nearest) return null;
-    const { object, index } = nearest;
-    if (!(object instanceof THREE.Points) || index === undefined) return nearest.point;
+    const { object, index, faceIndex } = nearest;
+    if (!(object instanceof THREE.Points) || index === undefined)
+      return { object, point: nearest.point, index: faceIndex ?? null };
     // The hit is the nearest point of the ray; the point of the cloud is what the user means.
     const position = (object as THREE.Points<THREE.BufferGeometry>).geometry.getAttribute("position");
-    return new THREE.Vector3().fromBufferAttribute(position, index).applyMatrix4(object.matrixWorld);
+    const point = new THREE.Vector3().fromBufferAttribute(position, index).applyMatrix4(object.matrixWorld);
+    return { object, point, index };
   }
 
   private distance(cloud: THREE.Points): number {

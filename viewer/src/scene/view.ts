@@ -8,7 +8,7 @@ import { LabelLayer, type Label } from "./labels";
 import { Measure, type MeasuredEnd } from "./measure";
 import type { Model } from "../model/model";
 import { FramePoses } from "./frame_poses";
-import { Picker } from "./picking";
+import { Picker, type Hit } from "./picking";
 import { Panes } from "./panes";
 import { PointerTools } from "./tools";
 import type { FrameUpdate, Vector } from "../protocol/messages";
@@ -54,6 +54,7 @@ export class View {
   private chain: number[] = [];
   private readonly picker = new Picker();
   private readonly surfaces: (() => THREE.Object3D[])[] = [];
+  private readonly clickListeners: ((event: PointerEvent) => boolean)[] = [];
   private readonly pointListeners: ((point: Vector) => void)[] = [];
   private readonly posesListeners: ((framePoses: FramePoses, update: FrameUpdate) => void)[] = [];
   private readonly beforeDrawListeners: ((update: FrameUpdate) => void)[] = [];
@@ -159,6 +160,17 @@ export class View {
   /** Calls the listener with each point that the user clicks with the tool for points, in the fixed frame. */
   onPoint(listener: (point: Vector) => void): void {
     this.pointListeners.push(listener);
+  }
+
+  /** Calls the listener with each click without a tool; if it returns true, the click does not select a frame. */
+  onClick(listener: (event: PointerEvent) => boolean): void {
+    this.clickListeners.push(listener);
+  }
+
+  /** What is visible under the pointer; null if it is none of these objects. */
+  hit(event: PointerEvent, roots: readonly THREE.Object3D[]): Hit | null {
+    this.aim(event);
+    return this.picker.hit(roots);
   }
 
   groundAt(event: PointerEvent): THREE.Vector3 | null {
@@ -292,7 +304,7 @@ export class View {
       const bounds = canvas.getBoundingClientRect();
       const frame = this.pick(event.clientX - bounds.left, event.clientY - bounds.top);
       if (this.tools.active) this.use(event, frame);
-      else if (!this.adjuster.hovered) this.model.select(frame);
+      else if (!this.adjuster.hovered && !this.clickListeners.some((used) => used(event))) this.model.select(frame);
     });
   }
 

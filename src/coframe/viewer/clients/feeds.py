@@ -14,6 +14,7 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from coframe.viewer.clients.panel_feeds import panel_feeds
+from coframe.viewer.clients.scripting import NodesFeed, WidgetsFeed
 from coframe.viewer.clients.update import Feed, Update
 from coframe.viewer.displays.display import Status
 from coframe.viewer.findings import finding_rows
@@ -199,7 +200,9 @@ class FramesFeed(_Feed):
             self._idle_updates += 1
         scene = viewer.scene
         listed = [(entry.display, entry.sequence) for entry in entries]
-        version = (scene.revision, fixed, at, scene.buffer._changes, listed, self._idle_updates)
+        # The page confirms frame updates, so that it receives no more nodes before it has drawn the last ones.
+        nodes = client.nodes.count
+        version = (scene.revision, fixed, at, scene.buffer._changes, listed, self._idle_updates, nodes)
         yield Update(FRAMES, version, partial(self._encode, now, fixed, at, entries))
 
     def _display_updates(self, fixed: str, at: int, entries: list[EntryPose]) -> Iterator[Update]:
@@ -247,6 +250,8 @@ def make_feeds(client: ClientState) -> list[Feed]:
         RobotsFeed(client),
         FindingsFeed(client),
         *panel_feeds(client),
+        WidgetsFeed(client),
+        NodesFeed(client),
         FramesFeed(client),
     ]
 

@@ -217,12 +217,23 @@ async def _prepare_replay(client: ClientState, request: client_messages.PrepareR
     return ReplayPrepared(type="replay", settings=client.viewer.prepare_replay(settings))
 
 
+async def _click(client: ClientState, request: client_messages.ClickNode) -> None:
+    client.viewer.nodes.clicked(request)
+
+
+async def _use_widget(client: ClientState, request: client_messages.UseWidget) -> None:
+    problem = client.viewer.widgets.used(request)
+    if problem:
+        raise BadRequestError(problem)
+
+
 async def _in_background(client: ClientState, function: Callable[..., T], *args: Any) -> T:
     """Run a function that takes long in another thread."""
     return await asyncio.get_running_loop().run_in_executor(client.viewer.executor, function, *args)
 
 
 _HANDLERS: dict[type, Callable[[ClientState, Any], Awaitable[ServerMessage | None]]] = {
+    client_messages.ClickNode: _click,
     client_messages.Explain: _explain,
     client_messages.LoadRviz: _load_rviz,
     client_messages.PrepareReplay: _prepare_replay,
@@ -240,5 +251,6 @@ _HANDLERS: dict[type, Callable[[ClientState, Any], Awaitable[ServerMessage | Non
     client_messages.Step: _step,
     client_messages.Subscribe: _subscribe,
     client_messages.Unsubscribe: _unsubscribe,
+    client_messages.UseWidget: _use_widget,
     **PANEL_HANDLERS,
 }

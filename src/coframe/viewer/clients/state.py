@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 from coframe.errors import WireError
 from coframe.viewer.clients.panels import ClientPanels
 from coframe.viewer.clients.playback_clock import PlaybackClock
+from coframe.viewer.clients.scripting import SentRecords
 from coframe.viewer.displays.display import Display
 from coframe.viewer.protocol.requests import BadRequestError
 from coframe.viewer.state import FRAME_TIMEOUT
@@ -62,6 +63,8 @@ class ClientState:
         origin: The origin of the client's times, in nanoseconds.
         subscriptions: The subscribed displays by the client's id.
         panels: What the panels show.
+        nodes: The nodes that were sent.
+        widgets: The widgets that were sent.
     """
 
     def __init__(self, viewer: ViewerState) -> None:
@@ -74,6 +77,7 @@ class ClientState:
         self.origin = viewer.origin
         self.subscriptions: dict[int, Subscription] = {}
         self.panels = ClientPanels(viewer)
+        self.nodes, self.widgets = SentRecords(), SentRecords()
         self._joints: dict[int, JointPublisher] = {}
 
     @property
@@ -123,6 +127,7 @@ class ClientState:
         """Start again after a change of the source or the origin: close all displays, to be opened again later."""
         self.origin = self.viewer.origin
         self.panels.close()
+        self.nodes, self.widgets = SentRecords(), SentRecords()
         for subscription in self.subscriptions.values():
             self._close(subscription)
             subscription.serial = next(_serial_numbers)

@@ -28,6 +28,7 @@ class BinaryKind(IntEnum):
     SHAPES = 4
     IMAGE = 5
     CURVES = 6
+    NODE = 7
 
 
 class FrameState(IntEnum):
@@ -154,6 +155,23 @@ class CurveRecord(NamedTuple):
     reserved: UInt32
 
 
+class NodeHeader(NamedTuple):
+    """The geometry of a node. Followed by float32[3] vertices, uint32 indices, and uint8[4] colours, in this order.
+
+    Vertices are relative to ``offset``, which is expressed in the node. Lines have two vertices each, triangles three
+    indices. There is one colour (red, green, blue, alpha) for each vertex, or none; an image has no vertices, and
+    ``width`` colours in each row.
+    """
+
+    kind: UInt32
+    node: UInt32
+    vertices: UInt32
+    indices: UInt32
+    colors: UInt32
+    width: UInt32
+    offset: Float64x3
+
+
 BINARY_RECORDS: tuple[type[Any], ...] = (
     FramesHeader,
     EntryRecord,
@@ -163,5 +181,6 @@ BINARY_RECORDS: tuple[type[Any], ...] = (
     ImageHeader,
     CurvesHeader,
     CurveRecord,
+    NodeHeader,
 )
 BINARY_ENUMS: tuple[type[IntEnum], ...] = (BinaryKind, FrameState, CloudFlag, ImageFormat)

@@ -289,6 +289,37 @@ class Complete:
 
 
 @dataclass(frozen=True)
+class ClickNode:
+    """Reports a click on a node that is clickable.
+
+    Attributes:
+        node: The id of the node.
+        frame: The fixed frame of the page.
+        position: The point on the surface of the node, in the fixed frame.
+        local: The same point in the coordinates of the node, as in the arrays of its geometry.
+        index: The index of the point, the line or the triangle that was hit; None for other kinds of nodes.
+    """
+
+    type: ClassVar[str] = "click"
+    node: Id
+    frame: str
+    position: Position
+    local: Position
+    index: Id | None = None
+
+
+@dataclass(frozen=True)
+class UseWidget:
+    """Presses a button, or changes the value of another widget; the field depends on its kind."""
+
+    type: ClassVar[str] = "widget"
+    id: Id
+    number: float | None = None
+    text: str | None = None
+    flag: bool | None = None
+
+
+@dataclass(frozen=True)
 class Ready:
     """Confirms that the last frame update was drawn, so that the next one may follow; ``drawn`` is its time."""
 
@@ -319,5 +350,7 @@ ClientMessage: TypeAlias = (
     | ShowLog
     | ShowGraph
     | Complete
+    | ClickNode
+    | UseWidget
     | Ready
 )

@@ -10,6 +10,7 @@ from coframe.viewer.protocol.limits import Range
 JsonObject: TypeAlias = dict[str, Any]
 Vector: TypeAlias = tuple[float, float, float]
 Quaternion: TypeAlias = tuple[float, float, float, float]
+Pose: TypeAlias = tuple[float, float, float, float, float, float, float]
 Span: TypeAlias = tuple[float, float]
 
 Id: TypeAlias = Annotated[int, Range(0, 2**32 - 1)]
@@ -32,6 +33,8 @@ LogLevel: TypeAlias = Literal["debug", "info", "warning", "error", "fatal"]
 CompletionKind: TypeAlias = Literal["expression", "topic"]
 ColorBy: TypeAlias = Literal["axis", "intensity", "rgb", "distance", "flat"]
 AxisName: TypeAlias = Literal["x", "y", "z"]
+NodeKind: TypeAlias = Literal["frame", "points", "lines", "mesh", "text", "image"]
+WidgetKind: TypeAlias = Literal["button", "checkbox", "dropdown", "folder", "number", "slider", "text"]
 
 RvizDisplay = TypedDict(
     "RvizDisplay",

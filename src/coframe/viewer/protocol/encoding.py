@@ -21,6 +21,7 @@ from coframe.viewer.protocol.binary_messages import (
     GridHeader,
     ImageFormat,
     ImageHeader,
+    NodeHeader,
     ShapesHeader,
 )
 from coframe.viewer.protocol.layout import Layout
@@ -41,6 +42,7 @@ __all__ = [
     "encode_frames",
     "encode_grid",
     "encode_image",
+    "encode_node",
     "encode_shapes",
     "relative_to",
     "set_owner",
@@ -52,6 +54,7 @@ _CLOUD = Layout(CloudHeader)
 _GRID = Layout(GridHeader)
 _SHAPES = Layout(ShapesHeader)
 _IMAGE = Layout(ImageHeader)
+_NODE = Layout(NodeHeader)
 _CURVES, _CURVE = Layout(CurvesHeader), Layout(CurveRecord)
 _NO_POSE = (float("nan"),) * 7
 
@@ -187,6 +190,29 @@ def encode_image(
     """
     header = _IMAGE.pack(BinaryKind.IMAGE, 0, 0, width, height, kind | step << 8, stamp)
     return _join(header, np.ascontiguousarray(data))
+
+
+def encode_node(
+    node: int,
+    vertices: NDArray[np.float32],
+    indices: NDArray[np.uint32],
+    colors: NDArray[np.uint8],
+    width: int,
+    offset: Sequence[float],
+) -> bytes:
+    """Return the geometry of a node.
+
+    Args:
+        node: The id of the node.
+        vertices: Positions relative to the offset, (V, 3).
+        indices: Indices of vertices, (I,).
+        colors: Red, green, blue and alpha, (C, 4).
+        width: The number of colours in each row of an image; 0 for other nodes.
+        offset: The offset in the node, in metres, (3,).
+    """
+    header = _NODE.pack(BinaryKind.NODE, node, len(vertices), len(indices), len(colors), width, *offset)
+    parts = (np.ascontiguousarray(vertices, "<f4"), np.ascontiguousarray(indices, "<u4"), np.ascontiguousarray(colors))
+    return b"".join((header, *(part.tobytes() for part in parts)))
 
 
 def set_owner(drawing: bytearray, display: int, sequence: int) -> None:

@@ -7,7 +7,7 @@ from typing import Literal, TypedDict
 
 from coframe.viewer.protocol.client_messages import ReplayRviz
 from coframe.viewer.protocol.common import ColorBy, DisplayState, Vector
-from coframe.viewer.protocol.server_messages import FrameStats, Robot, TimelineEdge, TreeFrame
+from coframe.viewer.protocol.server_messages import FrameStats, Robot, SceneNode, TimelineEdge, TreeFrame
 
 
 class ReplayDisplayBlock(TypedDict):
@@ -38,6 +38,13 @@ class ReplayDisplayBlock(TypedDict):
     stamps: str
 
 
+class ReplayNode(TypedDict):
+    """A node that a program has added to the scene; ``geometry`` is its binary message as base64 text, or ""."""
+
+    node: SceneNode
+    geometry: str
+
+
 ReplayBlock = TypedDict(
     "ReplayBlock",
     {
@@ -57,6 +64,7 @@ ReplayBlock = TypedDict(
         "robots": list[Robot],
         "rviz": ReplayRviz | None,
         "displays": list[ReplayDisplayBlock],
+        "nodes": list[ReplayNode],
         "stats": list[FrameStats],
         "edges": list[TimelineEdge],
         "bins": int,

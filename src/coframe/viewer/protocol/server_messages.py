@@ -10,6 +10,8 @@ from coframe.viewer.protocol.common import (
     FindingsState,
     FrameActivity,
     LogLevel,
+    NodeKind,
+    Pose,
     Quaternion,
     RvizDisplay,
     RvizTool,
@@ -18,6 +20,7 @@ from coframe.viewer.protocol.common import (
     Span,
     Vector,
     ViewerMode,
+    WidgetKind,
 )
 
 
@@ -406,6 +409,72 @@ class Published(TypedDict):
     subscribers: int
 
 
+class SceneNode(TypedDict):
+    """A node that a program has added to the scene; its `NodeHeader` message follows if the node has a geometry.
+
+    ``frame`` is the frame in which ``pose`` is expressed: a frame of the tree, "" for the fixed frame, or None for the
+    nearest node above this one by their names, which are paths (the fixed frame if there is none). ``color`` is None
+    for the default of the page. ``size`` is the length of axes, the diameter of points, or the height of a line of text
+    in metres, or the width of lines in pixels. Of several nodes with the same name and a ``time``, the last one at the
+    displayed time is shown. ``problem`` says what is not drawn, and why.
+    """
+
+    type: Literal["node"]
+    id: int
+    name: str
+    kind: NodeKind
+    frame: str | None
+    pose: Pose
+    time: float | None
+    visible: bool
+    clickable: bool
+    color: Vector | None
+    opacity: float
+    size: float
+    text: str
+    wireframe: bool
+    problem: str
+
+
+class RemovedNodes(TypedDict):
+    """The ids of nodes that do not exist any more."""
+
+    type: Literal["nodes_removed"]
+    ids: list[int]
+
+
+class Widget(TypedDict):
+    """A widget that a program has added to the page.
+
+    Widgets are shown in the order of their ids, inside the folder ``parent`` if it is not None. Sliders and numbers
+    have a ``number`` from ``lower`` to ``upper``, None for no limit; drop-downs and text fields have a ``text``;
+    checkboxes have ``flag``. An open folder has the ``flag`` true.
+    """
+
+    type: Literal["widget"]
+    id: int
+    kind: WidgetKind
+    label: str
+    parent: int | None
+    number: float | None
+    text: str | None
+    flag: bool | None
+    lower: float | None
+    upper: float | None
+    step: float | None
+    options: list[str]
+    hint: str
+    disabled: bool
+    visible: bool
+
+
+class RemovedWidgets(TypedDict):
+    """The ids of widgets that do not exist any more."""
+
+    type: Literal["widgets_removed"]
+    ids: list[int]
+
+
 class Problem(TypedDict):
     """A request that failed, or a problem with the source."""
 
@@ -434,5 +503,9 @@ ServerMessage: TypeAlias = (
     | Saved
     | ReplayPrepared
     | Published
+    | SceneNode
+    | RemovedNodes
+    | Widget
+    | RemovedWidgets
     | Problem
 )

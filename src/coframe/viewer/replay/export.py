@@ -23,7 +23,7 @@ from coframe.viewer.robots.descriptions import ROBOT_DESCRIPTION, RobotDescripti
 from coframe.viewer.scene.scene import Scene
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Sequence
+    from collections.abc import Callable, Collection, Sequence
 
     from coframe.robots import Robot
     from coframe.viewer.protocol.client_messages import ReplayRviz
@@ -32,6 +32,7 @@ if TYPE_CHECKING:
     from coframe.viewer.replay.displays import Progress
     from coframe.viewer.robots.meshes import MeshTable
     from coframe.viewer.rviz.config import RvizConfig
+    from coframe.viewer.scripting.nodes import NodeRecord
     from coframe.viewer.sources.source import Source
     from coframe.viewer.sources.topic_messages import TopicMessages
 
@@ -48,6 +49,7 @@ def export_replay(
     rviz: RvizConfig | None = None,
     robot: Robot | None = None,
     fixed: str = "",
+    nodes: Callable[[], Sequence[NodeRecord]] = tuple,
     first: int | None = None,
     last: int | None = None,
     rate: float | None = None,
@@ -61,6 +63,7 @@ def export_replay(
         rviz: The displays and the view; None for those that the page chooses by itself.
         robot: A robot that is shown in addition to recorded ones.
         fixed: The fixed frame; "" for that of `rviz` or the root of the largest tree.
+        nodes: Return what a program has added to the scene.
         first: The first time in nanoseconds; None for the start of the source.
         last: The last time in nanoseconds; None for the end of the source.
         rate: Frames per second; None for 30, or fewer if a long span has too many poses.
@@ -93,7 +96,7 @@ def export_replay(
             "global": {},
             "view": None if rviz is None else rviz.description()["view"],
         }
-        content = ReplayContent(source.buffer, opened, list(descriptions.known.values()), meshes)
+        content = ReplayContent(source.buffer, opened, list(descriptions.known.values()), meshes, nodes())
         fixed = fixed or (rviz.fixed_frame if rviz is not None else "") or scene.structure.largest
         settings = ReplaySettings(tuple(shown), look)
         request = ReplayRequest(first, last, rate, fixed, FRAME_TIMEOUT, source.title, last, settings)

@@ -16,6 +16,7 @@ from coframe.viewer.protocol.encoding import relative_to
 from coframe.viewer.protocol.replay_block import ReplayBlock
 from coframe.viewer.protocol.server_messages import Robot, TreeFrame
 from coframe.viewer.replay.displays import ReplayTimes, no_progress, packed, record_displays
+from coframe.viewer.replay.nodes import record_nodes
 from coframe.viewer.replay.template import replay_template
 from coframe.viewer.robots.meshes import MESH_TYPES, MeshError
 from coframe.viewer.scene.scene import LocalOrigin, Scene
@@ -34,6 +35,7 @@ if TYPE_CHECKING:
     from coframe.viewer.replay.displays import Progress, ReplayDisplay
     from coframe.viewer.robots.descriptions import Description
     from coframe.viewer.robots.meshes import MeshTable
+    from coframe.viewer.scripting.nodes import NodeRecord
     from coframe.viewer.sources.topic_messages import TopicMessages
 
 __all__ = [
@@ -106,12 +108,14 @@ class ReplayContent(NamedTuple):
         messages: The messages of the displays, by topic.
         robots: The robots.
         meshes: The meshes of the robots; small ones are included.
+        nodes: What a program has added to the scene.
     """
 
     buffer: Buffer
     messages: Mapping[str, TopicMessages]
     robots: Sequence[Description]
     meshes: MeshTable
+    nodes: Sequence[NodeRecord] = ()
 
 
 def replay_page(
@@ -171,6 +175,7 @@ def _block(content: ReplayContent, request: ReplayRequest, progress: Progress) -
             "robots": _robots(content),
             "rviz": request.settings.rviz,
             "displays": record_displays(request.settings.displays, content.messages, replay_times, progress),
+            "nodes": record_nodes(content.nodes, request.origin),
             "stats": frame_rows(scene, request.origin, request.frame_timeout),
             "edges": edge_rows(scene.buffer, scene.infos, first, last, TIMELINE_BINS, request.origin),
             "bins": TIMELINE_BINS,

@@ -1,0 +1,258 @@
+# SPDX-License-Identifier: Apache-2.0
+"""`Viewer.gui`: the widgets that a program adds to the page."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, TypeVar
+
+from coframe.viewer.scripting import arguments
+from coframe.viewer.scripting.errors import SceneError
+from coframe.viewer.scripting.widget_handles import (
+    ButtonHandle,
+    CheckboxHandle,
+    DropdownHandle,
+    FolderHandle,
+    NumberHandle,
+    OpenFolders,
+    TextFieldHandle,
+    checked_options,
+)
+from coframe.viewer.scripting.widgets import WidgetRecord, nearest_step
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from coframe.viewer.protocol.common import WidgetKind
+    from coframe.viewer.scripting.widgets import WidgetStore
+
+__all__ = ["GuiApi"]
+
+N = TypeVar("N", int, float)
+_LIMIT = 1e12
+
+
+class GuiApi:
+    """Adds widgets to the tab *Scene* of the page; any thread may use it.
+
+    Each method returns a handle: its ``value`` is the value that all pages show. ``on_update`` and ``on_click``
+    register callbacks. Widgets are shown in the order in which they were added; in the ``with`` block of a folder they
+    are added to the folder.
+
+    All methods raise :class:`SceneError`, a ValueError, if an argument is invalid.
+
+    Args:
+        store: All widgets.
+
+    Example:
+        >>> import coframe
+        >>> with coframe.show(coframe.Buffer(), port=0) as viewer:
+        ...     with viewer.gui.add_folder("Camera"):
+        ...         pitch = viewer.gui.add_slider("Pitch", min=-0.5, max=0.5, step=0.01, initial_value=0.0)
+        ...
+        ...     @pitch.on_update
+        ...     def _(event):
+        ...         print(event.target.value)
+        ...
+        ...     pitch.value = 0.1
+        ...     pitch.value
+        0.1
+    """
+
+    def __init__(self, store: WidgetStore) -> None:
+        self._store = store
+        self._open_folders = OpenFolders()
+
+    def add_button(self, label: str, *, hint: str = "", disabled: bool = False, visible: bool = True) -> ButtonHandle:
+        """Add a button.
+
+        Args:
+            label: The text on it.
+            hint: A longer description.
+            disabled: Show it, but let nobody press it.
+            visible: Whether it is shown.
+        """
+        return ButtonHandle(self._store, self._add("button", label, hint, disabled, visible))
+
+    def add_slider(
+        self,
+        label: str,
+        min: N,  # noqa: A002 - viser's names
+        max: N,  # noqa: A002
+        step: N,
+        initial_value: N,
+        *,
+        hint: str = "",
+        disabled: bool = False,
+        visible: bool = True,
+    ) -> NumberHandle[N]:
+        """Add a slider.
+
+        Args:
+            label: The text next to it.
+            min: The smallest value.
+            max: The largest value.
+            step: The distance of two neighbouring values.
+            initial_value: The first value.
+            hint: A longer description.
+            disabled: Show it, but let nobody move it.
+            visible: Whether it is shown.
+        """
+        low = arguments.number_of(min, "min", -_LIMIT, _LIMIT)
+        high = arguments.number_of(max, "max", -_LIMIT, _LIMIT)
+        if high <= low:
+            raise SceneError(f"max: expected a number above min, {low:g}, not {high:g}")
+        return self._add_number("slider", label, initial_value, low, high, step, (min, max), hint, disabled, visible)
+
+    def add_number(
+        self,
+        label: str,
+        initial_value: N,
+        min: N | None = None,  # noqa: A002
+        max: N | None = None,  # noqa: A002
+        step: N | None = None,
+        *,
+        hint: str = "",
+        disabled: bool = False,
+        visible: bool = True,
+    ) -> NumberHandle[N]:
+        """Add a field for a number.
+
+        Args:
+            label: The text next to it.
+            initial_value: The first value.
+            min: The smallest value; None for no limit.
+            max: The largest value; None for no limit.
+            step: The distance of two neighbouring values; None for any number, or 1 if all numbers are ints.
+            hint: A longer description.
+            disabled: Show it, but let nobody change it.
+            visible: Whether it is shown.
+        """
+        low = None if min is None else arguments.number_of(min, "min", -_LIMIT, _LIMIT)
+        high = None if max is None else arguments.number_of(max, "max", -_LIMIT, _LIMIT)
+        if low is not None and high is not None and high < low:
+            raise SceneError(f"max: expected a number of at least min, {low:g}, not {high:g}")
+        return self._add_number("number", label, initial_value, low, high, step, (min, max), hint, disabled, visible)
+
+    def add_dropdown(
+        self,
+        label: str,
+        options: Sequence[str],
+        initial_value: str | None = None,
+        *,
+        hint: str = "",
+        disabled: bool = False,
+        visible: bool = True,
+    ) -> DropdownHandle:
+        """Add a drop-down.
+
+        Args:
+            label: The text next to it.
+            options: The texts to choose from.
+            initial_value: The first value; None for the first option.
+            hint: A longer description.
+            disabled: Show it, but let nobody change it.
+            visible: Whether it is shown.
+        """
+        known = checked_options(options)
+        value = known[0] if initial_value is None else initial_value
+        if value not in known:
+            raise SceneError(f"initial_value: {value!r} is not one of the options {', '.join(known)}")
+        number = self._add("dropdown", label, hint, disabled, visible, value=value, options=known)
+        return DropdownHandle(self._store, number)
+
+    def add_text(
+        self,
+        label: str,
+        initial_value: str = "",
+        *,
+        hint: str = "",
+        disabled: bool = False,
+        visible: bool = True,
+    ) -> TextFieldHandle:
+        """Add a field for text; callbacks are called when the user leaves it or presses Enter.
+
+        Args:
+            label: The text next to it.
+            initial_value: The first value.
+            hint: A longer description.
+            disabled: Show it, but let nobody change it, for example to show a result.
+            visible: Whether it is shown.
+        """
+        value = arguments.text_of(initial_value, "initial_value")
+        return TextFieldHandle(self._store, self._add("text", label, hint, disabled, visible, value=value))
+
+    def add_checkbox(
+        self,
+        label: str,
+        initial_value: bool = False,
+        *,
+        hint: str = "",
+        disabled: bool = False,
+        visible: bool = True,
+    ) -> CheckboxHandle:
+        """Add a checkbox.
+
+        Args:
+            label: The text next to it.
+            initial_value: Whether it is checked at first.
+            hint: A longer description.
+            disabled: Show it, but let nobody change it.
+            visible: Whether it is shown.
+        """
+        value = arguments.flag_of(initial_value, "initial_value")
+        return CheckboxHandle(self._store, self._add("checkbox", label, hint, disabled, visible, value=value))
+
+    def add_folder(self, label: str, *, expand: bool = True, visible: bool = True) -> FolderHandle:
+        """Add a folder; widgets that are added in its ``with`` block are in the folder.
+
+        Args:
+            label: The title.
+            expand: Whether it is open at first.
+            visible: Whether it is shown.
+        """
+        value = arguments.flag_of(expand, "expand")
+        return FolderHandle(
+            self._store, self._add("folder", label, "", False, visible, value=value), self._open_folders
+        )
+
+    def reset(self) -> None:
+        """Remove all widgets."""
+        self._store.reset()
+
+    def _add_number(
+        self,
+        kind: WidgetKind,
+        label: str,
+        initial: Any,
+        low: float | None,
+        high: float | None,
+        step: Any,
+        limits: tuple[Any, Any],
+        hint: str,
+        disabled: bool,
+        visible: bool,
+    ) -> NumberHandle[Any]:
+        first = arguments.number_of(initial, "initial_value", -_LIMIT, _LIMIT)
+        is_whole = all(isinstance(one, int) for one in (initial, *limits, step) if one is not None)
+        size = 1.0 if step is None and is_whole else None if step is None else arguments.number_of(step, "step", 1e-12)
+        if (low is not None and first < low) or (high is not None and first > high):
+            raise SceneError(f"initial_value: {first:g} is not between {low} and {high}, the limits")
+        value = nearest_step(first, low, high, size)
+        fields = {"lower": low, "upper": high, "step": size, "is_whole": is_whole}
+        whole_value = round(value) if is_whole else value
+        return NumberHandle(self._store, self._add(kind, label, hint, disabled, visible, value=whole_value, **fields))
+
+    def _add(self, kind: WidgetKind, label: str, hint: str, disabled: bool, visible: bool, **fields: Any) -> int:
+        folders = self._open_folders.ids
+        record = WidgetRecord(
+            id=self._store.next_id(),
+            version=0,
+            kind=kind,
+            label=arguments.text_of(label, "label", arguments.MAX_NAME),
+            parent=folders[-1] if folders else None,
+            hint=arguments.text_of(hint, "hint"),
+            disabled=arguments.flag_of(disabled, "disabled"),
+            visible=arguments.flag_of(visible, "visible"),
+            **fields,
+        )
+        return self._store.add(record).id

@@ -1,0 +1,203 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The nodes that a program has added to the scene."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from dataclasses import dataclass, replace
+from functools import partial
+from typing import TYPE_CHECKING, NamedTuple
+
+from coframe.formatting import did_you_mean, quoted
+from coframe.viewer.protocol.server_messages import SceneNode
+from coframe.viewer.scripting.errors import SceneError
+from coframe.viewer.scripting.records import Record, RecordStore
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from coframe.viewer.protocol.client_messages import ClickNode
+    from coframe.viewer.protocol.common import NodeKind, Pose, Vector
+    from coframe.viewer.scripting.callbacks import CallbackThread
+    from coframe.viewer.scripting.geometry import Geometry
+
+__all__ = ["IDENTITY", "MAX_NODES", "MAX_NODE_BYTES", "NodeRecord", "NodeStore"]
+
+MAX_NODES = 5000
+MAX_NODE_BYTES = 512 << 20
+IDENTITY: Pose = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)
+
+
+@dataclass(frozen=True)
+class NodeRecord(Record):
+    """A node; the attributes are those of :class:`coframe.viewer.protocol.server_messages.SceneNode`.
+
+    Attributes:
+        time: The time from which the node is shown, in nanoseconds; None for always.
+        geometry: What it consists of; None for axes and text.
+        geometry_version: A number that changes with the geometry.
+    """
+
+    name: str
+    kind: NodeKind
+    frame: str | None = None
+    pose: Pose = IDENTITY
+    time: int | None = None
+    visible: bool = True
+    clickable: bool = False
+    color: Vector | None = None
+    opacity: float = 1.0
+    size: float = 1.0
+    text: str = ""
+    wireframe: bool = False
+    geometry: Geometry | None = None
+    geometry_version: int = 0
+
+    def message(self, origin: int, problem: str = "") -> SceneNode:
+        """Return the message to the pages, with times relative to an origin in nanoseconds."""
+        return SceneNode(
+            type="node",
+            id=self.id,
+            name=self.name,
+            kind=self.kind,
+            frame=self.frame,
+            pose=self.pose,
+            time=None if self.time is None else float(self.time - origin),
+            visible=self.visible,
+            clickable=self.clickable,
+            color=self.color,
+            opacity=self.opacity,
+            size=self.size,
+            text=self.text,
+            wireframe=self.wireframe,
+            problem=problem,
+        )
+
+
+class _Key(NamedTuple):
+    """Of several nodes with the same name, at most one has each time."""
+
+    name: str
+    time: int | None
+
+
+class NodeStore(RecordStore[NodeRecord]):
+    """All nodes; any thread may use it.
+
+    Args:
+        callbacks: The thread in which callbacks run.
+    """
+
+    def __init__(self, callbacks: CallbackThread) -> None:
+        super().__init__()
+        self._callbacks = callbacks
+        self._ids_by_key: dict[_Key, int] = {}
+        self._clicked: defaultdict[int, list[Callable[[ClickNode], object]]] = defaultdict(list)
+        self._size = 0
+
+    def add(self, record: NodeRecord) -> NodeRecord:
+        """Add a node in place of those with its name; a node with a time replaces only the one with the same time.
+
+        Raises:
+            SceneError: There are too many nodes, or too many bytes.
+        """
+        with self.lock:
+            replaced = self._replaced_by(record)
+            if len(self.all()) - len(replaced) >= MAX_NODES:
+                raise SceneError(f"name: the scene has {MAX_NODES} nodes, the limit", hint="Remove other nodes.")
+            freed = sum(_size(one.geometry) for one in replaced)
+            self._check_size(_size(record.geometry) - freed, record)
+            self._remove_records(replaced)
+            self._size += _size(record.geometry)
+            self._ids_by_key[_Key(record.name, record.time)] = record.id
+            return self.put(replace(record, geometry_version=self.revision + 1))
+
+    def update(self, number: int, **fields: object) -> NodeRecord:
+        """Change a node.
+
+        Raises:
+            SceneError: The node was removed, or there are too many bytes.
+        """
+        with self.lock:
+            record = self.get(number)
+            if record is None:
+                raise SceneError("this node was removed, or replaced by another one with its name")
+            if "geometry" in fields:
+                change = _size(fields["geometry"]) - _size(record.geometry)  # type: ignore[arg-type]
+                self._check_size(change, record)
+                self._size += change
+                fields["geometry_version"] = self.revision + 1
+            return self.put(replace(record, **fields))  # type: ignore[arg-type]
+
+    def remove(self, number: int) -> None:
+        """Remove a node with everything below it, if it exists."""
+        with self.lock:
+            record = self.get(number)
+            if record is None:
+                return
+            same_name = any(key.name == record.name for key, one in self._ids_by_key.items() if one != number)
+            self._remove_records([record] if same_name else self._at_or_below(record.name))
+
+    def remove_name(self, name: str) -> None:
+        """Remove all nodes with a name, and everything below them.
+
+        Raises:
+            SceneError: There is no such node.
+        """
+        with self.lock:
+            found = self._at_or_below(name)
+            if not found:
+                names = sorted({record.name for record in self.all()})
+                known = f"Nodes: {quoted(names)}." if names else "The scene has no nodes."
+                raise SceneError(f"name: no node {name!r}", hint=f"{did_you_mean(name, names)} {known}".strip())
+            self._remove_records(found)
+
+    def reset(self) -> None:
+        """Remove all nodes."""
+        with self.lock:
+            self._remove_records(self.all())
+
+    def on_click(self, number: int, callback: Callable[[ClickNode], object]) -> None:
+        """Call a function with each click on a node.
+
+        Raises:
+            SceneError: The node was removed.
+        """
+        with self.lock:
+            self.update(number, clickable=True)
+            self._clicked[number].append(callback)
+
+    def clicked(self, click: ClickNode) -> None:
+        """Run the callbacks of a node; do nothing if it was removed meanwhile."""
+        with self.lock:
+            callbacks = list(self._clicked.get(click.node, ()))
+        for callback in callbacks:
+            self._callbacks.submit(partial(callback, click))
+
+    def _replaced_by(self, record: NodeRecord) -> list[NodeRecord]:
+        if record.time is None:
+            return [one for one in self.all() if one.name == record.name]
+        keys = (_Key(record.name, None), _Key(record.name, record.time))
+        found = (self.get(self._ids_by_key.get(key, 0)) for key in keys)
+        return [one for one in found if one is not None]
+
+    def _at_or_below(self, name: str) -> list[NodeRecord]:
+        return [one for one in self.all() if one.name == name or one.name.startswith(f"{name}/")]
+
+    def _remove_records(self, records: list[NodeRecord]) -> None:
+        for record in records:
+            self._size -= _size(record.geometry)
+            self._clicked.pop(record.id, None)
+            self._ids_by_key.pop(_Key(record.name, record.time), None)
+        self.drop(record.id for record in records)
+
+    def _check_size(self, change: int, record: NodeRecord) -> None:
+        if self._size + change > MAX_NODE_BYTES:
+            raise SceneError(
+                f"with {record.name!r}, the scene would have more than {MAX_NODE_BYTES >> 20} MiB, the limit",
+                hint="Remove other nodes, or thin the data.",
+            )
+
+
+def _size(geometry: Geometry | None) -> int:
+    return 0 if geometry is None else geometry.size

@@ -1,0 +1,78 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A store of immutable records that any thread may change, and that feeds read by version."""
+
+from __future__ import annotations
+
+import itertools
+import threading
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any, Generic, TypeVar
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+__all__ = ["Record", "RecordStore"]
+
+
+@dataclass(frozen=True)
+class Record:
+    """What the pages show of one node or widget.
+
+    Attributes:
+        id: Its number, which is never used again.
+        version: The revision of the store at its last change.
+    """
+
+    id: int
+    version: int
+
+
+R = TypeVar("R", bound=Record)
+
+
+class RecordStore(Generic[R]):
+    """Records by their ids, in the order in which they were added.
+
+    Attributes:
+        lock: Held while several records are read or changed together.
+        revision: A number that increases with every change.
+    """
+
+    def __init__(self) -> None:
+        self.lock = threading.RLock()
+        self.revision = 0
+        self._records: dict[int, R] = {}
+        self._ids = itertools.count(1)
+
+    def all(self) -> list[R]:
+        """Return all records."""
+        with self.lock:
+            return list(self._records.values())
+
+    def get(self, number: int) -> R | None:
+        """Return a record; None if it was removed."""
+        return self._records.get(number)
+
+    def next_id(self) -> int:
+        """Return the id for a new record."""
+        return next(self._ids)
+
+    def put(self, record: R) -> R:
+        """Add a record, or replace the one with its id; return it with its version."""
+        with self.lock:
+            self.revision += 1
+            stored = self._records[record.id] = replace(record, version=self.revision)
+            return stored
+
+    def change(self, number: int, **fields: Any) -> R | None:
+        """Change fields of a record and return it; None if it was removed."""
+        with self.lock:
+            record = self._records.get(number)
+            return None if record is None else self.put(replace(record, **fields))
+
+    def drop(self, numbers: Iterable[int]) -> None:
+        """Remove records; those that do not exist are skipped."""
+        with self.lock:
+            for number in list(numbers):
+                if self._records.pop(number, None) is not None:
+                    self.revision += 1
