@@ -211,7 +211,7 @@ def typescript(version: str) -> str:
             _alias(name)
             for name in (
                 *("ViewerMode", "FrameActivity", "DisplayState", "Severity", "FindingsState", "ColorBy"),
-                *("LogLevel", "CompletionKind", "NodeKind", "WidgetKind"),
+                *("LogLevel", "CompletionKind", "NodeKind", "WidgetKind", "ShapeKind", "JointKind"),
             )
         ),
         *(_interface(one) for one in all_records),
@@ -350,7 +350,7 @@ def _is_array(field: BinaryField) -> bool:
 def _schemas() -> str:
     """Return what the page needs to check the server's messages."""
     kinds = {_kind_of(message): message.__name__ for message in SERVER}
-    needed = [one for one in records() if not one.is_dataclass and not one.name.endswith("Shape")]
+    needed = [one for one in records() if not one.is_dataclass and one.python_type not in SHAPES]
     lines = "".join(f"  {one.name}: {json.dumps(_schema_of(one))},\n" for one in needed)
     return (
         "\n/** The record of each type of message from the server. */\n"

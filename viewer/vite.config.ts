@@ -5,7 +5,6 @@ import { defineConfig } from "vitest/config";
 
 const NOTICE = `/*!
 coframe's viewer, Apache-2.0. It contains:
-urdf-loader, Apache-2.0, the California Institute of Technology and others
 three.js,
 ${readFileSync("node_modules/three/LICENSE", "utf8").trim()}
 */`;

@@ -96,6 +96,7 @@ def test_a_replay_contains_robots_with_their_meshes(buffer, view, tmp_path):
     _, page = fetch(view(buffer, robot=tmp_path / "r.urdf"))
     (block,) = [text for received, text in Scripts(page).scripts if received.get("id") == "replay"]
     (robot,) = json.loads(block)["robots"]
+    assert (robot["root"], robot["links"][0]["visuals"][0]["mesh"]) == ("base", "a.stl")
     assert robot["meshes"] == {"a.stl": "data:model/stl;base64," + base64.b64encode(b"solid").decode()}
 
 

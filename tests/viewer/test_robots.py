@@ -60,15 +60,80 @@ def test_a_robot_from_a_file_has_its_meshes(package, view, open_tab):
     robot = open_tab(viewer).wait("robot")
     assert (robot["name"], robot["source"], robot["description_topic"]) == ("arm", str(file), None)
     assert robot["problems"] == []
-    assert robot["urdf"].startswith('<robot name="arm">')
-    turn = {"name": "turn", "type": "revolute", "lower": 0.5, "upper": 1.5, "value": 1.0}
-    assert robot["joints"] == [turn], "a mimic joint has no slider"
+    assert [joint["name"] for joint in robot["joints"] if joint["value"] is not None] == ["turn"], "sliders"
     ((written, url),) = robot["meshes"].items()
     assert written == "package://arm_description/meshes/base%20link.dae"
     assert fetch(viewer, url) == ("model/vnd.collada+xml", b"<COLLADA/>")
     # Textures are in the folder of the mesh, however the page joins the names.
     for texture in (url.rsplit("/", 1)[0] + "/../textures/skin.png", url + "/../textures/skin.png"):
         assert fetch(viewer, texture) == ("image/png", b"png")
+
+
+SHAPES = """<robot name="shapes">
+  <material name="red"><color rgba="1 0 0 0.5"/></material>
+  <link name="base">
+    <visual><origin xyz="1 2 3" rpy="0 0 1.5707963267948966"/><geometry><box size="1 2 3"/></geometry>
+      <material name="red"/></visual>
+    <visual><geometry><sphere radius="0.5"/></geometry>
+      <material name="m"><texture filename="skin.png"/></material></visual>
+    <visual><geometry><cylinder radius="0.1" length="2"/></geometry></visual>
+    <visual><geometry><mesh filename="a.stl" scale="0.001 0.002 0.003"/></geometry></visual>
+    <collision><origin xyz="0 0 1"/><geometry><capsule radius="0.2" length="3"/></geometry></collision>
+  </link>
+  <link name="tip"/><link name="finger"/>
+  <joint name="lift" type="prismatic">
+    <origin xyz="0 0 1"/><parent link="base"/><child link="tip"/><axis xyz="0 0 2"/>
+    <limit lower="-1" upper="2" effort="1" velocity="1"/>
+  </joint>
+  <joint name="grip" type="continuous">
+    <parent link="tip"/><child link="finger"/><mimic joint="lift" multiplier="2" offset="0.5"/>
+  </joint>
+</robot>"""
+
+
+def shape(kind, size, pose=(0, 0, 0, 0, 0, 0, 1), mesh=None, color=None, texture=None):
+    return {
+        "kind": kind,
+        "size": size,
+        "pose": pytest.approx(list(pose)),
+        "mesh": mesh,
+        "color": color,
+        "texture": texture,
+    }
+
+
+def test_the_page_receives_links_and_joints_and_no_urdf(tmp_path, view, open_tab):
+    (tmp_path / "shapes.urdf").write_text(SHAPES)
+    (tmp_path / "a.stl").write_bytes(b"solid")
+    (tmp_path / "skin.png").write_bytes(b"png")
+    robot = open_tab(view(coframe.Buffer(None), robot=tmp_path / "shapes.urdf")).wait("robot")
+    assert "<link" not in str(robot)
+    assert (robot["root"], robot["meshes"].keys()) == ("base", {"a.stl", "skin.png"})
+    base, tip, finger = robot["links"]
+    turned = (1, 2, 3, 0, 0, 0.5**0.5, 0.5**0.5)
+    assert base["visuals"] == [
+        shape("box", [1, 2, 3], turned, color=[1, 0, 0, 0.5]),
+        shape("sphere", [0.5], texture="skin.png"),
+        shape("cylinder", [0.1, 2]),
+        shape("mesh", [0.001, 0.002, 0.003], mesh="a.stl"),
+    ]
+    assert base["collisions"] == [shape("capsule", [0.2, 3], (0, 0, 1, 0, 0, 0, 1))]
+    assert (tip["visuals"], finger["name"]) == ([], "finger")
+    lift, grip = robot["joints"]
+    assert lift == {
+        "name": "lift",
+        "type": "prismatic",
+        "parent": "base",
+        "child": "tip",
+        "origin": [0, 0, 1, 0, 0, 0, 1],
+        "axis": [0, 0, 1],
+        "mimic": None,
+        "lower": -1,
+        "upper": 2,
+        "value": 0,
+    }
+    assert (grip["axis"], grip["lower"], grip["value"]) == ([1, 0, 0], None, None)
+    assert grip["mimic"] == {"joint": "lift", "multiplier": 2, "offset": 0.5}
 
 
 def test_warnings_about_a_description_are_not_problems(package, view, open_tab):

@@ -207,6 +207,11 @@ URDF = """<robot name="crane">
     <limit lower="-1" upper="0" effort="1" velocity="1"/></joint>
   <joint name="swing" type="continuous"><parent link="hook"/><child link="load"/><axis xyz="1 0 0"/>
     <origin xyz="0 0 -0.2"/></joint>
+  <link name="claw"><visual><geometry><capsule radius="0.02" length="0.1"/></geometry></visual>
+    <collision><geometry><sphere radius="0.1"/></geometry></collision></link>
+  <joint name="grip" type="prismatic"><parent link="load"/><child link="claw"/><axis xyz="0 1 0"/>
+    <origin xyz="0 0 -0.1" rpy="0 0.4 0"/><mimic joint="lift" multiplier="-0.5" offset="0.1"/>
+    <limit lower="-1" upper="1" effort="1" velocity="1"/></joint>
 </robot>"""
 
 
@@ -260,7 +265,7 @@ def test_a_robot_from_a_file_is_drawn_with_its_meshes_and_moved_by_sliders(crane
     page = open_page(view(buffer, robot=crane, fixed="map").url).drawn()
     page.until(f"{ROBOT}?.visible && {ROBOT}.loading === 0 && {ROBOT}.state === 'ok'")
     page.until(f"{ROBOT}.textures === 3")
-    assert page.evaluate(f"{ROBOT}.meshes") == 4
+    assert page.evaluate(f"{ROBOT}.meshes") == 5
     robot = coframe.robots.load(crane)
     assert_link_poses(page, robot, {})
     page.tab("joints")
@@ -268,6 +273,12 @@ def test_a_robot_from_a_file_is_drawn_with_its_meshes_and_moved_by_sliders(crane
     for joint, value in positions.items():
         slide(page, joint, value)
     assert_link_poses(page, robot, positions)
+    page.tab("displays")
+    page.raw.click("#body-displays .card:has-text('RobotModel') .card-title")
+    page.raw.check("#body-displays .card:has-text('RobotModel') label:has-text('Collision Enabled') input")
+    page.until(f"{ROBOT}.meshes === 6 && {ROBOT}.loading === 0")
+    assert_link_poses(page, robot, positions)
+    page.tab("joints")
     assert "Publishing requires a live ROS graph" in page.text("#body-joints")
 
 
@@ -288,7 +299,7 @@ def test_joint_states_are_published_only_if_enabled(crane, domain_id, view, open
         page.wait(
             lambda: received and dict(zip(received[-1].name, received[-1].position, strict=True))["turn"] == -0.75
         )
-        assert set(received[-1].name) == {"turn", "lift", "swing"}
+        assert set(received[-1].name) == {"turn", "lift", "swing", "grip"}
         page.raw.uncheck("#body-joints label:has-text('Publish') input")
         page.raw.wait_for_timeout(400)
         count = len(received)

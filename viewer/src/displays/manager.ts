@@ -7,7 +7,7 @@ import { DISPLAYS, MAX_AUTOMATIC_DISPLAYS } from "../generated/displays";
 import type {
   DisplayMessage,
   DisplayStatus,
-  Robot,
+  RobotModel,
   RvizConfiguration,
   RvizDisplay,
   DisplayOptions,
@@ -183,14 +183,14 @@ export class Displays {
     this.notify();
   }
 
-  private setRobot(robot: Robot): void {
+  private setRobot(robot: RobotModel): void {
     this.assignRobot(robot);
     this.notify();
     this.view.refresh();
   }
 
   /** Passes a robot to the display that shows it, to one that waits for it, or to a new one. */
-  private assignRobot(robot: Robot): void {
+  private assignRobot(robot: RobotModel): void {
     const topicOf = (display: RobotDisplay): string | null => display.config.topic;
     const display =
       this.robots.find((other) => other.robot?.id === robot.id) ??

@@ -1,18 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
-/** The RobotModel display: each link of a URDF is drawn at its frame, or at the position of its joint without one. */
+/** The RobotModel display: each link of a robot is drawn at its frame, or at the position of its joint without one. */
 
 import * as THREE from "three";
-import URDFLoader, { type URDFJoint, type URDFRobot } from "urdf-loader";
-import { dropEmptyTextures, hasImage, materialsOf, FORBIDDEN_URL, type Meshes } from "../scene/meshes";
+import { hasImage, materialsOf, MISSING_TEXTURE, type Meshes } from "../scene/meshes";
 import type { FramePoses } from "../scene/frame_poses";
-import type { Robot, FrameUpdate } from "../protocol/messages";
+import type { FrameUpdate, RobotLink, RobotModel, RobotShape } from "../protocol/messages";
+import { IDENTITY, type Pose } from "../util/math";
 import { Display, release, type Context, type DisplayConfig } from "./display";
+import { Kinematics, type KnownPose } from "./robot_kinematics";
+
+/** Shinier surfaces would be white in the light of the scene. */
+const MAX_SHININESS = 20;
 
 export class RobotDisplay extends Display<"RobotModel"> {
-  robot: Robot | null = null;
-  model: URDFRobot | null = null;
+  robot: RobotModel | null = null;
+  private model = new THREE.Group();
+  private links: ReadonlyMap<string, THREE.Group> = new Map();
+  private kinematics: Kinematics | null = null;
   /** Joint positions set with the sliders. */
-  private sliderPositions: Record<string, number> = {};
+  private positions: Readonly<Record<string, number>> = {};
   /** Whether the joint positions override the frames, because they are not published. */
   private overridesFrames = false;
   /** The number of meshes being loaded. */
@@ -29,16 +35,15 @@ export class RobotDisplay extends Display<"RobotModel"> {
     this.status = { state: "waiting", text: "No robot description received" };
   }
 
-  setRobot(robot: Robot): void {
+  setRobot(robot: RobotModel): void {
     this.robot = robot;
     this.rebuild();
   }
 
   /** Sets joint positions; `overridesFrames` draws them even if transforms differ. */
   setJoints(positions: Record<string, number>, overridesFrames: boolean): void {
-    this.sliderPositions = positions;
+    this.positions = positions;
     this.overridesFrames = overridesFrames;
-    for (const [name, value] of Object.entries(positions)) this.model?.setJointValue(name, value);
     this.context.redraw();
   }
 
@@ -47,17 +52,17 @@ export class RobotDisplay extends Display<"RobotModel"> {
   }
 
   override bounds(): THREE.Box3 {
-    return this.model?.visible ? new THREE.Box3().setFromObject(this.model) : new THREE.Box3();
+    return this.model.visible ? new THREE.Box3().setFromObject(this.model) : new THREE.Box3();
   }
 
   override probe(): Record<string, unknown> {
     let meshes = 0;
     let textures = 0;
-    this.model?.traverse((part) => {
+    this.model.traverse((part) => {
       meshes += (part as Partial<THREE.Mesh>).isMesh ? 1 : 0;
       for (const { map } of materialsOf(part) as THREE.MeshPhongMaterial[]) textures += map && hasImage(map) ? 1 : 0;
     });
-    const visible = (this.model?.visible ?? false) && this.object.visible;
+    const visible = this.model.visible && this.object.visible;
     return {
       ...super.probe(),
       robot: this.robot?.name ?? null,
@@ -71,7 +76,7 @@ export class RobotDisplay extends Display<"RobotModel"> {
 
   /** The pose of each link in the scene. */
   private linkPoses(): Record<string, number[]> {
-    const poses = Object.entries(this.model?.links ?? {}).map(([name, link]) => {
+    const poses = [...this.links].map(([name, link]) => {
       const position = link.getWorldPosition(new THREE.Vector3());
       const quaternion = link.getWorldQuaternion(new THREE.Quaternion());
       return [name, [...position.toArray(), ...quaternion.toArray()]] as [string, number[]];
@@ -80,87 +85,110 @@ export class RobotDisplay extends Display<"RobotModel"> {
   }
 
   private rebuild(): void {
-    if (this.model) {
-      release(this.model);
-      this.model.removeFromParent();
-      this.model = null;
-    }
-    const robot = this.robot as Robot;
+    const robot = this.robot as RobotModel;
+    release(this.model);
+    this.model.removeFromParent();
     this.problems.splice(0, Infinity, ...robot.problems);
     this.loading = 0;
-    try {
-      this.model = this.parse(robot);
-    } catch (error) {
-      this.status = { state: "error", text: `Cannot parse the robot description: ${String(error)}` };
-      return;
-    }
+    this.kinematics = new Kinematics(robot);
+    this.model = new THREE.Group();
     this.model.visible = false;
-    for (const joint of robot.joints) this.model.setJointValue(joint.name, joint.value);
-    this.setJoints(this.sliderPositions, this.overridesFrames);
+    this.links = new Map(robot.links.map((link) => [link.name, this.makeLink(robot, link)]));
+    if (this.links.size > 0) this.model.add(...this.links.values());
     this.object.add(this.model);
     this.updateStatus();
+    this.context.redraw();
   }
 
-  private parse(robot: Robot): URDFRobot {
-    const textures = new THREE.LoadingManager();
-    let complete = true;
-    textures.onStart = (): void => void (complete = false);
-    const loader = new URDFLoader(textures);
-    // File names stay unchanged, because the table of the server maps them to URLs.
-    loader.packages = (name: string): string => `package://${name}`;
-    loader.parseVisual = this.options.flag("Visual Enabled");
-    loader.parseCollision = this.options.flag("Collision Enabled");
-    loader.loadMeshCb = (path, _manager, material, done): void => {
-      const url = Object.hasOwn(robot.meshes, path) ? robot.meshes[path] : undefined;
-      if (!url) {
-        this.problems.push(`Mesh file not found: ${path.slice(0, 200)}`);
-        return;
-      }
-      this.loading++;
-      this.meshes
-        .load(url, path)
-        .then(({ object, coloured }) => {
-          this.paint(object, coloured ? null : material);
-          done(object);
-          if (complete) dropEmptyTextures(object);
-        })
-        .catch((error: unknown) => this.problems.push(error instanceof Error ? error.message : String(error)))
-        .finally(() => {
-          this.loading--;
-          this.updateStatus();
-          this.context.redraw();
-        });
-    };
-    textures.setURLModifier((path) =>
-      Object.hasOwn(robot.meshes, path) ? (robot.meshes[path] as string) : FORBIDDEN_URL,
-    );
-    const model = loader.parse(robot.urdf);
-    textures.onLoad = (): void => {
-      complete = true;
-      dropEmptyTextures(model);
+  private makeLink(robot: RobotModel, link: RobotLink): THREE.Group {
+    const group = new THREE.Group();
+    group.matrixAutoUpdate = false;
+    if (this.options.flag("Visual Enabled")) for (const shape of link.visuals) group.add(this.makeShape(robot, shape));
+    if (this.options.flag("Collision Enabled"))
+      for (const shape of link.collisions) group.add(this.makeShape(robot, shape));
+    return group;
+  }
+
+  private makeShape(robot: RobotModel, shape: RobotShape): THREE.Object3D {
+    const geometry = primitive(shape);
+    const object = geometry ? new THREE.Mesh(geometry, this.material(robot, shape)) : new THREE.Group();
+    object.position.fromArray(shape.pose);
+    object.quaternion.fromArray(shape.pose, 3);
+    if (shape.mesh !== null) {
+      object.scale.fromArray(shape.size);
+      this.loadMesh(robot, shape, shape.mesh, object);
+    }
+    return object;
+  }
+
+  private loadMesh(robot: RobotModel, shape: RobotShape, file: string, parent: THREE.Object3D): void {
+    const url = urlOf(robot, file);
+    if (url === null) return; // The server has reported the reason.
+    const { model } = this;
+    this.loading++;
+    this.meshes
+      .load(url, file)
+      .then(({ object, coloured }) => {
+        if (coloured) this.paint(object);
+        else setMaterial(object, this.material(robot, shape));
+        parent.add(object);
+      })
+      .catch((error: unknown) => {
+        if (model === this.model) this.problems.push(error instanceof Error ? error.message : String(error));
+      })
+      .finally(() => {
+        if (model !== this.model) return; // The robot was built again.
+        this.loading--;
+        this.updateStatus();
+        this.context.redraw();
+      });
+  }
+
+  /** The material of a shape without colours of its own. */
+  private material(robot: RobotModel, { color, texture }: RobotShape): THREE.Material {
+    const material = new THREE.MeshPhongMaterial();
+    if (color) {
+      const [red, green, blue, alpha] = color;
+      material.color.setRGB(red, green, blue);
+      Object.assign(material, { opacity: alpha, transparent: alpha < 1, depthWrite: alpha >= 1 });
+    }
+    if (texture !== null) this.addTexture(material, urlOf(robot, texture));
+    return this.adjusted(material);
+  }
+
+  /** Loads a texture; a surface without it is grey. */
+  private addTexture(material: THREE.MeshPhongMaterial, url: string | null): void {
+    const drop = (): void => {
+      material.map = null;
+      material.color.set(MISSING_TEXTURE);
+      material.needsUpdate = true;
       this.context.redraw();
     };
-    model.traverse((part) => {
-      if ((part as Partial<THREE.Mesh>).isMesh && !part.userData.shared) this.paint(part, null);
-    });
-    return model;
+    if (url === null) {
+      drop();
+      return;
+    }
+    const loaded = (texture: THREE.Texture): void => (hasImage(texture) ? this.context.redraw() : drop());
+    material.map = new THREE.TextureLoader().load(url, loaded, undefined, drop);
+    material.map.colorSpace = THREE.SRGBColorSpace;
   }
 
-  /** Copies shared materials, because the alpha of robots can differ. */
-  private paint(object: THREE.Object3D, material: THREE.Material | null): void {
-    const alpha = this.options.number("Alpha");
+  /** Copies the materials of a mesh file, which displays share, because the alpha of robots can differ. */
+  private paint(object: THREE.Object3D): void {
     object.traverse((part) => {
       const mesh = part as THREE.Mesh;
       if (!mesh.isMesh) return;
-      const painted = (material ? [material] : materialsOf(mesh)).map((m) => {
-        const copy = m.clone();
-        copy.side = THREE.DoubleSide;
-        if (alpha < 1) Object.assign(copy, { transparent: true, opacity: copy.opacity * alpha, depthWrite: false });
-        if (copy instanceof THREE.MeshPhongMaterial) copy.shininess = Math.min(copy.shininess, 20);
-        return copy;
-      });
+      const painted = materialsOf(mesh).map((material) => this.adjusted(material.clone()));
       mesh.material = painted.length === 1 ? (painted[0] as THREE.Material) : painted;
     });
+  }
+
+  private adjusted(material: THREE.Material): THREE.Material {
+    const alpha = this.options.number("Alpha");
+    material.side = THREE.DoubleSide;
+    if (alpha < 1) Object.assign(material, { transparent: true, opacity: material.opacity * alpha, depthWrite: false });
+    if (material instanceof THREE.MeshPhongMaterial) material.shininess = Math.min(material.shininess, MAX_SHININESS);
+    return material;
   }
 
   private updateStatus(): void {
@@ -172,59 +200,65 @@ export class RobotDisplay extends Display<"RobotModel"> {
   }
 
   override setPoses(framePoses: FramePoses, _update: FrameUpdate): void {
-    const { model } = this;
-    if (!model) return;
+    const { robot, kinematics } = this;
+    if (!robot || !kinematics) return;
     const prefix = this.options.text("TF Prefix");
-    const pose = (link: string): THREE.Matrix4 | null => matrixOf(framePoses, this.context.model, prefix, link);
-    const root = pose(model.name);
-    const found = root ?? this.rootFromAnyLink(model, pose);
-    // Without frames, the robot is drawn at the fixed frame, so that its sliders can be used.
-    const start = found ?? new THREE.Matrix4();
-    model.visible = true;
-    if (!found && !this.problems.length)
+    const known: KnownPose = (link) => framePose(framePoses, this.context.model, prefix + link);
+    const root = kinematics.root(this.positions, known);
+    this.model.visible = true;
+    if (!root && !this.problems.length)
       this.status = {
         state: "waiting",
-        text: `No transform from ${prefix}${model.name}; the robot is drawn at the fixed frame`,
+        text: `No transform from ${prefix}${robot.root}; the robot is drawn at the fixed frame`,
       };
-    else if (found && this.status.state === "waiting" && this.loading === 0) this.updateStatus();
-    model.matrixAutoUpdate = false;
-    model.matrix.copy(start);
-    for (const joint of Object.values(model.joints)) this.setJointPose(joint, pose);
-    model.matrixWorldNeedsUpdate = true;
-  }
-
-  /** Sets the matrix of a joint to the transform between its links, if both frames exist. */
-  private setJointPose(joint: URDFJoint, pose: (link: string) => THREE.Matrix4 | null): void {
-    const parent = this.overridesFrames ? null : pose(joint.parent?.name ?? "");
-    const child = parent ? pose(joint.children[0]?.name ?? "") : null;
-    joint.matrixAutoUpdate = !(parent && child);
-    if (parent && child) joint.matrix.copy(parent.invert().multiply(child));
-    else joint.updateMatrix();
-    joint.matrixWorldNeedsUpdate = true;
-  }
-
-  /** The pose of the root, derived from the first link that has a frame; null if no link has one. */
-  private rootFromAnyLink(model: URDFRobot, pose: (link: string) => THREE.Matrix4 | null): THREE.Matrix4 | null {
-    for (const [name, link] of Object.entries(model.links)) {
-      const known = pose(name);
-      if (!known) continue;
-      const chain = new THREE.Matrix4();
-      for (let at: THREE.Object3D | null = link; at && at !== model; at = at.parent) {
-        if (at.matrixAutoUpdate) at.updateMatrix();
-        chain.premultiply(at.matrix);
-      }
-      return known.multiply(chain.invert());
+    else if (root && this.status.state === "waiting" && this.loading === 0) this.updateStatus();
+    // Without frames, the robot is drawn at the fixed frame, so that its sliders can be used.
+    const start = root ?? IDENTITY;
+    for (const [name, pose] of kinematics.poses(start, this.positions, this.overridesFrames ? undefined : known)) {
+      const link = this.links.get(name);
+      link?.matrix.compose(
+        new THREE.Vector3(...pose.position),
+        new THREE.Quaternion(...pose.quaternion),
+        new THREE.Vector3(1, 1, 1),
+      );
+      if (link) link.matrixWorldNeedsUpdate = true;
     }
-    return null;
   }
 }
 
-function matrixOf(framePoses: FramePoses, model: Context["model"], prefix: string, link: string): THREE.Matrix4 | null {
-  const i = model.forest.index.get(prefix + link) ?? -1;
-  if (i < 0 || i >= framePoses.count || !Number.isFinite(framePoses.positions[i * 3] as number)) return null;
-  return new THREE.Matrix4().compose(
-    new THREE.Vector3().fromArray(framePoses.positions, i * 3),
-    new THREE.Quaternion().fromArray(framePoses.quaternions, i * 4),
-    new THREE.Vector3(1, 1, 1),
-  );
+/** The geometry of a shape; null for meshes. Cylinders and capsules of three.js are along y, those of URDF along z. */
+function primitive({ kind, size }: RobotShape): THREE.BufferGeometry | null {
+  const [x, y, z] = size as [number, number, number];
+  switch (kind) {
+    case "box":
+      return new THREE.BoxGeometry(x, y, z);
+    case "sphere":
+      return new THREE.SphereGeometry(x, 30, 30);
+    case "cylinder":
+      return new THREE.CylinderGeometry(x, x, y, 30).rotateX(Math.PI / 2);
+    case "capsule":
+      return new THREE.CapsuleGeometry(x, y, 8, 30).rotateX(Math.PI / 2);
+    case "mesh":
+      return null;
+  }
+}
+
+function setMaterial(object: THREE.Object3D, material: THREE.Material): void {
+  object.traverse((part) => {
+    if ((part as Partial<THREE.Mesh>).isMesh) (part as THREE.Mesh).material = material;
+  });
+}
+
+function urlOf({ meshes }: RobotModel, reference: string): string | null {
+  return Object.hasOwn(meshes, reference) ? (meshes[reference] as string) : null;
+}
+
+function framePose(framePoses: FramePoses, model: Context["model"], frame: string): Pose | null {
+  const i = model.forest.index.get(frame) ?? -1;
+  const { positions, quaternions } = framePoses;
+  if (i < 0 || i >= framePoses.count || !Number.isFinite(positions[i * 3] as number)) return null;
+  return {
+    position: [...positions.subarray(i * 3, i * 3 + 3)] as Pose["position"],
+    quaternion: [...quaternions.subarray(i * 4, i * 4 + 4)] as Pose["quaternion"],
+  };
 }

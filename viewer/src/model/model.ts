@@ -23,7 +23,7 @@ import type {
   RemovedWidgets,
   Relation,
   ReplayPrepared,
-  Robot,
+  RobotModel,
   RvizConfiguration,
   Saved,
   SceneNode,
@@ -41,7 +41,7 @@ export interface ModelEvents {
   stats: Stats;
   frames: FrameUpdate;
   topics: Topic[];
-  robot: Robot;
+  robot: RobotModel;
   display: DisplayStatus;
   message: DisplayMessage;
   rviz: RvizConfiguration;
@@ -157,7 +157,7 @@ export class Model extends Emitter<ModelEvents> {
   topics: Topic[] = [];
   /** The doctor's marks, by frame. */
   marks = new Map<string, Mark>();
-  robots = new Map<string | number, Robot>();
+  robots = new Map<string | number, RobotModel>();
   fixed = "";
   connected = false;
   selection: Selection = { frame: null, reference: null };

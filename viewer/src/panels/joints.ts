@@ -5,7 +5,7 @@ import { RobotDisplay } from "../displays/robot";
 import type { Displays } from "../displays/manager";
 import { h, shorten } from "../util/dom";
 import type { Model } from "../model/model";
-import type { Robot, RobotJoint } from "../protocol/messages";
+import type { RobotJoint, RobotModel } from "../protocol/messages";
 
 const SEND_INTERVAL_MS = 50;
 const DEGREES = 180 / Math.PI;
@@ -47,11 +47,11 @@ export class JointsPanel {
       );
       return;
     }
-    this.body.replaceChildren(...robots.map((display) => this.section(display, display.robot as Robot)));
+    this.body.replaceChildren(...robots.map((display) => this.section(display, display.robot as RobotModel)));
   }
 
-  private section(display: RobotDisplay, robot: Robot): HTMLElement {
-    const movable = robot.joints.filter(isMovable);
+  private section(display: RobotDisplay, robot: RobotModel): HTMLElement {
+    const movable = movableJoints(robot);
     const positions =
       this.positions.get(robot.id) ?? Object.fromEntries(movable.map((joint) => [joint.name, joint.value]));
     this.positions.set(robot.id, positions);
@@ -62,7 +62,7 @@ export class JointsPanel {
       else this.publishing.delete(robot.id);
       this.send(display, robot);
     });
-    const set = (value: (joint: RobotJoint) => number): void => {
+    const set = (value: (joint: MovableJoint) => number): void => {
       movable.forEach((joint, i) => rows[i]?.set(value(joint)));
       this.send(display, robot);
     };
@@ -98,8 +98,8 @@ export class JointsPanel {
 
   private row(
     display: RobotDisplay,
-    robot: Robot,
-    joint: RobotJoint,
+    robot: RobotModel,
+    joint: MovableJoint,
     positions: Record<string, number>,
   ): { element: HTMLElement; set(value: number): void } {
     const angular = joint.type !== "prismatic";
@@ -134,7 +134,7 @@ export class JointsPanel {
   }
 
   /** Applies the positions to the page immediately, and sends them to the server at a limited rate. */
-  private send(display: RobotDisplay, robot: Robot): void {
+  private send(display: RobotDisplay, robot: RobotModel): void {
     const publish = this.publishing.has(robot.id);
     const positions = this.positions.get(robot.id) ?? {};
     // Published positions return as transforms, for example from robot_state_publisher.
@@ -152,18 +152,21 @@ export class JointsPanel {
     this.timers.set(robot.id, timer);
   }
 
-  private release(display: RobotDisplay, robot: Robot): void {
+  private release(display: RobotDisplay, robot: RobotModel): void {
     this.publishing.delete(robot.id);
     this.positions.delete(robot.id);
-    display.setJoints(Object.fromEntries(robot.joints.map((joint) => [joint.name, joint.value])), false);
+    display.setJoints(Object.fromEntries(movableJoints(robot).map((joint) => [joint.name, joint.value])), false);
     this.model.send({ type: "joints", robot: robot.id, positions: {}, publish: false });
     this.shown = "";
     this.render();
   }
 }
 
-function isMovable(joint: RobotJoint): boolean {
-  return ["revolute", "continuous", "prismatic"].includes(joint.type);
+/** A joint that a slider can move. */
+type MovableJoint = RobotJoint & { value: number };
+
+function movableJoints(robot: RobotModel): MovableJoint[] {
+  return robot.joints.filter((joint): joint is MovableJoint => joint.value !== null);
 }
 
 function limits(joint: RobotJoint): [number, number] {

@@ -23,8 +23,10 @@ import {
 const MAX_BYTES = 200e6;
 /** The page blocks while a text file is parsed. */
 const MAX_TEXT_BYTES = 60e6;
+/** The colour of surfaces whose texture cannot be drawn. */
+export const MISSING_TEXTURE = "#b8bcc0";
 /** A URL that replaces forbidden ones; loading it fails immediately. */
-export const FORBIDDEN_URL = "data:,";
+const FORBIDDEN_URL = "data:,";
 
 // The loaders of COLLADA files and of materials create their own loaders of TGA images.
 const parseTga = TGALoader.prototype.parse;
@@ -232,13 +234,13 @@ function text(bytes: ArrayBuffer, name: string): string {
 }
 
 /** Removes textures that cannot be drawn, and draws grey instead of the black of a missing colour. */
-export function dropEmptyTextures(object: THREE.Object3D): void {
+function dropEmptyTextures(object: THREE.Object3D): void {
   object.traverse((part) => {
     for (const material of materialsOf(part))
       for (const [key, texture] of Object.entries(material)) {
         if (!(texture instanceof THREE.Texture) || hasImage(texture)) continue;
         Object.assign(material, { [key]: null, needsUpdate: true });
-        if (key === "map") (material as THREE.MeshPhongMaterial).color.set("#b8bcc0");
+        if (key === "map") (material as THREE.MeshPhongMaterial).color.set(MISSING_TEXTURE);
       }
   });
 }

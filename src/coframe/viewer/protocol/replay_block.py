@@ -7,7 +7,7 @@ from typing import Literal, TypedDict
 
 from coframe.viewer.protocol.client_messages import ReplayRviz
 from coframe.viewer.protocol.common import ColorBy, DisplayState, Vector
-from coframe.viewer.protocol.server_messages import FrameStats, Robot, SceneNode, TimelineEdge, TreeFrame
+from coframe.viewer.protocol.server_messages import FrameStats, RobotModel, SceneNode, TimelineEdge, TreeFrame
 
 
 class ReplayDisplayBlock(TypedDict):
@@ -61,7 +61,7 @@ ReplayBlock = TypedDict(
         "times": str,
         "poses": str,
         "states": str,
-        "robots": list[Robot],
+        "robots": list[RobotModel],
         "rviz": ReplayRviz | None,
         "displays": list[ReplayDisplayBlock],
         "nodes": list[ReplayNode],

@@ -9,6 +9,7 @@ from coframe.viewer.protocol.common import (
     DisplayState,
     FindingsState,
     FrameActivity,
+    JointKind,
     LogLevel,
     NodeKind,
     Pose,
@@ -17,6 +18,7 @@ from coframe.viewer.protocol.common import (
     RvizTool,
     RvizView,
     Severity,
+    ShapeKind,
     Span,
     Vector,
     ViewerMode,
@@ -136,20 +138,60 @@ class Topics(TypedDict):
     topics: list[Topic]
 
 
-class RobotJoint(TypedDict):
-    """A joint that a slider can move, in radians or metres."""
+class RobotShape(TypedDict):
+    """A visual or collision shape of a link.
+
+    ``size`` has the lengths of a box along x, y and z, the radius of a sphere, the radius and the length along z of a
+    cylinder or of the cylinder of a capsule, or the scale factors of a mesh. ``pose`` is relative to the link. ``mesh``
+    and ``texture`` are references, whose URLs are in the table of the robot.
+    """
+
+    kind: ShapeKind
+    size: list[float]
+    pose: Pose
+    mesh: str | None
+    color: tuple[float, float, float, float] | None
+    texture: str | None
+
+
+class RobotLink(TypedDict):
+    """A link with its shapes."""
 
     name: str
-    type: str
+    visuals: list[RobotShape]
+    collisions: list[RobotShape]
+
+
+class JointMimic(TypedDict):
+    """The rule by which a joint follows another joint: multiplier * position + offset."""
+
+    joint: str
+    multiplier: float
+    offset: float
+
+
+class RobotJoint(TypedDict):
+    """A joint; ``origin`` is the pose of its child link relative to its parent link at position 0.
+
+    ``value`` is the default position, in radians or metres, of a joint that a slider can move; None for other joints.
+    """
+
+    name: str
+    type: JointKind
+    parent: str
+    child: str
+    origin: Pose
+    axis: Vector
+    mimic: JointMimic | None
     lower: float | None
     upper: float | None
-    value: float
+    value: float | None
 
 
-class Robot(TypedDict):
-    """A robot description.
+class RobotModel(TypedDict):
+    """A robot, as `coframe.robots` reads its description: ``joints`` lists parents before children.
 
-    ``meshes`` maps each mesh reference of the URDF to its URL, ``problems`` lists what cannot be drawn, and
+    ``meshes`` maps the reference of each mesh and texture to its URL, ``problems`` lists what cannot be drawn, and
     ``warnings`` what is unusual about the description. ``description_topic`` is None for a robot from a file.
     """
 
@@ -157,11 +199,12 @@ class Robot(TypedDict):
     id: int
     name: str
     source: str
-    urdf: str
+    root: str
+    links: list[RobotLink]
+    joints: list[RobotJoint]
     meshes: dict[str, str]
     problems: list[str]
     warnings: list[str]
-    joints: list[RobotJoint]
     description_topic: str | None
 
 
@@ -488,7 +531,7 @@ ServerMessage: TypeAlias = (
     | Tree
     | Stats
     | Topics
-    | Robot
+    | RobotModel
     | DisplayStatus
     | Rviz
     | Relation

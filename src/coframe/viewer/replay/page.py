@@ -14,7 +14,7 @@ from coframe.regular_files import read_regular
 from coframe.time import SECOND
 from coframe.viewer.protocol.encoding import relative_to
 from coframe.viewer.protocol.replay_block import ReplayBlock
-from coframe.viewer.protocol.server_messages import Robot, TreeFrame
+from coframe.viewer.protocol.server_messages import RobotModel, TreeFrame
 from coframe.viewer.replay.displays import ReplayTimes, no_progress, packed, record_displays
 from coframe.viewer.replay.nodes import record_nodes
 from coframe.viewer.replay.template import replay_template
@@ -201,7 +201,7 @@ def _times(request: ReplayRequest, frames: int) -> NDArray[np.int64]:
     return request.first + offsets
 
 
-def _robots(content: ReplayContent) -> list[Robot]:
+def _robots(content: ReplayContent) -> list[RobotModel]:
     """Return the robots with their meshes, as long as all meshes together are small enough."""
     left = MAX_MESH_BYTES
     robots = []

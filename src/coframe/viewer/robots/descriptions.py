@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from concurrent.futures import Executor, Future
 
     from coframe.robots import Robot
-    from coframe.viewer.protocol.server_messages import Robot as RobotMessage
+    from coframe.viewer.protocol.server_messages import RobotModel
     from coframe.viewer.robots.meshes import MeshTable
     from coframe.viewer.sources.source import Source
     from coframe.viewer.sources.topic_messages import StampedMessage, TopicMessages
@@ -36,7 +36,7 @@ class Description(NamedTuple):
     """
 
     robot: Robot
-    message: RobotMessage
+    message: RobotModel
     version: int
 
 

@@ -6,16 +6,17 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from coframe.existence import resolved
-from coframe.robots import Mesh, PackageError, Packages
-from coframe.viewer.protocol.server_messages import Robot as RobotMessage
-from coframe.viewer.protocol.server_messages import RobotJoint
+from coframe.robots import Box, Capsule, Mesh, PackageError, Packages, Sphere
+from coframe.viewer.protocol.server_messages import JointMimic, RobotJoint, RobotLink, RobotModel, RobotShape
 from coframe.viewer.robots.meshes import MeshError, MeshTable
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
     from pathlib import Path
 
-    from coframe.robots import Robot
+    from coframe.robots import Collision, Joint, Link, Robot, Visual
+    from coframe.robots.parts import Geometry
+    from coframe.viewer.protocol.common import ShapeKind
 
 __all__ = ["make_mesh_table", "robot_message"]
 
@@ -36,7 +37,7 @@ def make_mesh_table(robot: Path | None, roots: Iterable[Path]) -> MeshTable:
     return MeshTable(find, [*folders, *([resolved(robot).parent] if robot is not None else [])])
 
 
-def robot_message(robot: Robot, number: int, source: str, topic: str | None, meshes: MeshTable) -> RobotMessage:
+def robot_message(robot: Robot, number: int, source: str, topic: str | None, meshes: MeshTable) -> RobotModel:
     """Return the message that describes a robot.
 
     Args:
@@ -54,16 +55,17 @@ def robot_message(robot: Robot, number: int, source: str, topic: str | None, mes
             urls[reference] = meshes.url(reference, folder)
         except MeshError as error:
             problems.append(str(error))
-    return RobotMessage(
+    return RobotModel(
         type="robot",
         id=number,
         name=robot.name,
         source=source,
-        urdf=robot.text,
+        root=robot.root,
+        links=[_link(link) for link in robot.links.values()],
+        joints=list(_joints_of(robot)),
         meshes=urls,
         problems=_shortened(problems),
         warnings=_shortened(list(robot.warnings)),
-        joints=list(_joints_of(robot)),
         description_topic=topic,
     )
 
@@ -87,16 +89,56 @@ def _files_of(robot: Robot) -> Iterator[str]:
             yield material.texture
 
 
+def _link(link: Link) -> RobotLink:
+    return RobotLink(
+        name=link.name,
+        visuals=[_shape(visual) for visual in link.visuals],
+        collisions=[_shape(collision) for collision in link.collisions],
+    )
+
+
+def _shape(part: Visual | Collision) -> RobotShape:
+    kind, size = _kind_and_size(part.geometry)
+    material = getattr(part, "material", None)
+    return RobotShape(
+        kind=kind,
+        size=size,
+        pose=part.origin.values,
+        mesh=part.geometry.filename if isinstance(part.geometry, Mesh) else None,
+        color=None if material is None else material.color,
+        texture=None if material is None else material.texture,
+    )
+
+
+def _kind_and_size(geometry: Geometry) -> tuple[ShapeKind, list[float]]:
+    if isinstance(geometry, Box):
+        return "box", list(geometry.size)
+    if isinstance(geometry, Sphere):
+        return "sphere", [geometry.radius]
+    if isinstance(geometry, Mesh):
+        return "mesh", list(geometry.scale)
+    return "capsule" if isinstance(geometry, Capsule) else "cylinder", [geometry.radius, geometry.length]
+
+
 def _joints_of(robot: Robot) -> Iterator[RobotJoint]:
-    """Yield the joints that a slider can move."""
-    rest = robot.zeros()
-    for name in robot.free_joints:
-        joint = robot.joints[name]
+    """Yield the joints; those that a slider can move have a default position."""
+    defaults = robot.zeros()
+    for name, joint in robot.joints.items():
         limits = joint.limits if joint.type != "continuous" else None
         yield RobotJoint(
             name=name,
             type=joint.type,
+            parent=joint.parent,
+            child=joint.child,
+            origin=joint.origin.values,
+            axis=joint.axis,
+            mimic=_mimic(joint),
             lower=None if limits is None else limits.lower,
             upper=None if limits is None else limits.upper,
-            value=rest[name],
+            value=defaults.get(name),
         )
+
+
+def _mimic(joint: Joint) -> JointMimic | None:
+    rule = joint.mimic
+    return None if rule is None else JointMimic(joint=rule.joint, multiplier=rule.multiplier, offset=rule.offset)
