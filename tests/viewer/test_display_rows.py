@@ -316,7 +316,7 @@ def test_values_of_rviz_files_become_valid_options():
 
 
 def test_a_row_is_all_that_a_new_display_needs(monkeypatch):
-    """A module with a row draws messages of its type; nothing else in the server knows displays."""
+    """A module with a row draws messages of its type; no other list in the server contains displays."""
     made, _ = sample("sensor_msgs/msg/Range")
 
     def refuse(_message, _options):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the viewer knows about a display: one row, next to the function that draws its messages."""
+"""The definition of a display: one row, next to the function that draws its messages."""
 
 from __future__ import annotations
 
