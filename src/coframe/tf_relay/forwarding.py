@@ -47,6 +47,21 @@ _READER_QOS, _WRITER_QOS = QoS(depth=1000), QoS(depth=1000)
 _STATIC_READER_QOS = QoS(depth=1000, transient_local=True)
 
 
+class _EdgeRow(NamedTuple):
+    """The statistics of an edge; see `_core.Relay.edges`."""
+
+    parent: str
+    child: str
+    source: int
+    writer: int
+    rival: int | None
+    conflicts: int
+    forwarded: int
+    skipped: int
+    newest: int
+    received_at: int
+
+
 class _Output(NamedTuple):
     """A topic that is written."""
 
@@ -145,24 +160,24 @@ class Relay:
         edges = []
         for input_, output in self._outputs:
             with self._lock:
-                rows = output.native.edges()
-            for parent, child, source, writer, rival, conflicts, forwarded, skipped, newest, received_at in rows:
-                robot = output.robots[source]
+                rows = [_EdgeRow(*row) for row in output.native.edges()]
+            for row in rows:
+                robot = output.robots[row.source]
                 edges.append(
                     RelayedEdge(
-                        parent=parent,
-                        child=child,
+                        parent=row.parent,
+                        child=row.child,
                         static=input_.static,
                         robot=robot.name,
                         source=input_.topic if self._split else topic_of_kind(robot.topic, static=input_.static),
-                        node=self.participant.writer_node(writer) or "an unnamed node",
+                        node=self.participant.writer_node(row.writer) or "an unnamed node",
                         target=output.topic,
-                        forwarded=forwarded,
-                        skipped=skipped,
-                        conflicting_robot="" if rival is None else output.robots[rival].name,
-                        conflicts=conflicts,
-                        newest=newest,
-                        age=(now - received_at) / SECOND,
+                        forwarded=row.forwarded,
+                        skipped=row.skipped,
+                        conflicting_robot="" if row.rival is None else output.robots[row.rival].name,
+                        conflicts=row.conflicts,
+                        newest=row.newest,
+                        age=(now - row.received_at) / SECOND,
                     )
                 )
         return edges

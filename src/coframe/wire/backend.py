@@ -2,7 +2,7 @@
 """What a middleware provides: a session in a ROS domain, its endpoints, and the graph.
 
 `coframe.wire.dds` and `coframe.wire.zenoh` implement these protocols. Everything above them is the same for both. The
-endpoints of DDS are the native classes themselves, so that no message passes through a further layer.
+endpoints of DDS are the native classes themselves, so that DDS messages pass through no extra layer.
 
 Two facts hold in both: topics and types are named as in DDS (`coframe.wire.names`), and a writer is identified by a
 handle, a 64-bit number that messages carry and the graph knows.
@@ -10,10 +10,10 @@ handle, a 64-bit number that messages carry and the graph knows.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple, Protocol, runtime_checkable
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Callable, Mapping, Sequence
 
     from coframe import Buffer, _core
     from coframe.wire.endpoints import GraphNode
@@ -71,6 +71,25 @@ class BackendWriter(BackendEndpoint, Protocol):
     def forward(self, message: bytes) -> None:
         """Send a message without a check of its bytes."""
 
+    def publish(self, codec: _core.MessageCodec, message: object) -> bool:
+        """Serialize and send a message without a copy. Return False if nothing was sent: `write` its bytes."""
+
+    def direct(
+        self,
+        codec: _core.MessageCodec,
+        closed: _core.Event,
+        failure: Callable[[str], BaseException],
+        of_items: bool,
+    ) -> Callable[[object], bool] | None:
+        """Return a native function that does what `publish` does; None if the middleware has none.
+
+        Args:
+            codec: The codec of the message class.
+            closed: When this is set, the function sends nothing and returns False.
+            failure: Returns the exception to raise, given the text of an error.
+            of_items: Whether the function takes the items of the message's only field in place of a message.
+        """
+
     def assert_liveliness(self) -> None:
         """Show the subscriptions that this publisher is alive."""
 
@@ -84,14 +103,16 @@ class BackendReader(BackendEndpoint, Protocol):
     def take(self, limit: int) -> list[tuple[bytes, int, int]]:
         """Return up to `limit` messages: bytes, time of publication in ns since 1970, the writer's handle."""
 
+    def take_decoded(self, limit: int, codec: _core.MessageCodec) -> list[tuple[Any, int, int]]:
+        """Return what `take` returns, with messages in place of their bytes where the middleware can decode them."""
+
     @property
     def pending(self) -> bool:
         """Whether messages may be queued."""
 
 
-@runtime_checkable
-class RequestSource(Protocol):
-    """A subscription to requests that its middleware stores until they are answered."""
+class BackendServiceReader(BackendReader, Protocol):
+    """A subscription to requests or replies. Some middlewares store requests until they are answered."""
 
     def reject(self, header: RequestHeader) -> None:
         """Forget a request that will not be answered."""
@@ -175,7 +196,12 @@ class Session(Protocol):
         """Create a publisher; with `checked`, `write` raises `EndpointError` for damaged transforms."""
 
     def reader(self, node: GraphNode, endpoint: Endpoint, qos: QoS, on_data: _core.Event | None) -> BackendReader:
-        """Create a subscription that queues messages."""
+        """Create a subscription to a topic that queues messages."""
+
+    def service_reader(
+        self, node: GraphNode, endpoint: Endpoint, qos: QoS, on_data: _core.Event | None
+    ) -> BackendServiceReader:
+        """Create a subscription that queues requests or replies."""
 
     def tap(self, node: GraphNode, endpoint: Endpoint, qos: QoS, limits: QueueLimits) -> BackendTap:
         """Create a subscription that records messages."""

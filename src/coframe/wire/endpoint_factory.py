@@ -146,7 +146,8 @@ class EndpointFactory:
             WireError: The middleware cannot create the subscription.
         """
         endpoint = Endpoint(service, names.ros_type_of(message_type), kind)
-        return ServiceSubscription(self._session.reader(node, endpoint, qos, on_data), node, endpoint, qos, self._graph)
+        native = self._session.service_reader(node, endpoint, qos, on_data)
+        return ServiceSubscription(native, node, endpoint, qos, self._graph)
 
     def raw_publisher(self, node: GraphNode, topic: str, ros_type: str, qos: QoS) -> RawPublisher:
         """Create a publisher of `node` for serialized messages of any type.
@@ -262,6 +263,6 @@ class EndpointFactory:
             name_writers=authority is None,
             on_mismatch=on_mismatch,
         )
-        reader.name_writers(self._graph)
+        reader.graph_changed(self._graph)
         self._rejections.add(reader, buffer)
         return reader

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from coframe.wire.backend import BackendEndpoint, BackendReader, BackendWriter
+    from coframe.wire.graph import Graph
     from coframe.wire.names import Endpoint
     from coframe.wire.participant import Participant
     from coframe.wire.qos import QoS
@@ -35,6 +36,23 @@ class Sample(NamedTuple):
     data: Any
     source_timestamp: int
     writer: int
+
+
+class StatusCounts(NamedTuple):
+    """The counts of a status, in the order of DDS. Counts that a status does not have are 0.
+
+    Attributes:
+        total: The number of events so far; for LIVELINESS, how many publishers are alive.
+        total_change: Its change since the status was taken last; for LIVELINESS, how many publishers are not alive.
+        current: The number of matched endpoints; for INCOMPATIBLE_QOS, the number of the last policy; for LIVELINESS,
+            the change of `total`.
+        current_change: Its change since the status was taken last; for LIVELINESS, the change of `total_change`.
+    """
+
+    total: int
+    total_change: int
+    current: int
+    current_change: int
 
 
 class GraphNode:
@@ -126,16 +144,29 @@ class LocalEndpoint:
         """The DDS number of the QoS policy that made the last match fail; 0 if no match failed."""
         return self._unless_closed(lambda: self._endpoint.refused_policy, 0)
 
-    def take_status(self, kind: int) -> tuple[int, int, int, int] | None:
-        """Return a DDS status if it has changed since the last call.
+    def take_status(self, kind: int) -> StatusCounts | None:
+        """Return the counts of a status if it has changed since the last call.
 
         Args:
             kind: `_core.DEADLINE_MISSED`, `LIVELINESS`, `INCOMPATIBLE_QOS`, `MATCHED` or `SAMPLE_LOST`.
-
-        Returns:
-            The members of the status in the order of DDS without handles; 0 stands for members that it does not have.
         """
-        return None if self._closed else self._endpoint.take_status(kind)
+        counts = None if self._closed else self._endpoint.take_status(kind)
+        return None if counts is None else StatusCounts(*counts)
+
+    def graph_changed(self, graph: Graph) -> None:
+        """Adapt to a change of the graph. The maintenance thread calls this."""
+
+    def report_unreachable(self) -> None:
+        """Report that no endpoint on the other side understands this one, if that is so."""
+
+    @property
+    def has_warning(self) -> bool:
+        """Whether messages were ignored since the last call of `take_warning`."""
+        return False
+
+    def take_warning(self) -> str:
+        """Return a warning about the messages that were ignored since the last call; "" if there are none."""
+        return ""
 
     @property
     def closed(self) -> bool:
@@ -189,8 +220,6 @@ class Publisher(LocalEndpoint):
         on_mismatch: Callable[[str, str], object] | None = None,
     ) -> None:
         self._writer = native
-        # Writers of DDS can send a message in parts.
-        self._direct_writer = native if isinstance(native, _core.Writer) else None
         self.on_mismatch = on_mismatch
         super().__init__(native, node, endpoint, qos)
 
@@ -216,7 +245,7 @@ class Publisher(LocalEndpoint):
             WireError: As for `write`.
         """
         try:
-            return self._direct_writer is not None and self._direct_writer.publish(codec, message)
+            return self._writer.publish(codec, message)
         except _core.EndpointError as error:
             raise self._write_error(str(error)) from error
 
@@ -236,9 +265,7 @@ class Publisher(LocalEndpoint):
             failure: Returns the exception to raise in place of an error of `publish`.
             of_items: Whether to pass the items of the message's only field, or a single item, in place of a message.
         """
-        if self._direct_writer is None:
-            return None
-        return self._direct_writer.direct(codec, closed, lambda text: failure(self._write_error(text)), of_items)
+        return self._writer.direct(codec, closed, lambda text: failure(self._write_error(text)), of_items)
 
     def assert_liveliness(self) -> None:
         """Show the subscriptions that this publisher is alive."""
@@ -291,9 +318,6 @@ class Subscription(LocalEndpoint):
         on_mismatch: Callable[[str, str], object] | None = None,
     ) -> None:
         self._reader = native
-        # Readers of DDS can decode messages without a copy of their bytes.
-        self._take_decoded: Callable[[int, _core.MessageCodec], list[tuple[Any, int, int]]] | None
-        self._take_decoded = getattr(native, "take_decoded", None)
         self.adapts = adapts
         self.on_mismatch = on_mismatch
         super().__init__(native, node, endpoint, qos)
@@ -304,9 +328,7 @@ class Subscription(LocalEndpoint):
 
     def take_decoded(self, codec: _core.MessageCodec, limit: int = 100) -> list[Sample]:
         """Return what `take` returns, with messages in place of their bytes where the codec can read them."""
-        if self._take_decoded is None:
-            return self.take(limit)
-        return [Sample(*message) for message in self._take_decoded(limit, codec)]
+        return [Sample(*message) for message in self._reader.take_decoded(limit, codec)]
 
     def pending(self) -> bool:
         """Return whether messages may be queued. The check is cheap and can be true although `take` finds none."""

@@ -7,8 +7,6 @@ import time
 import weakref
 from typing import TYPE_CHECKING, Final
 
-from coframe.wire.service_endpoints import ServiceSubscription
-
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
@@ -28,13 +26,13 @@ class IgnoredMessageMonitor:
     def __init__(self, warn: Callable[[str], None]) -> None:
         self._warn = warn
         # When the next warning about an endpoint may be issued.
-        self._due: weakref.WeakKeyDictionary[ServiceSubscription, float] = weakref.WeakKeyDictionary()
+        self._due: weakref.WeakKeyDictionary[LocalEndpoint, float] = weakref.WeakKeyDictionary()
 
     def check(self, endpoints: Iterable[LocalEndpoint]) -> None:
         """Warn about messages that `endpoints` have ignored since the last warning."""
         now = time.monotonic()
         for endpoint in endpoints:
-            if not isinstance(endpoint, ServiceSubscription) or not endpoint.has_warning:
+            if not endpoint.has_warning:
                 continue
             if now >= self._due.setdefault(endpoint, now + _COLLECTED):
                 self._due[endpoint] = now + _REPEAT_AFTER

@@ -24,7 +24,6 @@ from coframe.wire.graph_queries import GraphQueries
 from coframe.wire.ignored_messages import IgnoredMessageMonitor
 from coframe.wire.parameter_services import ParameterServices
 from coframe.wire.rejected_transforms import RejectedTransformMonitor
-from coframe.wire.service_endpoints import ServicePublisher
 from coframe.wire.static_broadcaster import SharedStaticPublisher, StaticBroadcaster
 from coframe.wire.system_clock import clock_fault
 from coframe.wire.tf_reader import TfReader
@@ -207,8 +206,7 @@ class Participant(EndpointFactory, GraphQueries):
                 seen = version
                 endpoints = self._endpoints()
                 for endpoint in endpoints:
-                    if isinstance(endpoint, ServicePublisher):
-                        endpoint.report_unreachable()
+                    endpoint.report_unreachable()
                 self._ignored_messages.check(endpoints)
                 readers = [endpoint for endpoint in endpoints if isinstance(endpoint, TfReader)]
                 self._rejections.check(readers)
@@ -242,8 +240,7 @@ class Participant(EndpointFactory, GraphQueries):
             without_parameters = [node for node in self._nodes if not node.has_parameters]
         self._parameter_services.serve(without_parameters, self._graph.by_topic(writers=True))
         for endpoint in self._endpoints():
-            if isinstance(endpoint, TfReader):
-                endpoint.name_writers(self._graph)
+            endpoint.graph_changed(self._graph)
 
     def _end(self) -> None:
         del self._instances[self.wire, self.domain_id]

@@ -7,14 +7,13 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from coframe.errors import WireError
 from coframe.wire import names, request_header
-from coframe.wire.backend import RequestSource
 from coframe.wire.endpoints import RawPublisher, Sample, Subscription
 from coframe.wire.foreign_services import foreign_services_text
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from coframe.wire.backend import BackendReader, BackendWriter
+    from coframe.wire.backend import BackendServiceReader, BackendWriter
     from coframe.wire.endpoints import GraphNode, LocalEndpoint
     from coframe.wire.graph import DiscoveredEndpoint, Graph
     from coframe.wire.names import Endpoint
@@ -139,7 +138,10 @@ class ServiceSubscription(Subscription):
         ignored: The number of messages that were ignored because they are not requests or replies of the service.
     """
 
-    def __init__(self, native: BackendReader, node: GraphNode, endpoint: Endpoint, qos: QoS, graph: Graph) -> None:
+    def __init__(
+        self, native: BackendServiceReader, node: GraphNode, endpoint: Endpoint, qos: QoS, graph: Graph
+    ) -> None:
+        self._service_reader = native
         self._graph = graph
         self._what = "requests" if endpoint.kind == "request" else "replies"
         self.ignored = 0
@@ -183,8 +185,7 @@ class ServiceSubscription(Subscription):
     def ignore_request(self, request: ServiceMessage, reason: str) -> None:
         """Count a request that was ignored and will not be answered; see `ignore`."""
         self.ignore(request.writer, reason)
-        if isinstance(self._endpoint, RequestSource):
-            self._endpoint.reject(request.header)
+        self._service_reader.reject(request.header)
 
     @property
     def has_warning(self) -> bool:

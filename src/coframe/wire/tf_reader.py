@@ -110,12 +110,12 @@ class TfReader(LocalEndpoint):
         if not self._closed:
             self._reader.settle_statics()
 
-    def name_writers(self, graph: Graph) -> None:
+    def graph_changed(self, graph: Graph) -> None:
         """Set the names of the publishing nodes in the buffer, as far as they are known from the graph."""
         if self._node_names is None or self._closed:
             return
         with self._naming:
-            received = [known[0] for known in self._reader.writers()] if self.static else []
+            received = [known.writer for known in self.writer_statistics()] if self.static else []
             writers = graph.writers(self.topic)  # after that, so that it contains all of these that still exist
             for handle in set(received) - writers.keys():
                 self._reader.writer_left(handle)

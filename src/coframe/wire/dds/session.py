@@ -26,10 +26,18 @@ if TYPE_CHECKING:
     from coframe.wire.endpoints import GraphNode
     from coframe.wire.graph import NodeInfo
     from coframe.wire.names import Endpoint
+    from coframe.wire.request_header import RequestHeader
 
 EndpointT = TypeVar("EndpointT")
 
 _GRAPH_TYPE = "rmw_dds_common::msg::dds_::ParticipantEntitiesInfo_"
+
+
+class DdsServiceReader(_core.Reader):
+    """A reader of requests or replies. Implements `coframe.wire.backend.BackendServiceReader`."""
+
+    def reject(self, header: RequestHeader) -> None:
+        """Do nothing: DDS stores no requests."""
 
 
 class DdsSession:
@@ -85,10 +93,18 @@ class DdsSession:
     def reader(self, node: GraphNode, endpoint: Endpoint, qos: QoS, on_data: _core.Event | None) -> _core.Reader:
         """Create a reader that queues messages."""
         del node
-        partitions = () if endpoint.kind == "topic" else SERVICE_PARTITIONS
         return self._create(
-            endpoint,
-            lambda topic, data: _core.Reader(self.native.entity, topic, native_qos(qos, partitions), data, on_data),
+            endpoint, lambda topic, data: _core.Reader(self.native.entity, topic, native_qos(qos), data, on_data)
+        )
+
+    def service_reader(
+        self, node: GraphNode, endpoint: Endpoint, qos: QoS, on_data: _core.Event | None
+    ) -> DdsServiceReader:
+        """Create a reader that queues requests or replies."""
+        del node
+        profile = native_qos(qos, SERVICE_PARTITIONS)
+        return self._create(
+            endpoint, lambda topic, data: DdsServiceReader(self.native.entity, topic, profile, data, on_data)
         )
 
     def tap(self, node: GraphNode, endpoint: Endpoint, qos: QoS, limits: QueueLimits) -> _core.Tap:

@@ -7,7 +7,7 @@ import threading
 import time
 from array import array
 from collections import deque
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from coframe import _core
 from coframe.wire.zenoh.endpoint import ZenohEndpoint
@@ -76,6 +76,11 @@ class ZenohReader(_Subscription):
         except IndexError:
             pass
         return taken
+
+    def take_decoded(self, limit: int, codec: _core.MessageCodec) -> list[tuple[Any, int, int]]:
+        """Return what `take` returns: the bytes of Zenoh's messages belong to Python."""
+        del codec
+        return self.take(limit)
 
     @property
     def pending(self) -> bool:

@@ -21,7 +21,7 @@ from coframe.wire.request_header import RequestHeader
 from coframe.wire.zenoh import config, keys, library
 from coframe.wire.zenoh.endpoint import ZenohEndpoint
 from coframe.wire.zenoh.receiver import KEEP_ALL, queue_length, ring_length
-from coframe.wire.zenoh.writer import TOO_SHORT
+from coframe.wire.zenoh.writer import TOO_SHORT, BytesWriter
 
 if TYPE_CHECKING:
     from coframe.wire.qos import QoS
@@ -101,7 +101,7 @@ class ServiceTable:
 
 
 class _Queue(ZenohEndpoint):
-    """A queue of requests or replies with their headers. Implements `coframe.wire.backend.BackendReader`."""
+    """A queue of requests or replies with their headers. Implements `coframe.wire.backend.BackendServiceReader`."""
 
     def __init__(self, place: Place, qos: QoS, on_data: _core.Event | None) -> None:
         super().__init__(place.graph, place.endpoint, place.type_hash, place.guid, on_data)
@@ -131,6 +131,14 @@ class _Queue(ZenohEndpoint):
             taken = [self._queue.popleft() for _ in range(min(limit, len(self._queue)))]
             self._lengths -= Counter(writer for _, _, writer in taken)  # forgets writers without messages
             return taken
+
+    def take_decoded(self, limit: int, codec: _core.MessageCodec) -> list[tuple[Any, int, int]]:
+        """Return what `take` returns: requests and replies are decoded by the caller."""
+        del codec
+        return self.take(limit)
+
+    def reject(self, header: RequestHeader) -> None:
+        """Do nothing: only requests are stored until they are answered."""
 
     def _longest_writer(self) -> int:
         return max(self._lengths, key=self._lengths.__getitem__)
@@ -241,10 +249,8 @@ class RequestReader(_Queue):
             )
 
 
-class _Sender(ZenohEndpoint):
+class _Sender(BytesWriter):
     """A publisher of requests or replies. Implements `coframe.wire.backend.BackendWriter`."""
-
-    is_writer = True
 
     def __init__(self, place: Place, table: ServiceTable, on_change: _core.Event | None) -> None:
         super().__init__(place.graph, place.endpoint, place.type_hash, place.guid, on_change)

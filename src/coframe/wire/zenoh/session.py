@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from coframe import Buffer, _core
-    from coframe.wire.backend import BackendReader, BackendWriter, QueueLimits
+    from coframe.wire.backend import BackendReader, BackendServiceReader, BackendWriter, QueueLimits
     from coframe.wire.endpoints import GraphNode
     from coframe.wire.names import Endpoint
     from coframe.wire.qos import QoS
@@ -98,9 +98,13 @@ class ZenohSession:
 
     def reader(self, node: GraphNode, endpoint: Endpoint, qos: QoS, on_data: _core.Event | None) -> BackendReader:
         """Create a subscription that queues messages."""
-        if endpoint.kind == "topic":
-            place = self._subscription_place(node, endpoint, qos)
-            return self._opened(endpoint, lambda: ZenohReader(place, qos, on_data))
+        place = self._subscription_place(node, endpoint, qos)
+        return self._opened(endpoint, lambda: ZenohReader(place, qos, on_data))
+
+    def service_reader(
+        self, node: GraphNode, endpoint: Endpoint, qos: QoS, on_data: _core.Event | None
+    ) -> BackendServiceReader:
+        """Create a subscription that queues requests or replies."""
         type_hash = self._required_hash(endpoint)
         if endpoint.kind == "reply":
             place = self._place(endpoint, type_hash, os.urandom(16))

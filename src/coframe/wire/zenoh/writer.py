@@ -11,6 +11,8 @@ from coframe.wire.zenoh import config, library
 from coframe.wire.zenoh.endpoint import Sequence, ZenohEndpoint
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     import zenoh
     from coframe.wire.qos import QoS
     from coframe.wire.zenoh.endpoint import Place
@@ -19,10 +21,29 @@ ENCAPSULATION_SIZE = 4
 TOO_SHORT = "The message is too short: a serialized message begins with 4 bytes of encapsulation."
 
 
-class ZenohWriter(ZenohEndpoint):
-    """A publisher on a topic. Implements `coframe.wire.backend.BackendWriter`."""
+class BytesWriter(ZenohEndpoint):
+    """A publisher that sends serialized messages only: Python owns the bytes that Zenoh sends."""
 
     is_writer = True
+
+    def publish(self, codec: _core.MessageCodec, message: object) -> bool:
+        """Return False: the message must be serialized first."""
+        del codec, message
+        return False
+
+    def direct(
+        self,
+        codec: _core.MessageCodec,
+        closed: _core.Event,
+        failure: Callable[[str], BaseException],
+        of_items: bool,
+    ) -> None:
+        """Return None: there is no native function that publishes."""
+        del codec, closed, failure, of_items
+
+
+class ZenohWriter(BytesWriter):
+    """A publisher on a topic. Implements `coframe.wire.backend.BackendWriter`."""
 
     def __init__(self, place: Place, qos: QoS, *, checked: bool, on_change: _core.Event | None) -> None:
         super().__init__(place.graph, place.endpoint, place.type_hash, place.guid, on_change)
