@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from coframe.bags.batch_processes import run_jobs
-from coframe.bags.recording import open_bag
+from coframe.bags.recording import open_chosen
 from coframe.complete_files import write_complete
 from coframe.errors import RecordingError
 from coframe.regular_files import open_regular, read_regular
@@ -133,8 +133,7 @@ def _query(bag: str, query: TrajectoryQuery, folder: Path) -> QueryResult:
     part = folder / f"{Path(bag).stem}-{hashlib.sha256(bag.encode()).hexdigest()[:12]}.parquet"
     if (kept := _existing(part, bag, fingerprint)) is not None:
         return kept
-    options: Any = {"namespace": query.namespace, "tf_topics": query.tf_topics}
-    with open_bag(bag, **options, prefix=query.prefix, keep=query.keep) as recording:
+    with open_chosen(bag, query.transforms) as recording:
         found, missing = query.run(recording)
         problems = tuple(recording.problems)
     result = QueryResult(bag, len(found) if found.shape else 1, missing, problems)

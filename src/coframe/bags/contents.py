@@ -19,7 +19,7 @@ from coframe.bags.recorded_types import RecordedTypes
 from coframe.bags.transforms import ingest_for
 from coframe.errors import RecordingError
 from coframe.formatting import listed
-from coframe.frame_names import absolute
+from coframe.frame_names import TF_STATIC_TOPIC, TF_TOPIC, absolute
 from coframe.freed_memory import collection_paused
 
 if TYPE_CHECKING:
@@ -29,9 +29,8 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from coframe import _core
     from coframe.bags.message_index import Track
-    from coframe.bags.namespaces import TopicFilter
+    from coframe.bags.namespaces import TransformChoice
     from coframe.bags.recording_format import RecordingFormat
     from coframe.bags.storage import Channel, Storage
     from coframe.buffer import Buffer
@@ -74,8 +73,7 @@ class Contents:
 
 def read_contents(
     path: Path,
-    wanted: TopicFilter,
-    renaming: _core.Renaming | None = None,
+    choice: TransformChoice,
     progress: Callable[[int, int], object] | None = None,
     on_transforms: OnTransforms | None = None,
 ) -> Contents:
@@ -83,15 +81,14 @@ def read_contents(
 
     Args:
         path: A file, or a folder with files.
-        wanted: Selects the topics whose transforms are read.
-        renaming: Maps frame names to their names in the buffers; None: the names stay.
+        choice: Which transforms are read, and how their frames are named.
         progress: Called regularly with the number of bytes read and the total number of bytes.
         on_transforms: Called with all messages that contain transforms, in batches.
 
     Raises:
         RecordingError: Nothing can be read, or a chosen topic other than /tf and /tf_static does not exist.
     """
-    reading = _Reading(path, wanted, renaming, on_transforms)
+    reading = _Reading(path, choice, on_transforms)
     try:
         with collection_paused():
             return reading.read(progress or (lambda _done, _total: None))
@@ -101,20 +98,14 @@ def read_contents(
 
 
 class _Reading:
-    def __init__(
-        self,
-        path: Path,
-        wanted: TopicFilter,
-        renaming: _core.Renaming | None,
-        on_transforms: OnTransforms | None,
-    ) -> None:
+    def __init__(self, path: Path, choice: TransformChoice, on_transforms: OnTransforms | None) -> None:
         self.closing = ExitStack()
         self._path = path
-        self._wanted = wanted
+        self._choice = choice
         self._problems = Problems()
         self._types = RecordedTypes()
         self._index = MessageIndex(path, self._types)
-        self._collected = TransformCollector(self._problems, wanted, renaming, on_transforms)
+        self._collected = TransformCollector(self._problems, choice, on_transforms)
 
     def read(self, progress: Callable[[int, int], object]) -> Contents:
         """Read everything."""
@@ -188,7 +179,9 @@ class _Reading:
     def _check_tf_topics(self) -> None:
         """Raise an error for a misspelled topic, which would look like a healthy recording; /tf may be missing."""
         names = self._index.topics()
-        missing = set(map(absolute, self._wanted.names)) - set(map(absolute, names)) - {"/tf", "/tf_static"}
+        missing = (
+            set(map(absolute, self._choice.topics or ())) - set(map(absolute, names)) - {TF_TOPIC, TF_STATIC_TOPIC}
+        )
         if missing:
             existing = [name for name in names if _has_transforms(self._index.tracks(name)[0].channel)]
             hint = f"Topics with transforms: {', '.join(existing) or 'none'}."

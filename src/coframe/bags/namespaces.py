@@ -3,11 +3,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Final
 
 from coframe.analysis.clocks import group_by_clock
 from coframe.bags.transforms import ingest_for
 from coframe.buffer import Buffer
+from coframe.frame_names import TF_STATIC_TOPIC, TF_TOPIC, kept, renaming
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
@@ -21,29 +23,67 @@ if TYPE_CHECKING:
     from coframe.buffer import EdgeInfo
     from coframe.messages.slices import Slices
 
-__all__ = ["TopicFilter", "TransformCollector", "main_span", "namespace_of", "report_mixed_clocks"]
+__all__ = [
+    "ALL_TRANSFORMS",
+    "TransformChoice",
+    "TransformCollector",
+    "main_span",
+    "namespace_of",
+    "report_mixed_clocks",
+]
 
 
-class TopicFilter:
-    """Selects the topics whose transforms are read.
-
-    Args:
-        namespace: The namespace of the topics; None: all.
-        topics: The names of the topics; None: all.
+@dataclass(frozen=True)
+class TransformChoice:
+    """Which transforms of a recording are read, and how their frames are named.
 
     Attributes:
-        names: The names of the topics as given; empty: all.
+        namespace: Only the transforms of this namespace: ``/robot1`` for ``/robot1/tf``; None: all.
+        tf_topic: Only the transforms on this topic and on ``tf_static_topic``. None: all, or ``/tf`` if only the other
+            topic is given.
+        tf_static_topic: Only the transforms on this topic and on ``tf_topic``. None: all, or ``/tf_static``.
+        prefix: A prefix for the names of frames, used as given.
+        keep: The frames without the prefix.
+        transforms: Whether transforms are read at all.
+
+    Raises:
+        ValueError: The prefix begins with a slash.
+        TypeError: The prefix or a name is not a string.
     """
 
-    def __init__(self, namespace: str | None = None, topics: Iterable[str] | None = None) -> None:
-        self.names = list(topics or [])
-        self._namespace = None if namespace is None else _bare(namespace)
-        self._topics = None if topics is None else {_bare(topic) for topic in self.names}
+    namespace: str | None = None
+    tf_topic: str | None = None
+    tf_static_topic: str | None = None
+    prefix: str = ""
+    keep: Iterable[str] = ()
+    transforms: bool = True
 
-    def __call__(self, topic: str) -> bool:
+    def __post_init__(self) -> None:
+        renaming(self.prefix, self.keep)  # checks both
+        object.__setattr__(self, "keep", tuple(kept(self.keep)))
+
+    @property
+    def topics(self) -> tuple[str, ...] | None:
+        """The topics whose transforms are read; None: all."""
+        if not self.transforms:
+            return ()
+        if self.tf_topic is None and self.tf_static_topic is None:
+            return None
+        return self.tf_topic or TF_TOPIC, self.tf_static_topic or TF_STATIC_TOPIC
+
+    @property
+    def renaming(self) -> _core.Renaming | None:
+        """The renaming of frames; None if they keep their names."""
+        return renaming(self.prefix, self.keep)
+
+    def selects(self, topic: str) -> bool:
         """Return whether the transforms on a topic are read."""
-        in_namespace = self._namespace in {None, namespace_of(topic)}
-        return in_namespace and (self._topics is None or _bare(topic) in self._topics)
+        topics = self.topics
+        in_namespace = self.namespace is None or _bare(self.namespace) == namespace_of(topic)
+        return in_namespace and (topics is None or _bare(topic) in map(_bare, topics))
+
+
+ALL_TRANSFORMS: Final = TransformChoice()
 
 
 class _NamespaceTransforms:
@@ -81,29 +121,27 @@ class TransformCollector:
 
     Args:
         problems: Receives the problems found.
-        wanted: Selects the topics.
-        renaming: Maps frame names to their names in the buffers; None: the names stay.
+        choice: Selects the topics, and renames the frames.
         on_transforms: Called with all messages that contain transforms, in batches; None: not called.
     """
 
     def __init__(
         self,
         problems: Problems,
-        wanted: TopicFilter,
-        renaming: _core.Renaming | None = None,
+        choice: TransformChoice,
         on_transforms: Callable[[Channel, NDArray[np.int64], Slices], object] | None = None,
     ) -> None:
-        self._renaming = renaming
+        self._renaming = choice.renaming
         self._problems = problems
         self._on_transforms = on_transforms
-        self._wanted = wanted
+        self._choice = choice
         self._namespaces: dict[str, _NamespaceTransforms] = {}
 
     def ingest(self, channel: Channel) -> Callable[[NDArray[np.int64], Slices], None] | None:
         """Return a function that ingests messages of a channel with times of receipt; None if they are not wanted."""
         namespace = namespace_of(channel.topic)
         take = ingest_for(channel, self._renaming)
-        if take is None or not self._wanted(channel.topic):
+        if take is None or not self._choice.selects(channel.topic):
             return None
         transforms = self._namespaces.setdefault(namespace, _NamespaceTransforms())
         buffer = transforms.static if take.static else transforms.dynamic
@@ -160,7 +198,7 @@ class TransformCollector:
         transforms = _NamespaceTransforms()
         for channel, slices in messages:
             take = ingest_for(channel, self._renaming)
-            if take is not None and self._wanted(channel.topic):
+            if take is not None and self._choice.selects(channel.topic):
                 take(transforms.static if take.static else transforms.dynamic, slices)
         return transforms.merge(self._problems)
 

@@ -13,12 +13,11 @@ import numpy as np
 from coframe import html_tables, time
 from coframe.bags.contents import read_contents
 from coframe.bags.decoding import decoder
-from coframe.bags.namespaces import TopicFilter, main_span
+from coframe.bags.namespaces import TransformChoice, main_span
 from coframe.bags.recorded_message import RecordedMessage, Topic
 from coframe.bags.table import edge_table
 from coframe.errors import DecodeError
 from coframe.formatting import count
-from coframe.frame_names import kept, renaming
 
 if TYPE_CHECKING:
     import os
@@ -27,7 +26,6 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
     from typing_extensions import Self
 
-    from coframe import _core
     from coframe.bags.contents import Contents
     from coframe.bags.storage import Channel
     from coframe.messages.slices import Slices
@@ -41,9 +39,11 @@ def open_bag(
     path: str | os.PathLike[str],
     *,
     namespace: str | None = None,
-    tf_topics: Iterable[str] | None = None,
+    tf_topic: str | None = None,
+    tf_static_topic: str | None = None,
     prefix: str = "",
     keep: Iterable[str] = (),
+    transforms: bool = True,
     progress: Callable[[int, int], object] | None = None,
     on_transforms: Callable[[Channel, NDArray[np.int64], Slices], object] | None = None,
 ) -> Recording:
@@ -52,9 +52,12 @@ def open_bag(
     Args:
         path: A file, or a folder of rosbag2, with or without its metadata.
         namespace: Read only the transforms of a namespace, such as ``/robot1`` for ``/robot1/tf``; None: all.
-        tf_topics: Read only the transforms on these topics, such as ``["/robot1/tf", "/tf_static"]``; None: all.
+        tf_topic: Read only the transforms on this topic and on ``tf_static_topic``. None: all, or ``/tf`` if only the
+            other topic is given.
+        tf_static_topic: Read only the transforms on this topic and on ``tf_topic``. None: all, or ``/tf_static``.
         prefix: A prefix for the frame names in the buffers: ``robot1/`` makes ``robot1/base_link``.
         keep: Frames without the prefix because they are shared: ``["map"]``.
+        transforms: Whether to read transforms. If False, the buffers are empty.
         progress: Called regularly with the number of bytes read and the total number of bytes.
         on_transforms: Called with all messages that contain transforms, in batches: the channel, the times of receipt
             and the bytes.
@@ -63,7 +66,7 @@ def open_bag(
         The recording. Its ``problems`` describe what could not be read.
 
     Raises:
-        RecordingError: Nothing can be read, or a topic of ``tf_topics`` other than /tf and /tf_static does not exist.
+        RecordingError: Nothing can be read, or a given topic other than /tf and /tf_static does not exist.
         ValueError: The prefix begins with a slash.
 
     Example:
@@ -74,12 +77,19 @@ def open_bag(
         ...     print(error)
         nowhere.mcap cannot be read: No such file or directory
     """
-    keep = kept(keep)
-    tf_topics = None if tf_topics is None else list(tf_topics)
-    options = {"namespace": namespace, "tf_topics": tf_topics, "prefix": prefix, "keep": keep}
-    renamed = renaming(prefix, keep)
-    contents = read_contents(Path(path), TopicFilter(namespace, tf_topics), renamed, progress, on_transforms)
-    return Recording(contents, options, renamed)
+    choice = TransformChoice(namespace, tf_topic, tf_static_topic, prefix, keep, transforms)
+    return open_chosen(path, choice, progress=progress, on_transforms=on_transforms)
+
+
+def open_chosen(
+    path: str | os.PathLike[str],
+    choice: TransformChoice,
+    *,
+    progress: Callable[[int, int], object] | None = None,
+    on_transforms: Callable[[Channel, NDArray[np.int64], Slices], object] | None = None,
+) -> Recording:
+    """Open a recording as :func:`open_bag` does, given the choice of transforms as one value."""
+    return Recording(read_contents(Path(path), choice, progress, on_transforms), choice)
 
 
 class Recording:
@@ -94,11 +104,11 @@ class Recording:
         files: The path and the size in bytes of each file.
         formats: The file formats, usually one.
         compression: The compression of chunks or messages: ``zstd``, ``lz4``, ``bz2`` or ``none``.
-        options: The arguments of :func:`open_bag` about namespace, topics and names, to open the recording again.
+        choice: Which transforms were read, to open the recording again.
         types: The types of its messages.
     """
 
-    def __init__(self, contents: Contents, options: dict[str, Any], renaming: _core.Renaming | None) -> None:
+    def __init__(self, contents: Contents, choice: TransformChoice) -> None:
         self.path = contents.path
         self.buffer = contents.buffer
         self.buffers = contents.buffers
@@ -106,12 +116,12 @@ class Recording:
         self.files = contents.files
         self.formats = contents.formats
         self.compression = contents.compression
-        self.options = options
+        self.choice = choice
         self.types = contents.types
         self._index = contents.index
         self._problems = contents.problems
         self._received_span = contents.received_span
-        self._renaming = renaming
+        self._renaming = choice.renaming
         self._decoders: dict[int, Callable[[bytes], Any]] = {}
         self._closing = contents.closing
         weakref.finalize(self, self._closing.close)  # closes the files if the user does not

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from coframe import time
+from coframe.bags.namespaces import ALL_TRANSFORMS, TransformChoice
 from coframe.bags.time_points import parse_time_point
 from coframe.errors import RecordingError
 
@@ -39,10 +40,7 @@ class TrajectoryQuery:
         start: The first stamp: nanoseconds, or text that :func:`coframe.bags.parse_time_point` reads for each
             recording.
         stop: The last stamp, as nanoseconds or text.
-        namespace: Passed to :func:`coframe.open_bag`, as are the three attributes below.
-        tf_topics: The topics of transforms to read.
-        prefix: The prefix for the names of frames.
-        keep: Frames without the prefix, separated by commas.
+        transforms: Which transforms of a recording are read, and how their frames are named.
 
     Raises:
         ValueError: Both ``rate`` and ``stamps_of`` are given, or the rate is out of range.
@@ -54,10 +52,7 @@ class TrajectoryQuery:
     stamps_of: str | None = None
     start: int | str | None = None
     stop: int | str | None = None
-    namespace: str | None = None
-    tf_topics: tuple[str, ...] | None = None
-    prefix: str = ""
-    keep: str = ""
+    transforms: TransformChoice = ALL_TRANSFORMS
 
     def __post_init__(self) -> None:
         if self.rate is not None and self.stamps_of is not None:

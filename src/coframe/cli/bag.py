@@ -16,6 +16,7 @@ from rich.text import Text
 
 from coframe.bags import COMPRESSIONS, parse_time_point, repair, summarize
 from coframe.bags.copying import copy_recordings
+from coframe.bags.namespaces import TransformChoice
 from coframe.cli.help_format import PlainCommand, PlainGroup
 from coframe.cli.lifecycle import run_to_completion
 from coframe.cli.options import (
@@ -92,7 +93,8 @@ def info(
 
     Example: coframe bag info run.mcap
     """
-    with run_to_completion(), open_recording(bag, namespace, tf_topic, tf_static_topic, prefix, keep) as recording:
+    choice = TransformChoice(namespace, tf_topic, tf_static_topic, prefix, keep)
+    with run_to_completion(), open_recording(bag, choice) as recording:
         summary = summarize(recording)
         if as_json:
             print(json.dumps(_plain(summary), indent=2))

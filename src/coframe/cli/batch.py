@@ -12,6 +12,7 @@ import typer
 from coframe.bags import TrajectoryQuery, query_recordings
 from coframe.bags.batch import ENGINES
 from coframe.bags.formats import file_kinds
+from coframe.bags.namespaces import TransformChoice
 from coframe.cli.lifecycle import run_to_completion
 from coframe.cli.options import (
     KeepOption,
@@ -19,7 +20,6 @@ from coframe.cli.options import (
     PrefixOption,
     RecordedTfStaticTopicOption,
     RecordedTfTopicOption,
-    recorded_tf_topics,
 )
 from coframe.cli.output import fail, printable, warn
 from coframe.cli.progress import item_progress
@@ -69,8 +69,8 @@ def batch(
     Example: coframe batch map base_link runs/*.mcap -o poses
     """
     try:
-        topics = recorded_tf_topics(tf_topic, tf_static_topic)
-        query = TrajectoryQuery(target, source, rate, stamps_of, start, stop, namespace, topics, prefix, keep)
+        choice = TransformChoice(namespace, tf_topic, tf_static_topic, prefix, keep)
+        query = TrajectoryQuery(target, source, rate, stamps_of, start, stop, choice)
     except ValueError as error:
         fail(str(error), code=2)
     if on not in ENGINES:

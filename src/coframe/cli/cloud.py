@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal, cast
 import typer
 
 from coframe.bags import Clouds, write_clouds
+from coframe.bags.namespaces import TransformChoice
 from coframe.cli.completion import complete_frames
 from coframe.cli.lifecycle import run_to_completion
 from coframe.cli.options import (
@@ -99,7 +100,8 @@ def cloud(
         fail(f"--voxel must be greater than 0 m, not {voxel:g}", code=2)
     if at is not None and (start is not None or stop is not None):
         fail("--at cannot be combined with --start or --stop", code=2)
-    with run_to_completion(), open_recording(bag, namespace, tf_topic, tf_static_topic, prefix, keep) as recording:
+    choice = TransformChoice(namespace, tf_topic, tf_static_topic, prefix, keep)
+    with run_to_completion(), open_recording(bag, choice) as recording:
         times = {"at": at, "start": start, "stop": stop}
         try:
             clouds = Clouds(

@@ -14,6 +14,7 @@ import numpy as np
 import typer
 
 from coframe.bags.formats import has_known_suffix
+from coframe.bags.namespaces import TransformChoice
 from coframe.cli.lifecycle import run_to_completion
 from coframe.cli.options import (
     KeepOption,
@@ -95,8 +96,8 @@ def compare(
     except ValueError as error:
         fail(f"--delta: {error}", code=2)
     with run_to_completion():
-        options = (namespace, tf_topic, tf_static_topic, prefix, keep)
-        reference, estimate = _read(ref, options), _read(est, options)
+        choice = TransformChoice(namespace, tf_topic, tf_static_topic, prefix, keep)
+        reference, estimate = _read(ref, choice), _read(est, choice)
         result = compare_trajectories(reference, estimate, align=align, max_difference=max_difference, delta=distance)
         for path in files:
             _write(path, result, f"{est} compared with {ref}")
@@ -106,8 +107,8 @@ def compare(
             print(_table(result))
 
 
-def _read(text: str, options: tuple[str | None, str | None, str | None, str, str]) -> Transform:
-    """Return the trajectory that an argument names; `options` are those of :func:`open_recording`."""
+def _read(text: str, choice: TransformChoice) -> Transform:
+    """Return the trajectory that an argument names."""
     path, _, frames = text.partition(":") if Path(text).exists() else _split(text)
     if not frames:
         file = Path(path)
@@ -119,7 +120,7 @@ def _read(text: str, options: tuple[str | None, str | None, str | None, str, str
             )
         return read_trajectory(file)
     target, _, source = frames.partition(":")
-    with open_recording(Path(path), *options) as recording:
+    with open_recording(Path(path), choice) as recording:
         return recording.buffer.trajectory(target, source)
 
 

@@ -14,6 +14,7 @@ from rich.console import Console, Group
 from rich.live import Live
 from rich.text import Text
 
+from coframe.bags.namespaces import TransformChoice
 from coframe.cli.lifecycle import run_to_completion, run_until_interrupted
 from coframe.cli.options import (
     DomainOption,
@@ -24,11 +25,11 @@ from coframe.cli.options import (
     PrefixOption,
     RecordedTfStaticTopicOption,
     RecordedTfTopicOption,
-    recorded_tf_topics,
 )
 from coframe.cli.output import fail, one_line, printable
 from coframe.cli.progress import reading_progress
-from coframe.doctor import codes, diagnose, observe_recording, page
+from coframe.doctor import codes, diagnose, page
+from coframe.doctor.recorded import observe_chosen
 from coframe.doctor.rendering.plain import as_data
 from coframe.doctor.rendering.sarif import as_sarif
 from coframe.doctor.rendering.text import lines
@@ -111,20 +112,23 @@ def doctor(
         fail("--json cannot be combined with --sarif", code=2)
     if watch and (sarif or bag is not None):
         fail(f"--watch cannot be combined with {'--sarif' if sarif else 'a recording'}", code=2)
-    shared: Any = {"cache": cache, "prefix": prefix, "keep": keep}
     with run_until_interrupted() if watch else run_to_completion():
         if bag is not None:
-            topics = recorded_tf_topics(tf_topic, tf_static_topic)
+            choice = TransformChoice(namespace, tf_topic, tf_static_topic, prefix, keep)
             with reading_progress() as progress:
-                observations = observe_recording(
-                    bag, namespace=namespace, tf_topics=topics, progress=progress, **shared
-                )
+                observations = observe_chosen(bag, choice, cache=cache, progress=progress)
             reports = {name: diagnose(one, ignore=ignored) for name, one in observations.items()}
             _print_and_exit(reports, as_json, sarif, bag)
         from coframe.doctor.live import LiveObserver  # noqa: PLC0415 - recordings need no DDS
 
         config = ListenerConfig.of(
-            domain=domain, namespace=namespace, tf_topic=tf_topic, tf_static_topic=tf_static_topic, **shared
+            domain=domain,
+            namespace=namespace,
+            tf_topic=tf_topic,
+            tf_static_topic=tf_static_topic,
+            prefix=prefix,
+            keep=keep,
+            cache=cache,
         )
         with LiveObserver(config, window=duration if watch else None) as observer:
             if watch:

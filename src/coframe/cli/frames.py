@@ -12,6 +12,7 @@ import typer
 from rich.console import Console
 from rich.text import Text
 
+from coframe.bags.namespaces import TransformChoice
 from coframe.cli.frames_screen import tree_in_parts, watch
 from coframe.cli.lifecycle import run_to_completion, run_until_interrupted
 from coframe.cli.options import (
@@ -23,13 +24,12 @@ from coframe.cli.options import (
     PrefixOption,
     RecordedTfStaticTopicOption,
     RecordedTfTopicOption,
-    recorded_tf_topics,
 )
 from coframe.cli.output import fail, fail_to_write, printable, report_console, warn
 from coframe.cli.progress import reading_progress
 from coframe.cli.ros_arguments import node_identity
 from coframe.complete_files import write_complete
-from coframe.doctor import observe_recording
+from coframe.doctor.recorded import observe_chosen
 from coframe.listener_config import ListenerConfig
 from coframe.optional_imports import importing_matplotlib
 from coframe.tree_drawing import grow
@@ -111,12 +111,11 @@ def frames(
     files = [_checked_output(path) for path in output or []]
     if watching and (files or bag is not None):
         fail(f"--watch cannot be combined with {'--output' if files else 'a recording'}", code=2)
-    names: dict[str, Any] = {"prefix": prefix, "keep": keep}
     with run_until_interrupted() if watching else run_to_completion():
         if bag is not None:
-            topics = recorded_tf_topics(tf_topic, tf_static_topic)
+            choice = TransformChoice(namespace, tf_topic, tf_static_topic, prefix, keep)
             with reading_progress() as progress:
-                observations = observe_recording(bag, namespace=namespace, tf_topics=topics, progress=progress, **names)
+                observations = observe_chosen(bag, choice, progress=progress)
             forests = {name: grow(one) for name, one in observations.items()}
             for problem in dict.fromkeys(problem for one in observations.values() for problem in one.unread):
                 warn(problem)
@@ -129,7 +128,12 @@ def frames(
         from coframe.doctor.live import LiveObserver  # noqa: PLC0415 - recordings need no DDS
 
         config = ListenerConfig.of(
-            domain=domain, namespace=namespace, tf_topic=tf_topic, tf_static_topic=tf_static_topic, **names
+            domain=domain,
+            namespace=namespace,
+            tf_topic=tf_topic,
+            tf_static_topic=tf_static_topic,
+            prefix=prefix,
+            keep=keep,
         )
         with LiveObserver(config, window=duration, **node_identity("coframe_frames")) as observer:
             if watching:

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from coframe.bags import parse_time_point
+from coframe.bags.namespaces import TransformChoice
 from coframe.cli.completion import complete_frames
 from coframe.cli.echo import MAX_DIGITS, as_json_line, format_transform
 from coframe.cli.lifecycle import run_to_completion
@@ -116,7 +117,8 @@ def lookup(
 
     with run_to_completion():
         if bags:
-            with open_recording(Path(bags[0]), namespace, tf_topic, tf_static_topic, prefix, keep) as recording:
+            choice = TransformChoice(namespace, tf_topic, tf_static_topic, prefix, keep)
+            with open_recording(Path(bags[0]), choice) as recording:
                 check_has_transforms(recording)
                 try:
                     found = transform(recording.buffer, lambda option, text: parse_lookup_time(option, text, recording))

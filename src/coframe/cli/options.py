@@ -42,7 +42,6 @@ __all__ = [
     "TfStaticTopicOption",
     "TfTopicOption",
     "checked_prefix",
-    "recorded_tf_topics",
     "with_leading_slash",
 ]
 
@@ -223,10 +222,3 @@ KeepOption = Annotated[
     str,
     typer.Option(metavar="FRAMES", help="Shared frames that get no prefix, e.g. map,world.", show_default=False),
 ]
-
-
-def recorded_tf_topics(tf_topic: str | None, tf_static_topic: str | None) -> tuple[str, str] | None:
-    """Return the two topics of transforms to read from a recording; None, all of them, if neither was given."""
-    if tf_topic is None and tf_static_topic is None:
-        return None
-    return tf_topic or TF_TOPIC, tf_static_topic or TF_STATIC_TOPIC

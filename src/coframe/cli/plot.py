@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from coframe.bags.namespaces import TransformChoice
 from coframe.cli.lifecycle import run_to_completion
 from coframe.cli.options import (
     BagArgument,
@@ -72,7 +73,7 @@ def plot(
     with run_to_completion():
         for path in output:
             check_figure_package(path)
-        with open_recording(bag, namespace, tf_topic, tf_static_topic, prefix, keep) as recording:
+        with open_recording(bag, TransformChoice(namespace, tf_topic, tf_static_topic, prefix, keep)) as recording:
             first = None if start is None else parse_time("--start", start, recording)
             last = None if stop is None else parse_time("--stop", stop, recording)
             with task_progress() as progress:

@@ -4,10 +4,10 @@
 from __future__ import annotations
 
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-from coframe.bags import open_bag, parse_time_point
-from coframe.cli.options import recorded_tf_topics
+from coframe.bags.recording import open_chosen
+from coframe.bags.time_points import parse_time_point
 from coframe.cli.output import fail, warn
 from coframe.cli.progress import reading_progress
 from coframe.formatting import listed, seconds
@@ -17,7 +17,8 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
     from pathlib import Path
 
-    from coframe.bags import Recording
+    from coframe.bags.namespaces import TransformChoice
+    from coframe.bags.recording import Recording
 
 __all__ = ["EARLIEST_WALL_TIME", "check_has_transforms", "grouped_by_topic", "open_recording", "parse_time"]
 
@@ -27,19 +28,11 @@ EARLIEST_WALL_TIME = 10 * 365 * DAY
 
 @contextmanager
 def open_recording(
-    path: Path,
-    namespace: str | None,
-    tf_topic: str | None,
-    tf_static_topic: str | None,
-    prefix: str,
-    keep: str,
-    on_transforms: Callable[..., object] | None = None,
+    path: Path, choice: TransformChoice, on_transforms: Callable[..., object] | None = None
 ) -> Iterator[Recording]:
     """Open a recording with a progress bar; print on stderr what could not be read."""
-    topics = recorded_tf_topics(tf_topic, tf_static_topic)
     with reading_progress() as progress:
-        chosen: dict[str, Any] = {"namespace": namespace, "tf_topics": topics, "prefix": prefix, "keep": keep}
-        recording = open_bag(path, **chosen, progress=progress, on_transforms=on_transforms)
+        recording = open_chosen(path, choice, progress=progress, on_transforms=on_transforms)
     with recording:
         printed = recording.problems
         for problem in grouped_by_topic(printed):

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from coframe.bags import TrajectoryQuery
+from coframe.bags.namespaces import TransformChoice
 from coframe.cli.completion import complete_frames
 from coframe.cli.lifecycle import run_to_completion
 from coframe.cli.options import (
@@ -84,7 +85,8 @@ def trajectory(
         query = TrajectoryQuery(target, source, rate, stamps_of, start, stop)
     except ValueError as error:
         fail(str(error), code=2)
-    with run_to_completion(), open_recording(bag, namespace, tf_topic, tf_static_topic, prefix, keep) as recording:
+    choice = TransformChoice(namespace, tf_topic, tf_static_topic, prefix, keep)
+    with run_to_completion(), open_recording(bag, choice) as recording:
         _check_times(recording, start, stop)
         stamps = query.stamps(recording)
         missing, first, last = 0, int(stamps[-1]), int(stamps[0])

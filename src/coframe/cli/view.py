@@ -14,6 +14,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 import coframe
+from coframe.bags.namespaces import TransformChoice
+from coframe.bags.recording import open_chosen
 from coframe.cli.completion import complete_recordings
 from coframe.cli.lifecycle import run_until_interrupted
 from coframe.cli.options import (
@@ -22,7 +24,6 @@ from coframe.cli.options import (
     PrefixOption,
     RecordedTfStaticTopicOption,
     RecordedTfTopicOption,
-    recorded_tf_topics,
 )
 from coframe.cli.output import fail, warn
 from coframe.connection import Connection
@@ -135,14 +136,9 @@ def view(
             fail("--output needs a recording", "Record one with: coframe record run.mcap", code=2)
         if output.suffix.lower() not in {".html", ".htm"}:
             fail(f"--output {output}: unknown suffix {output.suffix!r}. Suffix: .html", code=2)
+        choice = TransformChoice(None, tf_topic, tf_static_topic, prefix, keep)
         look: dict[str, Any] = {"rviz": rviz, "fixed": fixed, "robot": robot, "mesh_roots": mesh_root or []}
-        names: dict[str, Any] = {
-            "tf_topic": tf_topic,
-            "tf_static_topic": tf_static_topic,
-            "prefix": prefix,
-            "keep": keep,
-        }
-        write_replay(Path(bag), output, **look, **names, start=start, stop=stop, rate=rate)
+        write_replay(Path(bag), output, choice, **look, start=start, stop=stop, rate=rate)
         return
     if unused := [f"--{name}" for name, value in replay.items() if value is not None]:
         fail(f"{unused[0]} can only be used with --output", code=2)
@@ -173,8 +169,8 @@ def view(
                 viewer.set_source(LiveSource(node, own=True))
             else:
                 progress = _ReadingProgress(viewer, browser=not no_browser)
-                chosen = recorded_tf_topics(tf_topic, tf_static_topic)
-                viewer.set_source(_read(Path(bag), progress, tf_topics=chosen, prefix=prefix, keep=keep))
+                choice = TransformChoice(None, tf_topic, tf_static_topic, prefix, keep)
+                viewer.set_source(_read(Path(bag), choice, progress))
             while True:  # On some platforms Ctrl-C does not interrupt an endless wait.
                 time.sleep(60.0)
 
@@ -203,10 +199,10 @@ class _ReadingProgress:
             self._viewer.set_title(f"{name}: {100 * done // max(total, 1)} % read")
 
 
-def _read(bag: Path, progress: _ReadingProgress, **chosen: Any) -> RecordedSource:
+def _read(bag: Path, choice: TransformChoice, progress: _ReadingProgress) -> RecordedSource:
     from coframe.viewer.sources.recorded import RecordedSource  # noqa: PLC0415 - not needed for the live graph
 
-    recording = coframe.open_bag(bag, progress=lambda done, total: progress.update(done, total, bag.name), **chosen)
+    recording = open_chosen(bag, choice, progress=lambda done, total: progress.update(done, total, bag.name))
     progress.announce()
     return RecordedSource(recording, own=True)
 

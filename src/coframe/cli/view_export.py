@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import typer
 
+from coframe.bags.namespaces import TransformChoice
 from coframe.cli.lifecycle import run_to_completion
 from coframe.cli.output import fail_to_write
 from coframe.cli.progress import task_progress
@@ -22,12 +23,15 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
     from pathlib import Path
 
+    from coframe.bags.namespaces import TransformChoice
+
 __all__ = ["write_replay"]
 
 
 def write_replay(
     bag: Path,
     output: Path,
+    choice: TransformChoice,
     *,
     rviz: Path | None,
     fixed: str,
@@ -36,17 +40,13 @@ def write_replay(
     start: str | None,
     stop: str | None,
     rate: float | None,
-    tf_topic: str | None,
-    tf_static_topic: str | None,
-    prefix: str,
-    keep: str,
 ) -> None:
     """Write the replay; the file exists at the end only if it is complete."""
     with run_to_completion():
         config = None if rviz is None else RvizConfig.load(rviz)
         description = None if robot is None else load(robot, packages=list(mesh_roots))
         meshes = make_mesh_table(robot, mesh_roots)
-        with open_recording(bag, None, tf_topic, tf_static_topic, prefix, keep) as recording:
+        with open_recording(bag, choice) as recording:
             check_has_transforms(recording)
             source = RecordedSource(recording)
             with task_progress() as progress:

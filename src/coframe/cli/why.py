@@ -19,6 +19,7 @@ from rich.live import Live
 from rich.text import Text
 
 from coframe.bags import parse_time_point
+from coframe.bags.namespaces import TransformChoice
 from coframe.cli.completion import complete_frames
 from coframe.cli.lifecycle import run_to_completion, run_until_interrupted
 from coframe.cli.options import (
@@ -30,7 +31,6 @@ from coframe.cli.options import (
     PrefixOption,
     RecordedTfStaticTopicOption,
     RecordedTfTopicOption,
-    recorded_tf_topics,
 )
 from coframe.cli.output import awaited_statics_text, fail, one_line, with_doctor_command
 from coframe.cli.recordings import check_has_transforms, open_recording, parse_lookup_time
@@ -40,7 +40,6 @@ from coframe.doctor.recorded import collecting
 from coframe.doctor.rendering.plain import as_data
 from coframe.doctor.rendering.text import headline
 from coframe.explanation.drawing import remark, verdict
-from coframe.frame_names import renaming
 from coframe.listener_config import ListenerConfig
 from coframe.messages import find
 from coframe.time import SECOND, stamp_ns
@@ -62,13 +61,6 @@ _SECOND_LISTENER = 0.5  # seconds
 _TF_TYPE = "tf2_msgs/msg/TFMessage"
 _ASCII = str.maketrans("├└│─", "+`|-")
 _STYLES = {"error": "bold red", "warning": "yellow", "note": "cyan"}
-
-
-class _Names(NamedTuple):
-    """The options that rename frames."""
-
-    prefix: str
-    keep: str
 
 
 class _Answer(NamedTuple):
@@ -128,13 +120,19 @@ def why(
         fail(f"{target} is a file or a folder. Give TARGET and SOURCE after the recording.", code=2)
     if watch and bags:
         fail("--watch cannot be combined with a recording", code=2)
-    renaming_options = _Names(prefix, keep)
-    topics: dict[str, Any] = {"tf_topic": tf_topic, "tf_static_topic": tf_static_topic}
     with run_until_interrupted() if watch else run_to_completion():
         if bags:
-            answer = _answer_recorded(Path(bags[0]), target, source, at, namespace, topics, renaming_options)
+            choice = TransformChoice(namespace, tf_topic, tf_static_topic, prefix, keep)
+            answer = _answer_recorded(Path(bags[0]), choice, target, source, at)
         else:
-            config = ListenerConfig.of(domain=domain, namespace=namespace, **topics, **renaming_options._asdict())
+            config = ListenerConfig.of(
+                domain=domain,
+                namespace=namespace,
+                tf_topic=tf_topic,
+                tf_static_topic=tf_static_topic,
+                prefix=prefix,
+                keep=keep,
+            )
             if watch:
                 _watch(config, target, source, at, duration, as_json=as_json)
             answer = _answer_live(config, target, source, at, duration)
@@ -142,12 +140,9 @@ def why(
         raise typer.Exit(0 if answer.found.possible else 1)
 
 
-def _answer_recorded(
-    bag: Path, target: str, source: str, at: str | None, namespace: str | None, topics: dict[str, Any], names: _Names
-) -> _Answer:
+def _answer_recorded(bag: Path, choice: TransformChoice, target: str, source: str, at: str | None) -> _Answer:
     collectors: dict[str, Collector] = {}
-    collect = collecting(collectors, renaming(**names._asdict()), recorded_tf_topics(**topics))
-    with open_recording(bag, namespace, **topics, **names._asdict(), on_transforms=collect) as recording:
+    with open_recording(bag, choice, collecting(collectors, choice)) as recording:
         check_has_transforms(recording)
         found = recording.buffer.why(target, source, None if at is None else parse_lookup_time("--at", at, recording))
         seen = [

@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from coframe.bags import from_yaml, open_bag
-from coframe.bags.namespaces import namespace_of
+from coframe.bags import from_yaml
+from coframe.bags.namespaces import TransformChoice, namespace_of
+from coframe.bags.recording import open_chosen
 from coframe.bags.transforms import ingest_for, is_static
 from coframe.doctor.collector import Collector
 from coframe.doctor.joints import joint_states
@@ -24,16 +25,15 @@ from coframe.doctor.observation import (
     TopicFacts,
 )
 from coframe.errors import DecodeError
-from coframe.frame_names import absolute, renaming
+from coframe.frame_names import absolute
 from coframe.time import SECOND
 
 if TYPE_CHECKING:
     import os
-    from collections.abc import Callable, Iterable, Iterator, Sequence
+    from collections.abc import Callable, Iterable, Iterator
 
     from numpy.typing import NDArray
 
-    from coframe import _core
     from coframe.bags import Recording
     from coframe.bags.storage import Channel
     from coframe.messages.slices import Slices
@@ -49,7 +49,8 @@ def observe_recording(
     path: str | os.PathLike[str],
     *,
     namespace: str | None = None,
-    tf_topics: Iterable[str] | None = None,
+    tf_topic: str | None = None,
+    tf_static_topic: str | None = None,
     prefix: str = "",
     keep: Iterable[str] = (),
     cache: int = DEFAULT_CACHE,
@@ -60,8 +61,9 @@ def observe_recording(
     Args:
         path: A file, or the folder of a rosbag2 recording.
         namespace: Only the transforms of this namespace; None for all.
-        tf_topics: Only the transforms of these topics, as those of one robot in the namespace of the first topic; None
-            for all.
+        tf_topic: Only the transforms of this topic and of ``tf_static_topic``, as those of one robot in the namespace
+            of this topic. None: all, or ``/tf`` if only the other topic is given.
+        tf_static_topic: Only the transforms of this topic and of ``tf_topic``. None: all, or ``/tf_static``.
         prefix: A prefix for all frame names, used unchanged; also for the frames of sensors.
         keep: The frames without the prefix, because they are shared.
         cache: The cache length of the buffers of listeners, in nanoseconds.
@@ -71,13 +73,20 @@ def observe_recording(
         RecordingError: The recording cannot be read.
         ValueError: The prefix begins with a slash.
     """
-    names = renaming(prefix, keep)
+    choice = TransformChoice(namespace, tf_topic, tf_static_topic, prefix, keep)
+    return observe_chosen(path, choice, cache=cache, progress=progress)
+
+
+def observe_chosen(
+    path: str | os.PathLike[str],
+    choice: TransformChoice,
+    *,
+    cache: int = DEFAULT_CACHE,
+    progress: Callable[[int, int], object] | None = None,
+) -> dict[str, Observation]:
+    """Return what :func:`observe_recording` returns, given the choice of transforms as one value."""
     collectors: dict[str, Collector] = {}
-    tf_topics = None if tf_topics is None else list(tf_topics)
-    chosen: Any = {"namespace": namespace, "tf_topics": tf_topics, "prefix": prefix, "keep": keep}
-    with open_bag(
-        path, **chosen, progress=progress, on_transforms=collecting(collectors, names, tf_topics)
-    ) as recording:
+    with open_chosen(path, choice, progress=progress, on_transforms=collecting(collectors, choice)) as recording:
         facts = _Facts(recording)
         return {
             name: Observation(
@@ -96,20 +105,21 @@ def observe_recording(
                 log=facts.log,
                 cache=cache,
                 unread=tuple(recording.problems),
-                link_name=names or str,
+                link_name=choice.renaming or str,
             )
             for name, collector in sorted((collectors or {"": Collector()}).items())
         }
 
 
 def collecting(
-    collectors: dict[str, Collector], names: _core.Renaming | None = None, tf_topics: Sequence[str] | None = None
+    collectors: dict[str, Collector], choice: TransformChoice
 ) -> Callable[[Channel, NDArray[np.int64], Slices], None]:
     """Return a callback for :func:`coframe.open_bag` that fills a collector for each namespace.
 
-    With `tf_topics` it fills only the collector of the namespace of the first topic, as for one robot.
+    If topics are chosen, it fills only the collector of the namespace of the first one, as for one robot.
     """
-    together = namespace_of(tf_topics[0]) if tf_topics else None
+    names = choice.renaming
+    together = namespace_of(choice.topics[0]) if choice.topics else None
 
     def collect(channel: Channel, received: NDArray[np.int64], messages: Slices) -> None:
         take = ingest_for(channel)

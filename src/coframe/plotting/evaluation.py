@@ -9,7 +9,6 @@ import numpy as np
 
 from coframe import _core
 from coframe.analysis.clocks import clock_of
-from coframe.bags.namespaces import TopicFilter
 from coframe.bags.transforms import ingest_for
 from coframe.errors import DecodeError, PlotError
 from coframe.formatting import did_you_mean
@@ -213,8 +212,11 @@ def _received_transforms(
 ) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
     """Return the stamps and the times of receipt of all transforms of an edge."""
     parent, child = expression.edge or ("", "")
-    read = TopicFilter(recording.options["namespace"], recording.options["tf_topics"])
-    topics = {channel.topic for channel in recording.channels() if ingest_for(channel) and read(channel.topic)}
+    topics = {
+        channel.topic
+        for channel in recording.channels()
+        if ingest_for(channel) and recording.choice.selects(channel.topic)
+    }
     stamps, received = [np.empty(0, dtype=np.int64)], [np.empty(0, dtype=np.int64)]
     total, done = sum(recording.topics[topic].messages for topic in topics), 0
     for channel, times, messages in _batches(recording, topics):

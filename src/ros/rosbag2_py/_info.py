@@ -109,7 +109,7 @@ class Info:
     def read_metadata(self, uri: str, storage_id: str = "") -> BagMetadata:  # noqa: ARG002 - the format is recognized
         """Return the metadata of a recording."""
         try:
-            with open_bag(uri, tf_topics=[]) as recording:
+            with open_bag(uri, transforms=False) as recording:
                 return metadata_of(recording)
         except RecordingError as error:
             raise RuntimeError(str(error)) from error

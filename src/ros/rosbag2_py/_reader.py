@@ -56,7 +56,7 @@ class SequentialReader:
         check_formats(converter_options or ConverterOptions())
         self.close()
         try:
-            self.__opened = open_bag(storage_options.uri, tf_topics=[])
+            self.__opened = open_bag(storage_options.uri, transforms=False)
         except RecordingError as error:
             raise RuntimeError(f"No storage could be initialized from the inputs. {error}") from error
         self.__start = storage_options.start_time_ns if storage_options.start_time_ns >= 0 else None

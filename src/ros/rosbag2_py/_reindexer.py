@@ -22,7 +22,7 @@ class Reindexer:
         """Read all files of a recording and write its metadata.yaml."""
         folder = Path(storage_options.uri)
         try:
-            with open_bag(folder, tf_topics=[]) as recording:
+            with open_bag(folder, transforms=False) as recording:
                 metadata = metadata_of(recording)
         except RecordingError as error:
             raise RuntimeError(str(error)) from error

@@ -75,9 +75,10 @@ class RecordedSource:
                 hint=f"Run: coframe doctor {shlex.quote(str(self._recording.path))}",
             )
         # Imported here because the first frame update does not need the doctor.
-        from coframe.doctor import diagnose, observe_recording  # noqa: PLC0415
+        from coframe.doctor import diagnose  # noqa: PLC0415
+        from coframe.doctor.recorded import observe_chosen  # noqa: PLC0415
 
-        observed = observe_recording(self._recording.path, **self._recording.options)
+        observed = observe_chosen(self._recording.path, self._recording.choice)
         yield {name: diagnose(observation) for name, observation in observed.items()}
 
     def close(self) -> None:
