@@ -16,6 +16,7 @@ from rosbags.rosbag2 import CompressionMode, StoragePlugin
 
 import coframe
 from coframe.bags import OfferedQos
+from coframe.bags.namespaces import TransformChoice
 from coframe.bags.offered_qos import to_yaml
 from coframe.doctor import observe_recording
 
@@ -233,6 +234,16 @@ def test_robots_of_several_namespaces(tmp_path):
     chosen = coframe.open_bag(alike, namespace="two")
     assert chosen.problems == []
     assert list(chosen.buffers) == ["/two"]
+    one = {"tf_topic": "/one/tf", "tf_static_topic": "/one/tf_static"}
+    chosen = coframe.open_bag(alike, **one, prefix="one/", keep=["odom"])
+    recordings.assert_same(coframe.open_bag(alike, **one).buffer)
+    assert chosen.buffer.can_transform("odom", "one/lidar")
+    assert chosen.choice == TransformChoice(**one, prefix="one/", keep=("odom",))
+    with pytest.raises(coframe.RecordingError, match="has no topic /three/tf"):
+        coframe.open_bag(alike, tf_topic="/three/tf")
+    unread = coframe.open_bag(alike, transforms=False)
+    assert unread.buffer.frame_names() == []
+    assert unread.topics["/one/tf"].messages > 0
 
 
 def imu(at, frame="imu"):

@@ -24,7 +24,7 @@ def test_each_middleware_has_a_test() -> None:
 
 @pytest.mark.parametrize("wire", WIRES)
 def test_a_connection_over(wire: str, zenoh_domain: int, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Whatever the environment says, the call decides."""
+    """The call decides, regardless of the environment."""
     monkeypatch.setenv("COFRAME_WIRE", next(other for other in WIRES if other != wire))
     before = dict(os.environ)
     with coframe.connect("listener", domain=zenoh_domain, wire=wire) as ros:
