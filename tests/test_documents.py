@@ -21,7 +21,6 @@ from typing import NamedTuple
 from xml.etree import ElementTree
 
 import pytest
-import typer
 
 import coframe
 from coframe.cli.app import app
@@ -36,7 +35,7 @@ BLOCK = re.compile(
     r"^(?P<indent>[ \t]*)```(?P<language>\w*)[^\n]*\n(?P<text>.*?)^(?P=indent)```[ \t]*$",
     re.MULTILINE | re.DOTALL,
 )
-COMMAND_LINE = typer.main.get_command(app)
+COMMAND_LINE = app
 # Programs of others in the examples. What coframe provides is checked.
 OTHER_PROGRAMS = {
     "apt",
@@ -255,7 +254,7 @@ def test_importing_coframe_needs_numpy_only():
 import sys
 class Missing:
     def find_spec(self, name, path=None, target=None):
-        if name.partition(".")[0] in {"typer", "rich", "typing_extensions", "rosbags", "mcap", "yaml"}:
+        if name.partition(".")[0] in {"click", "rich", "typing_extensions", "rosbags", "mcap", "yaml"}:
             raise ModuleNotFoundError(f"No module named {name!r}", name=name)
 sys.meta_path.insert(0, Missing())
 import coframe

@@ -12,7 +12,7 @@ LIMITS = {10: 3.0, 100: 3.0, 1000: 5.0}
 IMPORTS = """
 import time
 begin = time.monotonic_ns()
-import numpy, typer, cyclonedds.internal
+import numpy, click, cyclonedds.internal
 print(time.monotonic_ns() - begin)
 """
 
@@ -42,7 +42,7 @@ def start() -> Row:
         yield Program("-c", IMPORTS)
 
     name = "coframe view, until a tab receives its first frame update"
-    return Row(name, "floor: importing numpy, typer and DDS", contenders, processors=2)
+    return Row(name, "floor: importing numpy, click and DDS", contenders, processors=2)
 
 
 ROWS = [*(row(frames, limit) for frames, limit in LIMITS.items()), start()]

@@ -8,12 +8,9 @@ import io
 import re
 from typing import Any, NamedTuple
 
-import typer
-
 from coframe.cli.app import app
 from coframe.cli.commands import COMMANDS
 
-_GROUP: Any = typer.main.get_command(app)
 _FOLDER = "reference/commands"
 # Groups of commands, in the order in which a user meets them.
 GROUPS = {
@@ -25,7 +22,7 @@ GROUPS = {
     "Commands of ros2": ("topic", "node", "service", "action", "param", "lifecycle", "interface", "pkg", "ros2"),
 }
 # The names of the pages in the navigation: their headings also say what the command does.
-NAMES = {f"{_FOLDER}/{name}.md": f"coframe {name}" for name in _GROUP.commands}
+NAMES = {f"{_FOLDER}/{name}.md": f"coframe {name}" for name in app.commands}
 _INDEX = """# Commands
 
 Every command prints this description with `--help`. Install them with `pip install 'coframe[all]'`. Ctrl-C stops a
@@ -43,9 +40,9 @@ class Help(NamedTuple):
 
 def pages() -> dict[str, str]:
     """Return the pages, by their paths."""
-    known = set(_GROUP.commands)
+    known = set(app.commands)
     ungrouped = tuple(sorted(known - {name for names in GROUPS.values() for name in names}))
-    pages = {f"{_FOLDER}/{name}.md": _page(name, _GROUP.commands[name]) for name in known}
+    pages = {f"{_FOLDER}/{name}.md": _page(name, app.commands[name]) for name in known}
     index = _INDEX
     for title, names in {**GROUPS, "Other commands": ungrouped}.items():
         rows = "".join(f"| [`coframe {name}`]({name}.md) | {_summary(name)} |\n" for name in names if name in known)
@@ -55,7 +52,7 @@ def pages() -> dict[str, str]:
 
 
 def _summary(name: str) -> str:
-    return _escape(COMMANDS[name][0]) if name in COMMANDS else ""
+    return _escape(COMMANDS[name].line) if name in COMMANDS else ""
 
 
 def _title(name: str) -> str:
@@ -95,7 +92,7 @@ def _help_text(path: str) -> str:
     """Return what the command prints with --help; some commands write it themselves."""
     output = io.StringIO()
     with contextlib.redirect_stdout(output), contextlib.suppress(SystemExit):
-        _GROUP.main([*path.split()[1:], "--help"], prog_name="coframe")
+        app.main([*path.split()[1:], "--help"], prog_name="coframe")
     return output.getvalue()
 
 

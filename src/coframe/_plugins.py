@@ -21,8 +21,7 @@ import importlib
 import os
 import re
 import sys
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
 from coframe.base_error import CoframeError
 from coframe.escaping import one_line
@@ -47,8 +46,7 @@ class PluginError(CoframeError, RuntimeError):
         self._hint = hint
 
 
-@dataclass(frozen=True)
-class Plugin:
+class Plugin(NamedTuple):
     """An entry point of an installed distribution.
 
     Attributes:

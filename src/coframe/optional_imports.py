@@ -1,24 +1,64 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Imports of packages that only some features need."""
+"""Packages that only some features need: which extra of coframe installs each, and how they are imported."""
 
 from __future__ import annotations
 
 import importlib
-import logging
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Final
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Container, Iterator
+
+__all__ = ["CLI_PACKAGES", "EXTRAS", "extra_of", "import_optional", "importing_matplotlib", "pip_install"]
+
+# The modules that the extras install; yaml is in three of them.
+EXTRAS: Final[dict[str, tuple[str, ...]]] = {
+    "bags": ("zstandard", "lz4", "yaml"),
+    "cli": ("click", "rich", "markdown_it"),
+    "dds": ("cyclonedds",),
+    "opencv": ("cv2",),
+    "params": ("yaml",),
+    "parquet": ("pyarrow",),
+    "pdf": ("pydyf",),
+    "plot": ("matplotlib",),
+    "protobuf": ("google",),
+    "robots": ("xacro",),
+    "viewer": ("websockets", "yaml"),
+    "zenoh": ("zenoh", "xxhash"),
+}
+CLI_PACKAGES: Final = EXTRAS["cli"][:2]
 
 
-def import_optional(module: str, purpose: str, install: str) -> Any:
+def pip_install(extra: str) -> str:
+    """Return the command that installs an extra of coframe.
+
+    Args:
+        extra: The name of the extra, such as ``bags``.
+    """
+    if extra not in EXTRAS:
+        raise ValueError(f"coframe has no extra {extra!r}. Extras: {', '.join(EXTRAS)}.")
+    return f"pip install 'coframe[{extra}]'"
+
+
+def extra_of(module: str, preferred: Container[str] = ()) -> str | None:
+    """Return the extra that installs a module; None if none does.
+
+    Args:
+        module: The name of the module.
+        preferred: The extras to choose from if several install it.
+    """
+    extras = [extra for extra, modules in EXTRAS.items() if module in modules]
+    return next((extra for extra in extras if extra in preferred), extras[0] if extras else None)
+
+
+def import_optional(module: str, purpose: str, extra: str) -> Any:
     """Return a module that coframe does not require.
 
     Args:
         module: Name of the module.
         purpose: What needs the module: the subject of the error's sentence.
-        install: What `pip install` gets to install it.
+        extra: The extra that installs it.
 
     Raises:
         ModuleNotFoundError: The module is not installed. The text says how to install it.
@@ -29,7 +69,7 @@ def import_optional(module: str, purpose: str, install: str) -> Any:
         if error.name != module.partition(".")[0]:
             raise  # The module is there, but something that it needs is not.
         raise ModuleNotFoundError(
-            f"{purpose} needs the module {module}, which is not installed: pip install '{install}'", name=error.name
+            f"{purpose} needs the module {module}, which is not installed: {pip_install(extra)}", name=error.name
         ) from None
 
 
@@ -39,6 +79,8 @@ def importing_matplotlib() -> Iterator[None]:
 
     With a read-only home folder, matplotlib caches its fonts in a temporary folder by itself, but prints two warnings.
     """
+    import logging  # noqa: PLC0415 - takes 5 ms, and `coframe --help` imports this module
+
     log = logging.getLogger("matplotlib")
     level = log.level
     log.setLevel(logging.ERROR)

@@ -10,8 +10,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 import recordings
+from click.testing import CliRunner
 from deadly import DeadlyQuery
-from typer.testing import CliRunner
 
 import coframe
 from coframe.bags import QueryResult, TrajectoryQuery, batch, query_recording, query_recordings

@@ -6,9 +6,9 @@ import json
 import numpy as np
 import pytest
 import recordings
+from click.testing import CliRunner
 from recordings import COUNT, SECOND, START
 from runs import Run
-from typer.testing import CliRunner
 
 import coframe
 from coframe.cli.app import app

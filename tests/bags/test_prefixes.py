@@ -5,9 +5,9 @@ import json
 import re
 
 import pytest
+from click.testing import CliRunner
 from recordings import START
 from runs import MS, SECOND, Run
-from typer.testing import CliRunner
 
 import coframe
 from coframe.cli.app import app

@@ -6,10 +6,10 @@ import shutil
 import numpy as np
 import pytest
 import recordings
+from click.testing import CliRunner
 from recordings import COUNT, SECOND, START
 from rosbags.rosbag2 import Reader
 from runs import Run
-from typer.testing import CliRunner
 
 import coframe
 from coframe.bags import repair

@@ -14,9 +14,9 @@ from pathlib import Path
 import pytest
 import recordings
 import sqlite_pages
+from click.testing import CliRunner
 from hostile import examine
 from recordings import COUNT
-from typer.testing import CliRunner
 
 import coframe
 from coframe.cli.app import app

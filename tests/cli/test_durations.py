@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Every option that is a duration accepts the same forms, and refuses others with the same sentence."""
 
+import click
 import pytest
-import typer
-from typer.main import get_command
 
 from coframe.cli.app import app
 from coframe.cli.options import DURATIONS, Duration, NonNegativeDuration, PositiveDuration
@@ -23,7 +22,7 @@ def duration_options(command):
 
 
 def test_the_same_sentence_in_every_command(capsys):
-    command = get_command(app)
+    command = app
     options = list(duration_options(command))
     assert len(options) > 30
     for words, option in options:
@@ -52,8 +51,8 @@ def test_the_forms_of_a_duration(text, nanoseconds):
 def test_ranges():
     assert Duration("-10min") == -600 * 10**9
     for kind, text in ((NonNegativeDuration, "-1s"), (PositiveDuration, "0"), (PositiveDuration, "-1s")):
-        with pytest.raises(typer.BadParameter, match=f"the duration must .*not '{text}'"):
+        with pytest.raises(click.BadParameter, match=f"the duration must .*not '{text}'"):
             kind(text)
     for text in ("", "1e3", "3 s s", "-", "--1", "nan", "9" * 400, "3d"):
-        with pytest.raises(typer.BadParameter, match="is not a duration"):
+        with pytest.raises(click.BadParameter, match="is not a duration"):
             Duration(text)

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """What `coframe echo` prints about names that other nodes chose."""
 
+import click
 import pytest
-import typer
 
 import coframe
 from coframe.cli import echo
@@ -40,6 +40,6 @@ def test_escape_sequences_in_frame_names_do_not_reach_the_terminal(capsys):
 
 
 def test_a_number_that_no_float_can_hold_is_refused(capsys):
-    with pytest.raises(typer.Exit):
+    with pytest.raises(click.exceptions.Exit):
         echo._positive("Precision", 10**400, echo.MAX_DIGITS)
     assert "Precision must be at most 17, not 10000000000000000000\n" in capsys.readouterr().err

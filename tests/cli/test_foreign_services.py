@@ -4,8 +4,8 @@
 from collections.abc import Iterator
 
 import pytest
+from click.testing import CliRunner
 from rtps_peer import RtpsPeer
-from typer.testing import CliRunner
 
 from coframe.cli.app import app
 

@@ -4,8 +4,7 @@
 import re
 
 import pytest
-from typer.main import get_command
-from typer.testing import CliRunner
+from click.testing import CliRunner
 
 from coframe.cli.app import app
 from coframe.cli.commands import COMMANDS
@@ -18,7 +17,7 @@ def all_commands(command, words=()):
         yield from all_commands(child, (*words, name))
 
 
-EVERY_COMMAND = list(all_commands(get_command(app)))
+EVERY_COMMAND = list(all_commands(app))
 
 
 def help_of(words, monkeypatch, columns="80"):
@@ -37,7 +36,7 @@ def test_every_command_is_covered():
 def test_help_has_an_example_and_plain_value_names(words, monkeypatch):
     text = help_of(words, monkeypatch)
     assert re.search(rf"^  Example: coframe {' '.join(words)}", text, re.MULTILINE)
-    # typer's own value names are types, such as <str> or <int range>.
+    # click's own value names are types, such as <str> or <int range>.
     assert not re.search(r"<(bool|str|int|float|path|list|choice)\b", text)
     assert not re.search(r"\b(TEXT|INTEGER|FLOAT|PATH)\b", text)
     assert "default: ()" not in text
@@ -67,7 +66,7 @@ def test_help_describes_every_argument_and_option(words, monkeypatch):
 
 def test_options_of_the_same_name_have_the_same_text():
     texts = {}
-    pending = [get_command(app)]
+    pending = [app]
     while pending:
         command = pending.pop()
         pending += getattr(command, "commands", {}).values()

@@ -70,12 +70,12 @@ def run(tmp_path):
     return run
 
 
-@pytest.mark.parametrize("hidden", ["typer", "rich"])
+@pytest.mark.parametrize("hidden", ["click", "rich"])
 def test_without_the_extra_cli(run, hidden):
-    # The list of the commands needs only typer.
-    general = [["--help"]] if hidden == "typer" else []
+    # The list of the commands needs only click.
+    general = [["--help"]] if hidden == "click" else []
     for code, text in run([hidden], *general, ["doctor"], ["demo", "--help"]):
-        assert (code, text) == (1, "The command line needs the packages typer and rich: pip install 'coframe[cli]'")
+        assert (code, text) == (1, "The command line needs the packages click and rich: pip install 'coframe[cli]'")
 
 
 def test_help_needs_only_the_extra_cli(run):

@@ -13,8 +13,8 @@ import urllib.request
 from pathlib import Path
 
 import pytest
+from click.testing import CliRunner
 from grades import SOLUTION, lost  # of this folder
-from typer.testing import CliRunner
 
 import coframe
 from coframe.cli.app import app

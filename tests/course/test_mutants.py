@@ -7,10 +7,10 @@ import shutil
 from pathlib import Path
 
 import pytest
+from click.testing import CliRunner
 from grades import lost  # of this folder
-from typer.testing import CliRunner
 
-from coframe.cli.commands import build_app
+from coframe.cli.command_line import CommandLine
 
 pytestmark = pytest.mark.timeout(300)  # nine programs run one after the other, on a machine that may be busy
 
@@ -153,7 +153,7 @@ def test_every_fault_loses_points_in_its_own_criterion_only(tmp_path):
         (folder / file).write_text((folder / file).read_text().replace(text, replacement))
     table = tmp_path / "grades.csv"
     arguments = ["lab", "check", "--all", str(tmp_path / "submissions"), "-o", str(table)]
-    result = CliRunner().invoke(build_app(["lab"]), arguments)
+    result = CliRunner().invoke(CommandLine(), arguments)
     with table.open(encoding="utf-8", newline="") as lines:
         rows = {row["submission"]: row for row in csv.DictReader(lines)}
     assert len(rows) == len(MUTANTS), result.output

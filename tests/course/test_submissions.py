@@ -11,8 +11,8 @@ import time
 from pathlib import Path
 
 import pytest
+from click.testing import CliRunner
 from grades import SOLUTION  # of this folder
-from typer.testing import CliRunner
 
 from coframe.cli.app import app
 from coframe.course import checking

@@ -9,9 +9,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from click.testing import CliRunner
 from recordings import START
 from runs import Run
-from typer.testing import CliRunner
 
 from coframe.cli.app import app
 from coframe.doctor import Observation, codes, diagnose

@@ -9,10 +9,10 @@ import sys
 from xml.etree import ElementTree
 
 import pytest
+from click.testing import CliRunner
 from recordings import START
 from rich.console import Console
 from runs import Run
-from typer.testing import CliRunner
 
 from coframe.cli import frames_screen
 from coframe.cli.app import app

@@ -6,9 +6,9 @@ import re
 
 import numpy as np
 import pytest
+from click.testing import CliRunner
 from recordings import START
 from runs import MS, SECOND, Run
-from typer.testing import CliRunner
 
 from coframe.cli.app import app
 from coframe.cli.monitor import _print_classic, _printer

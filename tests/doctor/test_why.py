@@ -9,10 +9,10 @@ import sys
 
 import pytest
 import recordings
+from click.testing import CliRunner
 from nodes import ROBOT
 from recordings import SECOND, START, TF
 from runs import Run
-from typer.testing import CliRunner
 
 import coframe
 from coframe.cli.app import app

@@ -6,8 +6,8 @@ import sys
 import time
 
 import pytest
+from click.testing import CliRunner
 from special_files import KINDS, readers
-from typer.testing import CliRunner
 
 from coframe.cli.app import app
 

@@ -4,8 +4,8 @@
 import numpy as np
 import pytest
 import recordings
+from click.testing import CliRunner
 from recordings import COUNT, SECOND, START
-from typer.testing import CliRunner
 
 import coframe
 from coframe.cli.app import app

@@ -6,8 +6,8 @@ import re
 
 import pytest
 import recordings
+from click.testing import CliRunner
 from recordings import SECOND, START
-from typer.testing import CliRunner
 
 import coframe
 from coframe.bags import Writer

@@ -138,7 +138,7 @@ def completed(line, folder, **variables):
     environment = {
         **os.environ,
         **variables,
-        "_COFRAME_COMPLETE": "complete_bash",
+        "_COFRAME_COMPLETE": "bash_complete",
         "COMP_WORDS": line,
         "COMP_CWORD": str(len(line.split()) - 1),
     }
@@ -147,4 +147,5 @@ def completed(line, folder, **variables):
         [sys.executable, "-c", script], capture_output=True, text=True, env=environment, cwd=folder, check=False
     )
     assert result.stderr == ""
-    return result.stdout.split()
+    kinds = [line.partition(",") for line in result.stdout.splitlines()]
+    return [name for kind, _, name in kinds if kind == "plain"]

@@ -8,9 +8,9 @@ from math import cos, pi, radians, sin
 from pathlib import Path
 
 import pytest
+from click.testing import CliRunner
 from recordings import START
 from runs import MS, SECOND, Run, stamp_message
-from typer.testing import CliRunner
 
 import coframe
 from coframe.analysis.missing_edges import MissingEdge

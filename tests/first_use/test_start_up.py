@@ -6,7 +6,7 @@ import sys
 import time
 
 import pytest
-from typer.testing import CliRunner
+from click.testing import CliRunner
 
 from coframe.cli.app import app
 

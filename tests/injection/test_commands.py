@@ -9,10 +9,9 @@ from pathlib import Path
 from xml.etree import ElementTree
 
 import pytest
-import typer
 from cases import LIVE, OWN_TEXT_ONLY, RECORDED
+from click.testing import CliRunner
 from hostile_names import NAMES, NEWLINE, problems
-from typer.testing import CliRunner
 
 import coframe
 from coframe.bags import Writer
@@ -34,7 +33,7 @@ def commands(command, path=()):
 
 
 def test_every_command_has_a_case():
-    every = set(commands(typer.main.get_command(app)))
+    every = set(commands(app))
     assert every == LIVE.keys() | RECORDED.keys() | OWN_TEXT_ONLY.keys()
     assert not OWN_TEXT_ONLY.keys() & (LIVE.keys() | RECORDED.keys())
 

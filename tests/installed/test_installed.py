@@ -123,7 +123,7 @@ def test_the_page_is_served():
 
 @needs_dds
 def test_the_report_about_this_system():
-    pytest.importorskip("typer", reason="needs coframe[cli]")
+    pytest.importorskip("click", reason="needs coframe[cli]")
     here = {**os.environ, "ROS_DOMAIN_ID": "93", "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
     command = [script("coframe"), "doctor", "--system"]
     shown = subprocess.run(command, capture_output=True, text=True, check=False, env=here, timeout=100).stdout
@@ -144,7 +144,7 @@ def test_a_recording_is_written_and_read(tmp_path):
 
 
 def test_a_replay_is_written(tmp_path):
-    for module in ("typer", "zstandard", "websockets"):
+    for module in ("click", "zstandard", "websockets"):
         pytest.importorskip(module, reason="needs coframe[cli,bags,viewer]")
     from coframe import bags, messages
     from geometry_msgs.msg import TransformStamped
@@ -185,7 +185,7 @@ rclpy.shutdown()
 
 @needs_dds
 def test_the_demo_runs():
-    pytest.importorskip("typer", reason="needs coframe[cli]")
+    pytest.importorskip("click", reason="needs coframe[cli]")
     shown = subprocess.run(
         [script("coframe"), "demo", "--duration", "5", "--no-browser"],
         capture_output=True,

@@ -8,8 +8,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 from chromium import chromium
+from click.testing import CliRunner
 from runs import MS, SECOND, START, Run
-from typer.testing import CliRunner
 
 import coframe
 from coframe.cli.app import app

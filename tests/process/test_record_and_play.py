@@ -165,7 +165,7 @@ def test_keys_control_the_replay(network, shared):
     ],
 )
 def test_wrong_usage_gives_an_error(arguments, code, reason, tmp_path, monkeypatch):
-    from typer.testing import CliRunner
+    from click.testing import CliRunner
 
     from coframe.cli.app import app
 

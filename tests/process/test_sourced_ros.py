@@ -134,9 +134,9 @@ def test_packages_transform_the_messages_of_that_side(sourced):
 
 def test_every_command_and_lab_node_starts(sourced):
     code = (
-        "import json, sys; from typer.testing import CliRunner; from coframe.cli.commands import build_app\n"
+        "import json, sys; from click.testing import CliRunner; from coframe.cli.command_line import CommandLine\n"
         "for name in json.loads(sys.argv[1]):\n"
-        "    result = CliRunner().invoke(build_app([name]), [name, '--help'])\n"
+        "    result = CliRunner().invoke(CommandLine(), [name, '--help'])\n"
         "    assert result.exit_code == 0, (name, result.output, result.exception)\n"
         "import importlib, pkgutil, coframe.lab, coframe.nodes\n"
         "for package in (coframe.lab, coframe.nodes):\n"

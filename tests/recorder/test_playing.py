@@ -6,8 +6,8 @@ import time
 import numpy as np
 import pytest
 import recordings
+from click.testing import CliRunner
 from recordings import COUNT, SECOND, START, TF
-from typer.testing import CliRunner
 
 import coframe
 from coframe.bags import OfferedQos, Writer

@@ -7,7 +7,7 @@ import json
 import numpy as np
 import pytest
 import recordings
-from typer.testing import CliRunner
+from click.testing import CliRunner
 
 import coframe
 from coframe.cli.app import app

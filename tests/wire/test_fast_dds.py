@@ -132,7 +132,7 @@ def test_repeated_announcements_do_not_disturb(run, monkeypatch):
 def test_late_static_transforms_arrive_before_why_answers(run):
     run(
         """
-        from typer.testing import CliRunner
+        from click.testing import CliRunner
         from coframe.cli.app import app
         stamped = find("geometry_msgs/msg/TransformStamped")(child_frame_id="camera_link")
         stamped.header.frame_id = "base_link"

@@ -9,8 +9,7 @@ import subprocess
 from pathlib import Path
 
 import pytest
-import typer
-from typer.testing import CliRunner
+from click.testing import CliRunner
 
 import coframe
 from coframe.cli.app import app
@@ -132,7 +131,7 @@ def test_wrong_usage(arguments, text):
 def options():
     """Return the options of each command. `static` parses its own options and lists them in its help."""
     found = {"static": set(re.findall(r"--[a-z-]+", CliRunner().invoke(app, ["static", "--help"]).stdout))}
-    groups = [("", typer.main.get_command(app))]
+    groups = [("", app)]
     for name, command in groups:
         groups += [(f"{name} {inner}".strip(), each) for inner, each in getattr(command, "commands", {}).items()]
         if not hasattr(command, "commands"):

@@ -4,7 +4,7 @@
 import json
 
 import pytest
-from typer.testing import CliRunner
+from click.testing import CliRunner
 
 import coframe
 from coframe.cli.app import app

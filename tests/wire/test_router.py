@@ -10,7 +10,7 @@ import subprocess
 import sys
 
 import pytest
-from typer.testing import CliRunner
+from click.testing import CliRunner
 
 from coframe.cli.app import app
 from coframe.wire.zenoh.router import Router, how_to_reach

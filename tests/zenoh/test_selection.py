@@ -7,12 +7,12 @@ import subprocess
 import sys
 
 import pytest
-from typer.testing import CliRunner
+from click.testing import CliRunner
+from coframe.cli.wire_option import take_wire
 from zenoh_router import Router
 
 from coframe import python_children
 from coframe.cli.app import app
-from coframe.cli.wire_option import take_wire
 from coframe.errors import WireError
 from coframe.python_children import child_environment, python_environment
 from coframe.wire import selection

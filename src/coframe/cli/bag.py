@@ -3,37 +3,30 @@
 
 from __future__ import annotations
 
-import inspect
+import copy
 import json
 import re
 from datetime import datetime, timezone
-from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Any
 
-import typer
+import click
 from rich.table import Table
 from rich.text import Text
 
 from coframe.bags import COMPRESSIONS, parse_time_point, repair, summarize
 from coframe.bags.copying import copy_recordings
 from coframe.bags.namespaces import TransformChoice
-from coframe.cli.help_format import PlainCommand, PlainGroup
+from coframe.cli.declaration import PATH, CommandGroup, argument
 from coframe.cli.lifecycle import run_to_completion
 from coframe.cli.options import (
-    TF_STATIC_TOPIC,
-    TF_TOPIC,
     TIMES,
-    BagArgument,
-    KeepOption,
-    NamespaceOption,
-    PrefixOption,
-    RecordedTfStaticTopicOption,
-    RecordedTfTopicOption,
-    TfStaticTopicOption,
-    TfTopicOption,
+    bag_argument,
+    listener_options,
+    namespace_option,
+    recorded_listener_options,
 )
 from coframe.cli.output import fail, one_line, printable, report_console, warn
-from coframe.cli.play import PlayCommand, play
+from coframe.cli.play import play
 from coframe.cli.progress import task_progress
 from coframe.cli.record import record
 from coframe.cli.recordings import EARLIEST_WALL_TIME, grouped_by_topic, open_recording
@@ -42,6 +35,9 @@ from coframe.formatting import count, listed, seconds
 from coframe.time import MILLISECOND, SECOND
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+    from pathlib import Path
+
     from rich.console import Console
 
     from coframe.bags import Recording, Summary
@@ -52,42 +48,43 @@ __all__ = ["bag"]
 _NUMBER = re.compile(r"\d+(\.\d+)?")
 _MAX_ROWS = 500  # rows of `bag info`: no user reads more, and a table of 100 000 rows takes gigabytes
 
-OutputArgument = Annotated[Path, typer.Argument(metavar="OUT", help="Folder of the copy; it must not exist yet.")]
-CompressionOption = Annotated[str, typer.Option(metavar="METHOD", help="Compression of the copy: none, zstd or lz4.")]
-bag = typer.Typer(
-    cls=PlainGroup,
+output_argument = argument("output", metavar="OUT", type=PATH, help="Folder of the copy; it must not exist yet.")
+compression_option = click.option(
+    "--compression", metavar="METHOD", default="zstd", help="Compression of the copy: none, zstd or lz4."
+)
+bag = CommandGroup(
+    "bag",
     help="Record, play, inspect, repair, convert and cut recordings.\n\nExample: coframe bag info run.mcap",
-    no_args_is_help=True,
-    rich_markup_mode=None,
 )
 
 
-@bag.callback()
-def _bag() -> None:
-    pass
+def _add(command: click.Command, line: str) -> None:
+    """Add a command of which `coframe NAME` is the short form."""
+    longer = copy.copy(command)
+    longer.short_help = line
+    longer.help = (command.help or "").replace(
+        f"Example: coframe {command.name}", f"Example: coframe bag {command.name}"
+    )
+    bag.add_command(longer)
 
 
-# The short forms `coframe record` and `coframe play` are the same commands.
-for _function, _class, _line in (
-    (record, PlainCommand, "Record topics; short form: coframe record."),
-    (play, PlayCommand, "Replay a recording; short form: coframe play."),
-):
-    _name = _function.__name__
-    _help = (inspect.getdoc(_function) or "").replace(f"Example: coframe {_name}", f"Example: coframe bag {_name}")
-    bag.command(_name, cls=_class, short_help=_line, help=_help)(_function)
+_add(record, "Record topics; short form: coframe record.")
+_add(play, "Replay a recording; short form: coframe play.")
 
 
-@bag.command(cls=PlainCommand, short_help="Show topics, transform trees and gaps of a recording.")
+@bag.command(short_help="Show topics, transform trees and gaps of a recording.")
+@bag_argument
+@namespace_option
+@recorded_listener_options
+@click.option("--json", "as_json", is_flag=True, help="Print JSON in full precision; times are in nanoseconds.")
 def info(
-    bag: BagArgument,
-    namespace: NamespaceOption = None,
-    tf_topic: RecordedTfTopicOption = None,
-    tf_static_topic: RecordedTfStaticTopicOption = None,
-    prefix: PrefixOption = "",
-    keep: KeepOption = "",
-    as_json: Annotated[
-        bool, typer.Option("--json", help="Print JSON in full precision; times are in nanoseconds.")
-    ] = False,
+    bag: Path,
+    namespace: str | None,
+    tf_topic: str | None,
+    tf_static_topic: str | None,
+    prefix: str,
+    keep: str,
+    as_json: bool,
 ) -> None:
     """Show what the recording BAG contains: topics, transform trees, gaps, and which sensor data can be transformed.
 
@@ -102,19 +99,26 @@ def info(
             _print(summary)
 
 
-@bag.command(cls=PlainCommand, short_help="Write a repaired copy of a recording.")
+@bag.command(short_help="Write a repaired copy of a recording.")
+@bag_argument
+@output_argument
+@click.option(
+    "--statics",
+    metavar="OTHER",
+    type=PATH,
+    help="Other recording, whose static transforms are added where BAG has none.",
+)
+@listener_options
+@compression_option
 def fix(
-    bag: BagArgument,
-    output: OutputArgument,
-    statics: Annotated[
-        Path | None,
-        typer.Option(metavar="OTHER", help="Other recording, whose static transforms are added where BAG has none."),
-    ] = None,
-    tf_topic: TfTopicOption = TF_TOPIC,
-    tf_static_topic: TfStaticTopicOption = TF_STATIC_TOPIC,
-    prefix: PrefixOption = "",
-    keep: KeepOption = "",
-    compression: CompressionOption = "zstd",
+    bag: Path,
+    output: Path,
+    statics: Path | None,
+    tf_topic: str,
+    tf_static_topic: str,
+    prefix: str,
+    keep: str,
+    compression: str,
 ) -> None:
     """Write a repaired copy of the recording BAG to the folder OUT, and list what was repaired.
 
@@ -148,11 +152,14 @@ def fix(
         print(f"{report.path}: {count(report.messages, 'message')}")
 
 
-@bag.command(cls=PlainCommand, short_help="Convert a recording to rosbag2's MCAP, or change its compression.")
+@bag.command(short_help="Convert a recording to rosbag2's MCAP, or change its compression.")
+@bag_argument
+@output_argument
+@compression_option
 def convert(
-    bag: BagArgument,
-    output: OutputArgument,
-    compression: CompressionOption = "zstd",
+    bag: Path,
+    output: Path,
+    compression: str,
 ) -> None:
     """Convert the recording BAG, of ROS 1 or in SQLite, to MCAP in rosbag2's layout, or change its compression.
 
@@ -161,13 +168,16 @@ def convert(
     _copy([bag], output, compression)
 
 
-@bag.command(cls=PlainCommand, short_help="Merge several recordings into one, in the order of time.")
+@bag.command(short_help="Merge several recordings into one, in the order of time.")
+@argument("bags", metavar="BAG...", type=PATH, nargs=-1, required=True, help="Recordings to merge.")
+@click.option(
+    "--output", "-o", metavar="FOLDER", type=PATH, required=True, help="Folder of the new recording; it must not exist."
+)
+@compression_option
 def merge(
-    bags: Annotated[list[Path], typer.Argument(metavar="BAG...", help="Recordings to merge.")],
-    output: Annotated[
-        Path, typer.Option("--output", "-o", metavar="FOLDER", help="Folder of the new recording; it must not exist.")
-    ],
-    compression: CompressionOption = "zstd",
+    bags: tuple[Path, ...],
+    output: Path,
+    compression: str,
 ) -> None:
     """Merge several recordings into one, with the messages in the order in which they were received.
 
@@ -176,18 +186,20 @@ def merge(
     _copy(bags, output, compression)
 
 
-@bag.command("slice", cls=PlainCommand, short_help="Copy a time span or some topics of a recording.")
+@bag.command("slice", short_help="Copy a time span or some topics of a recording.")
+@bag_argument
+@output_argument
+@click.option("--start", metavar="TIME", help=f"First time of receipt: {TIMES}. [default: start]")
+@click.option("--end", metavar="TIME", help="Last time of receipt, written like --start.")
+@click.option("--topics", metavar="TOPIC", multiple=True, help="Copy only this topic; repeatable.")
+@compression_option
 def slice_(
-    bag: BagArgument,
-    output: OutputArgument,
-    start: Annotated[
-        str | None, typer.Option(metavar="TIME", help=f"First time of receipt: {TIMES}. [default: start]")
-    ] = None,
-    end: Annotated[str | None, typer.Option(metavar="TIME", help="Last time of receipt, written like --start.")] = None,
-    topics: Annotated[
-        list[str] | None, typer.Option("--topics", metavar="TOPIC", help="Copy only this topic; repeatable.")
-    ] = None,
-    compression: CompressionOption = "zstd",
+    bag: Path,
+    output: Path,
+    start: str | None,
+    end: str | None,
+    topics: tuple[str, ...],
+    compression: str,
 ) -> None:
     """Copy the messages of the recording BAG that were received in a time span, or those of some topics.
 
@@ -212,7 +224,7 @@ def _receipt_time(option: str, text: str | None, recording: Recording) -> int | 
         fail(f"{option}: {error}", code=2)
 
 
-def _copy(sources: list[Path], output: Path, compression: str, **selection: Any) -> None:
+def _copy(sources: Sequence[Path], output: Path, compression: str, **selection: Any) -> None:
     _check_compression(compression)
     with run_to_completion():
         with task_progress() as progress:

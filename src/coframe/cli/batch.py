@@ -4,63 +4,71 @@
 from __future__ import annotations
 
 import itertools
-from pathlib import Path  # noqa: TC003 - typer reads the annotations
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING
 
-import typer
+import click
 
 from coframe.bags import TrajectoryQuery, query_recordings
 from coframe.bags.batch import ENGINES
 from coframe.bags.formats import file_kinds
 from coframe.bags.namespaces import TransformChoice
+from coframe.cli.declaration import PATH, Command, argument
 from coframe.cli.lifecycle import run_to_completion
 from coframe.cli.options import (
-    KeepOption,
-    NamespaceOption,
-    PrefixOption,
-    RecordedTfStaticTopicOption,
-    RecordedTfTopicOption,
+    namespace_option,
+    recorded_listener_options,
 )
 from coframe.cli.output import fail, printable, warn
 from coframe.cli.progress import item_progress
 from coframe.formatting import count
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+    from pathlib import Path
+
     from coframe.bags import QueryResult
 
 __all__ = ["batch"]
 
 
+@click.command(cls=Command)
+@argument("target", metavar="TARGET", help="Frame in which the poses are expressed.")
+@argument("source", metavar="SOURCE", help="Frame whose poses are written.")
+@argument(
+    "bags",
+    metavar="BAG...",
+    type=PATH,
+    nargs=-1,
+    required=True,
+    help=f"Recordings: {file_kinds()}s, or rosbag2 folders.",
+)
+@click.option("--output", "-o", metavar="FOLDER", type=PATH, required=True, help="Dataset: a folder of Parquet files.")
+@click.option("--rate", "-r", metavar="HZ", type=float, help="Poses per second. [default: one per recorded transform]")
+@click.option("--stamps-of", metavar="TOPIC", help="Write a pose at the stamp of each message of this topic.")
+@click.option("--start", metavar="TIME", help="First time in each recording, written like --at of lookup.")
+@click.option("--stop", metavar="TIME", help="Last time, written like --start.")
+@click.option("--on", metavar="ENGINE", default="processes", help=f"Where to run: {', '.join(ENGINES)}.")
+@click.option(
+    "--workers", "-j", metavar="N", type=click.IntRange(min=1), help="Recordings read in parallel. [default: CPU cores]"
+)
+@namespace_option
+@recorded_listener_options
 def batch(
-    target: Annotated[str, typer.Argument(metavar="TARGET", help="Frame in which the poses are expressed.")],
-    source: Annotated[str, typer.Argument(metavar="SOURCE", help="Frame whose poses are written.")],
-    bags: Annotated[
-        list[Path], typer.Argument(metavar="BAG...", help=f"Recordings: {file_kinds()}s, or rosbag2 folders.")
-    ],
-    output: Annotated[
-        Path, typer.Option("--output", "-o", metavar="FOLDER", help="Dataset: a folder of Parquet files.")
-    ],
-    rate: Annotated[
-        float | None,
-        typer.Option("--rate", "-r", metavar="HZ", help="Poses per second. [default: one per recorded transform]"),
-    ] = None,
-    stamps_of: Annotated[
-        str | None, typer.Option(metavar="TOPIC", help="Write a pose at the stamp of each message of this topic.")
-    ] = None,
-    start: Annotated[
-        str | None, typer.Option(metavar="TIME", help="First time in each recording, written like --at of lookup.")
-    ] = None,
-    stop: Annotated[str | None, typer.Option(metavar="TIME", help="Last time, written like --start.")] = None,
-    on: Annotated[str, typer.Option(metavar="ENGINE", help=f"Where to run: {', '.join(ENGINES)}.")] = "processes",
-    workers: Annotated[
-        int | None,
-        typer.Option("--workers", "-j", metavar="N", min=1, help="Recordings read in parallel. [default: CPU cores]"),
-    ] = None,
-    namespace: NamespaceOption = None,
-    tf_topic: RecordedTfTopicOption = None,
-    tf_static_topic: RecordedTfStaticTopicOption = None,
-    prefix: PrefixOption = "",
-    keep: KeepOption = "",
+    target: str,
+    source: str,
+    bags: tuple[Path, ...],
+    output: Path,
+    rate: float | None,
+    stamps_of: str | None,
+    start: str | None,
+    stop: str | None,
+    on: str,
+    workers: int | None,
+    namespace: str | None,
+    tf_topic: str | None,
+    tf_static_topic: str | None,
+    prefix: str,
+    keep: str,
 ) -> None:
     """Write the trajectories of SOURCE relative to TARGET in many recordings as one Parquet dataset.
 
@@ -89,7 +97,7 @@ def batch(
             fail(f"{len(bad)} of {count(len(answers), 'recording')} failed, for the reasons above")
 
 
-def _run(bags: list[Path], query: TrajectoryQuery, output: Path, on: str, workers: int | None) -> list[QueryResult]:
+def _run(bags: Sequence[Path], query: TrajectoryQuery, output: Path, on: str, workers: int | None) -> list[QueryResult]:
     done = itertools.count(1)
     with item_progress("recordings", len(bags)) as show:
         return query_recordings(bags, query, output, on=on, workers=workers, progress=lambda _: show(next(done)))

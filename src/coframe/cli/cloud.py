@@ -3,22 +3,19 @@
 
 from __future__ import annotations
 
-from pathlib import Path  # noqa: TC003 - typer reads the annotations
-from typing import TYPE_CHECKING, Annotated, Any, Literal, cast
+from typing import TYPE_CHECKING, Any, Literal, cast
 
-import typer
+import click
 
 from coframe.bags import Clouds, write_clouds
 from coframe.bags.namespaces import TransformChoice
 from coframe.cli.completion import complete_frames
+from coframe.cli.declaration import PATH, Command, argument
 from coframe.cli.lifecycle import run_to_completion
 from coframe.cli.options import (
-    BagArgument,
-    KeepOption,
-    NamespaceOption,
-    PrefixOption,
-    RecordedTfStaticTopicOption,
-    RecordedTfTopicOption,
+    bag_argument,
+    namespace_option,
+    recorded_listener_options,
 )
 from coframe.cli.output import fail, fail_to_write, printable, warn
 from coframe.cli.progress import item_progress
@@ -26,69 +23,74 @@ from coframe.cli.recordings import open_recording, parse_time
 from coframe.formatting import count
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from coframe.bags import Recording
 
 __all__ = ["cloud"]
 
 
+@click.command(cls=Command)
+@bag_argument
+@argument("topic", metavar="TOPIC", help="Topic of type PointCloud2 or LaserScan.")
+@click.option(
+    "--frame",
+    metavar="FRAME",
+    required=True,
+    shell_complete=complete_frames,
+    help="Frame in which the points are expressed.",
+)
+@click.option(
+    "--output",
+    "-o",
+    metavar="FILE|FOLDER",
+    type=PATH,
+    required=True,
+    help="One cloud: .ply, .pcd, .npz or .npy. One cloud per message: a folder, or a new .mcap file.",
+)
+@click.option("--format", "-f", "format_", metavar="FORMAT", help="Format of the files in a folder. [default: ply]")
+@click.option("--at", "-t", metavar="TIME", help="Use only the message at this time.")
+@click.option("--start", metavar="TIME", help="First time, written like --at of lookup.")
+@click.option("--stop", metavar="TIME", help="Last time, written like --start.")
+@click.option(
+    "--deskew",
+    metavar="MODE",
+    default="auto",
+    help="auto: transform each point at its own time, if the cloud has times; or off.",
+)
+@click.option(
+    "--point-times",
+    metavar="FIELD[:UNIT]",
+    help="Field with the time of each point and its unit: s, ms, us or ns. [default: detected]",
+)
+@click.option(
+    "--fixed", metavar="FRAME", help="Frame that does not move during a sweep; needed if --frame itself moves."
+)
+@click.option(
+    "--fields", metavar="FIELDS", help="Fields to keep in addition to x,y,z, e.g. intensity,ring. [default: all]"
+)
+@click.option("--voxel", metavar="METRES", type=float, help="Keep one point per cube with this edge length, in metres.")
+@namespace_option
+@recorded_listener_options
 def cloud(
-    bag: BagArgument,
-    topic: Annotated[str, typer.Argument(metavar="TOPIC", help="Topic of type PointCloud2 or LaserScan.")],
-    frame: Annotated[
-        str,
-        typer.Option(
-            "--frame", metavar="FRAME", help="Frame in which the points are expressed.", autocompletion=complete_frames
-        ),
-    ],
-    output: Annotated[
-        Path,
-        typer.Option(
-            "--output",
-            "-o",
-            metavar="FILE|FOLDER",
-            help="One cloud: .ply, .pcd, .npz or .npy. One cloud per message: a folder, or a new .mcap file.",
-        ),
-    ],
-    format_: Annotated[
-        str | None,
-        typer.Option("--format", "-f", metavar="FORMAT", help="Format of the files in a folder. [default: ply]"),
-    ] = None,
-    at: Annotated[
-        str | None, typer.Option("--at", "-t", metavar="TIME", help="Use only the message at this time.")
-    ] = None,
-    start: Annotated[str | None, typer.Option(metavar="TIME", help="First time, written like --at of lookup.")] = None,
-    stop: Annotated[str | None, typer.Option(metavar="TIME", help="Last time, written like --start.")] = None,
-    deskew: Annotated[
-        str,
-        typer.Option(
-            metavar="MODE", help="auto: transform each point at its own time, if the cloud has times; or off."
-        ),
-    ] = "auto",
-    point_times: Annotated[
-        str | None,
-        typer.Option(
-            metavar="FIELD[:UNIT]",
-            help="Field with the time of each point and its unit: s, ms, us or ns. [default: detected]",
-            show_default=False,
-        ),
-    ] = None,
-    fixed: Annotated[
-        str | None,
-        typer.Option(metavar="FRAME", help="Frame that does not move during a sweep; needed if --frame itself moves."),
-    ] = None,
-    fields: Annotated[
-        str | None,
-        typer.Option(metavar="FIELDS", help="Fields to keep in addition to x,y,z, e.g. intensity,ring. [default: all]"),
-    ] = None,
-    voxel: Annotated[
-        float | None,
-        typer.Option(metavar="METRES", help="Keep one point per cube with this edge length, in metres."),
-    ] = None,
-    namespace: NamespaceOption = None,
-    tf_topic: RecordedTfTopicOption = None,
-    tf_static_topic: RecordedTfStaticTopicOption = None,
-    prefix: PrefixOption = "",
-    keep: KeepOption = "",
+    bag: Path,
+    topic: str,
+    frame: str,
+    output: Path,
+    format_: str | None,
+    at: str | None,
+    start: str | None,
+    stop: str | None,
+    deskew: str,
+    point_times: str | None,
+    fixed: str | None,
+    fields: str | None,
+    voxel: float | None,
+    namespace: str | None,
+    tf_topic: str | None,
+    tf_static_topic: str | None,
+    prefix: str,
+    keep: str,
 ) -> None:
     """Write the clouds or scans of TOPIC in the recording BAG, each transformed into FRAME at its own time.
 

@@ -8,21 +8,19 @@ import io
 import json
 import math
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Literal
+from typing import TYPE_CHECKING, Literal
 
+import click
 import numpy as np
-import typer
 
 from coframe.bags.formats import has_known_suffix
 from coframe.bags.namespaces import TransformChoice
+from coframe.cli.declaration import PATH, Command, argument
 from coframe.cli.lifecycle import run_to_completion
 from coframe.cli.options import (
-    KeepOption,
-    NamespaceOption,
     NonNegativeDuration,
-    PrefixOption,
-    RecordedTfStaticTopicOption,
-    RecordedTfTopicOption,
+    namespace_option,
+    recorded_listener_options,
 )
 from coframe.cli.output import fail, fail_to_write, printable
 from coframe.cli.plot import check_figure_package, save_figure
@@ -39,50 +37,60 @@ if TYPE_CHECKING:
 __all__ = ["compare"]
 
 _SUFFIXES = tuple(f".{kind}" for kind in (*FIGURE_FORMATS, "json", "csv"))
-_MAX_DIFFERENCE = NonNegativeDuration("10ms")
 
 
+@click.command(cls=Command)
+@argument(
+    "ref",
+    metavar="REF",
+    help="Reference: a TUM, KITTI, EuRoC, CSV or npz file, or BAG:TARGET:SOURCE for the poses of the frame "
+    "SOURCE relative to TARGET in a recording.",
+)
+@argument("est", metavar="EST", help="Estimate, written like REF.")
+@click.option(
+    "--align",
+    metavar="KIND",
+    type=click.Choice(["none", "se3", "sim3"]),
+    default="none",
+    help="Align the estimate first: none, se3 (rotation and translation), or sim3 (also scale).",
+)
+@click.option(
+    "--max-difference",
+    metavar="DURATION",
+    type=NonNegativeDuration,
+    default="10ms",
+    help="Largest difference between the stamps of two compared poses.",
+)
+@click.option(
+    "--delta",
+    metavar="DELTA",
+    default="1",
+    help="Distance between the poses of a relative error: 10 (poses), 0.5m, or 1s.",
+)
+@click.option(
+    "--output",
+    "-o",
+    metavar="FILE",
+    type=PATH,
+    multiple=True,
+    help=f"Write a plot or data: {', '.join(_SUFFIXES)}; repeatable.",
+)
+@click.option("--json", "as_json", is_flag=True, help="Print JSON, in metres and radians.")
+@namespace_option
+@recorded_listener_options
 def compare(
-    ref: Annotated[
-        str,
-        typer.Argument(
-            metavar="REF",
-            help="Reference: a TUM, KITTI, EuRoC, CSV or npz file, or BAG:TARGET:SOURCE for the poses of the frame "
-            "SOURCE relative to TARGET in a recording.",
-        ),
-    ],
-    est: Annotated[str, typer.Argument(metavar="EST", help="Estimate, written like REF.")],
-    align: Annotated[
-        Literal["none", "se3", "sim3"],
-        typer.Option(
-            metavar="KIND",
-            help="Align the estimate first: none, se3 (rotation and translation), or sim3 (also scale).",
-        ),
-    ] = "none",
-    max_difference: Annotated[
-        NonNegativeDuration,
-        typer.Option(
-            metavar="DURATION",
-            parser=NonNegativeDuration,
-            help="Largest difference between the stamps of two compared poses.",
-        ),
-    ] = _MAX_DIFFERENCE,
-    delta: Annotated[
-        str,
-        typer.Option(metavar="DELTA", help="Distance between the poses of a relative error: 10 (poses), 0.5m, or 1s."),
-    ] = "1",
-    output: Annotated[
-        list[Path] | None,
-        typer.Option(
-            "--output", "-o", metavar="FILE", help=f"Write a plot or data: {', '.join(_SUFFIXES)}; repeatable."
-        ),
-    ] = None,
-    as_json: Annotated[bool, typer.Option("--json", help="Print JSON, in metres and radians.")] = False,
-    namespace: NamespaceOption = None,
-    tf_topic: RecordedTfTopicOption = None,
-    tf_static_topic: RecordedTfStaticTopicOption = None,
-    prefix: PrefixOption = "",
-    keep: KeepOption = "",
+    ref: str,
+    est: str,
+    align: Literal["none", "se3", "sim3"],
+    max_difference: NonNegativeDuration,
+    delta: str,
+    output: tuple[Path, ...],
+    as_json: bool,
+    namespace: str | None,
+    tf_topic: str | None,
+    tf_static_topic: str | None,
+    prefix: str,
+    keep: str,
 ) -> None:
     """Compare the trajectory EST with the trajectory REF: absolute (APE) and relative (RPE) pose errors.
 
@@ -90,7 +98,7 @@ def compare(
 
     Example: coframe compare truth.tum run.mcap:map:base_link --align se3
     """
-    files = [_checked_output(path) for path in output or []]
+    files = [_checked_output(path) for path in output]
     try:
         distance = parse_delta(delta)
     except ValueError as error:

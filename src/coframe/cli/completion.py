@@ -17,6 +17,9 @@ from coframe.bags.formats import is_recording
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    import click
+    from click.shell_completion import CompletionItem
+
 __all__ = [
     "complete_frames",
     "complete_live_frames",
@@ -32,11 +35,11 @@ _UNCHANGED = 0.2  # seconds without a new name, after which the known names are 
 _LARGEST = 200 << 20  # bytes: reading more takes longer than typing the name
 
 
-def _silent(complete: Callable[..., list[str]]) -> Callable[..., list[str]]:
+def _silent(complete: Callable[..., _Names]) -> Callable[..., _Names | list[str]]:
     """Return a completion that fails without names, and during which nothing reaches stderr."""
 
     @functools.wraps(complete)
-    def run(*args: Any, **kwargs: Any) -> list[str]:
+    def run(*args: Any, **kwargs: Any) -> _Names | list[str]:
         stderr, nowhere = os.dup(2), os.open(os.devnull, os.O_WRONLY)
         os.dup2(nowhere, 2)  # The DDS library writes there, too.
         try:
@@ -52,16 +55,21 @@ def _silent(complete: Callable[..., list[str]]) -> Callable[..., list[str]]:
 
 
 @_silent
-def complete_recordings(incomplete: str) -> list[str]:
-    """Return the recordings whose paths begin with a text."""
-    folder, _, start = incomplete.rpartition("/")
-    inside = Path(f"{folder}/" if "/" in incomplete else ".")
-    prefix = f"{folder}/" if "/" in incomplete else ""
+def complete_recordings(
+    _ctx: click.Context, _parameter: click.Parameter, incomplete: str
+) -> list[str] | list[CompletionItem]:
+    """Return the recordings whose paths begin with a text; without any, the shell completes the path."""
+    from click.shell_completion import CompletionItem  # noqa: PLC0415 - only for completion
+
+    return _recordings(incomplete) or [CompletionItem(incomplete, type="file")]
+
+
+def _recordings(start_of_path: str) -> list[str]:
+    folder, _, start = start_of_path.rpartition("/")
+    inside = Path(f"{folder}/" if "/" in start_of_path else ".")
+    prefix = f"{folder}/" if "/" in start_of_path else ""
     entries = sorted(entry for entry in inside.iterdir() if entry.name.startswith(start) and _is_visible(entry, start))
-    found = [f"{prefix}{entry.name}" for entry in entries if is_recording(entry)]
-    if found or not os.environ.get("_COFRAME_COMPLETE", "").endswith("fish"):
-        return found  # Other shells complete paths by themselves if there are no recordings.
-    return [f"{prefix}{entry.name}/" for entry in entries if entry.is_dir()]
+    return [f"{prefix}{entry.name}" for entry in entries if is_recording(entry)]
 
 
 def _is_visible(entry: Path, start: str) -> bool:
@@ -69,17 +77,17 @@ def _is_visible(entry: Path, start: str) -> bool:
 
 
 @_silent
-def complete_frames(ctx: Any, incomplete: str) -> list[str]:
+def complete_frames(ctx: click.Context, parameter: click.Parameter, incomplete: str) -> list[str]:
     """Return the frames that begin with a text: of the recording in the first argument, otherwise of the ROS graph.
 
     The first argument may itself be a recording, so that matching recordings are returned for it instead.
     """
     bag, names = ctx.params.get("bag"), ctx.params.get("names") or []
     if not bag and not names:
-        return complete_recordings(incomplete) or complete_live_frames(ctx, incomplete)
+        return _recordings(incomplete) or complete_live_frames(ctx, parameter, incomplete)
     path = Path(bag or names[0])
     if not path.exists():
-        return [] if bag else complete_live_frames(ctx, incomplete)
+        return [] if bag else complete_live_frames(ctx, parameter, incomplete)
     files = path.iterdir() if path.is_dir() else [path]
     if sum(file.stat().st_size for file in files if file.is_file()) > _LARGEST:
         return []
@@ -91,7 +99,7 @@ def complete_frames(ctx: Any, incomplete: str) -> list[str]:
 
 
 @_silent
-def complete_live_frames(ctx: Any, incomplete: str) -> list[str]:
+def complete_live_frames(ctx: click.Context, _parameter: click.Parameter, incomplete: str) -> list[str]:
     """Return the frames of the ROS graph that begin with a text."""
     import coframe  # noqa: PLC0415 - only for this completion
 
@@ -102,7 +110,7 @@ def complete_live_frames(ctx: Any, incomplete: str) -> list[str]:
 
 
 @_silent
-def complete_live_topics(incomplete: str) -> list[str]:
+def complete_live_topics(_ctx: click.Context, _parameter: click.Parameter, incomplete: str) -> list[str]:
     """Return the topics of the ROS graph that begin with a text."""
     from coframe.cli.ros2.graph import is_hidden  # noqa: PLC0415 - only for this completion
 
@@ -110,7 +118,7 @@ def complete_live_topics(incomplete: str) -> list[str]:
 
 
 @_silent
-def complete_tf_topics(ctx: Any, incomplete: str) -> list[str]:
+def complete_tf_topics(ctx: click.Context, _parameter: click.Parameter, incomplete: str) -> list[str]:
     """Return the topics of transforms on the ROS graph that begin with a text."""
     topics = _live_topics(ctx.params.get("domain"))
     return sorted(name for name, types in topics.items() if _TF_TYPE in types and name.startswith(incomplete))

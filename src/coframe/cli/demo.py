@@ -7,9 +7,8 @@ import threading
 import time
 from collections import Counter
 from pathlib import Path
-from typing import Annotated
 
-import typer
+import click
 from rich.console import Console, Group
 from rich.live import Live
 from rich.text import Text
@@ -17,21 +16,18 @@ from rich.text import Text
 import coframe
 import coframe.lab
 from coframe.analysis.liveness import LivenessTracker
+from coframe.cli.declaration import Command
 from coframe.cli.lifecycle import run_until_interrupted
 from coframe.cli.options import (
-    TF_STATIC_TOPIC,
-    TF_TOPIC,
-    DomainOption,
-    DurationOption,
-    KeepOption,
-    PrefixOption,
-    TfStaticTopicOption,
-    TfTopicOption,
+    NonNegativeDuration,
+    domain_option,
+    duration_option,
+    listener_options,
 )
 from coframe.cli.output import fail
 from coframe.cli.robots_demo import show_robots
 from coframe.cli.tree_table import tree_table
-from coframe.cli.view import PortOption, optional_viewer
+from coframe.cli.view import optional_viewer, port_option
 from coframe.connection import Connection
 from coframe.lab.launcher import COMPLETE_LAB, DESCRIBED_LAB, Launcher
 from coframe.listener_config import ListenerConfig
@@ -70,28 +66,33 @@ class CloudCounter:
         return f"/scan_base_frame: {rate:.1f} Hz, {self.points} points in base_link"
 
 
+@click.command(cls=Command)
+@click.option("--urdf", is_flag=True, help="Publish the same arm, sensors and gripper from a xacro file.")
+@click.option(
+    "--robots", metavar="N", type=click.IntRange(min=1, max=50), help="Start N robots, 1 to 50, in a common map frame."
+)
+@click.option(
+    "--own-topics",
+    is_flag=True,
+    help="With --robots: each robot publishes on its own topics, e.g. /robot1/tf; a relay merges them.",
+)
+@duration_option
+@click.option("--no-browser", is_flag=True, help="Do not open a browser.")
+@port_option
+@domain_option
+@listener_options
 def demo(
-    urdf: Annotated[
-        bool, typer.Option("--urdf", help="Publish the same arm, sensors and gripper from a xacro file.")
-    ] = False,
-    robots: Annotated[
-        int | None, typer.Option(metavar="N", min=1, max=50, help="Start N robots, 1 to 50, in a common map frame.")
-    ] = None,
-    own_topics: Annotated[
-        bool,
-        typer.Option(
-            "--own-topics",
-            help="With --robots: each robot publishes on its own topics, e.g. /robot1/tf; a relay merges them.",
-        ),
-    ] = False,
-    duration: DurationOption = None,
-    no_browser: Annotated[bool, typer.Option("--no-browser", help="Do not open a browser.")] = False,
-    port: PortOption = None,
-    domain: DomainOption = None,
-    tf_topic: TfTopicOption = TF_TOPIC,
-    tf_static_topic: TfStaticTopicOption = TF_STATIC_TOPIC,
-    prefix: PrefixOption = "",
-    keep: KeepOption = "",
+    urdf: bool,
+    robots: int | None,
+    own_topics: bool,
+    duration: NonNegativeDuration | None,
+    no_browser: bool,
+    port: int | None,
+    domain: int | None,
+    tf_topic: str,
+    tf_static_topic: str,
+    prefix: str,
+    keep: str,
 ) -> None:
     """Start a simulated robot and show its moving transform tree in the browser and in the terminal.
 

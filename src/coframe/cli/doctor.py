@@ -6,25 +6,23 @@ from __future__ import annotations
 import difflib
 import json
 import time
-from pathlib import Path  # noqa: TC003 - typer reads the annotations
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Any
 
-import typer
+import click
+from click.exceptions import Exit
 from rich.console import Console, Group
 from rich.live import Live
 from rich.text import Text
 
 from coframe.bags.namespaces import TransformChoice
+from coframe.cli.declaration import Command
 from coframe.cli.lifecycle import run_to_completion, run_until_interrupted
 from coframe.cli.options import (
-    DomainOption,
-    KeepOption,
-    NamespaceOption,
-    OptionalBagArgument,
     PositiveDuration,
-    PrefixOption,
-    RecordedTfStaticTopicOption,
-    RecordedTfTopicOption,
+    domain_option,
+    namespace_option,
+    optional_bag_argument,
+    recorded_listener_options,
 )
 from coframe.cli.output import fail, one_line, printable
 from coframe.cli.progress import reading_progress
@@ -37,6 +35,9 @@ from coframe.freed_memory import return_freed_arrays
 from coframe.listener_config import ListenerConfig
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+    from pathlib import Path
+
     from coframe.doctor import Report
     from coframe.doctor.live import LiveObserver
 
@@ -48,47 +49,54 @@ _STYLES = {"error": "bold red", "warning": "yellow", "note": "cyan", "good": "gr
 _CPU_SHARE = 0.006
 
 
+@click.command(cls=Command)
+@optional_bag_argument
+@click.option("--watch", is_flag=True, help="Update the findings continuously.")
+@click.option("--json", "as_json", is_flag=True, help="Print JSON; times are in nanoseconds.")
+@click.option("--sarif", is_flag=True, help="Print SARIF 2.1.0.")
+@click.option(
+    "--system", is_flag=True, help="Check this machine instead: DDS library, network, environment variables, nodes."
+)
+@click.option("--ignore", metavar="CODE", multiple=True, help="Skip the check with this code; repeatable.")
+@click.option("--explain", metavar="CODE", help="Print the page about this code and exit.")
+@click.option(
+    "--list", "list_codes", is_flag=True, help="List all codes with their titles and exit; with --json, as JSON."
+)
+@click.option(
+    "--duration",
+    metavar="DURATION",
+    type=PositiveDuration,
+    default=_TEN_SECONDS,
+    help="Observation time; with --watch, the time window of the findings; with --system, the longest search "
+    "for nodes.",
+)
+@click.option(
+    "--cache",
+    metavar="DURATION",
+    type=PositiveDuration,
+    default=_TEN_SECONDS,
+    help="Cache length of the nodes that use the transforms.",
+)
+@namespace_option
+@domain_option
+@recorded_listener_options
 def doctor(
-    bag: OptionalBagArgument = None,
-    watch: Annotated[bool, typer.Option("--watch", help="Update the findings continuously.")] = False,
-    as_json: Annotated[bool, typer.Option("--json", help="Print JSON; times are in nanoseconds.")] = False,
-    sarif: Annotated[bool, typer.Option("--sarif", help="Print SARIF 2.1.0.")] = False,
-    system: Annotated[
-        bool,
-        typer.Option(
-            "--system", help="Check this machine instead: DDS library, network, environment variables, nodes."
-        ),
-    ] = False,
-    ignore: Annotated[
-        list[str] | None, typer.Option(metavar="CODE", help="Skip the check with this code; repeatable.")
-    ] = None,
-    explain: Annotated[
-        str | None, typer.Option(metavar="CODE", help="Print the page about this code and exit.")
-    ] = None,
-    list_codes: Annotated[
-        bool, typer.Option("--list", help="List all codes with their titles and exit; with --json, as JSON.")
-    ] = False,
-    duration: Annotated[
-        PositiveDuration,
-        typer.Option(
-            metavar="DURATION",
-            parser=PositiveDuration,
-            help="Observation time; with --watch, the time window of the findings; with --system, the longest search "
-            "for nodes.",
-        ),
-    ] = _TEN_SECONDS,
-    cache: Annotated[
-        PositiveDuration,
-        typer.Option(
-            metavar="DURATION", parser=PositiveDuration, help="Cache length of the nodes that use the transforms."
-        ),
-    ] = _TEN_SECONDS,
-    namespace: NamespaceOption = None,
-    domain: DomainOption = None,
-    tf_topic: RecordedTfTopicOption = None,
-    tf_static_topic: RecordedTfStaticTopicOption = None,
-    prefix: PrefixOption = "",
-    keep: KeepOption = "",
+    bag: Path | None,
+    watch: bool,
+    as_json: bool,
+    sarif: bool,
+    system: bool,
+    ignore: tuple[str, ...],
+    explain: str | None,
+    list_codes: bool,
+    duration: PositiveDuration,
+    cache: PositiveDuration,
+    namespace: str | None,
+    domain: int | None,
+    tf_topic: str | None,
+    tf_static_topic: str | None,
+    prefix: str,
+    keep: str,
 ) -> None:
     """Find problems with the transforms, live or in the recording BAG: what is wrong, why, and what to do.
 
@@ -107,7 +115,7 @@ def doctor(
     if system:
         _check_system(bag, domain, duration, as_json=as_json, watch=watch, sarif=sarif)
         return
-    ignored = _known_codes(ignore or [])
+    ignored = _known_codes(ignore)
     if as_json and sarif:
         fail("--json cannot be combined with --sarif", code=2)
     if watch and (sarif or bag is not None):
@@ -135,7 +143,7 @@ def doctor(
                 _watch(observer, ignored, as_json)
                 return
             if Console(stderr=True).is_terminal:
-                typer.echo(f"observing for {duration} ...", err=True)
+                click.echo(f"observing for {duration} ...", err=True)
             observer.listen(duration.seconds)
             observer.listen_for_statics()
             report = diagnose(observer.observe(), ignore=ignored)
@@ -152,7 +160,7 @@ def _check_system(
 
     with run_to_completion():
         if Console(stderr=True).is_terminal:
-            typer.echo(f"searching for nodes for up to {duration} ...", err=True)
+            click.echo(f"searching for nodes for up to {duration} ...", err=True)
         examine_system(domain, duration.seconds, as_json=as_json)
 
 
@@ -179,7 +187,7 @@ def _explain(code: str) -> None:
         print(text, end="")
 
 
-def _known_codes(options: list[str]) -> list[str]:
+def _known_codes(options: Iterable[str]) -> list[str]:
     every = [code.strip().upper() for option in options for code in option.split(",")]
     for code in every:
         if code not in codes():
@@ -211,7 +219,7 @@ def _print_and_exit(reports: dict[str, Report], as_json: bool, sarif: bool, bag:
                 console.print(Text(printable(f"{name or '/'}:"), style="bold"))
             for line in _texts(report):
                 console.print(line)
-    raise typer.Exit(0 if all(report.healthy for report in reports.values()) else 1)
+    raise Exit(0 if all(report.healthy for report in reports.values()) else 1)
 
 
 def _texts(report: Report) -> list[Text]:

@@ -7,7 +7,7 @@ import dataclasses
 import json
 from typing import TYPE_CHECKING, Any
 
-import typer
+from click.exceptions import Exit
 
 from coframe.cli.output import one_line, report_console
 from coframe.system import advise, collect
@@ -37,7 +37,7 @@ def examine_system(domain: int | None, listen: float, *, as_json: bool) -> None:
             for line in lines:
                 console.print(f"  {one_line(line)}", markup=False, highlight=False)
         _print_advice(advice)
-    raise typer.Exit(1 if any(one.severity != "note" for one in advice) else 0)
+    raise Exit(1 if any(one.severity != "note" for one in advice) else 0)
 
 
 def _as_data(report: SystemReport) -> dict[str, Any]:

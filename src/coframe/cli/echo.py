@@ -7,26 +7,22 @@ import json
 import math
 import time
 from functools import partial
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING
 
+import click
 import numpy as np
-import typer
 
 import coframe
 from coframe.cli.completion import complete_live_frames
+from coframe.cli.declaration import argument
 from coframe.cli.lifecycle import run_until_interrupted
 from coframe.cli.options import (
-    TF_STATIC_TOPIC,
-    TF_TOPIC,
-    DomainOption,
     Duration,
-    KeepOption,
-    PrefixOption,
-    TfStaticTopicOption,
-    TfTopicOption,
+    domain_option,
+    listener_options,
 )
 from coframe.cli.output import awaited_statics_text, fail, log, one_line, print_bounded, with_doctor_command
-from coframe.cli.ros_arguments import node_identity
+from coframe.cli.ros_arguments import NodeCommand, node_identity
 from coframe.errors import TransformException
 from coframe.escaping import shown
 from coframe.time import SECOND, SHORTEST_INT
@@ -39,66 +35,55 @@ if TYPE_CHECKING:
 __all__ = ["echo"]
 
 NODE = "tf2_echo"
-_CACHE_TIME = Duration("10s")
 MAX_RATE = 10_000.0  # Hz; no terminal is faster
 MAX_SECONDS = 4e9  # 126 years: the sum of two such times still fits into int64 nanoseconds
 MAX_DIGITS = 17  # significant digits of a float64
 
 
+@click.command(cls=NodeCommand)
+@argument(
+    "source_frame",
+    metavar="SOURCE_FRAME",
+    shell_complete=complete_live_frames,
+    help="Frame in which the pose is expressed (tf2_echo calls it the source).",
+)
+@argument(
+    "target_frame", metavar="TARGET_FRAME", shell_complete=complete_live_frames, help="Frame whose pose is printed."
+)
+@argument("echo_rate", metavar="[RATE]", required=False, help="Lookups per second, in Hz. [default: 1]")
+@click.option("--rate", "-r", metavar="HZ", type=float, help="The same as RATE.")
+@click.option(
+    "--cache-time", "-c", metavar="DURATION", type=Duration, default="10s", help="How long transforms are kept."
+)
+@click.option(
+    "--offset", metavar="DURATION", type=Duration, help="Look up at the current time plus this offset, e.g. -1s."
+)
+@click.option("-o", "upstream_offset", metavar="DURATION", type=Duration, hidden=True)
+@click.option(
+    "--at", "-t", "--time", metavar="SECONDS", type=float, help="Look up at this fixed time; overrides --offset."
+)
+@click.option("--limit", "-l", metavar="N", type=int, help="Exit after N transforms.")
+@click.option("--precision", "-p", metavar="DIGITS", type=int, default=3, help="Digits after the decimal point.")
+@click.option("--json", "as_json", is_flag=True, help="Print one line of JSON per transform, in full precision.")
+@domain_option
+@listener_options
 def echo(
-    source_frame: Annotated[
-        str,
-        typer.Argument(
-            metavar="SOURCE_FRAME",
-            help="Frame in which the pose is expressed (tf2_echo calls it the source).",
-            autocompletion=complete_live_frames,
-        ),
-    ],
-    target_frame: Annotated[
-        str,
-        typer.Argument(
-            metavar="TARGET_FRAME", help="Frame whose pose is printed.", autocompletion=complete_live_frames
-        ),
-    ],
-    echo_rate: Annotated[
-        str | None, typer.Argument(metavar="[RATE]", help="Lookups per second, in Hz. [default: 1]")
-    ] = None,
-    rate: Annotated[
-        float | None, typer.Option("--rate", "-r", metavar="HZ", help="The same as RATE.", show_default=False)
-    ] = None,
-    cache_time: Annotated[
-        Duration,
-        typer.Option("--cache-time", "-c", metavar="DURATION", parser=Duration, help="How long transforms are kept."),
-    ] = _CACHE_TIME,
-    offset: Annotated[
-        Duration | None,
-        typer.Option(
-            "--offset",
-            metavar="DURATION",
-            parser=Duration,
-            help="Look up at the current time plus this offset, e.g. -1s.",
-        ),
-    ] = None,
-    upstream_offset: Annotated[
-        Duration | None,
-        typer.Option("-o", metavar="DURATION", parser=Duration, hidden=True),
-    ] = None,
-    at: Annotated[
-        float | None,
-        typer.Option("--at", "-t", "--time", metavar="SECONDS", help="Look up at this fixed time; overrides --offset."),
-    ] = None,
-    limit: Annotated[int | None, typer.Option("--limit", "-l", metavar="N", help="Exit after N transforms.")] = None,
-    precision: Annotated[
-        int, typer.Option("--precision", "-p", metavar="DIGITS", help="Digits after the decimal point.")
-    ] = 3,
-    as_json: Annotated[
-        bool, typer.Option("--json", help="Print one line of JSON per transform, in full precision.")
-    ] = False,
-    domain: DomainOption = None,
-    tf_topic: TfTopicOption = TF_TOPIC,
-    tf_static_topic: TfStaticTopicOption = TF_STATIC_TOPIC,
-    prefix: PrefixOption = "",
-    keep: KeepOption = "",
+    source_frame: str,
+    target_frame: str,
+    echo_rate: str | None,
+    rate: float | None,
+    cache_time: Duration,
+    offset: Duration | None,
+    upstream_offset: Duration | None,
+    at: float | None,
+    limit: int | None,
+    precision: int,
+    as_json: bool,
+    domain: int | None,
+    tf_topic: str,
+    tf_static_topic: str,
+    prefix: str,
+    keep: str,
 ) -> None:
     """Print the pose of TARGET_FRAME relative to SOURCE_FRAME repeatedly, like ROS 2's tf2_echo.
 

@@ -5,29 +5,29 @@ from __future__ import annotations
 
 import importlib
 import json
-from pathlib import Path  # noqa: TC003 - typer reads the annotations
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Any
 
-import typer
+import click
 from rich.console import Console
 from rich.text import Text
 
 from coframe.bags.namespaces import TransformChoice
+from coframe.cli.declaration import PATH
 from coframe.cli.frames_screen import tree_in_parts, watch
 from coframe.cli.lifecycle import run_to_completion, run_until_interrupted
 from coframe.cli.options import (
-    DomainOption,
-    KeepOption,
-    NamespaceOption,
-    OptionalBagArgument,
     PositiveDuration,
-    PrefixOption,
-    RecordedTfStaticTopicOption,
-    RecordedTfTopicOption,
+    domain_option,
+    keep_option,
+    namespace_option,
+    optional_bag_argument,
+    prefix_option,
+    recorded_tf_static_topic_option,
+    recorded_tf_topic_option,
 )
 from coframe.cli.output import fail, fail_to_write, printable, report_console, warn
 from coframe.cli.progress import reading_progress
-from coframe.cli.ros_arguments import node_identity
+from coframe.cli.ros_arguments import NodeCommand, node_identity
 from coframe.complete_files import write_complete
 from coframe.doctor.recorded import observe_chosen
 from coframe.listener_config import ListenerConfig
@@ -41,6 +41,7 @@ from coframe.tree_drawing.svg import as_svg
 
 if TYPE_CHECKING:
     from collections.abc import Callable
+    from pathlib import Path
 
     from coframe.tree_drawing import Forest
 
@@ -60,7 +61,6 @@ def _png(forest: Forest, title: str) -> bytes:
     return as_png(forest, title)
 
 
-_WINDOW = PositiveDuration("5s")
 _FORMATS: dict[str, Callable[[Forest, str], str | bytes]] = {
     ".gv": as_graphviz,
     ".dot": as_graphviz,
@@ -75,32 +75,43 @@ _FORMATS: dict[str, Callable[[Forest, str], str | bytes]] = {
 _PACKAGES = {".pdf": ("pydyf", "pdf"), ".png": ("matplotlib", "plot")}
 
 
+@click.command(cls=NodeCommand)
+@optional_bag_argument
+@click.option(
+    "--output",
+    "-o",
+    metavar="FILE",
+    type=PATH,
+    multiple=True,
+    help=f"Write a diagram or data: {', '.join(_FORMATS)}; repeatable.",
+)
+@click.option("--watch", "watching", is_flag=True, help="Update the trees continuously, and highlight changes.")
+@click.option("--json", "as_json", is_flag=True, help="Print JSON; times are in nanoseconds.")
+@click.option(
+    "--duration",
+    metavar="DURATION",
+    type=PositiveDuration,
+    default="5s",
+    help="Observation time; with --watch, the time window of the statistics.",
+)
+@namespace_option
+@prefix_option
+@keep_option
+@domain_option
+@recorded_tf_topic_option
+@recorded_tf_static_topic_option
 def frames(
-    bag: OptionalBagArgument = None,
-    output: Annotated[
-        list[Path] | None,
-        typer.Option(
-            "--output", "-o", metavar="FILE", help=f"Write a diagram or data: {', '.join(_FORMATS)}; repeatable."
-        ),
-    ] = None,
-    watching: Annotated[
-        bool, typer.Option("--watch", help="Update the trees continuously, and highlight changes.")
-    ] = False,
-    as_json: Annotated[bool, typer.Option("--json", help="Print JSON; times are in nanoseconds.")] = False,
-    duration: Annotated[
-        PositiveDuration,
-        typer.Option(
-            metavar="DURATION",
-            parser=PositiveDuration,
-            help="Observation time; with --watch, the time window of the statistics.",
-        ),
-    ] = _WINDOW,
-    namespace: NamespaceOption = None,
-    prefix: PrefixOption = "",
-    keep: KeepOption = "",
-    domain: DomainOption = None,
-    tf_topic: RecordedTfTopicOption = None,
-    tf_static_topic: RecordedTfStaticTopicOption = None,
+    bag: Path | None,
+    output: tuple[Path, ...],
+    watching: bool,
+    as_json: bool,
+    duration: PositiveDuration,
+    namespace: str | None,
+    prefix: str,
+    keep: str,
+    domain: int | None,
+    tf_topic: str | None,
+    tf_static_topic: str | None,
 ) -> None:
     """Show the transform trees with the rate, delay and age of each edge, live or in the recording BAG.
 
@@ -108,7 +119,7 @@ def frames(
 
     Example: coframe frames run.mcap -o frames.svg
     """
-    files = [_checked_output(path) for path in output or []]
+    files = [_checked_output(path) for path in output]
     if watching and (files or bag is not None):
         fail(f"--watch cannot be combined with {'--output' if files else 'a recording'}", code=2)
     with run_until_interrupted() if watching else run_to_completion():
@@ -140,7 +151,7 @@ def frames(
                 watch(observer, as_json)
                 return
             if Console(stderr=True).is_terminal:
-                typer.echo(f"observing for {duration} ...", err=True)
+                click.echo(f"observing for {duration} ...", err=True)
             observer.listen(duration.seconds)
             observer.listen_for_statics()
             forest = grow(observer.observe())
@@ -191,7 +202,7 @@ def _write(path: Path, forest: Forest, title: str) -> None:
         write_complete(path, content if isinstance(content, bytes) else content.encode(errors="backslashreplace"))
     except OSError as error:
         fail_to_write(path, error)
-    typer.echo(f"{path}: {summary(forest)}", err=True)
+    click.echo(f"{path}: {summary(forest)}", err=True)
     if path.suffix.lower() in {".mmd", ".md"} and len(forest.frames) > MOST_EDGES:
         warn(f"Mermaid draws at most {MOST_EDGES} edges, unless its option maxEdges is increased")
 

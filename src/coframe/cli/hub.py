@@ -4,21 +4,18 @@
 from __future__ import annotations
 
 import threading
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING
 
-import typer
+import click
+from click.exceptions import Exit
 
 from coframe import _core
+from coframe.cli.declaration import Command
 from coframe.cli.lifecycle import run_until_interrupted
 from coframe.cli.options import (
-    TF_STATIC_TOPIC,
-    TF_TOPIC,
-    DomainOption,
-    KeepOption,
     PositiveDuration,
-    PrefixOption,
-    TfStaticTopicOption,
-    TfTopicOption,
+    domain_option,
+    listener_options,
 )
 from coframe.cli.output import fail, log
 from coframe.listener_config import ListenerConfig
@@ -31,24 +28,27 @@ __all__ = ["hub"]
 
 NODE = "coframe_hub"
 REFRESH = 1.0  # seconds
-_TEN_SECONDS = PositiveDuration("10s")
 
 
+@click.command(cls=Command)
+@click.option(
+    "--cache",
+    metavar="DURATION",
+    type=PositiveDuration,
+    default="10s",
+    help="How long dynamic transforms are kept, e.g. 30s.",
+)
+@listener_options
+@domain_option
+@click.option("--status", is_flag=True, help="Print which process receives the transforms, and exit.")
 def hub(
-    cache: Annotated[
-        PositiveDuration,
-        typer.Option(
-            metavar="DURATION", parser=PositiveDuration, help="How long dynamic transforms are kept, e.g. 30s."
-        ),
-    ] = _TEN_SECONDS,
-    tf_topic: TfTopicOption = TF_TOPIC,
-    tf_static_topic: TfStaticTopicOption = TF_STATIC_TOPIC,
-    prefix: PrefixOption = "",
-    keep: KeepOption = "",
-    domain: DomainOption = None,
-    status: Annotated[
-        bool, typer.Option("--status", help="Print which process receives the transforms, and exit.")
-    ] = False,
+    cache: PositiveDuration,
+    tf_topic: str,
+    tf_static_topic: str,
+    prefix: str,
+    keep: str,
+    domain: int | None,
+    status: bool,
 ) -> None:
     """Receive the transforms once for all programs that share them, until Ctrl-C.
 
@@ -85,7 +85,7 @@ def _print_status(config: ListenerConfig) -> None:
     try:
         if segment.try_to_write():
             print(f"No process receives {_topics(config)} for others.")
-            raise typer.Exit(1)
+            raise Exit(1)
         buffer = config.new_buffer()
         segment.follow(buffer)
         process = segment.writer_process
@@ -97,7 +97,7 @@ def _print_status(config: ListenerConfig) -> None:
             print("Static transforms were withdrawn: programs that start now share another memory, without them.")
         if is_suspended(process):
             print(suspension(process))
-            raise typer.Exit(1)
+            raise Exit(1)
     finally:
         segment.close()
 

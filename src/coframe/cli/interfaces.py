@@ -3,12 +3,12 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING
 
-import typer
+import click
+from click.exceptions import Exit
 
-from coframe.cli.help_format import PlainCommand, PlainGroup
+from coframe.cli.declaration import PATH, CommandGroup, argument
 from coframe.cli.output import fail, printable, warn
 from coframe.errors import InterfaceError
 from coframe.formatting import count, listed
@@ -21,35 +21,34 @@ from coframe.messages.stub_files import write_stubs
 from coframe.messages.type_hash import type_hash
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from coframe.messages.packages import InterfacePackage
 
 __all__ = ["interfaces"]
 
-FolderArgument = Annotated[
-    Path, typer.Argument(metavar="FOLDER", help="Folder of a package, or a folder with packages, such as a src folder.")
-]
-ProgramFolder = Annotated[
-    Path | None,
-    typer.Argument(metavar="[FOLDER]", help="Folder of a program: also show what the program finds there."),
-]
-interfaces = typer.Typer(
-    cls=PlainGroup,
+folder_argument = argument(
+    "path", metavar="FOLDER", type=PATH, help="Folder of a package, or a folder with packages, such as a src folder."
+)
+program_folder = argument(
+    "folder",
+    metavar="[FOLDER]",
+    type=PATH,
+    required=False,
+    help="Folder of a program: also show what the program finds there.",
+)
+interfaces = CommandGroup(
+    "interfaces",
     help=(
         "Find, check and add your own .msg, .srv, .action and .idl files.\n\n"
         "Example: coframe interfaces add ~/ros2_ws/src/my_msgs"
     ),
-    no_args_is_help=True,
-    rich_markup_mode=None,
 )
 
 
-@interfaces.callback()
-def _interfaces() -> None:
-    pass
-
-
-@interfaces.command("list", cls=PlainCommand, short_help="Show your packages and where they were found; check them.")
-def list_packages(folder: ProgramFolder = None) -> None:
+@interfaces.command("list", short_help="Show your packages and where they were found; check them.")
+@program_folder
+def list_packages(folder: Path | None) -> None:
     """Show your interface packages, where they were found, and what is wrong with their definitions.
 
     Programs also find packages next to them and in their workspace: give the FOLDER of the program. The exit code is 1
@@ -65,21 +64,20 @@ def list_packages(folder: ProgramFolder = None) -> None:
             if name in found:
                 continue
             found[name] = path
-            typer.echo(printable(f"{name}: {_content(load_package(name, path))}, in {path} ({source.origin})"))
+            click.echo(printable(f"{name}: {_content(load_package(name, path))}, in {path} ({source.origin})"))
             errors += _invalid(load_package(name, path))
     if not found:
         searched = list(dict.fromkeys(printable(f"\n  {source.folder}") for source in sources()))
-        typer.echo("No packages of yours were found. Searched:" + ("".join(searched) or " no folder"))
-        typer.echo(f"Show those of a program with `coframe interfaces list FOLDER`, or set {ENVIRONMENT}.")
-        typer.echo("Add a folder for all programs and commands with `coframe interfaces add FOLDER`.")
-    typer.echo(f"coframe contains {', '.join(name for name in shipped_names() if name not in found)}.")
+        click.echo("No packages of yours were found. Searched:" + ("".join(searched) or " no folder"))
+        click.echo(f"Show those of a program with `coframe interfaces list FOLDER`, or set {ENVIRONMENT}.")
+        click.echo("Add a folder for all programs and commands with `coframe interfaces add FOLDER`.")
+    click.echo(f"coframe contains {', '.join(name for name in shipped_names() if name not in found)}.")
     _report(errors)
 
 
-@interfaces.command(cls=PlainCommand, short_help="Show a definition, and the file that it is in.")
-def show(
-    name: Annotated[str, typer.Argument(metavar="NAME", help="A type, such as std_msgs/msg/Header, or a package.")],
-) -> None:
+@interfaces.command(short_help="Show a definition, and the file that it is in.")
+@argument("name", metavar="NAME", help="A type, such as std_msgs/msg/Header, or a package.")
+def show(name: str) -> None:
     """Show the definition of a message, service or action, or the types of a package.
 
     Example: coframe interfaces show std_msgs/msg/Header
@@ -90,7 +88,7 @@ def show(
         fail(f"no package {package_name}", "See all packages with `coframe interfaces list`.")
     types = [f"{kind}/{own}" for kind in package.kinds() for own in package.names(kind)]
     if not rest:
-        typer.echo("\n".join(f"{package_name}/{own}" for own in types))
+        click.echo("\n".join(f"{package_name}/{own}" for own in types))
         return
     matching = [own for own in types if rest in {own, own.partition("/")[2]}]
     if not matching:
@@ -99,8 +97,9 @@ def show(
         _show(package, own)
 
 
-@interfaces.command(cls=PlainCommand, short_help="Search a folder in every program from now on.")
-def add(path: FolderArgument) -> None:
+@interfaces.command(short_help="Search a folder in every program from now on.")
+@folder_argument
+def add(path: Path) -> None:
     """Search FOLDER for interface packages in every program from now on, and write stubs for editors.
 
     Example: coframe interfaces add ~/ros2_ws/src/my_msgs
@@ -121,14 +120,15 @@ def add(path: FolderArgument) -> None:
     forget()
     packages = [load_package(name, found[name]) for name in sorted(found)]
     for package in packages:
-        typer.echo(printable(f"{package.name}: {_content(package)}, in {package.folder}"))
+        click.echo(printable(f"{package.name}: {_content(package)}, in {package.folder}"))
     errors = [error for package in packages for error in _invalid(package)]
     _write_stubs(packages, stub_folder())
     _report(errors)
 
 
-@interfaces.command(cls=PlainCommand, short_help="Stop searching an added folder.")
-def remove(path: FolderArgument) -> None:
+@interfaces.command(short_help="Stop searching an added folder.")
+@folder_argument
+def remove(path: Path) -> None:
     """Stop searching a folder that was added.
 
     Example: coframe interfaces remove ~/ros2_ws/src/my_msgs
@@ -143,15 +143,10 @@ def remove(path: FolderArgument) -> None:
         fail(f"{settings_file()} cannot be written: {error.strerror}")
 
 
-@interfaces.command(cls=PlainCommand, short_help="Write stubs, so that editors know your messages.")
-def stubs(
-    folder: ProgramFolder = None,
-    *,
-    output: Annotated[
-        Path | None,
-        typer.Option(metavar="FOLDER", help="Folder to write; default: a folder of the user's cache."),
-    ] = None,
-) -> None:
+@interfaces.command(short_help="Write stubs, so that editors know your messages.")
+@program_folder
+@click.option("--output", metavar="FOLDER", type=PATH, help="Folder to write; default: a folder of the user's cache.")
+def stubs(folder: Path | None, output: Path | None) -> None:
     """Write stub files of your packages, so that editors and type checkers know the fields of each class.
 
     Pylance and pyright search a folder named typings in the project without any setting. Run the command again after
@@ -206,8 +201,8 @@ def _write_stubs(packages: list[InterfacePackage], folder: Path) -> list[Interfa
             errors += write_stubs(package, folder)
     except OSError as error:
         fail(f"the stubs cannot be written into {folder}: {error.strerror}")
-    typer.echo(f"Stubs of {count(len(packages), 'package')} written into {folder}")
-    typer.echo('Settings: "python.analysis.extraPaths" in VS Code, extraPaths of pyright, mypy_path of mypy.')
+    click.echo(f"Stubs of {count(len(packages), 'package')} written into {folder}")
+    click.echo('Settings: "python.analysis.extraPaths" in VS Code, extraPaths of pyright, mypy_path of mypy.')
     return errors
 
 
@@ -218,13 +213,13 @@ def _show(package: InterfacePackage, own: str) -> None:
         hashed = type_hash(find(f"{package.name}/{own}"))
     except InterfaceError as error:
         fail(str(error), error.hint)
-    typer.echo(printable(f"# {package.name}/{own}, {file or 'contained in coframe'}"))
-    typer.echo(f"# {hashed}")
-    typer.echo("\n".join(map(printable, text.strip().splitlines())))
+    click.echo(printable(f"# {package.name}/{own}, {file or 'contained in coframe'}"))
+    click.echo(f"# {hashed}")
+    click.echo("\n".join(map(printable, text.strip().splitlines())))
 
 
 def _report(errors: list[InterfaceError]) -> None:
     for text in dict.fromkeys(f"{error}" + (f" ({error.hint})" if error.hint else "") for error in errors):
         warn(text)
     if errors:
-        raise typer.Exit(1)
+        raise Exit(1)

@@ -6,36 +6,32 @@ from __future__ import annotations
 import contextlib
 import sys
 import threading
-from pathlib import Path  # noqa: TC003 - typer reads the annotations
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Any
 
-import typer
+import click
 from rich.console import Console, Group
 from rich.live import Live
 from rich.text import Text
 
 import coframe
+from coframe.cli.declaration import PASS_WORDS_ON, PATH, Command, argument
 from coframe.cli.lifecycle import run_until_interrupted
 from coframe.cli.node_arguments import reported_node_errors, xacro_arguments
 from coframe.cli.options import (
-    TF_STATIC_TOPIC,
-    TF_TOPIC,
-    DomainOption,
-    KeepOption,
-    PrefixOption,
-    TfStaticTopicOption,
-    TfTopicOption,
+    domain_option,
+    listener_options,
 )
 from coframe.cli.output import fail
 from coframe.cli.sliders import HELP, Sliders
-from coframe.cli.view import NoBrowserOption, PortOption, announce
+from coframe.cli.view import announce, no_browser_option, port_option
 from coframe.connection import Connection
 from coframe.keys import keys
 from coframe.listener_config import ListenerConfig
 from coframe.robots import RobotDescriptionError, load
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Callable, Iterable, Iterator
+    from pathlib import Path
 
     from coframe.nodes.joint_state_publisher import JointStatePublisher
     from coframe.robots import Robot
@@ -49,46 +45,48 @@ REFRESH = 0.1  # seconds
 SLIDERS = "/coframe_joints/sliders"
 
 
+@click.command(cls=Command, context_settings=PASS_WORDS_ON)
+@click.pass_context
+@argument(
+    "file",
+    metavar="[FILE]",
+    type=PATH,
+    required=False,
+    help="Robot description: a URDF or xacro file. With --gui, the default is the topic /robot_description.",
+)
+@click.option(
+    "--rate", metavar="HZ", type=click.FloatRange(min=0.001, max=1000.0), help="Publishing rate in Hz. [default: 10]"
+)
+@click.option("--source", metavar="TOPIC", multiple=True, help="Also read joint states from TOPIC; repeatable.")
+@click.option(
+    "--zero", metavar="JOINT=VALUE", multiple=True, help="Rest position of a joint, in radians or metres; repeatable."
+)
+@click.option(
+    "--delta",
+    metavar="STEP",
+    type=click.FloatRange(min=0.0),
+    help="Move all joints back and forth by STEP per message. [default: 0]",
+)
+@click.option("--gui", is_flag=True, help="Show the sliders in the viewer, not in the terminal.")
+@port_option
+@no_browser_option
+@domain_option
+@listener_options
 def joints(
-    context: typer.Context,
-    file: Annotated[
-        Path | None,
-        typer.Argument(
-            metavar="[FILE]",
-            help="Robot description: a URDF or xacro file. With --gui, the default is the topic /robot_description.",
-        ),
-    ] = None,
-    rate: Annotated[
-        float | None,
-        typer.Option(
-            metavar="HZ", min=0.001, max=1000.0, help="Publishing rate in Hz. [default: 10]", show_default=False
-        ),
-    ] = None,
-    source: Annotated[
-        list[str] | None,
-        typer.Option(metavar="TOPIC", help="Also read joint states from TOPIC; repeatable."),
-    ] = None,
-    zero: Annotated[
-        list[str] | None,
-        typer.Option(metavar="JOINT=VALUE", help="Rest position of a joint, in radians or metres; repeatable."),
-    ] = None,
-    delta: Annotated[
-        float | None,
-        typer.Option(
-            metavar="STEP",
-            min=0.0,
-            help="Move all joints back and forth by STEP per message. [default: 0]",
-            show_default=False,
-        ),
-    ] = None,
-    gui: Annotated[bool, typer.Option("--gui", help="Show the sliders in the viewer, not in the terminal.")] = False,
-    port: PortOption = None,
-    no_browser: NoBrowserOption = False,
-    domain: DomainOption = None,
-    tf_topic: TfTopicOption = TF_TOPIC,
-    tf_static_topic: TfStaticTopicOption = TF_STATIC_TOPIC,
-    prefix: PrefixOption = "",
-    keep: KeepOption = "",
+    context: click.Context,
+    file: Path | None,
+    rate: float | None,
+    source: tuple[str, ...],
+    zero: tuple[str, ...],
+    delta: float | None,
+    gui: bool,
+    port: int | None,
+    no_browser: bool,
+    domain: int | None,
+    tf_topic: str,
+    tf_static_topic: str,
+    prefix: str,
+    keep: str,
 ) -> None:
     """Publish the joint states of the robot in FILE on /joint_states, like ROS 2's joint_state_publisher.
 
@@ -111,8 +109,8 @@ def joints(
         # Options that are not given do not override the parameters of -p and --params-file.
         given = {"rate": rate, "delta": delta}
         values: dict[str, Any] = {name: value for name, value in given.items() if value is not None}
-        values |= _zeros(robot, zero or [])
-        sources = [*(source or []), *([SLIDERS] if gui else [])]
+        values |= _zeros(robot, zero)
+        sources = [*source, *([SLIDERS] if gui else [])]
         if sources:
             values["source_list"] = sources
         overrides = [Parameter(name, value=value) for name, value in values.items()]
@@ -130,7 +128,7 @@ def joints(
                 running.wait()
 
 
-def _zeros(robot: Robot | None, words: list[str]) -> dict[str, float]:
+def _zeros(robot: Robot | None, words: Iterable[str]) -> dict[str, float]:
     """Return the parameters of the node for the words JOINT=VALUE."""
     found = {}
     for word in words:

@@ -10,17 +10,17 @@ import sys
 import threading
 from contextlib import closing
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, TextIO
+from typing import TYPE_CHECKING, Any, TextIO
 
-import typer
+import click
 
 import coframe
-from coframe.cli.help_format import PlainCommand, PlainGroup
+from coframe.cli.declaration import PATH, CommandGroup, argument
 from coframe.cli.lifecycle import run_to_completion, run_until_interrupted
-from coframe.cli.options import DurationOption
+from coframe.cli.options import NonNegativeDuration, duration_option
 from coframe.cli.output import fail, print_bounded, printable, report_console, warn
 from coframe.cli.progress import item_progress
-from coframe.cli.view import PortOption, open_browser, optional_viewer
+from coframe.cli.view import open_browser, optional_viewer, port_option
 from coframe.complete_files import complete_or_absent, write_complete
 from coframe.course import formats
 from coframe.course.assignment import FILE
@@ -45,33 +45,32 @@ __all__ = ["lab"]
 
 _FIRST_OUTPUT = 8.0  # seconds after which each program should have published something
 _HANDBOOK_WIDTH = 120  # columns: longer lines are hard to read
-FolderArgument = Annotated[
-    Path | None,
-    typer.Argument(
-        metavar="[FOLDER]",
-        help=f"Folder of the lab. [default: the current folder if it contains {FILE}, otherwise lab]",
-        show_default=False,
-    ),
-]
-VariantOption = Annotated[
-    int | None,
-    typer.Option("--variant", metavar="SEED", help="Number of a variant, which has its own lengths, mounts and rates."),
-]
-lab = typer.Typer(
-    cls=PlainGroup,
+folder_argument = argument(
+    "folder",
+    metavar="[FOLDER]",
+    type=PATH,
+    required=False,
+    help=f"Folder of the lab. [default: the current folder if it contains {FILE}, otherwise lab]",
+)
+variant_option = click.option(
+    "--variant", metavar="SEED", type=int, help="Number of a variant, which has its own lengths, mounts and rates."
+)
+lab = CommandGroup(
+    "lab",
     help="Do the lab and grade it: create a folder, run its nodes, check them.\n\nExample: coframe lab new",
-    no_args_is_help=True,
-    rich_markup_mode=None,
 )
 
 
-@lab.command(cls=PlainCommand, short_help="Create a folder with the files of the lab as stubs.")
-def new(
-    folder: Annotated[
-        Path, typer.Argument(metavar="[FOLDER]", help="Folder to create. [default: lab]", show_default=False)
-    ] = Path("lab"),
-    variant: VariantOption = None,
-) -> None:
+@lab.command(short_help="Create a folder with the files of the lab as stubs.")
+@argument(
+    "folder",
+    metavar="[FOLDER]",
+    type=PATH,
+    default=Path("lab"),
+    help="Folder to create. [default: lab]",
+)
+@variant_option
+def new(folder: Path, variant: int | None) -> None:
     """Create a folder with the files of the lab: stubs with a task in each docstring, an RViz configuration, a README.
 
     Example: coframe lab new my_lab --variant 4711
@@ -83,15 +82,18 @@ def new(
         print(f"Next: read {printable(str(folder / 'README.md'))}, then run: {command}")
 
 
-@lab.command(cls=PlainCommand, short_help="Run the nodes of a folder next to a simulated robot.")
+@lab.command(short_help="Run the nodes of a folder next to a simulated robot.")
+@folder_argument
+@click.option("--complete", is_flag=True, help="Run complete_tf_tree.py in place of the two broadcasters.")
+@click.option("--browser/--no-browser", default=True, help="Open the viewer in the browser.")
+@port_option
+@duration_option
 def run(
-    folder: FolderArgument = None,
-    complete: Annotated[
-        bool, typer.Option("--complete", help="Run complete_tf_tree.py in place of the two broadcasters.")
-    ] = False,
-    browser: Annotated[bool, typer.Option("--browser/--no-browser", help="Open the viewer in the browser.")] = True,
-    port: PortOption = None,
-    duration: DurationOption = None,
+    folder: Path | None,
+    complete: bool,
+    browser: bool,
+    port: int | None,
+    duration: NonNegativeDuration | None,
 ) -> None:
     """Run the nodes of a folder with simulated joints and a simulated lidar, and show them in the viewer.
 
@@ -109,31 +111,28 @@ def run(
         _run(programs, seconds, browser=browser, port=port, names_silent=True)
 
 
-@lab.command(cls=PlainCommand, short_help="Grade a folder, or the folders of a class.")
+@lab.command(short_help="Grade a folder, or the folders of a class.")
+@folder_argument
+@click.option("--all", "everyone", is_flag=True, help="FOLDER contains the folders of a class: grade all of them.")
+@click.option("--output", "-o", metavar="FILE", type=PATH, help="With --all: write a table as CSV.")
+@click.option("--only", metavar="CRITERION", multiple=True, help=f"Check only this: {', '.join(CRITERIA)}; repeatable.")
+@variant_option
+@click.option("--json", "as_json", is_flag=True, help="Print the report as JSON.")
+@click.option("--gradescope", metavar="FILE", type=PATH, help="Write Gradescope's results.json.")
+@click.option("--classroom", metavar="FILE", type=PATH, help="Write the result for GitHub Classroom.")
+@click.option("--record", metavar="FOLDER", type=PATH, help="Record everything, to look at it in the viewer.")
+@click.option("--jobs", "-j", metavar="N", type=click.IntRange(min=1), default=2, help="With --all: folders at a time.")
 def check(
-    folder: FolderArgument = None,
-    everyone: Annotated[
-        bool, typer.Option("--all", help="FOLDER contains the folders of a class: grade all of them.")
-    ] = False,
-    output: Annotated[
-        Path | None, typer.Option("--output", "-o", metavar="FILE", help="With --all: write a table as CSV.")
-    ] = None,
-    only: Annotated[
-        list[str] | None,
-        typer.Option("--only", metavar="CRITERION", help=f"Check only this: {', '.join(CRITERIA)}; repeatable."),
-    ] = None,
-    variant: VariantOption = None,
-    as_json: Annotated[bool, typer.Option("--json", help="Print the report as JSON.")] = False,
-    gradescope: Annotated[
-        Path | None, typer.Option("--gradescope", metavar="FILE", help="Write Gradescope's results.json.")
-    ] = None,
-    classroom: Annotated[
-        Path | None, typer.Option("--classroom", metavar="FILE", help="Write the result for GitHub Classroom.")
-    ] = None,
-    record: Annotated[
-        Path | None, typer.Option("--record", metavar="FOLDER", help="Record everything, to look at it in the viewer.")
-    ] = None,
-    jobs: Annotated[int, typer.Option("--jobs", "-j", metavar="N", min=1, help="With --all: folders at a time.")] = 2,
+    folder: Path | None,
+    everyone: bool,
+    output: Path | None,
+    only: tuple[str, ...],
+    variant: int | None,
+    as_json: bool,
+    gradescope: Path | None,
+    classroom: Path | None,
+    record: Path | None,
+    jobs: int,
 ) -> None:
     """Grade the nodes of a folder by what they publish: 100 points, and 10 for each of four extensions.
 
@@ -179,19 +178,20 @@ def _write_reports(
             write_complete(path, f"{json.dumps(convert(report), indent=2)}\n".encode())
 
 
-@lab.command("break", cls=PlainCommand, short_help="Start the system with a fault, for you to find.")
+@lab.command("break", short_help="Start the system with a fault, for you to find.")
+@argument(
+    "number", metavar="N", type=click.IntRange(min=1, max=len(FAULTS)), help=f"Number of a fault, 1 to {len(FAULTS)}."
+)
+@click.option("--answer", metavar="FAULT", help="Your answer; nothing is started.")
+@click.option("--browser/--no-browser", help="Open the browser; its findings are a hint.")
+@port_option
+@duration_option
 def break_(
-    number: Annotated[
-        int, typer.Argument(metavar="N", min=1, max=len(FAULTS), help=f"Number of a fault, 1 to {len(FAULTS)}.")
-    ],
-    answer: Annotated[
-        str | None, typer.Option("--answer", metavar="FAULT", help="Your answer; nothing is started.")
-    ] = None,
-    browser: Annotated[
-        bool, typer.Option("--browser/--no-browser", help="Open the browser; its findings are a hint.")
-    ] = False,
-    port: PortOption = None,
-    duration: DurationOption = None,
+    number: int,
+    answer: str | None,
+    browser: bool,
+    port: int | None,
+    duration: NonNegativeDuration | None,
 ) -> None:
     """Start the robot of the lab with one of ten faults. Find it with the viewer, echo, monitor and frames.
 
@@ -212,19 +212,22 @@ def break_(
         _run(FAULTS[number - 1].programs, seconds, browser=browser, port=port)
 
 
-@lab.command(cls=PlainCommand, short_help="Read the handbook of the course.")
+@lab.command(short_help="Read the handbook of the course.")
+@argument(
+    "chapter",
+    metavar="[CHAPTER]",
+    type=click.IntRange(min=1),
+    required=False,
+    help="Number of a chapter. [default: the contents]",
+)
+@click.option(
+    "--output", "-o", metavar="FOLDER", type=PATH, help="Write all chapters as web pages with their pictures."
+)
+@click.option("--browser/--no-browser", default=True, help="With -o: open the pages in the browser.")
 def handbook(
-    chapter: Annotated[
-        int | None,
-        typer.Argument(metavar="[CHAPTER]", min=1, help="Number of a chapter. [default: the contents]"),
-    ] = None,
-    output: Annotated[
-        Path | None,
-        typer.Option("--output", "-o", metavar="FOLDER", help="Write all chapters as web pages with their pictures."),
-    ] = None,
-    browser: Annotated[
-        bool, typer.Option("--browser/--no-browser", help="With -o: open the pages in the browser.")
-    ] = True,
+    chapter: int | None,
+    output: Path | None,
+    browser: bool,
 ) -> None:
     """Print the contents of the handbook, or a chapter of it, or write it as web pages.
 

@@ -5,10 +5,12 @@ from __future__ import annotations
 
 import os
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING
 
-import typer
+import click
+from click.exceptions import Exit
 
+from coframe.cli.declaration import PASS_WORDS_ON, Command, argument
 from coframe.cli.output import fail
 from coframe.errors import PackageError
 from coframe.existence import exists, is_dir
@@ -24,33 +26,43 @@ __all__ = ["launch"]
 _SUFFIXES = (".launch.py", ".launch.xml", ".launch.yaml", ".launch.yml", "_launch.py", "_launch.xml", "_launch.yaml")
 
 
+@click.command(cls=Command, context_settings=PASS_WORDS_ON)
+@click.pass_context
+@argument("package_or_file", metavar="FILE|PACKAGE", help="Launch file, or the package that contains it.")
+@click.option("--show-args", "-s", "--show-arguments", is_flag=True, help="Show the arguments of the launch file.")
+@click.option(
+    "--print",
+    "-p",
+    "--print-description",
+    "print_description",
+    is_flag=True,
+    help="Print the launch description without launching it.",
+)
+@click.option("--debug", "-d", is_flag=True, help="Log all events, and errors with their traceback.")
+@click.option("--noninteractive", "-n", is_flag=True, help="Tell the launch file that no user is present.")
+@click.option(
+    "--launch-prefix",
+    metavar="COMMAND",
+    default="",
+    show_default=False,
+    help="Command to put in front of all processes.",
+)
+@click.option(
+    "--launch-prefix-filter",
+    metavar="REGEX",
+    default="",
+    show_default=False,
+    help="Use --launch-prefix for processes with such a name only.",
+)
 def launch(
-    context: typer.Context,
-    package_or_file: Annotated[
-        str, typer.Argument(metavar="FILE|PACKAGE", help="Launch file, or the package that contains it.")
-    ],
-    show_args: Annotated[
-        bool, typer.Option("--show-args", "-s", "--show-arguments", help="Show the arguments of the launch file.")
-    ] = False,
-    print_description: Annotated[
-        bool,
-        typer.Option("--print", "-p", "--print-description", help="Print the launch description without launching it."),
-    ] = False,
-    debug: Annotated[
-        bool, typer.Option("--debug", "-d", help="Log all events, and errors with their traceback.")
-    ] = False,
-    noninteractive: Annotated[
-        bool, typer.Option("--noninteractive", "-n", help="Tell the launch file that no user is present.")
-    ] = False,
-    launch_prefix: Annotated[
-        str, typer.Option(metavar="COMMAND", help="Command to put in front of all processes.", show_default=False)
-    ] = "",
-    launch_prefix_filter: Annotated[
-        str,
-        typer.Option(
-            metavar="REGEX", help="Use --launch-prefix for processes with such a name only.", show_default=False
-        ),
-    ] = "",
+    context: click.Context,
+    package_or_file: str,
+    show_args: bool,
+    print_description: bool,
+    debug: bool,
+    noninteractive: bool,
+    launch_prefix: str,
+    launch_prefix_filter: str,
 ) -> None:
     """Launch the nodes of a Python, XML or YAML launch file, like ros2 launch.
 
@@ -74,7 +86,7 @@ def launch(
 
         print(LaunchIntrospector().format_launch_description(_description(path)))
     else:
-        raise typer.Exit(_run(path, arguments, debug=debug, noninteractive=noninteractive))
+        raise Exit(_run(path, arguments, debug=debug, noninteractive=noninteractive))
 
 
 def _launch_file(package_or_file: str, words: list[str]) -> Path:
@@ -133,10 +145,10 @@ def _show_arguments(description: LaunchDescription) -> None:
     print("Arguments (pass arguments as '<name>:=<value>'):")
     if not arguments:
         print("\n  No arguments.")
-    for argument in arguments:
-        print(f"\n    '{argument.name}':\n        {argument.description}")
-        if argument.default_value is not None:
-            default = " + ".join(part.describe() for part in argument.default_value)
+    for each in arguments:
+        print(f"\n    '{each.name}':\n        {each.description}")
+        if each.default_value is not None:
+            default = " + ".join(part.describe() for part in each.default_value)
             print(f"        (default: {default})")
 
 

@@ -9,7 +9,7 @@ import signal
 import sys
 from typing import TYPE_CHECKING
 
-import typer
+from click.exceptions import Exit
 
 from coframe.cli.output import fail
 from coframe.errors import CoframeError
@@ -56,7 +56,7 @@ def run_to_completion() -> Iterator[None]:
         except KeyboardInterrupt:
             # Python ends with several searches for unused objects, which take a second if there are millions of them.
             gc.freeze()
-            raise typer.Exit(_INTERRUPTED) from None
+            raise Exit(_INTERRUPTED) from None
 
 
 def _interrupt(_signal: int, _frame: FrameType | None) -> None:

@@ -5,24 +5,22 @@ from __future__ import annotations
 
 import time
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING
 
-import typer
+import click
 
 from coframe.bags import parse_time_point
 from coframe.bags.namespaces import TransformChoice
 from coframe.cli.completion import complete_frames
+from coframe.cli.declaration import Command, argument
 from coframe.cli.echo import MAX_DIGITS, as_json_line, format_transform
 from coframe.cli.lifecycle import run_to_completion
 from coframe.cli.options import (
     TIMES,
-    DomainOption,
-    KeepOption,
-    NamespaceOption,
     PositiveDuration,
-    PrefixOption,
-    RecordedTfStaticTopicOption,
-    RecordedTfTopicOption,
+    domain_option,
+    namespace_option,
+    recorded_listener_options,
 )
 from coframe.cli.output import awaited_statics_text, fail
 from coframe.cli.recordings import check_has_transforms, open_recording, parse_lookup_time
@@ -41,62 +39,61 @@ if TYPE_CHECKING:
 __all__ = ["lookup"]
 
 _ALWAYS = (0, 0)  # the span of static transforms
-_WINDOW = PositiveDuration("5s")
 _RETRY_PERIOD = 0.05  # seconds
 
 
+@click.command(cls=Command)
+@argument(
+    "names",
+    metavar="[BAG] TARGET SOURCE",
+    nargs=-1,
+    required=True,
+    shell_complete=complete_frames,
+    help="Prints the pose of SOURCE relative to TARGET, in the order of tf2_echo; without a recording BAG, on "
+    "the live ROS graph.",
+)
+@click.option(
+    "--at",
+    "-t",
+    metavar="TIME",
+    help=f"Time of the lookup: {TIMES}; live also 'now'. [default: 'end', the latest common time]",
+)
+@click.option("--fixed", metavar="FRAME", help="Time travel: frame that does not move between --source-time and --at.")
+@click.option("--source-time", metavar="TIME", help="Time travel: time of SOURCE; --at is the time of TARGET.")
+@click.option(
+    "--duration",
+    "--timeout",
+    metavar="DURATION",
+    type=PositiveDuration,
+    default="5s",
+    help="Live: time to wait for the transform.",
+)
+@namespace_option
+@domain_option
+@recorded_listener_options
+@click.option(
+    "--precision",
+    "-p",
+    metavar="DIGITS",
+    type=click.IntRange(min=0, max=MAX_DIGITS),
+    default=6,
+    help="Digits after the decimal point.",
+)
+@click.option("--json", "as_json", is_flag=True, help="Print one line of JSON in full precision.")
 def lookup(
-    names: Annotated[
-        list[str],
-        typer.Argument(
-            metavar="[BAG] TARGET SOURCE",
-            help="Prints the pose of SOURCE relative to TARGET, in the order of tf2_echo; without a recording BAG, on "
-            "the live ROS graph.",
-            show_default=False,
-            autocompletion=complete_frames,
-        ),
-    ],
-    at: Annotated[
-        str | None,
-        typer.Option(
-            "--at",
-            "-t",
-            metavar="TIME",
-            help=f"Time of the lookup: {TIMES}; live also 'now'. [default: 'end', the latest common time]",
-            show_default=False,
-        ),
-    ] = None,
-    fixed: Annotated[
-        str | None,
-        typer.Option(metavar="FRAME", help="Time travel: frame that does not move between --source-time and --at."),
-    ] = None,
-    source_time: Annotated[
-        str | None,
-        typer.Option(metavar="TIME", help="Time travel: time of SOURCE; --at is the time of TARGET."),
-    ] = None,
-    duration: Annotated[
-        PositiveDuration,
-        typer.Option(
-            "--duration",
-            "--timeout",
-            metavar="DURATION",
-            parser=PositiveDuration,
-            help="Live: time to wait for the transform.",
-        ),
-    ] = _WINDOW,
-    namespace: NamespaceOption = None,
-    domain: DomainOption = None,
-    tf_topic: RecordedTfTopicOption = None,
-    tf_static_topic: RecordedTfStaticTopicOption = None,
-    prefix: PrefixOption = "",
-    keep: KeepOption = "",
-    precision: Annotated[
-        int,
-        typer.Option(
-            "--precision", "-p", metavar="DIGITS", min=0, max=MAX_DIGITS, help="Digits after the decimal point."
-        ),
-    ] = 6,
-    as_json: Annotated[bool, typer.Option("--json", help="Print one line of JSON in full precision.")] = False,
+    names: tuple[str, ...],
+    at: str | None,
+    fixed: str | None,
+    source_time: str | None,
+    duration: PositiveDuration,
+    namespace: str | None,
+    domain: int | None,
+    tf_topic: str | None,
+    tf_static_topic: str | None,
+    prefix: str,
+    keep: str,
+    precision: int,
+    as_json: bool,
 ) -> None:
     """Print the pose of SOURCE relative to TARGET once, live or at a time of the recording BAG.
 

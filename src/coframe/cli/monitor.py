@@ -5,27 +5,23 @@ from __future__ import annotations
 
 import json
 import sys
-from typing import TYPE_CHECKING, Annotated, Any, NoReturn
+from typing import TYPE_CHECKING, Any, NoReturn
 
-import typer
+import click
 from rich.console import Group
 from rich.live import Live
 from rich.table import Table
 from rich.text import Text
 
+from coframe.cli.declaration import argument
 from coframe.cli.lifecycle import run_until_interrupted
 from coframe.cli.options import (
-    TF_STATIC_TOPIC,
-    TF_TOPIC,
-    DomainOption,
-    KeepOption,
     PositiveDuration,
-    PrefixOption,
-    TfStaticTopicOption,
-    TfTopicOption,
+    domain_option,
+    listener_options,
 )
 from coframe.cli.output import fail, report_console
-from coframe.cli.ros_arguments import node_identity
+from coframe.cli.ros_arguments import NodeCommand, node_identity
 from coframe.doctor.figures import chain_figures, edge_figures, publisher_figures
 from coframe.escaping import shown
 from coframe.formatting import count
@@ -48,28 +44,30 @@ _LEAST_ROWS = 5
 _OTHER_LINES = 12  # of the screen: titles, a chain, and some publishers
 _BROADCASTERS = "\nAll Broadcasters:"
 
-_WINDOW = PositiveDuration("10s")
 
-
+@click.command(cls=NodeCommand)
+@argument("target", metavar="[TARGET", required=False, help="With SOURCE: show the chain between two frames.")
+@argument("source", metavar="SOURCE]", required=False, help="The other frame.")
+@click.option("--once", is_flag=True, help="Print one report after --duration and exit.")
+@click.option("--json", "as_json", is_flag=True, help="Print one line of JSON per report; times are in nanoseconds.")
+@click.option("--classic", is_flag=True, help="Print in the format of ROS 2's tf2_monitor.")
+@click.option(
+    "--duration", metavar="DURATION", type=PositiveDuration, default="10s", help="Time window of the statistics."
+)
+@domain_option
+@listener_options
 def monitor(
-    target: Annotated[
-        str | None, typer.Argument(metavar="[TARGET", help="With SOURCE: show the chain between two frames.")
-    ] = None,
-    source: Annotated[str | None, typer.Argument(metavar="SOURCE]", help="The other frame.")] = None,
-    once: Annotated[bool, typer.Option("--once", help="Print one report after --duration and exit.")] = False,
-    as_json: Annotated[
-        bool, typer.Option("--json", help="Print one line of JSON per report; times are in nanoseconds.")
-    ] = False,
-    classic: Annotated[bool, typer.Option("--classic", help="Print in the format of ROS 2's tf2_monitor.")] = False,
-    duration: Annotated[
-        PositiveDuration,
-        typer.Option(metavar="DURATION", parser=PositiveDuration, help="Time window of the statistics."),
-    ] = _WINDOW,
-    domain: DomainOption = None,
-    tf_topic: TfTopicOption = TF_TOPIC,
-    tf_static_topic: TfStaticTopicOption = TF_STATIC_TOPIC,
-    prefix: PrefixOption = "",
-    keep: KeepOption = "",
+    target: str | None,
+    source: str | None,
+    once: bool,
+    as_json: bool,
+    classic: bool,
+    duration: PositiveDuration,
+    domain: int | None,
+    tf_topic: str,
+    tf_static_topic: str,
+    prefix: str,
+    keep: str,
 ) -> None:
     """Show the rate, jitter, delay and age of each edge and publisher, and which edge delays a chain.
 

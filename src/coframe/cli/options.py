@@ -7,19 +7,21 @@ Every option has the same name, the same value name and the same sentence in eve
 from __future__ import annotations
 
 import re
-from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING
 
-import typer
+import click
 
 from coframe import frame_names
 from coframe.bags.formats import file_kinds
 from coframe.cli.completion import complete_recordings, complete_tf_topics
+from coframe.cli.declaration import PATH, Declared, argument
 from coframe.cli.output import fail, warn
 from coframe.frame_names import TF_STATIC_TOPIC, TF_TOPIC
 from coframe.time import SECOND, duration_ns
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from typing_extensions import Self
 
 __all__ = [
@@ -27,22 +29,22 @@ __all__ = [
     "TF_STATIC_TOPIC",
     "TF_TOPIC",
     "TIMES",
-    "BagArgument",
-    "DomainOption",
     "Duration",
-    "DurationOption",
-    "KeepOption",
-    "NamespaceOption",
     "NonNegativeDuration",
-    "OptionalBagArgument",
     "PositiveDuration",
-    "PrefixOption",
-    "RecordedTfStaticTopicOption",
-    "RecordedTfTopicOption",
-    "TfStaticTopicOption",
-    "TfTopicOption",
+    "bag_argument",
     "checked_prefix",
-    "with_leading_slash",
+    "domain_option",
+    "duration_option",
+    "keep_option",
+    "namespace_option",
+    "optional_bag_argument",
+    "prefix_option",
+    "recorded_tf_static_topic_option",
+    "recorded_tf_topic_option",
+    "tf_static_topic_option",
+    "tf_topic_option",
+    "topic_name",
 ]
 
 # How a duration is written.
@@ -65,7 +67,7 @@ class Duration(int):
         """Read a duration.
 
         Raises:
-            typer.BadParameter: The text is not a duration, or not one of this class.
+            click.BadParameter: The text is not a duration, or not one of this class.
         """
         text = str(text)
         bare = text.strip().removeprefix("+")
@@ -75,10 +77,10 @@ class Duration(int):
         try:
             duration = super().__new__(cls, sign * duration_ns(bare))
         except (ValueError, TypeError):
-            raise typer.BadParameter(f"{text[:60]!r} is not a duration. {DURATIONS}") from None
+            raise click.BadParameter(f"{text[:60]!r} is not a duration. {DURATIONS}") from None
         duration._text = text
         if reason := duration._refusal():
-            raise typer.BadParameter(f"{reason}, not {text[:60]!r}.")
+            raise click.BadParameter(f"{reason}, not {text[:60]!r}.")
         return duration
 
     def _refusal(self) -> str:
@@ -112,9 +114,9 @@ class PositiveDuration(Duration):
         return "the duration must be greater than 0" if self <= 0 else ""
 
 
-def with_leading_slash(topic: str | None) -> str | None:
-    """Return the name of a topic with its leading slash; None stays None."""
-    return topic if topic is None or topic.startswith("/") else f"/{topic}"
+def topic_name(name: str) -> str:
+    """Return the name of a topic with its leading slash; an option takes this function as its type."""
+    return name if name.startswith("/") else f"/{name}"
 
 
 def checked_prefix(prefix: str) -> str:
@@ -128,97 +130,92 @@ def checked_prefix(prefix: str) -> str:
     return prefix
 
 
-BagArgument = Annotated[
-    Path,
-    typer.Argument(
-        metavar="BAG",
-        help=f"Recording: a {file_kinds()}, or a rosbag2 folder.",
-        autocompletion=complete_recordings,
-    ),
-]
-OptionalBagArgument = Annotated[
-    Path | None,
-    typer.Argument(
-        metavar="[BAG]",
-        help="Recording; without it, the live ROS graph.",
-        show_default=False,
-        autocompletion=complete_recordings,
-    ),
-]
-NamespaceOption = Annotated[
-    str | None,
-    typer.Option(
-        metavar="NAMESPACE",
-        help="Use only the transforms of this namespace, e.g. /robot1 for /robot1/tf and /robot1/tf_static.",
-        show_default=False,
-    ),
-]
-DurationOption = Annotated[
-    NonNegativeDuration | None,
-    typer.Option(
-        metavar="DURATION",
-        parser=NonNegativeDuration,
-        help="Stop after this time, e.g. 30s or 10min. [default: on Ctrl-C]",
-    ),
-]
-DomainOption = Annotated[
-    int | None,
-    typer.Option(
-        metavar="ID",
-        min=0,
-        max=232,
-        help="ROS domain ID, 0 to 232. [default: $ROS_DOMAIN_ID, or 0]",
-        show_default=False,
-    ),
-]
-TfTopicOption = Annotated[
-    str,
-    typer.Option(
-        metavar="TOPIC",
-        help="Topic of the transforms, e.g. /robot1/tf.",
-        callback=with_leading_slash,
-        autocompletion=complete_tf_topics,
-    ),
-]
-TfStaticTopicOption = Annotated[
-    str,
-    typer.Option(
-        metavar="TOPIC",
-        help="Topic of the static transforms, e.g. /robot1/tf_static.",
-        callback=with_leading_slash,
-        autocompletion=complete_tf_topics,
-    ),
-]
-RecordedTfTopicOption = Annotated[
-    str | None,
-    typer.Option(
-        metavar="TOPIC",
-        help="Topic of the transforms, e.g. /robot1/tf. [default: /tf; in a recording, all]",
-        callback=with_leading_slash,
-        autocompletion=complete_tf_topics,
-        show_default=False,
-    ),
-]
-RecordedTfStaticTopicOption = Annotated[
-    str | None,
-    typer.Option(
-        metavar="TOPIC",
-        help="Topic of the static transforms. [default: /tf_static; in a recording, all]",
-        callback=with_leading_slash,
-        autocompletion=complete_tf_topics,
-        show_default=False,
-    ),
-]
-PrefixOption = Annotated[
-    str,
-    typer.Option(
-        metavar="PREFIX",
-        help="Prefix for all frame names, with its slash, e.g. robot1/.",
-        callback=checked_prefix,
-        show_default=False,
-    ),
-]
-KeepOption = Annotated[
-    str,
-    typer.Option(metavar="FRAMES", help="Shared frames that get no prefix, e.g. map,world.", show_default=False),
-]
+bag_argument = argument(
+    "bag",
+    metavar="BAG",
+    type=PATH,
+    shell_complete=complete_recordings,
+    help=f"Recording: a {file_kinds()}, or a rosbag2 folder.",
+)
+optional_bag_argument = argument(
+    "bag",
+    metavar="[BAG]",
+    type=PATH,
+    required=False,
+    shell_complete=complete_recordings,
+    help="Recording; without it, the live ROS graph.",
+)
+namespace_option = click.option(
+    "--namespace",
+    metavar="NAMESPACE",
+    help="Use only the transforms of this namespace, e.g. /robot1 for /robot1/tf and /robot1/tf_static.",
+)
+duration_option = click.option(
+    "--duration",
+    metavar="DURATION",
+    type=NonNegativeDuration,
+    help="Stop after this time, e.g. 30s or 10min. [default: on Ctrl-C]",
+)
+domain_option = click.option(
+    "--domain",
+    metavar="ID",
+    type=click.IntRange(min=0, max=232),
+    help="ROS domain ID, 0 to 232. [default: $ROS_DOMAIN_ID, or 0]",
+)
+tf_topic_option = click.option(
+    "--tf-topic",
+    metavar="TOPIC",
+    type=topic_name,
+    default=TF_TOPIC,
+    shell_complete=complete_tf_topics,
+    help="Topic of the transforms, e.g. /robot1/tf.",
+)
+tf_static_topic_option = click.option(
+    "--tf-static-topic",
+    metavar="TOPIC",
+    type=topic_name,
+    default=TF_STATIC_TOPIC,
+    shell_complete=complete_tf_topics,
+    help="Topic of the static transforms, e.g. /robot1/tf_static.",
+)
+recorded_tf_topic_option = click.option(
+    "--tf-topic",
+    metavar="TOPIC",
+    type=topic_name,
+    shell_complete=complete_tf_topics,
+    help="Topic of the transforms, e.g. /robot1/tf. [default: /tf; in a recording, all]",
+)
+recorded_tf_static_topic_option = click.option(
+    "--tf-static-topic",
+    metavar="TOPIC",
+    type=topic_name,
+    shell_complete=complete_tf_topics,
+    help="Topic of the static transforms. [default: /tf_static; in a recording, all]",
+)
+prefix_option = click.option(
+    "--prefix",
+    metavar="PREFIX",
+    type=checked_prefix,
+    default="",
+    show_default=False,
+    help="Prefix for all frame names, with its slash, e.g. robot1/.",
+)
+keep_option = click.option(
+    "--keep", metavar="FRAMES", default="", show_default=False, help="Shared frames that get no prefix, e.g. map,world."
+)
+
+
+def listener_options(function: Declared) -> Declared:
+    """Declare the options about transforms that are received: topics, prefix and kept frames."""
+    return _declared(function, tf_topic_option, tf_static_topic_option, prefix_option, keep_option)
+
+
+def recorded_listener_options(function: Declared) -> Declared:
+    """Declare the same options for a command that may also read a recording."""
+    return _declared(function, recorded_tf_topic_option, recorded_tf_static_topic_option, prefix_option, keep_option)
+
+
+def _declared(function: Declared, *options: Callable[[Declared], Declared]) -> Declared:
+    for option in reversed(options):
+        function = option(function)
+    return function

@@ -8,7 +8,8 @@ import sys
 import time
 from typing import IO, TYPE_CHECKING, Any, NoReturn, cast
 
-import typer
+import click
+from click.exceptions import Exit
 
 from coframe.bounded_lines import print_bounded
 from coframe.cli.system_errors import advice_for_writing
@@ -38,12 +39,12 @@ _REDIRECTED_WIDTH = 1000  # columns
 
 def fail(text: str, hint: str = "", *, code: int = 1, details: str = "") -> NoReturn:
     """Print what failed in one line, then lines of details, then what to do; end the command with this exit code."""
-    typer.echo(f"coframe: {one_line(text)}", err=True)
+    click.echo(f"coframe: {one_line(text)}", err=True)
     if details:
-        typer.echo(printable(details), err=True)
+        click.echo(printable(details), err=True)
     if hint:
-        typer.echo(f"  {one_line(with_doctor_command(hint))}", err=True)
-    raise typer.Exit(code)
+        click.echo(f"  {one_line(with_doctor_command(hint))}", err=True)
+    raise Exit(code)
 
 
 def fail_to_write(path: Path | None, error: OSError) -> NoReturn:

@@ -5,26 +5,23 @@ from __future__ import annotations
 
 import contextlib
 import sys
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Any
 
-import typer
+import click
 from rich.console import Console
 from rich.live import Live
 from rich.text import Text
 
 import coframe
-from coframe.cli.help_format import PlainCommand
+from coframe.cli.declaration import Command
 from coframe.cli.lifecycle import run_until_interrupted
 from coframe.cli.options import (
     TF_STATIC_TOPIC,
     TF_TOPIC,
-    BagArgument,
-    DomainOption,
     Duration,
-    KeepOption,
-    PrefixOption,
-    TfStaticTopicOption,
-    TfTopicOption,
+    bag_argument,
+    domain_option,
+    listener_options,
 )
 from coframe.cli.output import fail, warn
 from coframe.formatting import count
@@ -34,18 +31,18 @@ from coframe.recorder import play as start_playing
 from coframe.time import SECOND
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from coframe.recorder import Player
 
-__all__ = ["PlayCommand", "play"]
+__all__ = ["play"]
 
-_START_OFFSET = Duration("0s")
-_DELAY = Duration("1s")
 _REFRESH = 0.1  # seconds
 _CLOCK_RATE = "40"  # Hz, as in rosbag2
 _HELP = "space: pause, right: next message, up/down: faster/slower, Ctrl-C: stop"
 
 
-class PlayCommand(PlainCommand):
+class PlayCommand(Command):
     """The command ``play``, whose option ``--clock`` may have no value, as in rosbag2."""
 
     def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
@@ -64,43 +61,50 @@ def _is_number(following: list[str]) -> bool:
         return False
 
 
+@click.command(cls=PlayCommand)
+@bag_argument
+@click.option("--topics", metavar="TOPIC", multiple=True, help="Replay only this topic; repeatable.")
+@click.option("--remap", "-m", metavar="OLD:=NEW", multiple=True, help="Publish the topic OLD as NEW; repeatable.")
+@click.option("--rate", "-r", metavar="FACTOR", type=float, default=1.0, help="Playback speed; 2 is twice as fast.")
+@click.option("--loop", is_flag=True, help="Start again at the end.")
+@click.option("-l", "upstream_loop", is_flag=True, hidden=True)
+@click.option(
+    "--start-offset",
+    metavar="DURATION",
+    type=Duration,
+    default="0s",
+    help="Skip this much at the start, e.g. 10s or 2min.",
+)
+@click.option("--start-paused", is_flag=True, help="Start paused.")
+@click.option("-p", "upstream_paused", is_flag=True, hidden=True)
+@click.option(
+    "--clock",
+    metavar="[HZ]",
+    type=float,
+    help="Publish /clock at this rate; without a value, at 40 Hz. [default: /clock as recorded]",
+)
+@click.option(
+    "--delay", metavar="DURATION", type=Duration, default="1s", help="Time to wait for subscribers before the start."
+)
+@domain_option
+@listener_options
 def play(
-    bag: BagArgument,
-    topics: Annotated[
-        list[str] | None, typer.Option("--topics", metavar="TOPIC", help="Replay only this topic; repeatable.")
-    ] = None,
-    remap: Annotated[
-        list[str] | None,
-        typer.Option("--remap", "-m", metavar="OLD:=NEW", help="Publish the topic OLD as NEW; repeatable."),
-    ] = None,
-    rate: Annotated[
-        float, typer.Option("--rate", "-r", metavar="FACTOR", help="Playback speed; 2 is twice as fast.")
-    ] = 1.0,
-    loop: Annotated[bool, typer.Option("--loop", help="Start again at the end.")] = False,
-    upstream_loop: Annotated[bool, typer.Option("-l", hidden=True)] = False,
-    start_offset: Annotated[
-        Duration,
-        typer.Option(metavar="DURATION", parser=Duration, help="Skip this much at the start, e.g. 10s or 2min."),
-    ] = _START_OFFSET,
-    start_paused: Annotated[bool, typer.Option("--start-paused", help="Start paused.")] = False,
-    upstream_paused: Annotated[bool, typer.Option("-p", hidden=True)] = False,
-    clock: Annotated[
-        float | None,
-        typer.Option(
-            metavar="[HZ]",
-            help="Publish /clock at this rate; without a value, at 40 Hz. [default: /clock as recorded]",
-            show_default=False,
-        ),
-    ] = None,
-    delay: Annotated[
-        Duration,
-        typer.Option(metavar="DURATION", parser=Duration, help="Time to wait for subscribers before the start."),
-    ] = _DELAY,
-    domain: DomainOption = None,
-    tf_topic: TfTopicOption = TF_TOPIC,
-    tf_static_topic: TfStaticTopicOption = TF_STATIC_TOPIC,
-    prefix: PrefixOption = "",
-    keep: KeepOption = "",
+    bag: Path,
+    topics: tuple[str, ...],
+    remap: tuple[str, ...],
+    rate: float,
+    loop: bool,
+    upstream_loop: bool,
+    start_offset: Duration,
+    start_paused: bool,
+    upstream_paused: bool,
+    clock: float | None,
+    delay: Duration,
+    domain: int | None,
+    tf_topic: str,
+    tf_static_topic: str,
+    prefix: str,
+    keep: str,
 ) -> None:
     """Replay the recording BAG: publish its messages in order and at their original rate, static transforms first.
 
@@ -117,7 +121,7 @@ def play(
                 remap={
                     TF_TOPIC: tf_topic,
                     TF_STATIC_TOPIC: tf_static_topic,
-                    **dict(map(_parsed_remapping, remap or [])),
+                    **dict(map(_parsed_remapping, remap)),
                 },
                 rate=rate,
                 # The short options of `ros2 bag play` are accepted; in the other commands they mean something else.

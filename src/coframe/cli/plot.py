@@ -3,20 +3,17 @@
 
 from __future__ import annotations
 
-from pathlib import Path  # noqa: TC003 - typer reads the annotations
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING
 
-import typer
+import click
 
 from coframe.bags.namespaces import TransformChoice
+from coframe.cli.declaration import PATH, Command, argument
 from coframe.cli.lifecycle import run_to_completion
 from coframe.cli.options import (
-    BagArgument,
-    KeepOption,
-    NamespaceOption,
-    PrefixOption,
-    RecordedTfStaticTopicOption,
-    RecordedTfTopicOption,
+    bag_argument,
+    namespace_option,
+    recorded_listener_options,
 )
 from coframe.cli.output import fail, fail_to_write, printable, warn
 from coframe.cli.progress import task_progress
@@ -26,6 +23,8 @@ from coframe.formatting import count
 from coframe.plotting import FIGURE_FORMATS, Figure, evaluate, figure_format, parse_expression
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from coframe.plotting import Series
 
 __all__ = ["check_figure_package", "plot", "save_figure"]
@@ -33,32 +32,43 @@ __all__ = ["check_figure_package", "plot", "save_figure"]
 _SUFFIXES = ", ".join(f".{kind}" for kind in FIGURE_FORMATS)
 
 
+@click.command(cls=Command)
+@bag_argument
+@argument(
+    "expressions",
+    metavar="EXPR...",
+    nargs=-1,
+    required=True,
+    help="What to plot. The frame base_link relative to odom: odom:base_link.x, also .y .z .roll .pitch .yaw "
+    ".distance. A field of messages: /odom.twist.twist.linear.x, /scan.ranges[0]. The rate or delay of a topic "
+    "or an edge: /tf.rate, odom:base_link.delay. In quotation marks, 'odom->base_link.x' means the same.",
+)
+@click.option(
+    "--output",
+    "-o",
+    metavar="FILE",
+    type=PATH,
+    multiple=True,
+    required=True,
+    help=f"Output file: {_SUFFIXES} (interactive); repeatable.",
+)
+@click.option("--start", metavar="TIME", help="First time, written like --at of lookup.")
+@click.option("--stop", metavar="TIME", help="Last time, written like --start.")
+@click.option("--title", metavar="TITLE", help="Title of the plot. [default: the name of BAG]")
+@namespace_option
+@recorded_listener_options
 def plot(
-    bag: BagArgument,
-    expressions: Annotated[
-        list[str],
-        typer.Argument(
-            metavar="EXPR...",
-            help="What to plot. The frame base_link relative to odom: odom:base_link.x, also .y .z .roll .pitch .yaw "
-            ".distance. A field of messages: /odom.twist.twist.linear.x, /scan.ranges[0]. The rate or delay of a topic "
-            "or an edge: /tf.rate, odom:base_link.delay. In quotation marks, 'odom->base_link.x' means the same.",
-        ),
-    ],
-    output: Annotated[
-        list[Path],
-        typer.Option("--output", "-o", metavar="FILE", help=f"Output file: {_SUFFIXES} (interactive); repeatable."),
-    ],
-    start: Annotated[str | None, typer.Option(metavar="TIME", help="First time, written like --at of lookup.")] = None,
-    stop: Annotated[str | None, typer.Option(metavar="TIME", help="Last time, written like --start.")] = None,
-    title: Annotated[
-        str | None,
-        typer.Option(metavar="TITLE", help="Title of the plot. [default: the name of BAG]", show_default=False),
-    ] = None,
-    namespace: NamespaceOption = None,
-    tf_topic: RecordedTfTopicOption = None,
-    tf_static_topic: RecordedTfStaticTopicOption = None,
-    prefix: PrefixOption = "",
-    keep: KeepOption = "",
+    bag: Path,
+    expressions: tuple[str, ...],
+    output: tuple[Path, ...],
+    start: str | None,
+    stop: str | None,
+    title: str | None,
+    namespace: str | None,
+    tf_topic: str | None,
+    tf_static_topic: str | None,
+    prefix: str,
+    keep: str,
 ) -> None:
     """Plot poses, fields of messages, rates and delays over time from the recording BAG.
 

@@ -6,27 +6,25 @@ from __future__ import annotations
 import re
 import sys
 import time
-from pathlib import Path  # noqa: TC003 - typer reads the annotations
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING
 
-import typer
+import click
 from rich.console import Console
 from rich.live import Live
 from rich.text import Text
 
 import coframe
 from coframe.cli.completion import complete_live_topics
+from coframe.cli.declaration import PATH, Command, argument
 from coframe.cli.lifecycle import run_until_interrupted
 from coframe.cli.options import (
     TF_STATIC_TOPIC,
     TF_TOPIC,
-    DomainOption,
-    DurationOption,
-    KeepOption,
+    NonNegativeDuration,
     PositiveDuration,
-    PrefixOption,
-    TfStaticTopicOption,
-    TfTopicOption,
+    domain_option,
+    duration_option,
+    listener_options,
 )
 from coframe.cli.output import fail, one_line, print_bounded, warn
 from coframe.formatting import count
@@ -34,6 +32,8 @@ from coframe.freed_memory import return_freed_arrays
 from coframe.recorder import record as start_recording
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from coframe.recorder import Recorder
 
 __all__ = ["record"]
@@ -44,51 +44,54 @@ _UNITS = {"": 1, "k": 1000, "m": 1000**2, "g": 1000**3}
 _LARGEST = 1 << 63  # bytes
 
 
+@click.command(cls=Command)
+@argument(
+    "topics",
+    metavar="[TOPIC]...",
+    nargs=-1,
+    shell_complete=complete_live_topics,
+    help="Topics to record. [default: all]",
+)
+@click.option(
+    "--output",
+    "-o",
+    metavar="FOLDER",
+    type=PATH,
+    help="Folder of the recording. [default: rosbag2_ and the date and time]",
+)
+@click.option("--all", "-a", "everything", is_flag=True, help="Record all topics that are not hidden.")
+@click.option("--regex", "-e", metavar="REGEX", help="Record topics whose full name matches.")
+@click.option("--exclude", "-x", metavar="REGEX", help="Do not record topics that match.")
+@click.option("--compression", metavar="METHOD", default="zstd", help="Compression: none, zstd or lz4.")
+@click.option("--max-size", metavar="SIZE", help="Start a new file at this size, e.g. 500MB or 2GB.")
+@click.option(
+    "--max-duration",
+    metavar="DURATION",
+    type=PositiveDuration,
+    help="Start a new file after this duration, e.g. 30s or 10min.",
+)
+@duration_option
+@click.option(
+    "--backlog", metavar="SIZE", default="128MB", help="Memory for messages that wait to be written; more are dropped."
+)
+@domain_option
+@listener_options
 def record(
-    topics: Annotated[
-        list[str] | None,
-        typer.Argument(
-            metavar="[TOPIC]...", help="Topics to record. [default: all]", autocompletion=complete_live_topics
-        ),
-    ] = None,
-    output: Annotated[
-        Path | None,
-        typer.Option(
-            "--output",
-            "-o",
-            metavar="FOLDER",
-            help="Folder of the recording. [default: rosbag2_ and the date and time]",
-            show_default=False,
-        ),
-    ] = None,
-    everything: Annotated[bool, typer.Option("--all", "-a", help="Record all topics that are not hidden.")] = False,
-    regex: Annotated[
-        str | None, typer.Option("--regex", "-e", metavar="REGEX", help="Record topics whose full name matches.")
-    ] = None,
-    exclude: Annotated[
-        str | None, typer.Option("--exclude", "-x", metavar="REGEX", help="Do not record topics that match.")
-    ] = None,
-    compression: Annotated[str, typer.Option(metavar="METHOD", help="Compression: none, zstd or lz4.")] = "zstd",
-    max_size: Annotated[
-        str | None, typer.Option(metavar="SIZE", help="Start a new file at this size, e.g. 500MB or 2GB.")
-    ] = None,
-    max_duration: Annotated[
-        PositiveDuration | None,
-        typer.Option(
-            metavar="DURATION",
-            parser=PositiveDuration,
-            help="Start a new file after this duration, e.g. 30s or 10min.",
-        ),
-    ] = None,
-    duration: DurationOption = None,
-    backlog: Annotated[
-        str, typer.Option(metavar="SIZE", help="Memory for messages that wait to be written; more are dropped.")
-    ] = "128MB",
-    domain: DomainOption = None,
-    tf_topic: TfTopicOption = TF_TOPIC,
-    tf_static_topic: TfStaticTopicOption = TF_STATIC_TOPIC,
-    prefix: PrefixOption = "",
-    keep: KeepOption = "",
+    topics: tuple[str, ...],
+    output: Path | None,
+    everything: bool,
+    regex: str | None,
+    exclude: str | None,
+    compression: str,
+    max_size: str | None,
+    max_duration: PositiveDuration | None,
+    duration: NonNegativeDuration | None,
+    backlog: str,
+    domain: int | None,
+    tf_topic: str,
+    tf_static_topic: str,
+    prefix: str,
+    keep: str,
 ) -> None:
     """Record topics as MCAP files in the layout of rosbag2, until Ctrl-C.
 

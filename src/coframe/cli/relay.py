@@ -6,22 +6,25 @@ from __future__ import annotations
 import contextlib
 import threading
 import time
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING
 
-import typer
+import click
 from rich.console import Console, Group
 from rich.live import Live
 from rich.table import Table
 from rich.text import Text
 
 import coframe
+from coframe.cli.declaration import Command
 from coframe.cli.lifecycle import run_until_interrupted
-from coframe.cli.options import TF_TOPIC, DomainOption, KeepOption, PrefixOption, checked_prefix, with_leading_slash
+from coframe.cli.options import TF_TOPIC, checked_prefix, domain_option, keep_option, prefix_option, topic_name
 from coframe.cli.output import fail, log, one_line, report_console
 from coframe.escaping import shown
 from coframe.formatting import count
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     from coframe.tf_relay import Relay, RelayedEdge
 
 __all__ = ["relay"]
@@ -30,66 +33,69 @@ NODE = "coframe_relay"
 REFRESH = 1.0  # seconds
 
 
+@click.command(cls=Command)
+@click.option(
+    "--robots",
+    metavar="NAMES",
+    default="",
+    show_default=False,
+    help="Names of the robots, e.g. robot1,robot2 for /robot1/tf and /robot2/tf.",
+)
+@click.option(
+    "--from",
+    "sources",
+    metavar="TOPIC[=PREFIX]",
+    multiple=True,
+    help="Topic of one robot, or with --split the common topic; repeatable. Static transforms: TOPIC_static.",
+)
+@click.option(
+    "--to",
+    "--tf-topic",
+    "tf_topic",
+    metavar="TOPIC",
+    type=topic_name,
+    default=TF_TOPIC,
+    help="Common topic: the output or, with --split, the input.",
+)
+@click.option(
+    "--tf-static-topic",
+    metavar="TOPIC",
+    type=topic_name,
+    help="Common topic of the static transforms. [default: that of --to with _static]",
+)
+@prefix_option
+@click.option("--prefix-each", is_flag=True, help="Prefix the frames of each robot with its name and a slash.")
+@keep_option
+@click.option(
+    "--rate",
+    metavar="HZ",
+    type=float,
+    help="Maximum rate of each edge, in Hz; with --max-error, the least rate while a robot moves. "
+    "[default: all transforms; with --max-error: 10]",
+)
+@click.option(
+    "--max-error",
+    metavar="DISTANCE,ANGLE",
+    help="Skip transforms that subscribers can interpolate with at most this error, e.g. 1mm,0.1deg.",
+)
+@click.option(
+    "--split", is_flag=True, help="Reverse: relay frames with the prefix robot1/ to /robot1/tf, without the prefix."
+)
+@click.option("--status", is_flag=True, help="Show each edge with its source, rate and age.")
+@domain_option
 def relay(
-    robots: Annotated[
-        str,
-        typer.Option(metavar="NAMES", help="Names of the robots, e.g. robot1,robot2 for /robot1/tf and /robot2/tf."),
-    ] = "",
-    sources: Annotated[
-        list[str] | None,
-        typer.Option(
-            "--from",
-            metavar="TOPIC[=PREFIX]",
-            help="Topic of one robot, or with --split the common topic; repeatable. Static transforms: TOPIC_static.",
-        ),
-    ] = None,
-    tf_topic: Annotated[
-        str,
-        typer.Option(
-            "--to",
-            "--tf-topic",
-            metavar="TOPIC",
-            help="Common topic: the output or, with --split, the input.",
-            callback=with_leading_slash,
-        ),
-    ] = TF_TOPIC,
-    tf_static_topic: Annotated[
-        str | None,
-        typer.Option(
-            metavar="TOPIC",
-            help="Common topic of the static transforms. [default: that of --to with _static]",
-            callback=with_leading_slash,
-            show_default=False,
-        ),
-    ] = None,
-    prefix: PrefixOption = "",
-    prefix_each: Annotated[
-        bool, typer.Option("--prefix-each", help="Prefix the frames of each robot with its name and a slash.")
-    ] = False,
-    keep: KeepOption = "",
-    rate: Annotated[
-        float | None,
-        typer.Option(
-            metavar="HZ",
-            help="Maximum rate of each edge, in Hz; with --max-error, the least rate while a robot moves. "
-            "[default: all transforms; with --max-error: 10]",
-        ),
-    ] = None,
-    max_error: Annotated[
-        str | None,
-        typer.Option(
-            metavar="DISTANCE,ANGLE",
-            help="Skip transforms that subscribers can interpolate with at most this error, e.g. 1mm,0.1deg.",
-        ),
-    ] = None,
-    split: Annotated[
-        bool,
-        typer.Option(
-            "--split", help="Reverse: relay frames with the prefix robot1/ to /robot1/tf, without the prefix."
-        ),
-    ] = False,
-    status: Annotated[bool, typer.Option("--status", help="Show each edge with its source, rate and age.")] = False,
-    domain: DomainOption = None,
+    robots: str,
+    sources: tuple[str, ...],
+    tf_topic: str,
+    tf_static_topic: str | None,
+    prefix: str,
+    prefix_each: bool,
+    keep: str,
+    rate: float | None,
+    max_error: str | None,
+    split: bool,
+    status: bool,
+    domain: int | None,
 ) -> None:
     """Relay the transforms of several robots to one topic, or split one topic into one for each robot.
 
@@ -98,7 +104,7 @@ def relay(
 
     Example: coframe relay --robots robot1,robot2 --prefix-each --keep map,world
     """
-    prefixes = _prefixes(sources or [])
+    prefixes = _prefixes(sources)
     common = tf_topic
     if split:
         common = next(iter(prefixes), tf_topic)
@@ -132,7 +138,7 @@ def relay(
         threading.Event().wait()
 
 
-def _prefixes(sources: list[str]) -> dict[str, str]:
+def _prefixes(sources: Iterable[str]) -> dict[str, str]:
     """Return the prefix of each topic, from the words TOPIC=PREFIX."""
     pairs = [source.partition("=") for source in sources]
     return {topic: checked_prefix(prefix) for topic, _, prefix in pairs}

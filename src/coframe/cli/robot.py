@@ -3,53 +3,56 @@
 
 from __future__ import annotations
 
-from pathlib import Path  # noqa: TC003 - typer reads the annotations
-from typing import Annotated
+from typing import TYPE_CHECKING
 
-import typer
+import click
 
+from coframe.cli.declaration import PASS_WORDS_ON, PATH, Command, argument
 from coframe.cli.lifecycle import run_until_interrupted
 from coframe.cli.node_arguments import reported_node_errors, xacro_arguments
 from coframe.cli.options import (
-    TF_STATIC_TOPIC,
-    TF_TOPIC,
-    DomainOption,
-    KeepOption,
-    PrefixOption,
-    TfStaticTopicOption,
-    TfTopicOption,
+    domain_option,
+    keep_option,
+    prefix_option,
+    tf_static_topic_option,
+    tf_topic_option,
 )
 from coframe.robots import load
+
+if TYPE_CHECKING:
+    from pathlib import Path
 
 __all__ = ["robot"]
 
 
+@click.command(cls=Command, context_settings=PASS_WORDS_ON)
+@click.pass_context
+@argument("file", metavar="FILE", type=PATH, help="Robot description: a URDF or xacro file.")
+@prefix_option
+@keep_option
+@click.option(
+    "--frequency",
+    "-f",
+    metavar="HZ",
+    type=click.FloatRange(min=0.0, max=1000.0),
+    help="Maximum publishing rate of each joint, in Hz. [default: 20]",
+)
+@click.option(
+    "--ignore-timestamp", is_flag=True, help="Publish for every joint state, regardless of its stamp and --frequency."
+)
+@domain_option
+@tf_topic_option
+@tf_static_topic_option
 def robot(
-    context: typer.Context,
-    file: Annotated[Path, typer.Argument(metavar="FILE", help="Robot description: a URDF or xacro file.")],
-    prefix: PrefixOption = "",
-    keep: KeepOption = "",
-    frequency: Annotated[
-        float | None,
-        typer.Option(
-            "--frequency",
-            "-f",
-            min=0.0,
-            max=1000.0,
-            metavar="HZ",
-            help="Maximum publishing rate of each joint, in Hz. [default: 20]",
-            show_default=False,
-        ),
-    ] = None,
-    ignore_timestamp: Annotated[
-        bool,
-        typer.Option(
-            "--ignore-timestamp", help="Publish for every joint state, regardless of its stamp and --frequency."
-        ),
-    ] = False,
-    domain: DomainOption = None,
-    tf_topic: TfTopicOption = TF_TOPIC,
-    tf_static_topic: TfStaticTopicOption = TF_STATIC_TOPIC,
+    context: click.Context,
+    file: Path,
+    prefix: str,
+    keep: str,
+    frequency: float | None,
+    ignore_timestamp: bool,
+    domain: int | None,
+    tf_topic: str,
+    tf_static_topic: str,
 ) -> None:
     """Publish the transforms of the robot in FILE from its joint states, like ROS 2's robot_state_publisher.
 

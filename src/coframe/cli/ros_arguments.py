@@ -12,7 +12,7 @@ import re
 from contextvars import ContextVar
 from typing import TYPE_CHECKING, Any, NamedTuple, NoReturn, TypedDict
 
-from coframe.cli.help_format import PlainCommand
+from coframe.cli.declaration import Command
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -47,7 +47,7 @@ class _Rule(NamedTuple):
 _rules: ContextVar[tuple[_Rule, ...]] = ContextVar("rules", default=())
 
 
-class NodeCommand(PlainCommand):
+class NodeCommand(Command):
     """A command whose node is named by the remapping rules after ``--ros-args``."""
 
     def parse_args(self, ctx: Any, args: list[str]) -> list[str]:

@@ -6,10 +6,10 @@ from __future__ import annotations
 import os
 import sys
 import time
-from typing import Annotated
 
-import typer
+import click
 
+from coframe.cli.declaration import Command
 from coframe.cli.lifecycle import run_until_interrupted
 from coframe.cli.output import log
 
@@ -19,26 +19,31 @@ NODE = "coframe_router"
 _UPDATE_PERIOD = 1.0  # seconds
 
 
+@click.command(cls=Command)
+@click.option(
+    "--config",
+    metavar="FILE",
+    default="",
+    show_default=False,
+    help="Configuration of Zenoh (JSON5), which replaces the defaults. [default: $ZENOH_ROUTER_CONFIG_URI]",
+)
+@click.option(
+    "--listen",
+    metavar="ENDPOINT",
+    multiple=True,
+    help="Endpoint to listen on, e.g. tcp/0.0.0.0:7447 for all interfaces; repeatable. "
+    "[default: tcp/127.0.0.1:7447, this machine only]",
+)
+@click.option(
+    "--connect",
+    metavar="ENDPOINT",
+    multiple=True,
+    help="Endpoint of another router, e.g. tcp/10.0.0.5:7447; repeatable.",
+)
 def router(
-    config: Annotated[
-        str,
-        typer.Option(
-            metavar="FILE",
-            help="Configuration of Zenoh (JSON5), which replaces the defaults. [default: $ZENOH_ROUTER_CONFIG_URI]",
-        ),
-    ] = "",
-    listen: Annotated[
-        list[str] | None,
-        typer.Option(
-            metavar="ENDPOINT",
-            help="Endpoint to listen on, e.g. tcp/0.0.0.0:7447 for all interfaces; repeatable. "
-            "[default: tcp/127.0.0.1:7447, this machine only]",
-        ),
-    ] = None,
-    connect: Annotated[
-        list[str] | None,
-        typer.Option(metavar="ENDPOINT", help="Endpoint of another router, e.g. tcp/10.0.0.5:7447; repeatable."),
-    ] = None,
+    config: str,
+    listen: tuple[str, ...],
+    connect: tuple[str, ...],
 ) -> None:
     """Run a Zenoh router, which connects nodes on Zenoh with each other and with other networks.
 
@@ -55,10 +60,10 @@ def router(
 
     if not sys.stderr.isatty():
         os.environ.setdefault("NO_COLOR", "1")  # for the log of Zenoh
-    with run_until_interrupted(), Router(file=config, listen=listen or [], connect=connect or []) as running:
+    with run_until_interrupted(), Router(file=config, listen=listen, connect=connect) as running:
         for endpoint in running.endpoints:
             report(f"Listening on {endpoint}. {how_to_reach(endpoint)}")
-        for endpoint in connect or []:
+        for endpoint in connect:
             report(f"Connecting to {endpoint}")
         running.report_connections(report)
         while True:

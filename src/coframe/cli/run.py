@@ -7,10 +7,12 @@ import os
 import shlex
 import subprocess
 import sys
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING
 
-import typer
+import click
+from click.exceptions import Exit
 
+from coframe.cli.declaration import PASS_WORDS_ON, Command, argument
 from coframe.cli.output import fail
 from coframe.errors import PackageError
 from coframe.packages.executables import executables, find_executable
@@ -22,16 +24,21 @@ if TYPE_CHECKING:
 __all__ = ["run"]
 
 
+# The arguments of the executable begin after its name, and may look like options.
+@click.command(cls=Command, context_settings={**PASS_WORDS_ON, "allow_interspersed_args": False})
+@click.pass_context
+@argument("package", metavar="PACKAGE", help="Name of the package.")
+@argument(
+    "executable", metavar="[EXECUTABLE]", required=False, help="Name of the executable; without it, all are listed."
+)
+@click.option(
+    "--prefix", metavar="COMMAND", default="", show_default=False, help="Command to put in front, e.g. 'gdb --args'."
+)
 def run(
-    context: typer.Context,
-    package: Annotated[str, typer.Argument(metavar="PACKAGE", help="Name of the package.")],
-    executable: Annotated[
-        str | None,
-        typer.Argument(metavar="[EXECUTABLE]", help="Name of the executable; without it, all are listed."),
-    ] = None,
-    prefix: Annotated[
-        str, typer.Option(metavar="COMMAND", help="Command to put in front, e.g. 'gdb --args'.", show_default=False)
-    ] = "",
+    context: click.Context,
+    package: str,
+    executable: str | None,
+    prefix: str,
 ) -> None:
     """Run an executable of PACKAGE with all further arguments, like ros2 run.
 
@@ -43,7 +50,7 @@ def run(
     try:
         if executable is None:
             find_package(package)
-            typer.echo("\n".join(sorted(executables(package))))
+            click.echo("\n".join(sorted(executables(package))))
             return
         found = find_executable(package, executable)
     except PackageError as error:
@@ -63,6 +70,6 @@ def _replace_process(command: list[str], environment: Mapping[str, str]) -> None
         fail(f"{command[0]} cannot be run: {error.strerror}")
     while True:
         try:
-            raise typer.Exit(child.wait())
+            raise Exit(child.wait())
         except KeyboardInterrupt:
             continue

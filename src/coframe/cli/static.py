@@ -8,12 +8,14 @@ import string
 import threading
 import time
 
-import typer
+import click
+from click.exceptions import Exit
 
+from coframe.cli.declaration import PASS_WORDS_ON
 from coframe.cli.lifecycle import run_until_interrupted
 from coframe.cli.options import checked_prefix
 from coframe.cli.output import fail, log
-from coframe.cli.ros_arguments import NodeIdentity, node_identity
+from coframe.cli.ros_arguments import NodeCommand, NodeIdentity, node_identity
 from coframe.cli.static_arguments import ArgumentError, StaticArguments, parse
 from coframe.escaping import shown
 from coframe.frame_names import renaming
@@ -52,18 +54,22 @@ Options:
   --keep FRAMES            Shared frames that get no prefix, e.g. map,world.
   --ros-args -r __node:=NAME -r __ns:=/NAMESPACE -r /tf_static:=TOPIC
                            Names of the node and of the topic.
+  --wire [dds|zenoh]       Middleware to use. [default: $COFRAME_WIRE, or DDS]
   --help                   Show this message and exit.
 """
 
 
-def static(context: typer.Context) -> None:
+# Numbers of a transform may be negative, so the command reads its arguments itself.
+@click.command(cls=NodeCommand, add_help_option=False, context_settings=PASS_WORDS_ON)
+@click.pass_context
+def static(context: click.Context) -> None:
     """Publish a static transform until stopped, like ROS 2's static_transform_publisher.
 
     Example: coframe static --z 0.5 --frame-id base_link --child-frame-id lidar
     """
     if not context.args or {"-h", "--help"} & set(context.args):
-        typer.echo(USAGE, nl=False)
-        raise typer.Exit(0 if context.args else 2)
+        click.echo(USAGE, nl=False)
+        raise Exit(0 if context.args else 2)
     suffix = "".join(secrets.choice(string.ascii_letters) for _ in range(16))
     identity = node_identity(f"static_transform_publisher_{suffix}")
     node = identity["node_name"]
@@ -71,8 +77,8 @@ def static(context: typer.Context) -> None:
         arguments = parse(context.args)
     except ArgumentError as error:
         log("ERROR", node, f"error parsing command line arguments: {error}")
-        typer.echo(USAGE, nl=False)
-        raise typer.Exit(1) from None
+        click.echo(USAGE, nl=False)
+        raise Exit(1) from None
     if arguments.old_style:
         log("WARN", node, "Old-style arguments are deprecated; see --help for new-style arguments")
     if arguments.frame_id == arguments.child_frame_id:

@@ -4,22 +4,19 @@
 from __future__ import annotations
 
 import sys
-from pathlib import Path  # noqa: TC003 - typer reads the annotations
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING
 
-import typer
+import click
 
 from coframe.bags import TrajectoryQuery
 from coframe.bags.namespaces import TransformChoice
 from coframe.cli.completion import complete_frames
+from coframe.cli.declaration import PATH, Command, argument
 from coframe.cli.lifecycle import run_to_completion
 from coframe.cli.options import (
-    BagArgument,
-    KeepOption,
-    NamespaceOption,
-    PrefixOption,
-    RecordedTfStaticTopicOption,
-    RecordedTfTopicOption,
+    bag_argument,
+    namespace_option,
+    recorded_listener_options,
 )
 from coframe.cli.output import fail, fail_to_write, warn
 from coframe.cli.progress import item_progress
@@ -29,6 +26,7 @@ from coframe.trajectories import FORMATS, format_of, write_trajectory
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
+    from pathlib import Path
 
     from coframe import Transform
     from coframe.bags import Recording
@@ -36,45 +34,39 @@ if TYPE_CHECKING:
 __all__ = ["trajectory"]
 
 
+@click.command(cls=Command)
+@bag_argument
+@argument("target", metavar="TARGET", shell_complete=complete_frames, help="Frame in which the poses are expressed.")
+@argument("source", metavar="SOURCE", shell_complete=complete_frames, help="Frame whose poses are written.")
+@click.option("--output", "-o", metavar="FILE", type=PATH, help="Output file. [default: standard output]")
+@click.option(
+    "--format",
+    "-f",
+    "format_",
+    metavar="FORMAT",
+    help=f"Format: {', '.join(FORMATS)}. [default: by the suffix of FILE, or tum]",
+)
+@click.option("--rate", "-r", metavar="HZ", type=float, help="Poses per second. [default: one per recorded transform]")
+@click.option("--stamps-of", metavar="TOPIC", help="Write a pose at the stamp of each message of this topic.")
+@click.option("--start", metavar="TIME", help="First time, written like --at of lookup.")
+@click.option("--stop", metavar="TIME", help="Last time, written like --start.")
+@namespace_option
+@recorded_listener_options
 def trajectory(
-    bag: BagArgument,
-    target: Annotated[
-        str,
-        typer.Argument(
-            metavar="TARGET", help="Frame in which the poses are expressed.", autocompletion=complete_frames
-        ),
-    ],
-    source: Annotated[
-        str, typer.Argument(metavar="SOURCE", help="Frame whose poses are written.", autocompletion=complete_frames)
-    ],
-    output: Annotated[
-        Path | None,
-        typer.Option("--output", "-o", metavar="FILE", help="Output file. [default: standard output]"),
-    ] = None,
-    format_: Annotated[
-        str | None,
-        typer.Option(
-            "--format",
-            "-f",
-            metavar="FORMAT",
-            help=f"Format: {', '.join(FORMATS)}. [default: by the suffix of FILE, or tum]",
-            show_default=False,
-        ),
-    ] = None,
-    rate: Annotated[
-        float | None,
-        typer.Option("--rate", "-r", metavar="HZ", help="Poses per second. [default: one per recorded transform]"),
-    ] = None,
-    stamps_of: Annotated[
-        str | None, typer.Option(metavar="TOPIC", help="Write a pose at the stamp of each message of this topic.")
-    ] = None,
-    start: Annotated[str | None, typer.Option(metavar="TIME", help="First time, written like --at of lookup.")] = None,
-    stop: Annotated[str | None, typer.Option(metavar="TIME", help="Last time, written like --start.")] = None,
-    namespace: NamespaceOption = None,
-    tf_topic: RecordedTfTopicOption = None,
-    tf_static_topic: RecordedTfStaticTopicOption = None,
-    prefix: PrefixOption = "",
-    keep: KeepOption = "",
+    bag: Path,
+    target: str,
+    source: str,
+    output: Path | None,
+    format_: str | None,
+    rate: float | None,
+    stamps_of: str | None,
+    start: str | None,
+    stop: str | None,
+    namespace: str | None,
+    tf_topic: str | None,
+    tf_static_topic: str | None,
+    prefix: str,
+    keep: str,
 ) -> None:
     """Write the trajectory of SOURCE relative to TARGET in the recording BAG.
 

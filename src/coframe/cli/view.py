@@ -9,23 +9,22 @@ import threading
 import time
 import webbrowser
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Any
 
-import typer
+import click
 
 import coframe
 from coframe.bags.namespaces import TransformChoice
 from coframe.bags.recording import open_chosen
 from coframe.cli.completion import complete_recordings
+from coframe.cli.declaration import PATH, argument
 from coframe.cli.lifecycle import run_until_interrupted
 from coframe.cli.options import (
-    DomainOption,
-    KeepOption,
-    PrefixOption,
-    RecordedTfStaticTopicOption,
-    RecordedTfTopicOption,
+    domain_option,
+    recorded_listener_options,
 )
 from coframe.cli.output import fail, warn
+from coframe.cli.ros_arguments import NodeCommand
 from coframe.connection import Connection
 from coframe.freed_memory import return_freed_arrays
 from coframe.listener_config import ListenerConfig
@@ -42,86 +41,90 @@ if TYPE_CHECKING:
 
 __all__ = ["announce", "open_browser", "optional_viewer", "view"]
 
-HostOption = Annotated[
-    str,
-    typer.Option(
-        metavar="ADDRESS",
-        help="Address to listen on; 0.0.0.0 lets other machines connect, with the token in the printed address.",
-    ),
-]
-PortOption = Annotated[
-    int | None,
-    typer.Option(
-        metavar="PORT",
-        min=0,
-        max=65535,
-        help="Port of the viewer; 0 chooses a free one. [default: 7676 or, if it is in use, a free one]",
-        show_default=False,
-    ),
-]
-NoBrowserOption = Annotated[bool, typer.Option("--no-browser", help="Print the address without opening a browser.")]
+host_option = click.option(
+    "--host",
+    metavar="ADDRESS",
+    default="127.0.0.1",
+    help="Address to listen on; 0.0.0.0 lets other machines connect, with the token in the printed address.",
+)
+port_option = click.option(
+    "--port",
+    metavar="PORT",
+    type=click.IntRange(min=0, max=65535),
+    help="Port of the viewer; 0 chooses a free one. [default: 7676 or, if it is in use, a free one]",
+)
+no_browser_option = click.option("--no-browser", is_flag=True, help="Print the address without opening a browser.")
 
 
+@click.command(cls=NodeCommand)
+@argument(
+    "bag",
+    metavar="[BAG]",
+    default="live",
+    shell_complete=complete_recordings,
+    help="Recording; without it, or with 'live', the live ROS graph.",
+)
+@click.option(
+    "--display-config", "-d", "rviz", metavar="FILE", type=PATH, help="RViz configuration, a .rviz file of RViz 2 or 1."
+)
+@click.option(
+    "--fixed",
+    metavar="FRAME",
+    default="",
+    show_default=False,
+    help="Fixed frame, in which everything is shown. [default: the root of the tree]",
+)
+@port_option
+@host_option
+@no_browser_option
+@click.option(
+    "--robot",
+    metavar="FILE",
+    type=PATH,
+    help="URDF or xacro file of a robot to show, in addition to /robot_description.",
+)
+@click.option(
+    "--mesh-root",
+    metavar="FOLDER",
+    type=PATH,
+    multiple=True,
+    help="Folder from which meshes may be loaded; repeatable.",
+)
+@click.option(
+    "--output",
+    "-o",
+    metavar="FILE",
+    type=PATH,
+    help="Write a replay of BAG to an .html file, which plays in any browser, instead of starting a viewer.",
+)
+@click.option("--start", metavar="TIME", help="First time of the replay, written like --at of lookup.")
+@click.option("--stop", metavar="TIME", help="Last time of the replay.")
+@click.option(
+    "--rate",
+    metavar="HZ",
+    type=click.FloatRange(min=0.1, max=MAX_RATE),
+    help="Frames per second of the replay. [default: 30, or fewer if the recording is long]",
+)
+@domain_option
+@recorded_listener_options
 def view(
-    bag: Annotated[
-        str,
-        typer.Argument(
-            metavar="[BAG]",
-            help="Recording; without it, or with 'live', the live ROS graph.",
-            autocompletion=complete_recordings,
-        ),
-    ] = "live",
-    rviz: Annotated[
-        Path | None,
-        typer.Option("--display-config", "-d", metavar="FILE", help="RViz configuration, a .rviz file of RViz 2 or 1."),
-    ] = None,
-    fixed: Annotated[
-        str,
-        typer.Option(
-            metavar="FRAME",
-            help="Fixed frame, in which everything is shown. [default: the root of the tree]",
-            show_default=False,
-        ),
-    ] = "",
-    port: PortOption = None,
-    host: HostOption = "127.0.0.1",
-    no_browser: NoBrowserOption = False,
-    robot: Annotated[
-        Path | None,
-        typer.Option(metavar="FILE", help="URDF or xacro file of a robot to show, in addition to /robot_description."),
-    ] = None,
-    mesh_root: Annotated[
-        list[Path] | None,
-        typer.Option(metavar="FOLDER", help="Folder from which meshes may be loaded; repeatable."),
-    ] = None,
-    output: Annotated[
-        Path | None,
-        typer.Option(
-            "--output",
-            "-o",
-            metavar="FILE",
-            help="Write a replay of BAG to an .html file, which plays in any browser, instead of starting a viewer.",
-        ),
-    ] = None,
-    start: Annotated[
-        str | None, typer.Option(metavar="TIME", help="First time of the replay, written like --at of lookup.")
-    ] = None,
-    stop: Annotated[str | None, typer.Option(metavar="TIME", help="Last time of the replay.")] = None,
-    rate: Annotated[
-        float | None,
-        typer.Option(
-            metavar="HZ",
-            min=0.1,
-            max=MAX_RATE,
-            help="Frames per second of the replay. [default: 30, or fewer if the recording is long]",
-            show_default=False,
-        ),
-    ] = None,
-    domain: DomainOption = None,
-    tf_topic: RecordedTfTopicOption = None,
-    tf_static_topic: RecordedTfStaticTopicOption = None,
-    prefix: PrefixOption = "",
-    keep: KeepOption = "",
+    bag: str,
+    rviz: Path | None,
+    fixed: str,
+    port: int | None,
+    host: str,
+    no_browser: bool,
+    robot: Path | None,
+    mesh_root: tuple[Path, ...],
+    output: Path | None,
+    start: str | None,
+    stop: str | None,
+    rate: float | None,
+    domain: int | None,
+    tf_topic: str | None,
+    tf_static_topic: str | None,
+    prefix: str,
+    keep: str,
 ) -> None:
     """Show all frames and the data in them in a browser tab, live or from the recording BAG at any time.
 
@@ -137,7 +140,7 @@ def view(
         if output.suffix.lower() not in {".html", ".htm"}:
             fail(f"--output {output}: unknown suffix {output.suffix!r}. Suffix: .html", code=2)
         choice = TransformChoice(None, tf_topic, tf_static_topic, prefix, keep)
-        look: dict[str, Any] = {"rviz": rviz, "fixed": fixed, "robot": robot, "mesh_roots": mesh_root or []}
+        look: dict[str, Any] = {"rviz": rviz, "fixed": fixed, "robot": robot, "mesh_roots": mesh_root}
         write_replay(Path(bag), output, choice, **look, start=start, stop=stop, rate=rate)
         return
     if unused := [f"--{name}" for name, value in replay.items() if value is not None]:
@@ -154,7 +157,7 @@ def view(
             port=port,
             rviz=rviz,
             robot=robot,
-            mesh_roots=mesh_root or [],
+            mesh_roots=mesh_root,
         )
         with viewer:
             # The browser starts while the graph is joined or the recording is read.

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-import typer
+import click
 
 from coframe.bags.namespaces import TransformChoice
 from coframe.cli.lifecycle import run_to_completion
@@ -62,7 +62,7 @@ def write_replay(
                     progress=progress,
                 )
         _write(output, page)
-        typer.echo(f"{output}: {len(page) / 1e6:.1f} MB, opens in any browser", err=True)
+        click.echo(f"{output}: {len(page) / 1e6:.1f} MB, opens in any browser", err=True)
 
 
 def _write(output: Path, page: bytes) -> None:

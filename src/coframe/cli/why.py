@@ -11,9 +11,10 @@ import shlex
 import time
 from collections import deque
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, NamedTuple, NoReturn
+from typing import TYPE_CHECKING, Any, NamedTuple, NoReturn
 
-import typer
+import click
+from click.exceptions import Exit
 from rich.console import Console, Group
 from rich.live import Live
 from rich.text import Text
@@ -21,16 +22,14 @@ from rich.text import Text
 from coframe.bags import parse_time_point
 from coframe.bags.namespaces import TransformChoice
 from coframe.cli.completion import complete_frames
+from coframe.cli.declaration import Command, argument
 from coframe.cli.lifecycle import run_to_completion, run_until_interrupted
 from coframe.cli.options import (
     TIMES,
-    DomainOption,
-    KeepOption,
-    NamespaceOption,
     PositiveDuration,
-    PrefixOption,
-    RecordedTfStaticTopicOption,
-    RecordedTfTopicOption,
+    domain_option,
+    namespace_option,
+    recorded_listener_options,
 )
 from coframe.cli.output import awaited_statics_text, fail, one_line, with_doctor_command
 from coframe.cli.recordings import check_has_transforms, open_recording, parse_lookup_time
@@ -54,7 +53,6 @@ if TYPE_CHECKING:
 
 __all__ = ["why"]
 
-_WINDOW = PositiveDuration("2s")
 _NAMES = "[BAG] TARGET SOURCE"
 # The node of the connection receives static transforms at about the same time as the doctor's node, which waits first.
 _SECOND_LISTENER = 0.5  # seconds
@@ -71,40 +69,40 @@ class _Answer(NamedTuple):
     notes: list[str]
 
 
+@click.command(cls=Command)
+@argument(
+    "names",
+    metavar=_NAMES,
+    nargs=-1,
+    shell_complete=complete_frames,
+    help="The frames as in lookup; without a recording BAG, the live ROS graph is used.",
+)
+@click.option(
+    "--at",
+    "-t",
+    metavar="TIME",
+    help=f"Time of the lookup: {TIMES}; live also 'now'. [default: 'end', the latest common time]",
+)
+@click.option(
+    "--duration", "--timeout", metavar="DURATION", type=PositiveDuration, default="2s", help="Observation time."
+)
+@click.option("--watch", is_flag=True, help="Update the answer every second.")
+@click.option("--json", "as_json", is_flag=True, help="Print one line of JSON per answer; times are in nanoseconds.")
+@namespace_option
+@domain_option
+@recorded_listener_options
 def why(
-    names: Annotated[
-        list[str] | None,
-        typer.Argument(
-            metavar=_NAMES,
-            help="The frames as in lookup; without a recording BAG, the live ROS graph is used.",
-            show_default=False,
-            autocompletion=complete_frames,
-        ),
-    ] = None,
-    at: Annotated[
-        str | None,
-        typer.Option(
-            "--at",
-            "-t",
-            metavar="TIME",
-            help=f"Time of the lookup: {TIMES}; live also 'now'. [default: 'end', the latest common time]",
-            show_default=False,
-        ),
-    ] = None,
-    duration: Annotated[
-        PositiveDuration,
-        typer.Option("--duration", "--timeout", metavar="DURATION", parser=PositiveDuration, help="Observation time."),
-    ] = _WINDOW,
-    watch: Annotated[bool, typer.Option("--watch", help="Update the answer every second.")] = False,
-    as_json: Annotated[
-        bool, typer.Option("--json", help="Print one line of JSON per answer; times are in nanoseconds.")
-    ] = False,
-    namespace: NamespaceOption = None,
-    domain: DomainOption = None,
-    tf_topic: RecordedTfTopicOption = None,
-    tf_static_topic: RecordedTfStaticTopicOption = None,
-    prefix: PrefixOption = "",
-    keep: KeepOption = "",
+    names: tuple[str, ...],
+    at: str | None,
+    duration: PositiveDuration,
+    watch: bool,
+    as_json: bool,
+    namespace: str | None,
+    domain: int | None,
+    tf_topic: str | None,
+    tf_static_topic: str | None,
+    prefix: str,
+    keep: str,
 ) -> None:
     """Explain why the transform from SOURCE to TARGET is available, or why it is not.
 
@@ -113,7 +111,7 @@ def why(
 
     Example: coframe why base_link camera_link --at now
     """
-    if names is None or len(names) not in {2, 3}:
+    if len(names) not in {2, 3}:
         fail("Give the frames TARGET and SOURCE, or a recording and the two frames.", code=2)
     *bags, target, source = names
     if not bags and Path(target).exists() and not {"/", "."}.isdisjoint(target):
@@ -137,7 +135,7 @@ def why(
                 _watch(config, target, source, at, duration, as_json=as_json)
             answer = _answer_live(config, target, source, at, duration)
         _print(answer, as_json=as_json)
-        raise typer.Exit(0 if answer.found.possible else 1)
+        raise Exit(0 if answer.found.possible else 1)
 
 
 def _answer_recorded(bag: Path, choice: TransformChoice, target: str, source: str, at: str | None) -> _Answer:
@@ -160,7 +158,7 @@ def _answer_live(config: ListenerConfig, target: str, source: str, at: str | Non
         LiveObserver(config, node_name="coframe_why_doctor") as observer,
     ):
         if Console(stderr=True).is_terminal:
-            typer.echo(f"observing for {window / SECOND:g} s ...", err=True)
+            click.echo(f"observing for {window / SECOND:g} s ...", err=True)
         observer.listen(window / SECOND)
         if not ros.buffer.can_transform(target, source):
             # Without all static transforms, existing frames would be reported as missing.

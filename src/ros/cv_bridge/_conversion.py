@@ -20,7 +20,7 @@ def opencv(purpose: str) -> Any:
     Raises:
         ModuleNotFoundError: OpenCV is not installed.
     """
-    return import_optional("cv2", purpose, "coframe[opencv]")
+    return import_optional("cv2", purpose, "opencv")
 
 
 def convert(image: Image, source: str, target: str) -> Image:

@@ -34,7 +34,7 @@ def _element(matrix: Matrix, row: int, column: int) -> float:
 
 
 def _opencv() -> Any:
-    return import_optional("cv2", "Rectification by image_geometry", "coframe[opencv]")
+    return import_optional("cv2", "Rectification by image_geometry", "opencv")
 
 
 class PinholeCameraModel:

@@ -39,7 +39,7 @@ def message_to_yaml(
     Raises:
         ModuleNotFoundError: PyYAML is not installed.
     """
-    yaml = import_optional("yaml", "message_to_yaml", "coframe[params]")
+    yaml = import_optional("yaml", "message_to_yaml", "params")
     content = message_to_ordereddict(msg, truncate_length=truncate_length, no_arr=no_arr, no_str=no_str)
     text: str = yaml.dump(
         content,

@@ -10,7 +10,7 @@ import pytest
 
 pytest.importorskip("dds_library", reason="the commands speak DDS")
 
-from typer.testing import CliRunner
+from click.testing import CliRunner
 
 from coframe.cli.app import app
 

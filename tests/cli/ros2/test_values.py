@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Values of messages on the command line: typing errors are reported with their place, the reason and an example."""
 
+import click
 import pytest
-import typer
 
 from coframe.cli.ros2.values import read_values
 from geometry_msgs.msg import PoseWithCovarianceStamped, Twist
@@ -12,7 +12,7 @@ HELLO = "  Example for std_msgs/msg/String: '{data: hello}'"
 
 
 def error_for(message, text, capsys):
-    with pytest.raises(typer.Exit) as ended:
+    with pytest.raises(click.exceptions.Exit) as ended:
         read_values(message, text)
     assert ended.value.exit_code == 2
     return capsys.readouterr().err.splitlines()

@@ -3,22 +3,22 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Any
 
-import typer
+import click
 
-from coframe.cli.help_format import PlainCommand, PlainGroup
-from coframe.cli.options import with_leading_slash
+from coframe.cli.declaration import CommandGroup, argument
+from coframe.cli.options import NonNegativeDuration, topic_name
 from coframe.cli.output import fail, one_line, print_bounded, printable
 from coframe.cli.ros2.calls import wait_for_server
 from coframe.cli.ros2.graph import (
     DISCOVERY,
     GraphCommand,
-    SpinTimeOption,
     graph_node,
     joined,
     load_type,
     node_names,
+    spin_time_option,
     split_node_name,
 )
 from coframe.cli.ros2.values import read_values
@@ -30,24 +30,26 @@ if TYPE_CHECKING:
 
 __all__ = ["action"]
 
-ActionArgument = Annotated[
-    str, typer.Argument(metavar="ACTION", help="Name of the action, e.g. /fibonacci.", callback=with_leading_slash)
-]
-action = typer.Typer(
-    cls=PlainGroup,
+action_argument = argument(
+    "action_name", metavar="ACTION", type=topic_name, help="Name of the action, e.g. /fibonacci."
+)
+action = CommandGroup(
+    "action",
     help="List actions and send goals, like ros2 action.\n\n"
     "Example: coframe action send_goal /fibonacci example_interfaces/action/Fibonacci '{order: 5}'",
-    no_args_is_help=True,
-    rich_markup_mode=None,
 )
 
 
 @action.command(cls=GraphCommand, short_help="Show the clients and servers of an action.")
+@action_argument
+@click.option("--show-types", "-t", is_flag=True, help="Show the types as well.")
+@click.option("--count", "-c", is_flag=True, help="Print the numbers of nodes only.")
+@spin_time_option(DISCOVERY)
 def info(
-    action_name: ActionArgument,
-    show_types: Annotated[bool, typer.Option("--show-types", "-t", help="Show the types as well.")] = False,
-    count: Annotated[bool, typer.Option("--count", "-c", help="Print the numbers of nodes only.")] = False,
-    spin_time: SpinTimeOption = DISCOVERY,
+    action_name: str,
+    show_types: bool,
+    count: bool,
+    spin_time: NonNegativeDuration,
 ) -> None:
     """Show the nodes that are clients and servers of an action.
 
@@ -71,10 +73,13 @@ def info(
 
 
 @action.command("list", cls=GraphCommand, short_help="List the actions.")
+@click.option("--show-types", "-t", is_flag=True, help="Show the types as well.")
+@click.option("--count-actions", "-c", "count", is_flag=True, help="Print the number of actions only.")
+@spin_time_option(DISCOVERY)
 def list_actions(
-    show_types: Annotated[bool, typer.Option("--show-types", "-t", help="Show the types as well.")] = False,
-    count: Annotated[bool, typer.Option("--count-actions", "-c", help="Print the number of actions only.")] = False,
-    spin_time: SpinTimeOption = DISCOVERY,
+    show_types: bool,
+    count: bool,
+    spin_time: NonNegativeDuration,
 ) -> None:
     """List the actions of the ROS graph.
 
@@ -91,12 +96,16 @@ def list_actions(
         print(one_line(f"{name} {joined(types)}" if show_types else name))
 
 
-@action.command("send_goal", cls=PlainCommand, short_help="Send a goal to an action server.")
+@action.command("send_goal", short_help="Send a goal to an action server.")
+@action_argument
+@argument("action_type", metavar="TYPE", help="Type, e.g. example_interfaces/action/Fibonacci.")
+@argument("goal", metavar="GOAL", help="Values of the goal as YAML, e.g. '{order: 5}'.")
+@click.option("--feedback", "-f", is_flag=True, help="Print the feedback.")
 def send_goal(
-    action_name: ActionArgument,
-    action_type: Annotated[str, typer.Argument(metavar="TYPE", help="Type, e.g. example_interfaces/action/Fibonacci.")],
-    goal: Annotated[str, typer.Argument(metavar="GOAL", help="Values of the goal as YAML, e.g. '{order: 5}'.")],
-    feedback: Annotated[bool, typer.Option("--feedback", "-f", help="Print the feedback.")] = False,
+    action_name: str,
+    action_type: str,
+    goal: str,
+    feedback: bool,
 ) -> None:
     """Send a goal and print its result. Ctrl-C cancels the goal.
 

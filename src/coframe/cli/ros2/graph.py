@@ -6,15 +6,15 @@ from __future__ import annotations
 import contextlib
 import os
 import time
-from typing import TYPE_CHECKING, Annotated, Any, NoReturn
+from typing import TYPE_CHECKING, Any, NoReturn
 
-import typer
-from typer.core import TyperOption
+import click
+from click.exceptions import Exit
 
 from coframe.cli.completion import complete_live_topics
-from coframe.cli.help_format import PlainCommand
+from coframe.cli.declaration import Command, Declared, argument
 from coframe.cli.lifecycle import run_to_completion
-from coframe.cli.options import NonNegativeDuration, with_leading_slash
+from coframe.cli.options import NonNegativeDuration, topic_name
 from coframe.cli.output import fail, warn
 from coframe.cli.ros2.near_names import near_types
 from coframe.errors import CoframeError
@@ -27,21 +27,21 @@ if TYPE_CHECKING:
 
 __all__ = [
     "AT_ONCE",
-    "AllOption",
     "GraphCommand",
-    "HiddenTopicsOption",
-    "NodeArgument",
-    "SimTimeOption",
-    "SpinTimeOption",
-    "TopicArgument",
+    "all_option",
     "fail_once",
     "fail_without_node",
     "graph_node",
+    "hidden_topics_option",
     "is_hidden",
     "joined",
     "load_type",
+    "node_argument",
     "node_names",
+    "sim_time_option",
+    "spin_time_option",
     "split_node_name",
+    "topic_argument",
     "topic_type",
     "wait_until",
 ]
@@ -54,44 +54,44 @@ _PERIOD = 0.02  # seconds between two looks at the graph
 
 _warned: set[str] = set()  # the warnings that were printed
 
-SpinTimeOption = Annotated[
-    NonNegativeDuration,
-    typer.Option(
+
+def spin_time_option(default: NonNegativeDuration) -> Callable[[Declared], Declared]:
+    """Declare the option `--spin-time`: DISCOVERY for lists, AT_ONCE for names that are waited for."""
+    return click.option(
         "--spin-time",
         metavar="DURATION",
-        parser=NonNegativeDuration,
+        type=NonNegativeDuration,
+        default=default,
         help="Time to wait for the discovery of other nodes.",
-    ),
-]
-SimTimeOption = Annotated[
-    bool, typer.Option("--use-sim-time", "-s", help="Use the time of /clock instead of the system time.")
-]
-HiddenTopicsOption = Annotated[
-    bool, typer.Option("--include-hidden-topics", help="Consider hidden topics, such as those of actions, as well.")
-]
-AllOption = Annotated[bool, typer.Option("--all", "-a", help="Consider hidden nodes as well.")]
-TopicArgument = Annotated[
-    str,
-    typer.Argument(
-        metavar="TOPIC",
-        help="Name of the topic, e.g. /scan.",
-        callback=with_leading_slash,
-        autocompletion=complete_live_topics,
-    ),
-]
-NodeArgument = Annotated[
-    str, typer.Argument(metavar="NODE", help="Name of the node, e.g. /robot1/arm.", callback=with_leading_slash)
-]
+    )
 
 
-class GraphCommand(PlainCommand):
+sim_time_option = click.option(
+    "--use-sim-time", "-s", is_flag=True, help="Use the time of /clock instead of the system time."
+)
+hidden_topics_option = click.option(
+    "--include-hidden-topics",
+    "include_hidden",
+    is_flag=True,
+    help="Consider hidden topics, such as those of actions, as well.",
+)
+all_option = click.option("--all", "-a", "include_hidden", is_flag=True, help="Consider hidden nodes as well.")
+topic_argument = argument(
+    "topic_name",
+    metavar="TOPIC",
+    type=topic_name,
+    shell_complete=complete_live_topics,
+    help="Name of the topic, e.g. /scan.",
+)
+node_argument = argument("node_name", metavar="NODE", type=topic_name, help="Name of the node, e.g. /robot1/arm.")
+
+
+class GraphCommand(Command):
     """A command about the graph, which accepts ``--no-daemon`` as in ros2cli: coframe has no daemon."""
 
     def __init__(self, *args: Any, **kwargs: Any) -> None:
         super().__init__(*args, **kwargs)
-        self.params.append(
-            TyperOption(param_decls=["--no-daemon"], is_flag=True, default=False, hidden=True, expose_value=False)
-        )
+        self.params.append(click.Option(["--no-daemon"], is_flag=True, hidden=True, expose_value=False))
 
 
 @contextlib.contextmanager
@@ -127,7 +127,7 @@ def graph_node(
             time.sleep(spin_time.seconds)
             yield node
         except (RuntimeError, ValueError) as error:
-            if isinstance(error, (CoframeError, typer.Exit)):
+            if isinstance(error, (CoframeError, Exit)):
                 raise
             fail(str(error))
         except NameValidationException as error:
@@ -146,7 +146,7 @@ def _warn(text: str) -> None:
 def fail_once(text: str) -> NoReturn:
     """End the command with a text of the middleware, which is printed unless it was printed as a warning before."""
     if text in _warned:
-        raise typer.Exit(1)
+        raise Exit(1)
     fail(text)
 
 

@@ -15,9 +15,7 @@ import sysconfig
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-import typer
-
-from coframe.cli.help_format import PlainCommand, PlainGroup
+from coframe.cli.declaration import CommandGroup
 from coframe.cli.output import fail, printable
 from coframe.cli.ros2.executable import is_own_script, real_executable
 from coframe.python_children import python_command
@@ -28,15 +26,13 @@ if TYPE_CHECKING:
 __all__ = ["ros2"]
 
 _NAMES = ("ros2", "rviz2")
-ros2 = typer.Typer(
-    cls=PlainGroup,
+ros2 = CommandGroup(
+    "ros2",
     help="Add the executables ros2 and rviz2 where no ROS is installed.\n\nExample: coframe ros2 install",
-    no_args_is_help=True,
-    rich_markup_mode=None,
 )
 
 
-@ros2.command(cls=PlainCommand, short_help="Add the executables ros2 and rviz2.")
+@ros2.command(short_help="Add the executables ros2 and rviz2.")
 def install() -> None:
     """Add the executables ros2 and rviz2 to this Python environment. Existing ones of a real ROS are not replaced.
 
@@ -58,7 +54,7 @@ def install() -> None:
         print(f"created {printable(str(path))}")
 
 
-@ros2.command(cls=PlainCommand, short_help="Remove the executables that coframe has added.")
+@ros2.command(short_help="Remove the executables that coframe has added.")
 def remove() -> None:
     """Remove the executables ros2 and rviz2 that coframe ros2 install has added.
 

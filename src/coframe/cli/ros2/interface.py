@@ -3,11 +3,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING
 
-import typer
+import click
 
-from coframe.cli.help_format import PlainCommand, PlainGroup
+from coframe.cli.declaration import CommandGroup, argument
 from coframe.cli.lifecycle import run_to_completion
 from coframe.cli.output import fail, printable
 from coframe.cli.ros2.definition_text import shown_definition
@@ -19,24 +19,27 @@ if TYPE_CHECKING:
 __all__ = ["interface"]
 
 _TITLES = {"msg": "Messages", "srv": "Services", "action": "Actions"}
-TypeArgument = Annotated[
-    str, typer.Argument(metavar="TYPE", help="Name of a type, e.g. geometry_msgs/msg/Pose or std_srvs/srv/SetBool.")
-]
-MessagesOption = Annotated[bool, typer.Option("--only-msgs", "-m", help="Only messages.")]
-ServicesOption = Annotated[bool, typer.Option("--only-srvs", "-s", help="Only services.")]
-ActionsOption = Annotated[bool, typer.Option("--only-actions", "-a", help="Only actions.")]
-interface = typer.Typer(
-    cls=PlainGroup,
+type_argument = argument(
+    "type_name", metavar="TYPE", help="Name of a type, e.g. geometry_msgs/msg/Pose or std_srvs/srv/SetBool."
+)
+messages_option = click.option("--only-msgs", "-m", "only_messages", is_flag=True, help="Only messages.")
+services_option = click.option("--only-srvs", "-s", "only_services", is_flag=True, help="Only services.")
+actions_option = click.option("--only-actions", "-a", is_flag=True, help="Only actions.")
+interface = CommandGroup(
+    "interface",
     help="Show message, service and action types, like ros2 interface.\n\n"
     "Example: coframe interface show sensor_msgs/msg/LaserScan",
-    no_args_is_help=True,
-    rich_markup_mode=None,
 )
 
 
-@interface.command("list", cls=PlainCommand, short_help="List all types.")
+@interface.command("list", short_help="List all types.")
+@messages_option
+@services_option
+@actions_option
 def list_interfaces(
-    only_messages: MessagesOption = False, only_services: ServicesOption = False, only_actions: ActionsOption = False
+    only_messages: bool,
+    only_services: bool,
+    only_actions: bool,
 ) -> None:
     """List the messages, services and actions of all packages.
 
@@ -52,8 +55,9 @@ def list_interfaces(
                 _print_all(f"    {package}/{name}" for name in names if name.startswith(f"{kind}/"))
 
 
-@interface.command(cls=PlainCommand, short_help="List the types of a package.")
-def package(package_name: Annotated[str, typer.Argument(metavar="PACKAGE", help="Name of the package.")]) -> None:
+@interface.command(short_help="List the types of a package.")
+@argument("package_name", metavar="PACKAGE", help="Name of the package.")
+def package(package_name: str) -> None:
     """List the messages, services and actions of a package.
 
     Example: coframe interface package sensor_msgs
@@ -68,9 +72,14 @@ def package(package_name: Annotated[str, typer.Argument(metavar="PACKAGE", help=
         _print_all(f"{package_name}/{name}" for name in names)
 
 
-@interface.command(cls=PlainCommand, short_help="List the packages that have types.")
+@interface.command(short_help="List the packages that have types.")
+@messages_option
+@services_option
+@actions_option
 def packages(
-    only_messages: MessagesOption = False, only_services: ServicesOption = False, only_actions: ActionsOption = False
+    only_messages: bool,
+    only_services: bool,
+    only_actions: bool,
 ) -> None:
     """List the packages that have messages, services or actions.
 
@@ -84,11 +93,10 @@ def packages(
         _print_all(name for name in sorted(found) if any(each.startswith(kinds) for each in found[name]))
 
 
-@interface.command(cls=PlainCommand, short_help="Print a type with its default values, for topic pub.")
-def proto(
-    type_name: TypeArgument,
-    no_quotes: Annotated[bool, typer.Option("--no-quotes", help="Print no quotes around the text.")] = False,
-) -> None:
+@interface.command(short_help="Print a type with its default values, for topic pub.")
+@type_argument
+@click.option("--no-quotes", is_flag=True, help="Print no quotes around the text.")
+def proto(type_name: str, no_quotes: bool) -> None:
     """Print the YAML of a message, request or goal with its default values.
 
     Example: coframe interface proto geometry_msgs/msg/Twist
@@ -103,13 +111,14 @@ def proto(
         print(text if no_quotes else f'"{text}"')
 
 
-@interface.command(cls=PlainCommand, short_help="Print the definition of a type.")
+@interface.command(short_help="Print the definition of a type.")
+@type_argument
+@click.option("--all-comments", is_flag=True, help="Show the comments of nested types as well.")
+@click.option("--no-comments", is_flag=True, help="Show no comments.")
 def show(
-    type_name: TypeArgument,
-    all_comments: Annotated[
-        bool, typer.Option("--all-comments", help="Show the comments of nested types as well.")
-    ] = False,
-    no_comments: Annotated[bool, typer.Option("--no-comments", help="Show no comments.")] = False,
+    type_name: str,
+    all_comments: bool,
+    no_comments: bool,
 ) -> None:
     """Print the definition of a type, with the fields of nested types below it.
 

@@ -3,47 +3,47 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Any
 
-import typer
+import click
 
-from coframe.cli.help_format import PlainGroup
+from coframe.cli.declaration import CommandGroup, argument
 from coframe.cli.output import fail, one_line
 from coframe.cli.ros2.calls import call_service
 from coframe.cli.ros2.graph import (
     AT_ONCE,
     DISCOVERY,
-    AllOption,
     GraphCommand,
-    NodeArgument,
-    SpinTimeOption,
+    all_option,
     graph_node,
+    node_argument,
     node_names,
+    spin_time_option,
     wait_until,
 )
 
 if TYPE_CHECKING:
+    from coframe.cli.options import NonNegativeDuration
     from rclpy.node import Node
 
 __all__ = ["lifecycle"]
 
 _GET_STATE = "lifecycle_msgs/srv/GetState"
-lifecycle = typer.Typer(
-    cls=PlainGroup,
+lifecycle = CommandGroup(
+    "lifecycle",
     help="Show and change the states of lifecycle nodes, like ros2 lifecycle.\n\n"
     "Example: coframe lifecycle set /lidar configure",
-    no_args_is_help=True,
-    rich_markup_mode=None,
 )
 
 
 @lifecycle.command(cls=GraphCommand, short_help="Print the states of lifecycle nodes.")
+@argument("node_name", metavar="[NODE]", required=False, help="Name of a node. [default: all lifecycle nodes]")
+@all_option
+@spin_time_option(DISCOVERY)
 def get(
-    node_name: Annotated[
-        str | None, typer.Argument(metavar="[NODE]", help="Name of a node. [default: all lifecycle nodes]")
-    ] = None,
-    include_hidden: AllOption = False,
-    spin_time: SpinTimeOption = DISCOVERY,
+    node_name: str | None,
+    include_hidden: bool,
+    spin_time: NonNegativeDuration,
 ) -> None:
     """Print the state of a lifecycle node, or of all lifecycle nodes.
 
@@ -57,10 +57,13 @@ def get(
 
 
 @lifecycle.command("list", cls=GraphCommand, short_help="List the transitions that a node can make now.")
+@node_argument
+@click.option("--all", "-a", "show_all", is_flag=True, help="List all transitions of the node.")
+@spin_time_option(AT_ONCE)
 def list_transitions(
-    node_name: NodeArgument,
-    show_all: Annotated[bool, typer.Option("--all", "-a", help="List all transitions of the node.")] = False,
-    spin_time: SpinTimeOption = AT_ONCE,
+    node_name: str,
+    show_all: bool,
+    spin_time: NonNegativeDuration,
 ) -> None:
     """List the transitions that a lifecycle node can make in its state.
 
@@ -74,10 +77,13 @@ def list_transitions(
 
 
 @lifecycle.command(cls=GraphCommand, short_help="List the lifecycle nodes.")
+@all_option
+@click.option("--count-nodes", "-c", "count", is_flag=True, help="Print the number of nodes only.")
+@spin_time_option(DISCOVERY)
 def nodes(
-    include_hidden: AllOption = False,
-    count: Annotated[bool, typer.Option("--count-nodes", "-c", help="Print the number of nodes only.")] = False,
-    spin_time: SpinTimeOption = DISCOVERY,
+    include_hidden: bool,
+    count: bool,
+    spin_time: NonNegativeDuration,
 ) -> None:
     """List the lifecycle nodes of the ROS graph.
 
@@ -89,12 +95,13 @@ def nodes(
 
 
 @lifecycle.command("set", cls=GraphCommand, short_help="Change the state of a lifecycle node.")
+@node_argument
+@argument("transition", metavar="TRANSITION", help="Name or ID of a transition, e.g. configure or activate.")
+@spin_time_option(AT_ONCE)
 def set_state(
-    node_name: NodeArgument,
-    transition: Annotated[
-        str, typer.Argument(metavar="TRANSITION", help="Name or ID of a transition, e.g. configure or activate.")
-    ],
-    spin_time: SpinTimeOption = AT_ONCE,
+    node_name: str,
+    transition: str,
+    spin_time: NonNegativeDuration,
 ) -> None:
     """Change the state of a lifecycle node.
 

@@ -4,22 +4,22 @@
 from __future__ import annotations
 
 import sys
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING
 
-import typer
+import click
 
-from coframe.cli.help_format import PlainGroup
+from coframe.cli.declaration import CommandGroup
 from coframe.cli.output import one_line
 from coframe.cli.ros2.graph import (
     DISCOVERY,
-    AllOption,
     GraphCommand,
-    NodeArgument,
-    SpinTimeOption,
+    all_option,
     fail_without_node,
     graph_node,
     is_hidden,
+    node_argument,
     node_names,
+    spin_time_option,
     split_node_name,
     wait_until,
 )
@@ -27,30 +27,32 @@ from coframe.cli.ros2.graph import (
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+    from coframe.cli.options import NonNegativeDuration
     from rclpy.node import Node
 
 __all__ = ["node"]
 
-node = typer.Typer(
-    cls=PlainGroup,
+node = CommandGroup(
+    "node",
     help="List and inspect nodes, like ros2 node.\n\nExample: coframe node info /dynamic_tf_broadcaster",
-    no_args_is_help=True,
-    rich_markup_mode=None,
 )
 
 
 @node.command("list", cls=GraphCommand, short_help="List the nodes.")
+@all_option
+@click.option("--count-nodes", "-c", "count", is_flag=True, help="Print the number of nodes only.")
+@spin_time_option(DISCOVERY)
 def list_nodes(
-    show_all: AllOption = False,
-    count: Annotated[bool, typer.Option("--count-nodes", "-c", help="Print the number of nodes only.")] = False,
-    spin_time: SpinTimeOption = DISCOVERY,
+    include_hidden: bool,
+    count: bool,
+    spin_time: NonNegativeDuration,
 ) -> None:
     """List the nodes of the ROS graph.
 
     Example: coframe node list
     """
     with graph_node(spin_time) as own:
-        names = node_names(own, include_hidden=show_all)
+        names = node_names(own, include_hidden=include_hidden)
     if count:
         print(len(names))
         return
@@ -65,12 +67,13 @@ def list_nodes(
 
 
 @node.command(cls=GraphCommand, short_help="Show the topics, services and actions of a node.")
+@node_argument
+@click.option("--include-hidden", is_flag=True, help="Show hidden topics, services and actions as well.")
+@spin_time_option(DISCOVERY)
 def info(
-    node_name: NodeArgument,
-    include_hidden: Annotated[
-        bool, typer.Option("--include-hidden", help="Show hidden topics, services and actions as well.")
-    ] = False,
-    spin_time: SpinTimeOption = DISCOVERY,
+    node_name: str,
+    include_hidden: bool,
+    spin_time: NonNegativeDuration,
 ) -> None:
     """Show the subscriptions, publishers, services and actions of a node.
 

@@ -5,21 +5,21 @@ from __future__ import annotations
 
 import re
 import sys
-from pathlib import Path  # noqa: TC003 - typer reads the annotations
-from typing import Annotated
+from typing import TYPE_CHECKING
 
-import typer
+import click
+from click.exceptions import Exit
 
-from coframe.cli.help_format import PlainGroup
+from coframe.cli.declaration import PATH, CommandGroup, argument
 from coframe.cli.output import fail, one_line, printable
 from coframe.cli.ros2.graph import (
     AT_ONCE,
     DISCOVERY,
     GraphCommand,
-    NodeArgument,
-    SpinTimeOption,
     graph_node,
+    node_argument,
     node_names,
+    spin_time_option,
 )
 from coframe.cli.ros2.parameter_client import ParameterClient
 from coframe.cli.ros2.parameter_text import (
@@ -31,24 +31,32 @@ from coframe.cli.ros2.parameter_text import (
     value_line,
 )
 
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from coframe.cli.options import NonNegativeDuration
+
 __all__ = ["param"]
 
-ParameterArgument = Annotated[str, typer.Argument(metavar="NAME", help="Name of the parameter, e.g. use_sim_time.")]
-HiddenNodesOption = Annotated[bool, typer.Option("--include-hidden-nodes", help="Consider hidden nodes as well.")]
-param = typer.Typer(
-    cls=PlainGroup,
+parameter_argument = argument("name", metavar="NAME", help="Name of the parameter, e.g. use_sim_time.")
+hidden_nodes_option = click.option(
+    "--include-hidden-nodes", "include_hidden", is_flag=True, help="Consider hidden nodes as well."
+)
+param = CommandGroup(
+    "param",
     help="Read and set the parameters of nodes, like ros2 param.\n\n"
     "Example: coframe param set /dynamic_tf_broadcaster rate 100.0",
-    no_args_is_help=True,
-    rich_markup_mode=None,
 )
 
 
 @param.command(cls=GraphCommand, short_help="Delete a parameter of a node.")
+@node_argument
+@parameter_argument
+@spin_time_option(AT_ONCE)
 def delete(
-    node_name: NodeArgument,
-    name: ParameterArgument,
-    spin_time: SpinTimeOption = AT_ONCE,
+    node_name: str,
+    name: str,
+    spin_time: NonNegativeDuration,
 ) -> None:
     """Delete a parameter of a node.
 
@@ -62,10 +70,13 @@ def delete(
 
 
 @param.command(cls=GraphCommand, short_help="Show type, description and limits of parameters.")
+@node_argument
+@argument("names", metavar="NAME...", nargs=-1, required=True, help="Names of parameters.")
+@spin_time_option(AT_ONCE)
 def describe(
-    node_name: NodeArgument,
-    names: Annotated[list[str], typer.Argument(metavar="NAME...", help="Names of parameters.")],
-    spin_time: SpinTimeOption = AT_ONCE,
+    node_name: str,
+    names: tuple[str, ...],
+    spin_time: NonNegativeDuration,
 ) -> None:
     """Show the type, the description and the limits of parameters of a node.
 
@@ -80,10 +91,9 @@ def describe(
 
 
 @param.command(cls=GraphCommand, short_help="Print all parameters of a node as a YAML file.")
-def dump(
-    node_name: NodeArgument,
-    spin_time: SpinTimeOption = AT_ONCE,
-) -> None:
+@node_argument
+@spin_time_option(AT_ONCE)
+def dump(node_name: str, spin_time: NonNegativeDuration) -> None:
     """Print all parameters of a node in the format of --params-file.
 
     Example: coframe param dump /listener > listener.yaml
@@ -96,11 +106,15 @@ def dump(
 
 
 @param.command(cls=GraphCommand, short_help="Print a parameter of a node.")
+@node_argument
+@parameter_argument
+@click.option("--hide-type", is_flag=True, help="Print the value only.")
+@spin_time_option(AT_ONCE)
 def get(
-    node_name: NodeArgument,
-    name: ParameterArgument,
-    hide_type: Annotated[bool, typer.Option("--hide-type", help="Print the value only.")] = False,
-    spin_time: SpinTimeOption = AT_ONCE,
+    node_name: str,
+    name: str,
+    hide_type: bool,
+    spin_time: NonNegativeDuration,
 ) -> None:
     """Print a parameter of a node.
 
@@ -115,20 +129,25 @@ def get(
 
 
 @param.command("list", cls=GraphCommand, short_help="List the parameters of nodes.")
+@argument("node_name", metavar="[NODE]", required=False, help="Name of a node. [default: all nodes]")
+@click.option(
+    "--param-prefixes",
+    "prefixes",
+    metavar="PREFIX",
+    multiple=True,
+    help="Only parameters with this prefix; repeatable.",
+)
+@click.option("--param-type", is_flag=True, help="Show the types as well.")
+@click.option("--filter", "expression", metavar="REGEX", help="Only parameters that match this expression.")
+@hidden_nodes_option
+@spin_time_option(DISCOVERY)
 def list_parameters(
-    node_name: Annotated[
-        str | None, typer.Argument(metavar="[NODE]", help="Name of a node. [default: all nodes]")
-    ] = None,
-    prefixes: Annotated[
-        list[str] | None,
-        typer.Option("--param-prefixes", metavar="PREFIX", help="Only parameters with this prefix; repeatable."),
-    ] = None,
-    param_type: Annotated[bool, typer.Option("--param-type", help="Show the types as well.")] = False,
-    expression: Annotated[
-        str | None, typer.Option("--filter", metavar="REGEX", help="Only parameters that match this expression.")
-    ] = None,
-    include_hidden: HiddenNodesOption = False,
-    spin_time: SpinTimeOption = DISCOVERY,
+    node_name: str | None,
+    prefixes: tuple[str, ...],
+    param_type: bool,
+    expression: str | None,
+    include_hidden: bool,
+    spin_time: NonNegativeDuration,
 ) -> None:
     """List the parameters of one node or of all nodes.
 
@@ -143,7 +162,7 @@ def list_parameters(
             client = ParameterClient(node, each, required=node_name is not None)
             if not client.is_available:
                 continue
-            names = sorted(name for name in client.names(prefixes or []) if pattern.search(name))
+            names = sorted(name for name in client.names(prefixes) if pattern.search(name))
             if not node_name:
                 print(f"{one_line(each)}:")
             types = client.types(names) if param_type else []
@@ -153,13 +172,15 @@ def list_parameters(
 
 
 @param.command(cls=GraphCommand, short_help="Set the parameters of a node from a YAML file.")
+@node_argument
+@argument("file", metavar="FILE", type=PATH, help="A YAML file in the format of --params-file.")
+@click.option("--no-use-wildcard", is_flag=True, help="Do not use the parameters below /**.")
+@spin_time_option(AT_ONCE)
 def load(
-    node_name: NodeArgument,
-    file: Annotated[Path, typer.Argument(metavar="FILE", help="A YAML file in the format of --params-file.")],
-    no_use_wildcard: Annotated[
-        bool, typer.Option("--no-use-wildcard", help="Do not use the parameters below /**.")
-    ] = False,
-    spin_time: SpinTimeOption = AT_ONCE,
+    node_name: str,
+    file: Path,
+    no_use_wildcard: bool,
+    spin_time: NonNegativeDuration,
 ) -> None:
     """Set the parameters of a node from a YAML file.
 
@@ -175,15 +196,19 @@ def load(
         print(one_line(outcome + reason), file=sys.stdout if result.successful else sys.stderr)
         failed |= not result.successful
     if failed:
-        raise typer.Exit(1)
+        raise Exit(1)
 
 
 @param.command("set", cls=GraphCommand, short_help="Set a parameter of a node.")
+@node_argument
+@parameter_argument
+@argument("value", metavar="VALUE", help="Value as YAML, e.g. 1.5, true or '[1, 2]'.")
+@spin_time_option(AT_ONCE)
 def set_parameter(
-    node_name: NodeArgument,
-    name: ParameterArgument,
-    value: Annotated[str, typer.Argument(metavar="VALUE", help="Value as YAML, e.g. 1.5, true or '[1, 2]'.")],
-    spin_time: SpinTimeOption = AT_ONCE,
+    node_name: str,
+    name: str,
+    value: str,
+    spin_time: NonNegativeDuration,
 ) -> None:
     """Set a parameter of a node.
 

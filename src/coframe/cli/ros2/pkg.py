@@ -5,12 +5,12 @@ from __future__ import annotations
 
 import io
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Any
 
-import typer
+import click
 
 from coframe.bounded_xml import MAX_BYTES, read_xml
-from coframe.cli.help_format import PlainCommand, PlainGroup
+from coframe.cli.declaration import PATH, Command, CommandGroup, argument
 from coframe.cli.lifecycle import run_to_completion
 from coframe.cli.output import fail, printable
 from coframe.cli.ros2.new_package import NewPackage, write_package
@@ -18,16 +18,14 @@ from coframe.regular_files import read_regular, reading_hint
 
 __all__ = ["pkg"]
 
-PackageArgument = Annotated[str, typer.Argument(metavar="PACKAGE", help="Name of the package.")]
-pkg = typer.Typer(
-    cls=PlainGroup,
+package_argument = argument("package_name", metavar="PACKAGE", help="Name of the package.")
+pkg = CommandGroup(
+    "pkg",
     help="Create and find packages, like ros2 pkg.\n\nExample: coframe pkg create arm --node-name wave",
-    no_args_is_help=True,
-    rich_markup_mode=None,
 )
 
 
-class CreateCommand(PlainCommand):
+class CreateCommand(Command):
     """The command ``pkg create``: ``--dependencies`` takes all words up to the next option, as in ros2."""
 
     def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
@@ -44,33 +42,34 @@ class CreateCommand(PlainCommand):
 
 
 @pkg.command(cls=CreateCommand, short_help="Create a Python package.")
+@argument("package_name", metavar="NAME", help="Name of the new package.")
+@click.option("--node-name", metavar="NAME", help="Name of an executable with a first node.")
+@click.option(
+    "--destination-directory",
+    "destination",
+    metavar="FOLDER",
+    type=PATH,
+    default=Path(),
+    help="Folder in which to create it.",
+)
+@click.option("--dependencies", metavar="PACKAGE...", multiple=True, help="Packages that it depends on.")
+@click.option("--description", metavar="SENTENCE", default="A ROS 2 package", help="What the package is for.")
+@click.option(
+    "--license", "license_name", metavar="NAME", default="No license declared", help="Licence of the package."
+)
+@click.option("--maintainer-name", metavar="NAME", help="Name of the maintainer.")
+@click.option("--maintainer-email", metavar="EMAIL", help="E-mail address of the maintainer.")
+@click.option("--build-type", metavar="TYPE", default="ament_python", help="Only ament_python is supported.")
 def create(
-    package_name: Annotated[str, typer.Argument(metavar="NAME", help="Name of the new package.")],
-    node_name: Annotated[
-        str | None, typer.Option("--node-name", metavar="NAME", help="Name of an executable with a first node.")
-    ] = None,
-    destination: Annotated[
-        Path, typer.Option("--destination-directory", metavar="FOLDER", help="Folder in which to create it.")
-    ] = Path(),
-    dependencies: Annotated[
-        list[str] | None,
-        typer.Option("--dependencies", metavar="PACKAGE...", help="Packages that it depends on."),
-    ] = None,
-    description: Annotated[
-        str, typer.Option("--description", metavar="SENTENCE", help="What the package is for.")
-    ] = "A ROS 2 package",
-    license_name: Annotated[
-        str, typer.Option("--license", metavar="NAME", help="Licence of the package.")
-    ] = "No license declared",
-    maintainer_name: Annotated[
-        str | None, typer.Option("--maintainer-name", metavar="NAME", help="Name of the maintainer.")
-    ] = None,
-    maintainer_email: Annotated[
-        str | None, typer.Option("--maintainer-email", metavar="EMAIL", help="E-mail address of the maintainer.")
-    ] = None,
-    build_type: Annotated[
-        str, typer.Option("--build-type", metavar="TYPE", help="Only ament_python is supported.")
-    ] = "ament_python",
+    package_name: str,
+    node_name: str | None,
+    destination: Path,
+    dependencies: tuple[str, ...],
+    description: str,
+    license_name: str,
+    maintainer_name: str | None,
+    maintainer_email: str | None,
+    build_type: str,
 ) -> None:
     """Create a Python package that coframe, pip and colcon can use.
 
@@ -96,13 +95,10 @@ def create(
             print(f"creating {printable(str(path))}")
 
 
-@pkg.command(cls=PlainCommand, short_help="List the executables of packages.")
-def executables(
-    package_name: Annotated[
-        str | None, typer.Argument(metavar="[PACKAGE]", help="Name of a package. [default: all packages]")
-    ] = None,
-    full_path: Annotated[bool, typer.Option("--full-path", help="Show the words that start each one.")] = False,
-) -> None:
+@pkg.command(short_help="List the executables of packages.")
+@argument("package_name", metavar="[PACKAGE]", required=False, help="Name of a package. [default: all packages]")
+@click.option("--full-path", is_flag=True, help="Show the words that start each one.")
+def executables(package_name: str | None, full_path: bool) -> None:
     """List the executables that coframe run can start.
 
     Example: coframe pkg executables turtlesim
@@ -119,7 +115,7 @@ def executables(
                 print(printable(words))
 
 
-@pkg.command("list", cls=PlainCommand, short_help="List the packages.")
+@pkg.command("list", short_help="List the packages.")
 def list_packages() -> None:
     """List the packages that coframe finds: installed ones, source folders and its own.
 
@@ -132,11 +128,10 @@ def list_packages() -> None:
             print(printable(name))
 
 
-@pkg.command(cls=PlainCommand, short_help="Print the prefix or the share folder of a package.")
-def prefix(
-    package_name: PackageArgument,
-    share: Annotated[bool, typer.Option("--share", help="Print the folder of its data instead.")] = False,
-) -> None:
+@pkg.command(short_help="Print the prefix or the share folder of a package.")
+@package_argument
+@click.option("--share", is_flag=True, help="Print the folder of its data instead.")
+def prefix(package_name: str, share: bool) -> None:
     """Print the folder in which a package is installed, or the folder that contains its sources.
 
     Example: coframe pkg prefix my_robot --share
@@ -148,13 +143,10 @@ def prefix(
         print(printable(str(package.share if share else package.prefix)))
 
 
-@pkg.command(cls=PlainCommand, short_help="Print the manifest of a package.")
-def xml(
-    package_name: PackageArgument,
-    tag: Annotated[
-        str | None, typer.Option("--tag", "-t", metavar="TAG", help="Print only the text of this element.")
-    ] = None,
-) -> None:
+@pkg.command(short_help="Print the manifest of a package.")
+@package_argument
+@click.option("--tag", "-t", metavar="TAG", help="Print only the text of this element.")
+def xml(package_name: str, tag: str | None) -> None:
     """Print the package.xml of a package.
 
     Example: coframe pkg xml my_robot --tag version

@@ -4,9 +4,9 @@
 from __future__ import annotations
 
 import sys
-from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
-import typer
+import click
 
 from coframe.cli.output import fail
 
@@ -14,26 +14,19 @@ if TYPE_CHECKING:
     from rclpy.node import Node
     from rclpy.qos import QoSProfile
 
-__all__ = ["DepthOption", "DurabilityOption", "HistoryOption", "ProfileOption", "QoSWords", "ReliabilityOption"]
+__all__ = ["QoSWords", "depth_option", "durability_option", "history_option", "profile_option", "reliability_option"]
 
-ProfileOption = Annotated[
-    str | None,
-    typer.Option("--qos-profile", metavar="NAME", help="QoS preset, e.g. sensor_data."),
-]
-DepthOption = Annotated[
-    int | None, typer.Option("--qos-depth", metavar="N", min=0, max=2**31 - 1, help="Depth of the QoS history.")
-]
-HistoryOption = Annotated[
-    str | None, typer.Option("--qos-history", metavar="POLICY", help="QoS history: keep_last or keep_all.")
-]
-ReliabilityOption = Annotated[
-    str | None,
-    typer.Option("--qos-reliability", metavar="POLICY", help="QoS reliability: reliable or best_effort."),
-]
-DurabilityOption = Annotated[
-    str | None,
-    typer.Option("--qos-durability", metavar="POLICY", help="QoS durability: volatile or transient_local."),
-]
+profile_option = click.option("--qos-profile", metavar="NAME", help="QoS preset, e.g. sensor_data.")
+depth_option = click.option(
+    "--qos-depth", metavar="N", type=click.IntRange(min=0, max=2**31 - 1), help="Depth of the QoS history."
+)
+history_option = click.option("--qos-history", metavar="POLICY", help="QoS history: keep_last or keep_all.")
+reliability_option = click.option(
+    "--qos-reliability", metavar="POLICY", help="QoS reliability: reliable or best_effort."
+)
+durability_option = click.option(
+    "--qos-durability", metavar="POLICY", help="QoS durability: volatile or transient_local."
+)
 
 
 class QoSWords(NamedTuple):

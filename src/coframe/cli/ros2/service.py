@@ -4,23 +4,24 @@
 from __future__ import annotations
 
 import time
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING
 
-import typer
+import click
+from click.exceptions import Exit
 
-from coframe.cli.help_format import PlainCommand, PlainGroup
-from coframe.cli.options import with_leading_slash
+from coframe.cli.declaration import CommandGroup, argument
+from coframe.cli.options import NonNegativeDuration, topic_name
 from coframe.cli.output import fail, one_line
 from coframe.cli.ros2.calls import wait_for_server
 from coframe.cli.ros2.graph import (
     AT_ONCE,
     DISCOVERY,
     GraphCommand,
-    SpinTimeOption,
     graph_node,
     is_hidden,
     joined,
     load_type,
+    spin_time_option,
     wait_until,
 )
 from coframe.cli.ros2.values import read_values
@@ -30,31 +31,29 @@ if TYPE_CHECKING:
 
 __all__ = ["service"]
 
-HiddenServicesOption = Annotated[
-    bool, typer.Option("--include-hidden-services", help="Consider hidden services as well.")
-]
-ServiceArgument = Annotated[
-    str, typer.Argument(metavar="SERVICE", help="Name of the service, e.g. /reset.", callback=with_leading_slash)
-]
-service = typer.Typer(
-    cls=PlainGroup,
+hidden_services_option = click.option(
+    "--include-hidden-services", "include_hidden", is_flag=True, help="Consider hidden services as well."
+)
+service_argument = argument(
+    "service_name", metavar="SERVICE", type=topic_name, help="Name of the service, e.g. /reset."
+)
+service = CommandGroup(
+    "service",
     help="List and call services, like ros2 service.\n\n"
     "Example: coframe service call /reset std_srvs/srv/SetBool '{data: true}'",
-    no_args_is_help=True,
-    rich_markup_mode=None,
 )
 
 
-@service.command(cls=PlainCommand, short_help="Call a service.")
+@service.command(short_help="Call a service.")
+@service_argument
+@argument("service_type", metavar="TYPE", help="Type, e.g. std_srvs/srv/SetBool.")
+@argument("values", metavar="[VALUES]", default="{}", help="Values of the request as YAML, e.g. '{data: true}'.")
+@click.option("--rate", "-r", metavar="HZ", type=float, help="Repeat the call at this rate.")
 def call(
-    service_name: ServiceArgument,
-    service_type: Annotated[str, typer.Argument(metavar="TYPE", help="Type, e.g. std_srvs/srv/SetBool.")],
-    values: Annotated[
-        str, typer.Argument(metavar="[VALUES]", help="Values of the request as YAML, e.g. '{data: true}'.")
-    ] = "{}",
-    rate: Annotated[
-        float | None, typer.Option("--rate", "-r", metavar="HZ", help="Repeat the call at this rate.")
-    ] = None,
+    service_name: str,
+    service_type: str,
+    values: str,
+    rate: float | None,
 ) -> None:
     """Call a service and print its response.
 
@@ -85,11 +84,15 @@ def call(
 
 
 @service.command(cls=GraphCommand, short_help="List the services of a type.")
+@argument("service_type", metavar="TYPE", help="Type, e.g. std_srvs/srv/SetBool.")
+@click.option("--count-services", "-c", "count", is_flag=True, help="Print the number of services only.")
+@hidden_services_option
+@spin_time_option(DISCOVERY)
 def find(
-    service_type: Annotated[str, typer.Argument(metavar="TYPE", help="Type, e.g. std_srvs/srv/SetBool.")],
-    count: Annotated[bool, typer.Option("--count-services", "-c", help="Print the number of services only.")] = False,
-    include_hidden: HiddenServicesOption = False,
-    spin_time: SpinTimeOption = DISCOVERY,
+    service_type: str,
+    count: bool,
+    include_hidden: bool,
+    spin_time: NonNegativeDuration,
 ) -> None:
     """List the services that have a type.
 
@@ -101,11 +104,15 @@ def find(
 
 
 @service.command("list", cls=GraphCommand, short_help="List the services.")
+@click.option("--show-types", "-t", is_flag=True, help="Show the types as well.")
+@click.option("--count-services", "-c", "count", is_flag=True, help="Print the number of services only.")
+@hidden_services_option
+@spin_time_option(DISCOVERY)
 def list_services(
-    show_types: Annotated[bool, typer.Option("--show-types", "-t", help="Show the types as well.")] = False,
-    count: Annotated[bool, typer.Option("--count-services", "-c", help="Print the number of services only.")] = False,
-    include_hidden: HiddenServicesOption = False,
-    spin_time: SpinTimeOption = DISCOVERY,
+    show_types: bool,
+    count: bool,
+    include_hidden: bool,
+    spin_time: NonNegativeDuration,
 ) -> None:
     """List the services of the ROS graph.
 
@@ -121,7 +128,9 @@ def list_services(
 
 
 @service.command("type", cls=GraphCommand, short_help="Print the type of a service.")
-def type_(service_name: ServiceArgument, spin_time: SpinTimeOption = AT_ONCE) -> None:
+@service_argument
+@spin_time_option(AT_ONCE)
+def type_(service_name: str, spin_time: NonNegativeDuration) -> None:
     """Print the type of a service; the exit code is 1 if the service is unknown.
 
     Example: coframe service type /reset
@@ -129,7 +138,7 @@ def type_(service_name: ServiceArgument, spin_time: SpinTimeOption = AT_ONCE) ->
     with graph_node(spin_time) as node:
         types = wait_until(lambda: dict(node.get_service_names_and_types()).get(service_name))
     if not types:
-        raise typer.Exit(1)
+        raise Exit(1)
     print("\n".join(map(one_line, types)))
 
 

@@ -3,22 +3,23 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING
 
-import typer
+import click
+from click.exceptions import Exit
 
-from coframe.cli.help_format import PlainGroup
+from coframe.cli.declaration import CommandGroup, argument
 from coframe.cli.output import fail, one_line, printable
 from coframe.cli.ros2.graph import (
     AT_ONCE,
     DISCOVERY,
     GraphCommand,
-    HiddenTopicsOption,
-    SpinTimeOption,
-    TopicArgument,
     graph_node,
+    hidden_topics_option,
     is_hidden,
     joined,
+    spin_time_option,
+    topic_argument,
     wait_until,
 )
 from coframe.cli.ros2.topic_echo import echo
@@ -26,27 +27,30 @@ from coframe.cli.ros2.topic_pub import pub
 from coframe.cli.ros2.topic_rates import bw, delay, hz
 
 if TYPE_CHECKING:
+    from coframe.cli.options import NonNegativeDuration
     from rclpy.node import Node
 
 __all__ = ["topic"]
 
-topic = typer.Typer(
-    cls=PlainGroup,
+topic = CommandGroup(
+    "topic",
     help="Inspect and publish topics, like ros2 topic.\n\nExample: coframe topic echo /scan",
-    no_args_is_help=True,
-    rich_markup_mode=None,
 )
-topic.command(cls=GraphCommand, short_help="Show the bandwidth of a topic.")(bw)
-topic.command(cls=GraphCommand, short_help="Show the delay of messages by their header.")(delay)
-topic.command(cls=GraphCommand, short_help="Print the messages of a topic as YAML.")(echo)
+topic.add_command(bw)
+topic.add_command(delay)
+topic.add_command(echo)
 
 
 @topic.command(cls=GraphCommand, short_help="List the topics of a type.")
+@argument("topic_type", metavar="TYPE", help="Type, e.g. sensor_msgs/msg/LaserScan.")
+@click.option("--count-topics", "-c", "count", is_flag=True, help="Print the number of topics only.")
+@hidden_topics_option
+@spin_time_option(DISCOVERY)
 def find(
-    topic_type: Annotated[str, typer.Argument(metavar="TYPE", help="Type, e.g. sensor_msgs/msg/LaserScan.")],
-    count: Annotated[bool, typer.Option("--count-topics", "-c", help="Print the number of topics only.")] = False,
-    include_hidden: HiddenTopicsOption = False,
-    spin_time: SpinTimeOption = DISCOVERY,
+    topic_type: str,
+    count: bool,
+    include_hidden: bool,
+    spin_time: NonNegativeDuration,
 ) -> None:
     """List the topics that have a type.
 
@@ -57,16 +61,17 @@ def find(
     print(len(names) if count else "\n".join(map(one_line, names)))
 
 
-topic.command(cls=GraphCommand, short_help="Show the rate of a topic.")(hz)
+topic.add_command(hz)
 
 
 @topic.command(cls=GraphCommand, short_help="Show the type of a topic and who publishes it.")
+@topic_argument
+@click.option("--verbose", "-v", is_flag=True, help="Show node, type, GID and QoS of each publisher and subscription.")
+@spin_time_option(DISCOVERY)
 def info(
-    topic_name: TopicArgument,
-    verbose: Annotated[
-        bool, typer.Option("--verbose", "-v", help="Show node, type, GID and QoS of each publisher and subscription.")
-    ] = False,
-    spin_time: SpinTimeOption = DISCOVERY,
+    topic_name: str,
+    verbose: bool,
+    spin_time: NonNegativeDuration,
 ) -> None:
     """Show the type of a topic, and the numbers of its publishers and subscriptions.
 
@@ -87,14 +92,17 @@ def info(
 
 
 @topic.command("list", cls=GraphCommand, short_help="List the topics.")
+@click.option("--show-types", "-t", is_flag=True, help="Show the types as well.")
+@click.option("--count-topics", "-c", "count", is_flag=True, help="Print the number of topics only.")
+@click.option("--verbose", "-v", is_flag=True, help="Show types and numbers of publishers and subscriptions.")
+@hidden_topics_option
+@spin_time_option(DISCOVERY)
 def list_topics(
-    show_types: Annotated[bool, typer.Option("--show-types", "-t", help="Show the types as well.")] = False,
-    count: Annotated[bool, typer.Option("--count-topics", "-c", help="Print the number of topics only.")] = False,
-    verbose: Annotated[
-        bool, typer.Option("--verbose", "-v", help="Show types and numbers of publishers and subscriptions.")
-    ] = False,
-    include_hidden: HiddenTopicsOption = False,
-    spin_time: SpinTimeOption = DISCOVERY,
+    show_types: bool,
+    count: bool,
+    verbose: bool,
+    include_hidden: bool,
+    spin_time: NonNegativeDuration,
 ) -> None:
     """List the topics of the ROS graph.
 
@@ -112,11 +120,13 @@ def list_topics(
                 print(one_line(f"{name} {joined(types)}" if show_types else name))
 
 
-topic.command(cls=GraphCommand, short_help="Publish messages on a topic.")(pub)
+topic.add_command(pub)
 
 
 @topic.command("type", cls=GraphCommand, short_help="Print the type of a topic.")
-def type_(topic_name: TopicArgument, spin_time: SpinTimeOption = AT_ONCE) -> None:
+@topic_argument
+@spin_time_option(AT_ONCE)
+def type_(topic_name: str, spin_time: NonNegativeDuration) -> None:
     """Print the type of a topic; the exit code is 1 if the topic is unknown.
 
     Example: coframe topic type /tf
@@ -124,7 +134,7 @@ def type_(topic_name: TopicArgument, spin_time: SpinTimeOption = AT_ONCE) -> Non
     with graph_node(spin_time) as node:
         types = wait_until(lambda: dict(node.get_topic_names_and_types()).get(topic_name))
     if not types:
-        raise typer.Exit(1)
+        raise Exit(1)
     print("\n".join(map(one_line, types)))
 
 

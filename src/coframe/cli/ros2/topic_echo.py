@@ -4,31 +4,33 @@
 from __future__ import annotations
 
 import functools
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Any
 
-import typer
+import click
 
+from coframe.cli.declaration import argument
 from coframe.cli.options import NonNegativeDuration
 from coframe.cli.output import fail, print_bounded, printable
 from coframe.cli.ros2.graph import (
     AT_ONCE,
-    HiddenTopicsOption,
-    SimTimeOption,
-    SpinTimeOption,
-    TopicArgument,
+    GraphCommand,
     graph_node,
+    hidden_topics_option,
     load_type,
+    sim_time_option,
+    spin_time_option,
+    topic_argument,
     topic_type,
     wait_until,
 )
 from coframe.cli.ros2.messages import MessageStream, field_of, message_filter
 from coframe.cli.ros2.qos import (
-    DepthOption,
-    DurabilityOption,
-    HistoryOption,
-    ProfileOption,
     QoSWords,
-    ReliabilityOption,
+    depth_option,
+    durability_option,
+    history_option,
+    profile_option,
+    reliability_option,
 )
 
 if TYPE_CHECKING:
@@ -39,59 +41,69 @@ __all__ = ["echo"]
 _TRUNCATE_LENGTH = 128  # ros2cli's default: elements of an array, characters of a text
 
 
+@click.command(cls=GraphCommand, short_help="Print the messages of a topic as YAML.")
+@topic_argument
+@argument(
+    "message_type", metavar="[TYPE]", required=False, help="Type, e.g. std_msgs/msg/String. [default: the topic's]"
+)
+@click.option("--field", metavar="FIELD", help="Print only this field, e.g. pose.position.x.")
+@click.option("--once", is_flag=True, help="Print the first message and exit.")
+@click.option(
+    "--timeout", metavar="DURATION", type=NonNegativeDuration, help="Exit with 1 if no message arrives in time."
+)
+@click.option("--csv", is_flag=True, help="Print each message as one line of comma-separated values.")
+@click.option("--full-length", "-f", is_flag=True, help="Print all elements of arrays and all characters of texts.")
+@click.option(
+    "--truncate-length",
+    "-l",
+    metavar="N",
+    type=click.IntRange(min=1),
+    default=_TRUNCATE_LENGTH,
+    help="Print N elements of arrays and texts.",
+)
+@click.option("--no-arr", is_flag=True, help="Print the types of arrays instead of their elements.")
+@click.option("--no-str", is_flag=True, help="Print the lengths of texts instead of the texts.")
+@click.option("--flow-style", is_flag=True, help="Print collections on one line.")
+@click.option("--raw", is_flag=True, help="Print the serialized bytes.")
+@click.option(
+    "--filter", "filter_expression", metavar="EXPR", help="Print messages m for which this Python expression is true."
+)
+@click.option(
+    "--lost-messages", is_flag=True, hidden=True, help="Accepted for compatibility: lost messages are always reported."
+)
+@click.option("--no-lost-messages", is_flag=True, help="Do not report lost messages.")
+@profile_option
+@depth_option
+@history_option
+@reliability_option
+@durability_option
+@hidden_topics_option
+@sim_time_option
+@spin_time_option(AT_ONCE)
 def echo(
-    topic_name: TopicArgument,
-    message_type: Annotated[
-        str | None, typer.Argument(metavar="[TYPE]", help="Type, e.g. std_msgs/msg/String. [default: the topic's]")
-    ] = None,
-    field: Annotated[
-        str | None, typer.Option("--field", metavar="FIELD", help="Print only this field, e.g. pose.position.x.")
-    ] = None,
-    once: Annotated[bool, typer.Option("--once", help="Print the first message and exit.")] = False,
-    timeout: Annotated[
-        NonNegativeDuration | None,
-        typer.Option(
-            "--timeout",
-            metavar="DURATION",
-            parser=NonNegativeDuration,
-            help="Exit with 1 if no message arrives in time.",
-        ),
-    ] = None,
-    csv: Annotated[
-        bool, typer.Option("--csv", help="Print each message as one line of comma-separated values.")
-    ] = False,
-    full_length: Annotated[
-        bool, typer.Option("--full-length", "-f", help="Print all elements of arrays and all characters of texts.")
-    ] = False,
-    truncate_length: Annotated[
-        int,
-        typer.Option("--truncate-length", "-l", metavar="N", min=1, help="Print N elements of arrays and texts."),
-    ] = _TRUNCATE_LENGTH,
-    no_arr: Annotated[
-        bool, typer.Option("--no-arr", help="Print the types of arrays instead of their elements.")
-    ] = False,
-    no_str: Annotated[bool, typer.Option("--no-str", help="Print the lengths of texts instead of the texts.")] = False,
-    flow_style: Annotated[bool, typer.Option("--flow-style", help="Print collections on one line.")] = False,
-    raw: Annotated[bool, typer.Option("--raw", help="Print the serialized bytes.")] = False,
-    filter_expression: Annotated[
-        str | None,
-        typer.Option("--filter", metavar="EXPR", help="Print messages m for which this Python expression is true."),
-    ] = None,
-    lost_messages: Annotated[
-        bool,
-        typer.Option(
-            "--lost-messages", help="Accepted for compatibility: lost messages are always reported.", hidden=True
-        ),
-    ] = False,
-    no_lost_messages: Annotated[bool, typer.Option("--no-lost-messages", help="Do not report lost messages.")] = False,
-    qos_profile: ProfileOption = None,
-    qos_depth: DepthOption = None,
-    qos_history: HistoryOption = None,
-    qos_reliability: ReliabilityOption = None,
-    qos_durability: DurabilityOption = None,
-    include_hidden: HiddenTopicsOption = False,
-    use_sim_time: SimTimeOption = False,
-    spin_time: SpinTimeOption = AT_ONCE,
+    topic_name: str,
+    message_type: str | None,
+    field: str | None,
+    once: bool,
+    timeout: NonNegativeDuration | None,
+    csv: bool,
+    full_length: bool,
+    truncate_length: int,
+    no_arr: bool,
+    no_str: bool,
+    flow_style: bool,
+    raw: bool,
+    filter_expression: str | None,
+    lost_messages: bool,
+    no_lost_messages: bool,
+    qos_profile: str | None,
+    qos_depth: int | None,
+    qos_history: str | None,
+    qos_reliability: str | None,
+    qos_durability: str | None,
+    include_hidden: bool,
+    use_sim_time: bool,
+    spin_time: NonNegativeDuration,
 ) -> None:
     """Print the messages of a topic. The QoS is chosen so that every publisher matches, unless it is given.
 

@@ -5,20 +5,21 @@ from __future__ import annotations
 
 import os
 import time
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Any
 
-import typer
+import click
 
-from coframe.cli.options import NonNegativeDuration, with_leading_slash
+from coframe.cli.declaration import argument
+from coframe.cli.options import NonNegativeDuration, topic_name
 from coframe.cli.output import fail
-from coframe.cli.ros2.graph import AT_ONCE, SimTimeOption, SpinTimeOption, graph_node, load_type
+from coframe.cli.ros2.graph import AT_ONCE, GraphCommand, graph_node, load_type, sim_time_option, spin_time_option
 from coframe.cli.ros2.qos import (
-    DepthOption,
-    DurabilityOption,
-    HistoryOption,
-    ProfileOption,
     QoSWords,
-    ReliabilityOption,
+    depth_option,
+    durability_option,
+    history_option,
+    profile_option,
+    reliability_option,
 )
 from coframe.cli.ros2.values import read_values
 
@@ -28,65 +29,75 @@ if TYPE_CHECKING:
 
 __all__ = ["pub"]
 
-_KEEP_ALIVE = NonNegativeDuration("100ms")
 _LONGEST_PERIOD = 1e9  # seconds; Python cannot sleep for more than nine times as long
 _POLL = 0.1  # seconds between two looks for matching subscriptions, as in ros2cli
 
 
+@click.command(cls=GraphCommand, short_help="Publish messages on a topic.")
+@argument("topic_name", metavar="TOPIC", type=topic_name, help="Name of the topic, e.g. /chatter.")
+@argument("message_type", metavar="TYPE", help="Type, e.g. std_msgs/msg/String.")
+@argument("values", metavar="[VALUES]", default="{}", help="Values of fields as YAML, e.g. '{data: hello}'.")
+@click.option("--rate", "-r", metavar="HZ", type=float, default=1.0, help="Messages per second.")
+@click.option(
+    "--print",
+    "-p",
+    "print_every",
+    metavar="N",
+    type=click.IntRange(min=0),
+    default=1,
+    help="Print only every N-th message.",
+)
+@click.option("--once", "-1", is_flag=True, help="Publish one message and exit.")
+@click.option(
+    "--times",
+    "-t",
+    metavar="N",
+    type=click.IntRange(min=0),
+    default=0,
+    show_default=False,
+    help="Publish N messages and exit. [default: no limit]",
+)
+@click.option(
+    "--wait-matching-subscriptions",
+    "-w",
+    "wait_matching",
+    metavar="N",
+    type=click.IntRange(min=0),
+    help="Wait for N subscriptions first. [default: 1 with --once and --times, else 0]",
+)
+@click.option(
+    "--keep-alive",
+    metavar="DURATION",
+    type=NonNegativeDuration,
+    default="100ms",
+    help="Keep the node alive after the last message.",
+)
+@click.option("--node-name", "-n", metavar="NAME", help="Name of the publishing node.")
+@profile_option
+@depth_option
+@history_option
+@reliability_option
+@durability_option
+@sim_time_option
+@spin_time_option(AT_ONCE)
 def pub(
-    topic_name: Annotated[
-        str, typer.Argument(metavar="TOPIC", help="Name of the topic, e.g. /chatter.", callback=with_leading_slash)
-    ],
-    message_type: Annotated[str, typer.Argument(metavar="TYPE", help="Type, e.g. std_msgs/msg/String.")],
-    values: Annotated[
-        str, typer.Argument(metavar="[VALUES]", help="Values of fields as YAML, e.g. '{data: hello}'.")
-    ] = "{}",
-    rate: Annotated[float, typer.Option("--rate", "-r", metavar="HZ", help="Messages per second.")] = 1.0,
-    print_every: Annotated[
-        int, typer.Option("--print", "-p", metavar="N", help="Print only every N-th message.", min=0)
-    ] = 1,
-    once: Annotated[bool, typer.Option("--once", "-1", help="Publish one message and exit.")] = False,
-    times: Annotated[
-        int,
-        typer.Option(
-            "--times",
-            "-t",
-            metavar="N",
-            min=0,
-            help="Publish N messages and exit. [default: no limit]",
-            show_default=False,
-        ),
-    ] = 0,
-    wait_matching: Annotated[
-        int | None,
-        typer.Option(
-            "--wait-matching-subscriptions",
-            "-w",
-            metavar="N",
-            min=0,
-            help="Wait for N subscriptions first. [default: 1 with --once and --times, else 0]",
-            show_default=False,
-        ),
-    ] = None,
-    keep_alive: Annotated[
-        NonNegativeDuration,
-        typer.Option(
-            "--keep-alive",
-            metavar="DURATION",
-            parser=NonNegativeDuration,
-            help="Keep the node alive after the last message.",
-        ),
-    ] = _KEEP_ALIVE,
-    node_name: Annotated[
-        str | None, typer.Option("--node-name", "-n", metavar="NAME", help="Name of the publishing node.")
-    ] = None,
-    qos_profile: ProfileOption = None,
-    qos_depth: DepthOption = None,
-    qos_history: HistoryOption = None,
-    qos_reliability: ReliabilityOption = None,
-    qos_durability: DurabilityOption = None,
-    use_sim_time: SimTimeOption = False,
-    spin_time: SpinTimeOption = AT_ONCE,
+    topic_name: str,
+    message_type: str,
+    values: str,
+    rate: float,
+    print_every: int,
+    once: bool,
+    times: int,
+    wait_matching: int | None,
+    keep_alive: NonNegativeDuration,
+    node_name: str | None,
+    qos_profile: str | None,
+    qos_depth: int | None,
+    qos_history: str | None,
+    qos_reliability: str | None,
+    qos_durability: str | None,
+    use_sim_time: bool,
+    spin_time: NonNegativeDuration,
 ) -> None:
     """Publish messages on a topic. In VALUES, "stamp: now" and "header: auto" stand for the current time.
 

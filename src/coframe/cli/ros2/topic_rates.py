@@ -7,18 +7,19 @@ import itertools
 import statistics
 import time
 from collections import deque
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Any
 
-import typer
+import click
 
 from coframe.cli.output import fail
 from coframe.cli.ros2.graph import (
     AT_ONCE,
-    SimTimeOption,
-    SpinTimeOption,
-    TopicArgument,
+    GraphCommand,
     graph_node,
     load_type,
+    sim_time_option,
+    spin_time_option,
+    topic_argument,
     topic_type,
 )
 from coframe.cli.ros2.messages import MessageStream, message_filter
@@ -27,30 +28,47 @@ from coframe.time import SECOND
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from coframe.cli.declaration import Declared
+    from coframe.cli.options import NonNegativeDuration
     from rclpy.node import Node
 
 __all__ = ["bw", "delay", "hz"]
 
-_WINDOW = 10_000  # messages; ros2cli's default for hz and delay
-_BANDWIDTH_WINDOW = 100  # messages; ros2cli's default for bw
 _KILO = 1000  # ros2cli prints decimal units
 
-WindowOption = Annotated[
-    int,
-    typer.Option("--window", "-w", metavar="N", min=2, max=10_000_000, help="Number of messages of the statistics."),
-]
+
+def window_option(default: int) -> Callable[[Declared], Declared]:
+    """Declare the option `--window`.
+
+    Args:
+        default: The number of messages that ros2cli uses.
+    """
+    return click.option(
+        "--window",
+        "-w",
+        metavar="N",
+        type=click.IntRange(min=2, max=10_000_000),
+        default=default,
+        help="Number of messages of the statistics.",
+    )
 
 
+@click.command(cls=GraphCommand, short_help="Show the rate of a topic.")
+@topic_argument
+@window_option(10_000)
+@click.option(
+    "--filter", "filter_expression", metavar="EXPR", help="Count messages m for which this Python expression is true."
+)
+@click.option("--wall-time", is_flag=True, help="Use the system time, not that of /clock.")
+@sim_time_option
+@spin_time_option(AT_ONCE)
 def hz(
-    topic_name: TopicArgument,
-    window: WindowOption = _WINDOW,
-    filter_expression: Annotated[
-        str | None,
-        typer.Option("--filter", metavar="EXPR", help="Count messages m for which this Python expression is true."),
-    ] = None,
-    wall_time: Annotated[bool, typer.Option("--wall-time", help="Use the system time, not that of /clock.")] = False,
-    use_sim_time: SimTimeOption = False,
-    spin_time: SpinTimeOption = AT_ONCE,
+    topic_name: str,
+    window: int,
+    filter_expression: str | None,
+    wall_time: bool,
+    use_sim_time: bool,
+    spin_time: NonNegativeDuration,
 ) -> None:
     """Show the rate at which messages arrive on a topic: mean, shortest, longest period and standard deviation.
 
@@ -67,11 +85,16 @@ def hz(
         )
 
 
+@click.command(cls=GraphCommand, short_help="Show the bandwidth of a topic.")
+@topic_argument
+@window_option(100)
+@sim_time_option
+@spin_time_option(AT_ONCE)
 def bw(
-    topic_name: TopicArgument,
-    window: WindowOption = _BANDWIDTH_WINDOW,
-    use_sim_time: SimTimeOption = False,
-    spin_time: SpinTimeOption = AT_ONCE,
+    topic_name: str,
+    window: int,
+    use_sim_time: bool,
+    spin_time: NonNegativeDuration,
 ) -> None:
     """Show the bytes per second that arrive on a topic, and the sizes of the messages.
 
@@ -88,11 +111,16 @@ def bw(
         )
 
 
+@click.command(cls=GraphCommand, short_help="Show the delay of messages by their header.")
+@topic_argument
+@window_option(10_000)
+@sim_time_option
+@spin_time_option(AT_ONCE)
 def delay(
-    topic_name: TopicArgument,
-    window: WindowOption = _WINDOW,
-    use_sim_time: SimTimeOption = False,
-    spin_time: SpinTimeOption = AT_ONCE,
+    topic_name: str,
+    window: int,
+    use_sim_time: bool,
+    spin_time: NonNegativeDuration,
 ) -> None:
     """Show how long after the stamp in its header a message arrives.
 

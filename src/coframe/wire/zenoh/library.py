@@ -12,7 +12,6 @@ from coframe.optional_imports import import_optional
 if TYPE_CHECKING:
     from types import ModuleType
 
-INSTALL: Final = "coframe[zenoh]"
 _MODULES: Final = ("zenoh", "xxhash")
 
 
@@ -41,8 +40,8 @@ def load() -> ModuleType:
         WireError: A package that Zenoh needs is not installed.
     """
     try:
-        loaded = [import_optional(name, "Communication over Zenoh", INSTALL) for name in _MODULES]
+        loaded = [import_optional(name, "Communication over Zenoh", "zenoh") for name in _MODULES]
     except ModuleNotFoundError as error:
         raise WireError(str(error), hint="COFRAME_WIRE=dds selects DDS instead.") from error
-    import_optional("zenoh.ext", "Communication over Zenoh", INSTALL)
+    import_optional("zenoh.ext", "Communication over Zenoh", "zenoh")
     return loaded[0]  # type: ignore[no-any-return]

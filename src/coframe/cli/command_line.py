@@ -1,0 +1,178 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The command line: the commands of the table and those of plug-ins, each imported when it is called."""
+
+from __future__ import annotations
+
+import functools
+import importlib
+import sys
+from typing import TYPE_CHECKING, Any
+
+import click
+from click.exceptions import Abort, Exit
+
+import coframe
+from coframe._plugins import Plugin, PluginError, plugins
+from coframe.base_error import CoframeError
+from coframe.cli.commands import COMMANDS
+from coframe.cli.declaration import CommandGroup
+
+if TYPE_CHECKING:
+    from collections.abc import Collection
+
+    from click.shell_completion import CompletionItem
+
+__all__ = ["PLUGINS", "CommandLine"]
+
+PLUGINS = "coframe.commands"  # the group of entry points whose objects are commands of click
+_INTERRUPTED = 130  # exit code: 128 + SIGINT, as shells have it
+_DESCRIPTIONS = {
+    "coframe": "ROS 2's transform system (tf2) as one pip install: any frame, any time, on any machine.\n\n"
+    "Example: coframe demo",
+    "ros2": "The commands of ros2 that coframe provides where no ROS is installed. coframe --help lists more.\n\n"
+    "Example: ros2 topic list",
+}
+
+
+class CommandLine(CommandGroup):
+    """The commands of a program. The help and the other commands do not import the module of a command.
+
+    Args:
+        program: The name of the program.
+        shown: The commands that exist. None: all, and those of plug-ins.
+    """
+
+    def __init__(self, program: str = "coframe", shown: Collection[str] | None = None) -> None:
+        super().__init__(
+            program,
+            help=_DESCRIPTIONS[program],
+            params=_options(),
+            # The commands of ros2 have -h, too.
+            context_settings={"help_option_names": ["--help", "-h"], "show_default": True},
+        )
+        self._rows = {name: row for name, row in COMMANDS.items() if shown is None or name in shown}
+        self._has_plugins = shown is None
+
+    def list_commands(self, ctx: click.Context) -> list[str]:  # noqa: ARG002 - click's signature
+        """Return the names of the commands: those of coframe, then those of plug-ins."""
+        return [*self._rows, *self._plugins]
+
+    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:  # noqa: ARG002
+        """Import a command.
+
+        Raises:
+            click.ClickException: The plug-in that adds the command cannot be loaded.
+        """
+        if cmd_name not in self.commands:
+            if cmd_name in self._rows:
+                self.commands[cmd_name] = self._own(cmd_name)
+            elif cmd_name in self._plugins:
+                self.commands[cmd_name] = _loaded(self._plugins[cmd_name])
+        return self.commands.get(cmd_name)
+
+    def command_lines(self, ctx: click.Context) -> list[tuple[str, str]]:  # noqa: ARG002
+        """Return the names of the commands with their lines in the help."""
+        own = [(name, row.line) for name, row in self._rows.items()]
+        return [*own, *((name, _line(plugin)) for name, plugin in self._plugins.items())]
+
+    def shell_complete(self, ctx: click.Context, incomplete: str) -> list[CompletionItem]:
+        """Return the names of commands or options that begin with a text."""
+        from click.shell_completion import CompletionItem  # noqa: PLC0415 - only for completion
+
+        lines = self.command_lines(ctx)
+        names = [CompletionItem(name, help=line) for name, line in lines if name.startswith(incomplete)]
+        return [*names, *click.Command.shell_complete(self, ctx, incomplete)]
+
+    def invoke(self, ctx: click.Context) -> Any:
+        """Run the command; Ctrl-C during its import, and errors of a plug-in, end the program without a traceback."""
+        try:
+            return super().invoke(ctx)
+        except KeyboardInterrupt:
+            raise Exit(_INTERRUPTED) from None
+        except (Abort, Exit, OSError, click.ClickException):
+            raise
+        except Exception as error:
+            plugin = self._plugins.get(ctx.invoked_subcommand or "")
+            if plugin is None or sys.flags.dev_mode:
+                raise
+            raise _failure(plugin, error) from error
+
+    @functools.cached_property
+    def _plugins(self) -> dict[str, Plugin]:
+        """The plug-ins by the names of their commands; the names of coframe's own commands are taken."""
+        found = plugins(PLUGINS) if self._has_plugins else []
+        return {plugin.name: plugin for plugin in found if plugin.name not in COMMANDS}
+
+    def _own(self, name: str) -> click.Command:
+        module = importlib.import_module(f"coframe.cli.{self._rows[name].module}")
+        command: click.Command = getattr(module, name)
+        command.short_help = self._rows[name].line
+        return command
+
+
+def _line(plugin: Plugin) -> str:
+    return f"Command of the package {plugin.package}."
+
+
+def _loaded(plugin: Plugin) -> click.Command:
+    try:
+        command = plugin.load()
+        if not isinstance(command, click.Command):
+            raise plugin.error(f"is not a command of click, but {command!r}")
+    except PluginError as error:
+        raise _Failure(f"{error}\n  {error.hint}") from error
+    return command
+
+
+def _failure(plugin: Plugin, error: Exception) -> _Failure:
+    if isinstance(error, CoframeError):
+        return _Failure(f"{error}\n  {error.hint}".rstrip())
+    advice = f"Show the traceback with: python -X dev -m coframe.cli {plugin.name} ..."
+    return _Failure(f"{plugin.error(f'has failed: {type(error).__name__}: {error}')}\n  {advice}")
+
+
+class _Failure(click.ClickException):
+    """An error in the format of coframe's own commands."""
+
+    def show(self, file: Any = None) -> None:
+        """Print the error on stderr."""
+        click.echo(f"coframe: {self.format_message()}", err=True, file=file)
+
+
+def _options() -> list[click.Parameter]:
+    return [
+        _action("--version", "Show the version and exit.", _print_version),
+        _action("--install-completion", "Install completion for the current shell.", _install_completion),
+        _action(
+            "--show-completion",
+            "Show completion for the current shell, to copy it or customize the installation.",
+            _show_completion,
+        ),
+    ]
+
+
+def _action(name: str, text: str, action: Any) -> click.Option:
+    """Return an option that does something in place of a command."""
+
+    def run(ctx: click.Context, _parameter: click.Parameter, requested: bool) -> None:
+        if requested and not ctx.resilient_parsing:
+            action(ctx)
+            ctx.exit()
+
+    return click.Option([name], is_flag=True, is_eager=True, expose_value=False, callback=run, help=text)
+
+
+def _print_version(_ctx: click.Context) -> None:
+    click.echo(f"coframe {coframe.__version__}")
+
+
+def _install_completion(ctx: click.Context) -> None:
+    from coframe.cli.shell_completion import install  # noqa: PLC0415 - rarely needed
+
+    install(ctx)
+
+
+def _show_completion(ctx: click.Context) -> None:
+    from coframe.cli.shell_completion import script  # noqa: PLC0415 - rarely needed
+
+    click.echo(script(ctx))
