@@ -6,9 +6,9 @@ import os
 import subprocess
 import sys
 
+import click
 import pytest
 from click.testing import CliRunner
-from coframe.cli.wire_option import take_wire
 from zenoh_router import Router
 
 from coframe import python_children
@@ -38,21 +38,27 @@ def test_without_a_dds_library_zenoh_is_used_if_it_is_installed(
     assert selection.select({}).wire == wire
 
 
-def test_the_option_is_taken_out_of_the_arguments(monkeypatch: pytest.MonkeyPatch) -> None:
+def parsed(name: str, *words: str) -> click.Context:
+    """Return the context of a command whose arguments have been read."""
+    return app.commands[name].make_context(name, list(words), parent=click.Context(app, info_name="coframe"))
+
+
+def test_the_option_chooses_the_middleware(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("COFRAME_WIRE", "dds")
     monkeypatch.setattr(selection, "_chosen", {})
     monkeypatch.setattr(python_children, "_passed", {})
-    assert take_wire(["a", "--wire", "zenoh", "b"], leading_only=False) == ["a", "b"]
+    assert parsed("lookup", "a", "--wire", "zenoh", "b").params["names"] == ("a", "b")
     assert selection.select() == ("zenoh", "--wire is given")
     assert os.environ["COFRAME_WIRE"] == "dds", "a choice for this process does not change its environment"
     assert python_environment()["COFRAME_WIRE"] == "zenoh", "the processes that it starts use the same middleware"
     assert child_environment({"COFRAME_WIRE": "mine"})["COFRAME_WIRE"] == "mine", "unless they are given another one"
-    assert take_wire(["--wire=dds", "pkg", "exe"], leading_only=True) == ["pkg", "exe"]
+    assert parsed("run", "--wire=dds", "pkg", "exe").params["package"] == "pkg"
     assert selection.select().wire == "dds"
-    for words in (["pkg", "exe", "--wire", "zenoh"], ["--", "--wire", "zenoh"], ["--ros-args", "--wire", "zenoh"]):
-        assert take_wire(words, leading_only=True) == words
-    with pytest.raises(ValueError, match="'foo' is not dds or zenoh"):
-        take_wire(["--wire", "foo"], leading_only=False)
+    for words in (["pkg", "exe", "--wire", "zenoh"], ["--", "pkg", "exe", "--wire", "zenoh"]):
+        assert parsed("run", *words).args == ["--wire", "zenoh"], "the arguments of an executable are its own"
+    assert selection.select().wire == "dds"
+    with pytest.raises(click.BadParameter, match="'foo' is not dds or zenoh"):
+        parsed("hub", "--wire", "foo")
 
 
 def test_the_doctor_reports_the_router(router: Router, zenoh_domain: int) -> None:
