@@ -19,11 +19,12 @@ EXPECTED = {
     "07_urdf.py": r"tool relative to base_link: \[0\.614, 0\.0, 0\.348\] m",
     "08_recording.py": r"odom -> base_link: 101 transforms, moved 10\.00 m",
 }
+VIEWERS = {"10_click_to_measure.py", "11_calibration_sliders.py"}  # tests/viewer/browser/test_example_programs.py
 NODES = ["01_static_broadcaster.py", "02_dynamic_broadcaster.py", "03_listener.py"]
 
 
 def test_each_example_has_a_test():
-    assert {path.name for path in EXAMPLES.glob("[0-9]*.py")} == {*EXPECTED, *NODES}
+    assert {path.name for path in EXAMPLES.glob("[0-9]*.py")} == {*EXPECTED, *NODES, *VIEWERS}
 
 
 @pytest.mark.parametrize("name", EXPECTED)

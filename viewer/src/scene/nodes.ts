@@ -243,7 +243,9 @@ export class NodesView {
     const rows = [...this.places.values()].map((place) => {
       const drawing = place.current?.drawing ?? null;
       if (drawing) drawing.updateWorldMatrix(true, false);
-      const box = drawing ? new THREE.Box3().setFromObject(drawing) : new THREE.Box3();
+      // Exact boxes of turned objects need all vertices; those of lines are not in an attribute of this kind.
+      const exact = place.current?.node.kind !== "lines";
+      const box = drawing ? new THREE.Box3().setFromObject(drawing, exact) : new THREE.Box3();
       const centre = box.getCenter(new THREE.Vector3()).toArray();
       return [
         place.name,

@@ -5,6 +5,8 @@ import * as THREE from "three";
 
 /** A point of a cloud is hit if the pointer is within this many pixels of it. */
 const CLOUD_POINT_PX = 5;
+/** Points have the same depth if it differs by at most this many times the tolerance of a hit. */
+const SAME_DEPTH = 4;
 /** A ray that is nearly parallel to the ground would hit it at a distance that the user cannot mean. */
 const MAX_GROUND_DISTANCE_M = 1e4;
 
@@ -59,13 +61,21 @@ export class Picker {
     hits.sort((a, b) => a.distance - b.distance);
     const nearest = hits[0];
     if (!nearest) return null;
-    const { object, index, faceIndex } = nearest;
+    const { object, index, faceIndex } = this.bestOf(hits, nearest);
     if (!(object instanceof THREE.Points) || index === undefined)
       return { object, point: nearest.point, index: faceIndex ?? null };
     // The hit is the nearest point of the ray; the point of the cloud is what the user means.
     const position = (object as THREE.Points<THREE.BufferGeometry>).geometry.getAttribute("position");
     const point = new THREE.Vector3().fromBufferAttribute(position, index).applyMatrix4(object.matrixWorld);
     return { object, point, index };
+  }
+
+  /** Of the points of a cloud that are about as near as the nearest one, the one that is nearest to the pointer. */
+  private bestOf(hits: readonly THREE.Intersection[], nearest: THREE.Intersection): THREE.Intersection {
+    const depth = nearest.distance + SAME_DEPTH * CLOUD_POINT_PX * this.pixels(nearest.distance);
+    const off = (hit: THREE.Intersection): number => hit.distanceToRay ?? Infinity;
+    const near = hits.filter(({ object, distance }) => object === nearest.object && distance <= depth);
+    return near.reduce((best, hit) => (off(hit) < off(best) ? hit : best), nearest);
   }
 
   private distance(cloud: THREE.Points): number {
