@@ -75,6 +75,8 @@ class Tab:
                 self.send("ready", drawn=None if np.isnan(content.time) else content.time)
             elif kind == "curves":
                 self._add_points(content)
+            elif kind == "geometry":
+                pass
             else:
                 self.drawings[content.display, content.sequence] = content
         self.last[kind] = content
@@ -136,6 +138,7 @@ class Tab:
 FRAMES, ENTRY = Layout(binary_messages.FramesHeader), Layout(binary_messages.EntryRecord)
 CLOUD, GRID = Layout(binary_messages.CloudHeader), Layout(binary_messages.GridHeader)
 CURVES, CURVE = Layout(binary_messages.CurvesHeader), Layout(binary_messages.CurveRecord)
+NODE = Layout(binary_messages.NodeHeader)
 SHAPES, IMAGE = Layout(binary_messages.ShapesHeader), Layout(binary_messages.ImageHeader)
 
 
@@ -146,6 +149,8 @@ def decode(data):
         return "frames", decode_frames(data)
     if kind == binary_messages.BinaryKind.CURVES:
         return "curves", decode_curves(data)
+    if kind == binary_messages.BinaryKind.NODE:
+        return "geometry", decode_geometry(data)
     display, sequence = struct.unpack_from("<II", data, 4)
     content = SimpleNamespace(display=display, sequence=sequence, size=len(data))
     if kind == binary_messages.BinaryKind.CLOUD:
@@ -178,6 +183,19 @@ def decode(data):
     SHAPES_BY_KIND[content.head["kind"]].check(content.head, "shapes")
     content.payload = np.frombuffer(data, "<f4", offset=SHAPES.size + length)
     return "shapes", content
+
+
+def decode_geometry(data):
+    """Return the geometry of a node."""
+    head = NODE.unpack(data)
+    vertices = np.frombuffer(data, "<f4", head.vertices * 3, NODE.size).reshape(-1, 3)
+    at = NODE.size + vertices.nbytes
+    indices = np.frombuffer(data, "<u4", head.indices, at)
+    colors = np.frombuffer(data, np.uint8, head.colors * 4, at + indices.nbytes).reshape(-1, 4)
+    assert len(data) == at + indices.nbytes + colors.nbytes
+    return SimpleNamespace(
+        node=head.node, vertices=vertices, indices=indices, colors=colors, width=head.width, offset=head.offset
+    )
 
 
 def decode_curves(data):
