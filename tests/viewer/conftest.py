@@ -147,10 +147,9 @@ def decode(data):
     (kind,) = struct.unpack_from("<I", data)
     if kind == binary_messages.BinaryKind.FRAMES:
         return "frames", decode_frames(data)
-    if kind == binary_messages.BinaryKind.CURVES:
-        return "curves", decode_curves(data)
-    if kind == binary_messages.BinaryKind.NODE:
-        return "geometry", decode_geometry(data)
+    if kind in {binary_messages.BinaryKind.CURVES, binary_messages.BinaryKind.NODE}:
+        is_curves = kind == binary_messages.BinaryKind.CURVES
+        return ("curves", decode_curves(data)) if is_curves else ("geometry", decode_geometry(data))
     display, sequence = struct.unpack_from("<II", data, 4)
     content = SimpleNamespace(display=display, sequence=sequence, size=len(data))
     if kind == binary_messages.BinaryKind.CLOUD:

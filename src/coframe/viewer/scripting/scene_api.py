@@ -140,7 +140,7 @@ class SceneApi:
         Example:
             >>> import coframe
             >>> buffer = coframe.Buffer()
-            >>> buffer.set("map", "base_link", coframe.Transform([1.0, 0.0, 0.0]), static=True)
+            >>> _ = buffer.set("map", "base_link", coframe.Transform([1.0, 0.0, 0.0]), static=True)
             >>> with coframe.show(buffer, port=0) as viewer:
             ...     cloud = viewer.scene.add_points("cloud", [[0, 0, 0], [1, 0, 0]], frame="base_link")
             ...     cloud.points = [[0, 0, 1], [1, 0, 1], [2, 0, 1]]
