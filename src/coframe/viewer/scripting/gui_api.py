@@ -67,8 +67,8 @@ class GuiApi:
 
         Args:
             label: The text on it.
-            hint: A longer description.
-            disabled: Show it, but let nobody press it.
+            hint: A longer description, shown as a tooltip.
+            disabled: Whether it is greyed out and cannot be pressed.
             visible: Whether it is shown.
         """
         return ButtonHandle(self._store, self._add("button", label, hint, disabled, visible))
@@ -93,8 +93,8 @@ class GuiApi:
             max: The largest value.
             step: The distance of two neighbouring values.
             initial_value: The first value.
-            hint: A longer description.
-            disabled: Show it, but let nobody move it.
+            hint: A longer description, shown as a tooltip.
+            disabled: Whether it is greyed out and cannot be moved.
             visible: Whether it is shown.
         """
         low = arguments.number_of(min, "min", -_LIMIT, _LIMIT)
@@ -123,8 +123,8 @@ class GuiApi:
             min: The smallest value; None for no limit.
             max: The largest value; None for no limit.
             step: The distance of two neighbouring values; None for any number, or 1 if all numbers are ints.
-            hint: A longer description.
-            disabled: Show it, but let nobody change it.
+            hint: A longer description, shown as a tooltip.
+            disabled: Whether it is greyed out and cannot be changed.
             visible: Whether it is shown.
         """
         low = None if min is None else arguments.number_of(min, "min", -_LIMIT, _LIMIT)
@@ -149,8 +149,8 @@ class GuiApi:
             label: The text next to it.
             options: The texts to choose from.
             initial_value: The first value; None for the first option.
-            hint: A longer description.
-            disabled: Show it, but let nobody change it.
+            hint: A longer description, shown as a tooltip.
+            disabled: Whether it is greyed out and cannot be changed.
             visible: Whether it is shown.
         """
         known = checked_options(options)
@@ -174,8 +174,8 @@ class GuiApi:
         Args:
             label: The text next to it.
             initial_value: The first value.
-            hint: A longer description.
-            disabled: Show it, but let nobody change it, for example to show a result.
+            hint: A longer description, shown as a tooltip.
+            disabled: Whether it is greyed out and cannot be changed, for example to show a result.
             visible: Whether it is shown.
         """
         value = arguments.text_of(initial_value, "initial_value")
@@ -195,8 +195,8 @@ class GuiApi:
         Args:
             label: The text next to it.
             initial_value: Whether it is checked at first.
-            hint: A longer description.
-            disabled: Show it, but let nobody change it.
+            hint: A longer description, shown as a tooltip.
+            disabled: Whether it is greyed out and cannot be changed.
             visible: Whether it is shown.
         """
         value = arguments.flag_of(initial_value, "initial_value")
