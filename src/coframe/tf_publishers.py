@@ -121,7 +121,7 @@ def publishers_of(participant: Participant, reader: TfReader) -> list[TfPublishe
 def tf_publisher(
     statistics: WriterStatistics, node: str | None, topic: str, *, static: bool, present: bool
 ) -> TfPublisher:
-    """Return a publisher from the statistics of its DDS writer.
+    """Return a publisher from the statistics of its writer.
 
     Args:
         statistics: What was received from the writer.

@@ -126,7 +126,7 @@ def complete_tf_topics(ctx: click.Context, _parameter: click.Parameter, incomple
 
 def _live_topics(domain: int | None) -> dict[str, list[str]]:
     """Return the types of the topics of the ROS graph."""
-    from coframe.wire import Participant  # noqa: PLC0415 - only for this completion
+    from coframe.wire.participant import Participant  # noqa: PLC0415 - only for this completion
 
     participant = Participant.get(domain)
     try:

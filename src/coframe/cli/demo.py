@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""``coframe demo``: simulated robots whose transforms are published over DDS and shown live."""
+"""``coframe demo``: simulated robots whose transforms are published and shown live."""
 
 from __future__ import annotations
 
@@ -173,6 +173,6 @@ def _watch(buffer: coframe.Buffer, nodes: Launcher, start: float, duration: floa
             missing = ", ".join(frame for frame in complete if frame not in buffer)
             fail(
                 f"no transforms to these frames received after {START_TIMEOUT:.0f} s: {missing}",
-                "Check that DDS can use the loopback interface: `ip link show lo` should print UP.",
+                "Run coframe doctor --system. The loopback interface (ip link show lo) must be UP.",
             )
         pause.wait(REFRESH)

@@ -127,7 +127,7 @@ def doctor(
                 observations = observe_chosen(bag, choice, cache=cache, progress=progress)
             reports = {name: diagnose(one, ignore=ignored) for name, one in observations.items()}
             _print_and_exit(reports, as_json, sarif, bag)
-        from coframe.doctor.live import LiveObserver  # noqa: PLC0415 - recordings need no DDS
+        from coframe.doctor.live import LiveObserver  # noqa: PLC0415 - recordings need no middleware
 
         config = ListenerConfig.of(
             domain=domain,

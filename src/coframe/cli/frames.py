@@ -136,7 +136,7 @@ def frames(
                 )
             _write_or_print(forests, files, as_json, bag.resolve().name)
             return
-        from coframe.doctor.live import LiveObserver  # noqa: PLC0415 - recordings need no DDS
+        from coframe.doctor.live import LiveObserver  # noqa: PLC0415 - recordings need no middleware
 
         config = ListenerConfig.of(
             domain=domain,

@@ -234,6 +234,6 @@ def _watch(view: _View, nodes: Launcher, start: float, duration: float | None) -
         if time.monotonic() - start > START_TIMEOUT and (missing := set(view.missing()) - gone):
             fail(
                 f"no transforms received from {', '.join(sorted(missing))} after {START_TIMEOUT:.0f} s",
-                "Check that DDS can use the loopback interface: `ip link show lo` should print UP.",
+                "Run coframe doctor --system. The loopback interface (ip link show lo) must be UP.",
             )
         pause.wait(REFRESH)

@@ -20,7 +20,7 @@ from coframe.cli.static_arguments import ArgumentError, StaticArguments, parse
 from coframe.escaping import shown
 from coframe.frame_names import renaming
 from coframe.messages.conversions import to_transform_stamped
-from coframe.wire import Participant
+from coframe.wire.participant import Participant
 from coframe.wire.system_clock import stamp_fault
 
 __all__ = ["static"]

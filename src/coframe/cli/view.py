@@ -167,7 +167,7 @@ def view(
                     domain=domain, tf_topic=tf_topic, tf_static_topic=tf_static_topic, prefix=prefix, keep=keep
                 )
                 node = Connection("coframe_view", config)
-                from coframe.viewer.sources.live import LiveSource  # noqa: PLC0415 - recordings need no DDS
+                from coframe.viewer.sources.live import LiveSource  # noqa: PLC0415 - recordings need no middleware
 
                 viewer.set_source(LiveSource(node, own=True))
             else:

@@ -151,7 +151,7 @@ def _answer_recorded(bag: Path, choice: TransformChoice, target: str, source: st
 
 
 def _answer_live(config: ListenerConfig, target: str, source: str, at: str | None, window: int) -> _Answer:
-    from coframe.doctor.live import LiveObserver  # noqa: PLC0415 - recordings need no DDS
+    from coframe.doctor.live import LiveObserver  # noqa: PLC0415 - recordings need no middleware
 
     with (
         Connection("coframe_why", config) as ros,
@@ -173,7 +173,7 @@ def _answer_live(config: ListenerConfig, target: str, source: str, at: str | Non
 
 def _watch(config: ListenerConfig, target: str, source: str, at: str | None, window: int, *, as_json: bool) -> NoReturn:
     """Print an answer every second, without the doctor, until Ctrl-C."""
-    from coframe.wire import QoS  # noqa: PLC0415 - recordings need no DDS
+    from coframe.wire.qos import QoS  # noqa: PLC0415 - recordings need no middleware
 
     with Connection("coframe_why", config) as ros, Live(console=Console(highlight=False), auto_refresh=False) as live:
         ticks: deque[Any] = deque(maxlen=1)

@@ -184,7 +184,7 @@ def run(args: list[str], robot: Robot | None = None, *, domain_id: int | None = 
     Args:
         args: Command line with `--ros-args`.
         robot: Robot, as for the node.
-        domain_id: DDS domain. None: ROS_DOMAIN_ID or 0.
+        domain_id: ROS domain. None: ROS_DOMAIN_ID or 0.
         options: Keyword arguments of Node.
 
     Raises:

@@ -33,7 +33,7 @@ def initialized(args: list[str], domain_id: int | None) -> Iterator[None]:
 
     Args:
         args: Command line with `--ros-args`.
-        domain_id: DDS domain. None: ROS_DOMAIN_ID or 0.
+        domain_id: ROS domain. None: ROS_DOMAIN_ID or 0.
     """
     rclpy.init(args=args, domain_id=domain_id)
     try:
@@ -48,7 +48,7 @@ def spin_until_shutdown(make_node: Callable[[], Node], args: list[str], domain_i
     Args:
         make_node: Function that creates the node.
         args: Command line with `--ros-args`.
-        domain_id: DDS domain. None: ROS_DOMAIN_ID or 0.
+        domain_id: ROS domain. None: ROS_DOMAIN_ID or 0.
     """
     try:
         with initialized(args, domain_id):

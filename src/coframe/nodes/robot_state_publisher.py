@@ -162,7 +162,7 @@ def run(args: list[str], file: str | None = None, *, domain_id: int | None = Non
     Args:
         args: Command line with `--ros-args`.
         file: URDF or xacro file, as for the node.
-        domain_id: DDS domain. None: ROS_DOMAIN_ID or 0.
+        domain_id: ROS domain. None: ROS_DOMAIN_ID or 0.
         options: Keyword arguments of Node.
 
     Raises:

@@ -14,7 +14,8 @@ from coframe.messages import find, serialize
 from coframe.recorder.playback_clock import PlaybackClock
 from coframe.recorder.topic_publishers import TopicPublishers
 from coframe.time import SECOND, duration_ns
-from coframe.wire import Participant, QoS
+from coframe.wire.participant import Participant
+from coframe.wire.qos import QoS
 
 if TYPE_CHECKING:
     import os
@@ -25,7 +26,7 @@ if TYPE_CHECKING:
 
     from coframe import _core
     from coframe.bags import Recording
-    from coframe.wire import Publisher
+    from coframe.wire.endpoints import Publisher
 
 __all__ = ["FASTEST", "Player", "play"]
 
@@ -241,7 +242,7 @@ def play(
 
     Raises:
         RecordingError: The recording cannot be read, has no such topic, or ends before the start.
-        WireError: There is no usable DDS library, or DDS cannot join the graph.
+        WireError: The middleware is not installed, or it cannot join the graph.
         ValueError: An argument has an invalid value.
 
     Example:

@@ -15,7 +15,7 @@ from coframe.recorder.frame_renaming import FrameRenamer
 from coframe.recorder.message_queue import MessageQueue, ReceivedMessage
 from coframe.recorder.topic_subscriptions import TopicFilter, TopicSubscriptions
 from coframe.time import MILLISECOND
-from coframe.wire import Participant
+from coframe.wire.participant import Participant
 
 if TYPE_CHECKING:
     import os
@@ -248,7 +248,7 @@ def record(
 
     Raises:
         RecordingError: The folder exists or cannot be created, or a package is not installed.
-        WireError: There is no usable DDS library, or DDS cannot join the graph.
+        WireError: The middleware is not installed, or it cannot join the graph.
         ValueError: An argument has an invalid value.
 
     Example:

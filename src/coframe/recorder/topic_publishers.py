@@ -12,7 +12,7 @@ from coframe.bags.transforms import is_static
 from coframe.errors import WireError
 from coframe.frame_names import absolute
 from coframe.messages import deserialize, find
-from coframe.wire import QoS
+from coframe.wire.qos import QoS
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -20,7 +20,9 @@ if TYPE_CHECKING:
     from coframe import _core
     from coframe.bags import Recording
     from coframe.bags.storage import Channel
-    from coframe.wire import GraphNode, Participant, Publisher, StaticBroadcaster
+    from coframe.wire.endpoints import GraphNode, Publisher
+    from coframe.wire.participant import Participant
+    from coframe.wire.static_broadcaster import StaticBroadcaster
 
 __all__ = ["TopicPublishers"]
 
@@ -44,7 +46,7 @@ class TopicPublishers:
     """The publishers for the topics of a recording.
 
     Args:
-        participant: The DDS participant.
+        participant: The participant.
         node: The node that owns the publishers.
         recording: The recording.
         topics: The topics to replay.
@@ -87,7 +89,7 @@ class TopicPublishers:
         except WireError as error:  # for example, a subscription does not keep up
             self._add_problem(str(error))
             return False
-        except Exception:  # noqa: BLE001 - DDS and the conversion can raise many exceptions
+        except Exception:  # noqa: BLE001 - the middleware and the conversion can raise many exceptions
             self._add_problem(f"{channel.topic}: damaged messages are skipped")
             return False
         return True
@@ -142,7 +144,7 @@ class TopicPublishers:
                 continue
             try:
                 self._channels[key] = self._channel_publisher(channel, offers[key])
-            except (WireError, ValueError) as error:  # recordings can contain topic names that DDS does not allow
+            except (WireError, ValueError) as error:  # recorded names may be invalid here
                 self._channels[key] = None
                 self.problems.append(f"{channel.topic} is not replayed: {error}")
         if len(channels) > MAX_TOPICS:

@@ -16,11 +16,13 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
     from coframe import _core
-    from coframe.wire import EndpointInfo, GraphNode, Participant, Subscription
+    from coframe.wire.endpoints import GraphNode, Subscription
+    from coframe.wire.graph import EndpointInfo
+    from coframe.wire.participant import Participant
 
 __all__ = ["TopicFilter", "TopicSubscriptions"]
 
-_DEPTH = 1000  # messages that DDS queues while Python is busy
+_DEPTH = 1000  # messages that the middleware queues while Python is busy
 _BATCH = 256  # messages
 _MAX_SUBSCRIPTIONS = 4000  # a typical graph has hundreds of topics
 MAX_PUBLISHERS = 100_000  # whose QoS is stored, and topics that cannot be recorded
@@ -73,7 +75,7 @@ class TopicSubscriptions:
     topic, and a message that several of them receive is taken from the one whose request equals the publisher's offer.
 
     Args:
-        participant: The DDS participant.
+        participant: The participant.
         node: The node that owns the subscriptions.
         topic_filter: The selection of topics.
         event: An event that is set when messages arrive.

@@ -14,8 +14,9 @@ from coframe.system.installation import Installation, installation
 from coframe.system.network import Limits, Probe, limits, probe_participant
 from coframe.system.variables import Variable, variables
 from coframe.system.zenoh_session import ZenohProbe, probe_session
-from coframe.wire import Participant, domains, selection
+from coframe.wire import domains, selection
 from coframe.wire.dds import config, library, participants
+from coframe.wire.participant import Participant
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping

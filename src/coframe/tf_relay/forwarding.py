@@ -40,7 +40,7 @@ _TF_TYPE = "tf2_msgs/msg/TFMessage"
 # together, which reduces the number of wake-ups and writes with many robots.
 _COLLECTION_TIME = 0.005  # seconds
 _FORGET_AFTER = 60 * SECOND
-# The DDS user data by which relays recognize each other's writers, in the format of ROS type hashes.
+# The user data by which relays recognize each other's writers, in the format of ROS type hashes.
 _USER_DATA = "coframe=relay;"
 # The depth is enough to lose no message while the machine is busy for one second.
 _READER_QOS, _WRITER_QOS = QoS(depth=1000), QoS(depth=1000)
@@ -250,7 +250,7 @@ class Relay:
                     checked = time.monotonic_ns()
                     self._check()
             except Exception:
-                # A warning callback raised, or DDS was closed in the meantime.
+                # A warning callback raised, or the participant was closed in the meantime.
                 if not self._closed:
                     _logger.exception("Relaying transforms failed. The relay continues.")
             pause.wait(_COLLECTION_TIME)
@@ -286,7 +286,7 @@ class Relay:
         """Return whether a writer belongs to a relay, whose transforms must not be relayed again."""
         if writer not in self._relay_writers:
             description = self.participant.writers(topic).get(writer)
-            if description is None:  # the writer has left and DDS has removed it
+            if description is None:  # the writer has left, and the graph no longer contains it
                 return False
             self._relay_writers[writer] = _USER_DATA.encode() in description.user_data
             if self._relay_writers[writer]:

@@ -184,7 +184,7 @@ class ViewerState:
 
         Raises:
             ViewerError: The source is not the ROS graph.
-            WireError: DDS rejects the publisher.
+            WireError: The middleware cannot create the publisher.
         """
         if self.source.connection is None:
             raise ViewerError(

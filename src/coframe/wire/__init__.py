@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Communication with the ROS 2 graph over DDS.
+"""Communication with the ROS 2 graph, over DDS or Zenoh.
 
-The DDS library is loaded when the process joins the graph, not when this package is imported.
+The middleware is loaded when the process joins the graph, not when this package is imported.
 
 Example:
     >>> participant = Participant.get()                                      # doctest: +SKIP

@@ -34,7 +34,7 @@ _QOS = {
     ),
 }
 
-# The other policies that DDS compares, by their numbers in DDS.
+# The other policies that are compared, by their numbers in DDS.
 _OTHER_POLICIES = {
     3: "presentation",
     5: "latency budget",

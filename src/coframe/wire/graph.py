@@ -28,7 +28,7 @@ class EndpointInfo:
         node: The name of its node; "_NODE_NAME_UNKNOWN_" if no node has announced the endpoint.
         namespace: The namespace of its node; "_NODE_NAMESPACE_UNKNOWN_" if no node has announced the endpoint.
         ros_type: The ROS type, such as "tf2_msgs/msg/TFMessage".
-        qos: The offered or requested quality of service. DDS does not always publish the depth.
+        qos: The offered or requested quality of service. The depth is not always announced.
         guid: The identifier of the endpoint, 16 bytes; in DDS, its GUID.
         type_hash: The hash of the message definition, "RIHS01_..."; "" if it is not announced, as in Humble.
     """

@@ -21,7 +21,7 @@ class GraphQueries:
 
     @property
     def qos_must_match(self) -> bool:
-        """Whether endpoints with incompatible quality of service do not communicate, as in DDS but not in Zenoh."""
+        """Whether endpoints with incompatible quality of service do not communicate; the middleware decides."""
         return self._graph.qos_must_match
 
     def nodes(self) -> list[tuple[str, str]]:
@@ -78,11 +78,11 @@ class GraphQueries:
         return self._describe(self._graph.readers(names.dds_topic(topic, kind)))
 
     def writers(self, topic: str) -> dict[int, DiscoveredEndpoint]:
-        """Return the DDS writers on a topic, given its ROS name, by the handles in `Sample.writer`."""
+        """Return the writers on a topic, given its ROS name, by the handles in `Sample.writer`."""
         return self._graph.writers(names.dds_topic(topic))
 
     def writer_node(self, handle: int) -> str | None:
-        """Return the full name of the node that a DDS writer belongs to, such as "/talker"; None if it is unknown."""
+        """Return the full name of the node that a writer belongs to, such as "/talker"; None if it is unknown."""
         return self._graph.writer_node(handle)
 
     def _describe(self, endpoints: dict[int, DiscoveredEndpoint]) -> list[EndpointInfo]:

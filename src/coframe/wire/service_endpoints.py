@@ -127,7 +127,7 @@ class ServicePublisher(RawPublisher):
 
     @property
     def reaches_clients(self) -> bool:
-        """Whether a reply that is sent now reaches its client; over DDS, not before the client is discovered."""
+        """Whether a reply that is sent now reaches its client. Some middlewares must discover the client first."""
         return not self._graph.replies_need_discovery or self.matched > 0
 
 

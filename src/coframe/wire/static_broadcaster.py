@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Static transforms: all broadcasters of a process on one topic share one DDS writer.
+"""Static transforms: all broadcasters of a process on one topic share one writer.
 
 A late-joining subscriber receives only the last message of a writer, so every message contains all static transforms
 of the process.
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 
 class SharedStaticPublisher:
-    """The DDS writer and the transforms that the static broadcasters of a process share on a topic."""
+    """The writer and the transforms that the static broadcasters of a process share on a topic."""
 
     def __init__(self, participant: Participant, topic: str) -> None:
         self._participant = participant
@@ -96,7 +96,7 @@ class SharedStaticPublisher:
             self._publisher.write(serialize(message))
 
     def leave(self, member: StaticBroadcaster) -> None:
-        """Remove a member, and remove the DDS writer from its node if the node has no other member."""
+        """Remove a member, and remove the writer from its node if the node has no other member."""
         with self._lock:
             if member in self._members:
                 self._members.remove(member)

@@ -25,7 +25,7 @@ def clock_fault() -> WireError | None:
     """Return the error that no messages can be sent at the time of the system clock; None if they can."""
     if 0 <= time.time() <= MAX_SECONDS:
         return None
-    return _error("messages over DDS and Zenoh can only have times from 1970-01-01 to 2106-02-07.")
+    return _error("messages can only have times from 1970-01-01 to 2106-02-07.")
 
 
 def stamp_fault() -> WireError | None:

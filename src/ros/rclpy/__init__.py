@@ -186,7 +186,7 @@ def init(
     Args:
         args: Command line with `--ros-args`. None: `sys.argv`.
         context: Context to initialize. None: the default context.
-        domain_id: DDS domain. None: ROS_DOMAIN_ID or 0.
+        domain_id: ROS domain. None: ROS_DOMAIN_ID or 0.
         signal_handler_options: Signals that shut down all contexts. None: SIGINT and SIGTERM for the default context,
             no signals for other contexts.
 

@@ -13,9 +13,11 @@ from rclpy.topic_endpoint_info import TopicEndpointInfo, TopicEndpointTypeEnum
 from rclpy.type_hash import TypeHash
 
 if TYPE_CHECKING:
-    from coframe.wire import EndpointInfo, GraphNode, Participant
-    from coframe.wire import QoS as WireQoS
+    from coframe.wire.endpoints import GraphNode
+    from coframe.wire.graph import EndpointInfo
     from coframe.wire.names import Kind
+    from coframe.wire.participant import Participant
+    from coframe.wire.qos import QoS as WireQoS
     from rclpy.context import Context
 
 NamesAndTypes = list[tuple[str, list[str]]]
@@ -26,7 +28,7 @@ class NodeGraph:
     """Base class of `Node` with the queries of the ROS graph.
 
     Attributes:
-        _Coframe__participant: The DDS participant, which tf2_ros also uses.
+        _Coframe__participant: The participant, which tf2_ros also uses.
         _Coframe__graph_node: The participant's graph entry of this node, which tf2_ros also uses.
     """
 
@@ -187,7 +189,7 @@ class NodeGraph:
 
     def __topic_and_kind(self, name: str, *, no_mangle: bool) -> tuple[str, Kind]:
         if no_mangle:
-            from coframe.wire import names  # noqa: PLC0415 - importing rclpy does not need DDS
+            from coframe.wire import names  # noqa: PLC0415 - importing rclpy needs no middleware
 
             kinds: tuple[Kind, ...] = ("topic", "request", "reply")
             found = ((topic, kind) for kind in kinds if (topic := names.ros_topic(name, kind)) is not None)
@@ -211,7 +213,7 @@ def _types_by_node(
             found.append((topic, sorted({_service_type(ros_type) for ros_type in types})))
     if not no_demangle:
         return found
-    from coframe.wire import names  # noqa: PLC0415 - importing rclpy does not need DDS
+    from coframe.wire import names  # noqa: PLC0415 - importing rclpy needs no middleware
 
     return [(names.dds_topic(topic), [names.dds_type(ros_type) for ros_type in types]) for topic, types in found]
 

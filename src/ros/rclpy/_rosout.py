@@ -16,7 +16,8 @@ from rclpy.qos import qos_profile_rosout_default
 from rclpy.time import Time
 
 if TYPE_CHECKING:
-    from coframe.wire import GraphNode, Participant
+    from coframe.wire.endpoints import GraphNode
+    from coframe.wire.participant import Participant
 
 _END_OF_STAMPS: Final = 2**31 * S_TO_NS
 
@@ -25,7 +26,7 @@ class RosoutPublisher:
     """Publisher of the messages that a node's logger and its child loggers log.
 
     Args:
-        participant: The DDS participant.
+        participant: The participant.
         graph_node: The participant's graph entry of the node.
         logger_name: Name of the node's logger.
     """
@@ -46,7 +47,7 @@ class RosoutPublisher:
         self._publisher.close()
 
     def _publish(self, record: Record) -> None:
-        if self._publisher.closed:  # When the process exits, DDS is shut down before the last log message.
+        if self._publisher.closed:  # When the process exits, the participant is closed before the last log message.
             return
         if not 0 <= record.stamp < _END_OF_STAMPS:  # The system clock is wrong; the terminal shows the message.
             return

@@ -13,7 +13,7 @@ from rclpy.constants import S_TO_NS
 class Wakeup:
     """Wake-up condition of a context. Waitables set it, and all executors of the context wait for it.
 
-    The native event can be set from DDS threads and from signal handlers, but only one thread can wait for it. The
+    The native event can be set from any thread and from signal handlers, but only one thread can wait for it. The
     first executor that waits becomes the leader: it waits for the event and then wakes the other executors, which wait
     for the count to change.
     """

@@ -27,7 +27,7 @@ from rclpy.task import Future
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from coframe.wire import Participant
+    from coframe.wire.participant import Participant
     from coframe.wire.service_endpoints import ServicePublisher, ServiceSubscription
     from rclpy.callback_groups import CallbackGroup
     from rclpy.clock import Clock

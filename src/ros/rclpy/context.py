@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Contexts: the ROS arguments, the DDS domain and the shutdown state that nodes share."""
+"""Contexts: the ROS arguments, the ROS domain and the shutdown state that nodes share."""
 
 # The modules of rclpy share attributes named `_Coframe__x`, the form of mangled names.
 # ruff: noqa: SLF001
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
     from typing_extensions import Self
 
-    from coframe.wire import Participant
+    from coframe.wire.participant import Participant
 
 # A plain list, so that a signal handler can iterate over it at any time.
 _running: list[Context] = []
@@ -63,7 +63,7 @@ class Context:
         Args:
             args: Command line with `--ros-args`. None: `sys.argv`.
             initialize_logging: Whether to apply logging options such as `--log-level`.
-            domain_id: DDS domain. None: ROS_DOMAIN_ID or 0.
+            domain_id: ROS domain. None: ROS_DOMAIN_ID or 0.
 
         Raises:
             RuntimeError: The context was initialized before, or the domain is negative.
@@ -86,7 +86,7 @@ class Context:
         return self.__is_ok
 
     def get_domain_id(self) -> int:
-        """Return the DDS domain of the context."""
+        """Return the ROS domain of the context."""
         return self.__domain_id
 
     def shutdown(self) -> None:
@@ -157,15 +157,15 @@ class Context:
         return True
 
     def _Coframe__get_participant(self) -> Participant:
-        """Return the DDS participant. The caller closes it."""
-        # Times, clocks and futures do not need DDS.
-        from coframe.wire import Participant  # noqa: PLC0415
+        """Return the participant. The caller closes it."""
+        # Times, clocks and futures need no middleware.
+        from coframe.wire.participant import Participant  # noqa: PLC0415
         from coframe.wire.system_clock import stamp_fault  # noqa: PLC0415
 
         if (fault := stamp_fault()) is not None:
             raise fault
         participant = Participant.get(self.__domain_id)
-        # Exit handlers run in reverse order of registration, and executors must stop before DDS shuts down.
+        # Exit handlers run in reverse order of registration, and executors must stop before participants are closed.
         atexit.unregister(_shut_down_at_exit)
         atexit.register(_shut_down_at_exit)
         return participant

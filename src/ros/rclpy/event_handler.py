@@ -66,7 +66,7 @@ class EventHandler(Waitable):
         callback_group: Group of the callback.
         callback: Function or coroutine function that is called with the information on the event.
         event_type: Kind of the event.
-        parent_impl: DDS endpoint of the publisher or subscription.
+        parent_impl: Endpoint of the publisher or subscription.
     """
 
     def __init__(

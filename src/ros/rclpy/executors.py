@@ -490,7 +490,7 @@ class MultiThreadedExecutor(Executor):
             self._Coframe__raise_error_of(self.__failed.popleft())
 
     def _Coframe__has_capacity(self) -> bool:
-        # Taking more messages than there are threads would move them from the bounded DDS queues to an unbounded one.
+        # Taking more messages than there are threads would move them from bounded queues to an unbounded one.
         return self.__free > 0
 
     def _Coframe__run(self, task: Task[Any]) -> None:

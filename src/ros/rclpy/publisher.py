@@ -20,8 +20,8 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from coframe._core import MessageCodec
-    from coframe.wire import Publisher as WirePublisher
-    from coframe.wire import StaticBroadcaster
+    from coframe.wire.endpoints import Publisher as WirePublisher
+    from coframe.wire.static_broadcaster import StaticBroadcaster
     from rclpy.context import Context
     from rclpy.event_handler import EventHandler
     from rclpy.qos import QoSProfile

@@ -12,7 +12,7 @@ from rclpy.duration import Duration, Infinite
 if TYPE_CHECKING:
     from typing_extensions import Self
 
-    from coframe.wire import QoS as WireQoS
+    from coframe.wire.qos import QoS as WireQoS
 
 
 __all__ = [
@@ -230,7 +230,7 @@ class QoSProfile:
         return self
 
     def _Coframe__to_wire(self) -> WireQoS:
-        from coframe.wire import QoS  # noqa: PLC0415 - Profiles do not need DDS.
+        from coframe.wire.qos import QoS  # noqa: PLC0415 - profiles need no middleware
 
         return QoS(
             depth=max(self.depth, 1),

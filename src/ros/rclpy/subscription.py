@@ -11,15 +11,15 @@ from typing import TYPE_CHECKING, Any, Final
 from coframe.errors import DecodeError
 from coframe.messages import codec
 from coframe.messages.native_codec import native_codec
-from coframe.wire import TfReader
+from coframe.wire.tf_reader import TfReader
 from rclpy._absent import Handle
 from rclpy.logging import get_logger
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from coframe.wire import Sample
-    from coframe.wire import Subscription as WireSubscription
+    from coframe.wire.endpoints import Sample
+    from coframe.wire.endpoints import Subscription as WireSubscription
     from rclpy.callback_groups import CallbackGroup
     from rclpy.event_handler import EventHandler
     from rclpy.qos import QoSProfile
@@ -31,7 +31,7 @@ _log = get_logger("rclpy")
 class Subscription:
     """Subscription to a topic. Create it with `Node.create_subscription`.
 
-    DDS queues messages, up to the depth of the QoS profile, until an executor takes them.
+    The middleware queues messages, up to the depth of the QoS profile, until an executor takes them.
     """
 
     handle = Handle()

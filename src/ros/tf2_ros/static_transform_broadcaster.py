@@ -22,7 +22,7 @@ _QOS = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL, history=
 class StaticTransformBroadcaster:
     """Broadcaster that publishes static transforms on `/tf_static`. Each message contains all transforms sent so far.
 
-    A late-joining subscription receives only the last message of a DDS writer. By default, all broadcasters of the
+    A late-joining subscription receives only the last message of a writer. By default, all broadcasters of the
     process share one writer, which publishes the transforms of all broadcasters together; with the rclpy of a sourced
     ROS, each has its own.
 

@@ -139,7 +139,7 @@ class ClientState:
         Raises:
             ValueError: The robot or a joint does not exist.
             ViewerError: The source is not the ROS graph.
-            WireError: DDS rejects the publisher.
+            WireError: The middleware cannot create the publisher.
         """
         known = self.viewer.descriptions.known.get(number)
         if known is None:

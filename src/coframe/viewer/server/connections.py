@@ -19,7 +19,7 @@ __all__ = ["MAX_CONNECTIONS", "Connections"]
 _logger = logging.getLogger("coframe.viewer")
 
 MAX_CONNECTIONS = 512  # a tab has one for its data and, for a moment, some for its files
-# File descriptors that are left for everything else: DDS, the files of the page and of modules, a recording.
+# File descriptors that are left for everything else: the middleware, the files of the page and of modules, a recording.
 _RESERVED = 32
 _BACKLOG = 100  # connections that wait until they are accepted, unless there are few file descriptors
 # asyncio accepts up to a whole backlog in each cycle of its loop, and closes a refused connection 3 cycles later.

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """A subscription that receives from every publisher of a topic, regardless of the QoS that each of them offers.
 
-DDS does not match a subscription that requests more than a publisher offers, so reliable delivery is requested only if
+A subscription is not matched if it requests more than a publisher offers, so reliable delivery is requested only if
 all publishers offer it. Durability needs more than that: a subscription that requests less does not receive what was
 published before. Publishers that keep their last messages (only reliable ones do) therefore get a subscription of their
 own, and the other subscription ignores their messages.
@@ -35,7 +35,7 @@ class AdaptiveSubscription:
         depth: How many messages are kept until they are taken.
 
     Raises:
-        WireError: DDS rejects the subscription.
+        WireError: The middleware cannot create the subscription.
     """
 
     def __init__(
@@ -52,7 +52,7 @@ class AdaptiveSubscription:
 
     def follow(self) -> None:
         """Adapt to publishers that have appeared since the last call and offer less than what is requested."""
-        # If DDS rejects a new subscription, the existing ones continue and the next call tries again.
+        # If a new subscription cannot be created, the existing ones continue and the next call tries again.
         with self._lock, contextlib.suppress(WireError):
             if not self._closed:
                 self._follow()

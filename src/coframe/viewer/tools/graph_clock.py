@@ -33,7 +33,7 @@ class GraphClock:
         """Return the time in nanoseconds; wait up to two seconds for the first message on /clock.
 
         Raises:
-            WireError: DDS rejects the subscription.
+            WireError: The middleware cannot create the subscription.
         """
         if not self._connection.participant.publishers(CLOCK):
             return time.time_ns()

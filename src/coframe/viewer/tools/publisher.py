@@ -58,7 +58,7 @@ class ToolPublisher:
 
         Raises:
             ViewerError: The topic is invalid.
-            WireError: DDS cannot publish.
+            WireError: The message cannot be sent.
         """
         with self._lock:
             message = self._message("geometry_msgs/msg/PointStamped", frame)
@@ -87,7 +87,7 @@ class ToolPublisher:
 
         Raises:
             ViewerError: The topic is invalid.
-            WireError: DDS cannot publish.
+            WireError: The message cannot be sent.
         """
         with self._lock:
             if covariance is None:
@@ -116,7 +116,7 @@ class ToolPublisher:
 
         Raises:
             ViewerError: The quaternion is not normalized.
-            WireError: DDS cannot publish.
+            WireError: The message cannot be sent.
         """
         norm = math.hypot(*quaternion)
         if abs(norm - 1.0) > _NORM_TOLERANCE:
