@@ -28,7 +28,7 @@ _ARGUMENTS = [
 def chromium() -> Iterator[Any]:
     """Start a browser; skip the test if there is none.
 
-    A process can use one `chromium()` at a time, so only the last folder that uses one keeps it open until the end.
+    A process can use one `chromium()` at a time, so each folder closes its own after its last test.
     """
     sync_api = pytest.importorskip("playwright.sync_api", reason="the browser tests need playwright")
     program = next(filter(None, map(shutil.which, _PROGRAMS)), None)

@@ -26,9 +26,9 @@ SECOND = 1_000_000_000
 LAB_FRAMES = 11
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="package")
 def browser():
-    """Start one Chromium for all tests of this folder."""
+    """Start one Chromium for all tests of this folder; it ends with the last of them, as the demo does."""
     with chromium() as started:
         yield started
 
@@ -211,9 +211,9 @@ class Demo:
         self.process, self.url, self.domain, self.ros = process, url, domain, ros
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="package")
 def demo(tmp_path_factory) -> Iterator[Demo]:
-    """Start one demo for all tests, in a domain that no other test uses."""
+    """Start one demo for all tests of this folder, in a domain that no other test uses."""
     pytest.importorskip("dds_library", reason="the demo uses DDS")
     worker = os.environ.get("PYTEST_XDIST_WORKER", "gw0").removeprefix("gw")
     domain = 201 + (os.getppid() + int(worker)) % 9
