@@ -24,7 +24,7 @@ def debian():
 
 @pytest.mark.timeout(600)
 def test_coframe_answers_as_the_real_tf2(debian):
-    explained, finding = run(debian, seed="coframe", operations=120_000)
+    explained, finding = run(debian, seed="coframe", operations=60_000)
     assert finding is None, finding
     assert [reason for reason in REASONS if not explained[reason]] == [], "rules that have explained nothing"
 
