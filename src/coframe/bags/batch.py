@@ -22,6 +22,7 @@ from coframe.bags.batch_processes import run_jobs
 from coframe.bags.recording import open_chosen
 from coframe.complete_files import write_complete
 from coframe.errors import RecordingError
+from coframe.optional_imports import pip_install
 from coframe.regular_files import open_regular, read_regular
 from coframe.trajectories.formats import POSE_COLUMNS
 
@@ -112,7 +113,7 @@ def query_recordings(
     """
     if on not in ENGINES:
         raise ValueError(f"No engine named {on!r}. Known engines: {', '.join(ENGINES)}.")
-    _module("pyarrow", "Parquet", "'coframe[parquet]'")
+    _module("pyarrow", "Parquet", pip_install("parquet"))
     target = Path(folder).absolute()
     try:
         target.mkdir(parents=True, exist_ok=True)
@@ -220,7 +221,7 @@ def _in_processes(jobs: list[_Job], workers: int | None) -> Iterator[QueryResult
 
 
 def _on_dask(jobs: list[_Job], workers: int | None) -> Iterator[QueryResult]:
-    distributed = _module("distributed", "Dask", "'dask[distributed]'")
+    distributed = _module("distributed", "Dask", "pip install 'dask[distributed]'")
     options = {} if workers is None else {"n_workers": workers}
     with distributed.Client(**options) as client:
         futures = {client.submit(query_recording, *job, pure=False): job[0] for job in jobs}
@@ -230,7 +231,7 @@ def _on_dask(jobs: list[_Job], workers: int | None) -> Iterator[QueryResult]:
 
 
 def _on_ray(jobs: list[_Job], workers: int | None) -> Iterator[QueryResult]:
-    ray = _module("ray", "Ray", "ray")
+    ray = _module("ray", "Ray", "pip install ray")
     is_ours = not ray.is_initialized()
     if is_ours:
         ray.init(log_to_driver=False, logging_level="ERROR")
@@ -254,13 +255,11 @@ def _on_ray(jobs: list[_Job], workers: int | None) -> Iterator[QueryResult]:
             ray.shutdown()
 
 
-def _module(name: str, what: str, package: str) -> Any:
+def _module(name: str, what: str, install: str) -> Any:
     try:
         return importlib.import_module(name)
     except ModuleNotFoundError:
-        raise RecordingError(
-            f"{what} needs the package {name}, which is not installed", hint=f"pip install {package}"
-        ) from None
+        raise RecordingError(f"{what} needs the package {name}, which is not installed", hint=install) from None
 
 
 ENGINES: dict[str, Callable[[list[_Job], int | None], Iterator[QueryResult]]] = {

@@ -10,6 +10,7 @@ import io
 from typing import TYPE_CHECKING, Any
 
 from coframe.errors import CoframeError, RecordingError
+from coframe.optional_imports import pip_install
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -136,5 +137,5 @@ def _module(name: str) -> Any:
     except ModuleNotFoundError:
         raise RecordingError(
             f"the recording is compressed, and the package {name.partition('.')[0]} is not installed",
-            hint="pip install 'coframe[bags]'",
+            hint=pip_install("bags"),
         ) from None

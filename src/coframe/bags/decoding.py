@@ -12,6 +12,7 @@ from coframe.errors import DecodeError
 from coframe.messages import deserialize
 from coframe.messages.codec import deserialize_ros1
 from coframe.messages.limits import MAX_DEFINITION
+from coframe.optional_imports import pip_install
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -61,7 +62,7 @@ def _protobuf_decoder(channel: Channel, types: RecordedTypes) -> Callable[[bytes
     try:
         from google.protobuf import descriptor_pb2, descriptor_pool, message_factory  # noqa: PLC0415 - optional
     except ModuleNotFoundError:
-        raise UnknownTypeError("the package protobuf is not installed (pip install 'coframe[protobuf]')") from None
+        raise UnknownTypeError(f"the package protobuf is not installed ({pip_install('protobuf')})") from None
     if not channel.definition or len(channel.definition) > MAX_DEFINITION:
         raise UnknownTypeError(
             "the recording contains no definition"

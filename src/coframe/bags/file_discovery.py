@@ -20,6 +20,7 @@ from coframe.bags.storage import Channel, unpacked_budget
 from coframe.bounded_yaml import read_yaml
 from coframe.errors import RecordingError
 from coframe.formatting import listed
+from coframe.optional_imports import pip_install
 from coframe.regular_files import UnsuitableFileError, open_regular, read_regular, reading_hint
 from coframe.temporary_folders import temporary_folder
 
@@ -170,7 +171,7 @@ def _unpacked(file: Path, problems: Problems, closing: ExitStack) -> tuple[Path,
         zstandard: Any = importlib.import_module("zstandard")
     except ModuleNotFoundError:
         raise RecordingError(
-            f"{file} is compressed, and the package zstandard is not installed", hint="pip install 'coframe[bags]'"
+            f"{file} is compressed, and the package zstandard is not installed", hint=pip_install("bags")
         ) from None
     folder = Path(closing.enter_context(temporary_folder("coframe-unpacked-")))
     target = folder / file.name.removesuffix(COMPRESSED)

@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING, Any
 
 from coframe.bags.formats import MCAP
 from coframe.errors import RecordingError
+from coframe.optional_imports import pip_install
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -292,7 +293,7 @@ def compressor(name: str) -> Callable[[bytes], bytes]:
     except ModuleNotFoundError as error:
         raise RecordingError(
             f"compression with {name} needs the package {str(error.name).partition('.')[0]}, which is not installed",
-            hint="pip install 'coframe[bags]', or choose no compression.",
+            hint=f"{pip_install('bags')}, or choose no compression.",
         ) from None
     compress: Callable[[bytes], bytes] = (
         module.ZstdCompressor(level=_ZSTD_LEVEL).compress if name == "zstd" else module.compress

@@ -10,6 +10,7 @@ import numpy as np
 
 from coframe import _core
 from coframe.errors import RecordingError
+from coframe.optional_imports import pip_install
 from coframe.trajectories.formats import POSE_COLUMNS
 
 if TYPE_CHECKING:
@@ -66,13 +67,11 @@ def edge_table(buffers: Iterable[Buffer], format_: str = "arrow") -> Any:
     """
     if format_ not in _FORMATS:
         raise ValueError(f"No format named {format_!r}. Known formats: {', '.join(_FORMATS)}.")
-    package, extra = _PACKAGES[format_]
+    package, install = _PACKAGES[format_]
     try:
         module = importlib.import_module(package)
     except ModuleNotFoundError:
-        raise RecordingError(
-            f"the table needs the package {package}, which is not installed", hint=f"pip install {extra}"
-        ) from None
+        raise RecordingError(f"the table needs the package {package}, which is not installed", hint=install) from None
     return _FORMATS[format_](module, _columns([buffer.snapshot() for buffer in buffers]))
 
 
@@ -126,4 +125,4 @@ def _named(columns: _Columns, names: Callable[[_NameColumn], Any]) -> dict[str, 
 
 
 _FORMATS = {"arrow": _arrow, "pandas": _pandas}
-_PACKAGES = {"arrow": ("pyarrow", "'coframe[parquet]'"), "pandas": ("pandas", "pandas")}
+_PACKAGES = {"arrow": ("pyarrow", pip_install("parquet")), "pandas": ("pandas", "pip install pandas")}

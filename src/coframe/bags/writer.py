@@ -18,6 +18,7 @@ from coframe.bags.transforms import is_static
 from coframe.complete_files import write_complete
 from coframe.errors import RecordingError
 from coframe.messages.definition_texts import definition_of
+from coframe.optional_imports import pip_install
 
 if TYPE_CHECKING:
     import os
@@ -369,7 +370,7 @@ def _yaml_dump() -> Callable[[Any], str]:
         yaml: Any = importlib.import_module("yaml")
     except ModuleNotFoundError:
         raise RecordingError(
-            "writing a recording needs the package PyYAML, which is not installed", hint="pip install 'coframe[bags]'"
+            "writing a recording needs the package PyYAML, which is not installed", hint=pip_install("bags")
         ) from None
     dumper = getattr(yaml, "CSafeDumper", yaml.SafeDumper)
     return lambda value: str(yaml.dump(value, Dumper=dumper, sort_keys=False, allow_unicode=True))

@@ -112,7 +112,7 @@ def complete_live_frames(ctx: click.Context, _parameter: click.Parameter, incomp
 @_silent
 def complete_live_topics(_ctx: click.Context, _parameter: click.Parameter, incomplete: str) -> list[str]:
     """Return the topics of the ROS graph that begin with a text."""
-    from coframe.cli.ros2.graph import is_hidden  # noqa: PLC0415 - only for this completion
+    from coframe.cli.ros2.hidden_names import is_hidden  # noqa: PLC0415 - only for this completion
 
     return sorted(name for name in _live_topics(None) if name.startswith(incomplete) and not is_hidden(name))
 

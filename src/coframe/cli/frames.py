@@ -31,7 +31,7 @@ from coframe.cli.ros_arguments import NodeCommand, node_identity
 from coframe.complete_files import write_complete
 from coframe.doctor.recorded import observe_chosen
 from coframe.listener_config import ListenerConfig
-from coframe.optional_imports import importing_matplotlib
+from coframe.optional_imports import importing_matplotlib, pip_install
 from coframe.tree_drawing import grow
 from coframe.tree_drawing.graphviz import as_graphviz
 from coframe.tree_drawing.labels import summary
@@ -176,7 +176,7 @@ def _check_package(suffix: str) -> None:
         importlib.import_module(package)
     except ModuleNotFoundError:
         fail(
-            f"{suffix[1:].upper()} needs the package {package}: pip install 'coframe[{extra}]'",
+            f"{suffix[1:].upper()} needs the package {package}: {pip_install(extra)}",
             "Or write an .svg file, which needs no package.",
         )
 

@@ -9,7 +9,7 @@ from itertools import cycle
 from typing import TYPE_CHECKING, Any
 
 from coframe.errors import PlotError
-from coframe.optional_imports import importing_matplotlib
+from coframe.optional_imports import importing_matplotlib, pip_install
 from coframe.plotting.figure import COLOURS
 
 if TYPE_CHECKING:
@@ -29,7 +29,7 @@ def check_installed() -> None:
     except ModuleNotFoundError:
         raise PlotError(
             "SVG and PNG plots need the package matplotlib, which is not installed",
-            hint="pip install 'coframe[plot]', or write an .html file, which needs no package.",
+            hint=f"{pip_install('plot')}, or write an .html file, which needs no package.",
         ) from None
 
 

@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from coframe.errors import RobotDescriptionError
+from coframe.optional_imports import pip_install
 from coframe.regular_files import check_regular, read_regular, reading_hint
 from coframe.robots.document import MAX_BYTES
 from coframe.robots.urdf import parse_urdf
@@ -84,7 +85,7 @@ def expand_xacro(
     """
     if importlib.util.find_spec("xacro") is None:
         reason = "the file is xacro, and the package xacro is not installed"
-        raise RobotDescriptionError(reason, file=str(path), hint="pip install 'coframe[robots]'")
+        raise RobotDescriptionError(reason, file=str(path), hint=pip_install("robots"))
     check_regular(path)
     answer = _expanded(
         {

@@ -14,6 +14,7 @@ import numpy as np
 from coframe.complete_files import complete_or_absent
 from coframe.errors import RecordingError
 from coframe.formatting import seconds
+from coframe.optional_imports import pip_install
 from coframe.transform import Transform
 
 if TYPE_CHECKING:
@@ -188,7 +189,7 @@ def _write_parquet(batches: Iterator[Transform], path: Path) -> None:
         parquet: Any = importlib.import_module("pyarrow.parquet")
     except ModuleNotFoundError:
         raise RecordingError(
-            "Parquet needs the package pyarrow, which is not installed", hint="pip install 'coframe[parquet]'"
+            "Parquet needs the package pyarrow, which is not installed", hint=pip_install("parquet")
         ) from None
     writer: Any = None
     with complete_or_absent(path) as name:

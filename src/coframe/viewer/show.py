@@ -13,6 +13,7 @@ from coframe.buffer import Buffer
 from coframe.complete_files import write_complete
 from coframe.connection import Connection
 from coframe.errors import ViewerError
+from coframe.optional_imports import pip_install
 from coframe.robots import load
 from coframe.transform import Transform
 from coframe.viewer.notebook import replay_frame, suitable_inline, viewer_frame
@@ -66,7 +67,7 @@ class Viewer:
         except ModuleNotFoundError as error:
             if error.name != "websockets":
                 raise
-            raise ViewerError("the viewer needs the package websockets: pip install 'coframe[viewer]'") from None
+            raise ViewerError(f"the viewer needs the package websockets: {pip_install('viewer')}") from None
         self._state = state
         self._export = export
         self._inline = inline

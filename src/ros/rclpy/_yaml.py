@@ -8,6 +8,7 @@ import re
 from typing import TYPE_CHECKING, Any, Final
 
 from coframe.bounded_yaml import MAX_BYTES, compose_yaml
+from coframe.optional_imports import pip_install
 from coframe.regular_files import read_regular
 
 if TYPE_CHECKING:
@@ -100,7 +101,7 @@ def load_parameters(path: str) -> Iterator[tuple[str, str, Any]]:
     try:
         root = compose_yaml(read_regular(path, MAX_BYTES))
     except ImportError:
-        raise ValueError("reading it needs PyYAML: pip install pyyaml") from None
+        raise ValueError(f"reading it needs the package PyYAML: {pip_install('params')}") from None
     yield from _nodes(_python_of(root), "")
 
 

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 from coframe.bags import Recording, RecordingError, open_bag
 from coframe.bags.formats import METADATA
 from coframe.bounded_yaml import MAX_BYTES, read_yaml
+from coframe.optional_imports import pip_install
 from coframe.regular_files import read_regular
 from rosbag2_py._options import TopicMetadata
 
@@ -233,7 +234,7 @@ def _yaml() -> Any:
     try:
         return importlib.import_module("yaml")
     except ModuleNotFoundError:
-        raise RuntimeError("metadata.yaml needs the package PyYAML: pip install 'coframe[bags]'") from None
+        raise RuntimeError(f"metadata.yaml needs the package PyYAML: {pip_install('bags')}") from None
 
 
 def _size(size: int) -> str:

@@ -16,6 +16,7 @@ from coframe.cli.declaration import Command, Declared, argument
 from coframe.cli.lifecycle import run_to_completion
 from coframe.cli.options import NonNegativeDuration, topic_name
 from coframe.cli.output import fail, warn
+from coframe.cli.ros2.hidden_names import is_hidden
 from coframe.cli.ros2.near_names import near_types
 from coframe.errors import CoframeError
 from coframe.formatting import did_you_mean
@@ -33,7 +34,6 @@ __all__ = [
     "fail_without_node",
     "graph_node",
     "hidden_topics_option",
-    "is_hidden",
     "joined",
     "load_type",
     "node_argument",
@@ -156,11 +156,6 @@ def wait_until(condition: Callable[[], Any]) -> Any:
     while not (result := condition()) and time.monotonic() < deadline:
         time.sleep(_PERIOD)
     return result
-
-
-def is_hidden(name: str) -> bool:
-    """Return whether a part of a name begins with an underscore, which ros2 shows only on request."""
-    return any(part.startswith("_") for part in name.split("/"))
 
 
 def node_names(node: Node, *, include_hidden: bool) -> list[str]:

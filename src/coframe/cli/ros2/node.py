@@ -16,13 +16,13 @@ from coframe.cli.ros2.graph import (
     all_option,
     fail_without_node,
     graph_node,
-    is_hidden,
     node_argument,
     node_names,
     spin_time_option,
     split_node_name,
     wait_until,
 )
+from coframe.cli.ros2.hidden_names import is_hidden
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -18,12 +18,12 @@ from coframe.cli.ros2.graph import (
     DISCOVERY,
     GraphCommand,
     graph_node,
-    is_hidden,
     joined,
     load_type,
     spin_time_option,
     wait_until,
 )
+from coframe.cli.ros2.hidden_names import is_hidden
 from coframe.cli.ros2.values import read_values
 
 if TYPE_CHECKING:

@@ -16,12 +16,12 @@ from coframe.cli.ros2.graph import (
     GraphCommand,
     graph_node,
     hidden_topics_option,
-    is_hidden,
     joined,
     spin_time_option,
     topic_argument,
     wait_until,
 )
+from coframe.cli.ros2.hidden_names import is_hidden
 from coframe.cli.ros2.topic_echo import echo
 from coframe.cli.ros2.topic_pub import pub
 from coframe.cli.ros2.topic_rates import bw, delay, hz

@@ -7,6 +7,7 @@ from typing import Any
 
 from coframe import bounded_yaml
 from coframe.errors import ViewerError
+from coframe.optional_imports import pip_install
 
 __all__ = ["MAX_FILE_BYTES", "read_yaml", "yaml_module"]
 
@@ -22,7 +23,7 @@ def yaml_module() -> Any:
     try:
         import yaml  # noqa: PLC0415 - Only RViz files need the package.
     except ModuleNotFoundError:
-        raise ViewerError("RViz files need the package PyYAML: pip install 'coframe[viewer]'") from None
+        raise ViewerError(f"RViz files need the package PyYAML: {pip_install('viewer')}") from None
     return yaml
 
 

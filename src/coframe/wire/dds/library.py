@@ -20,6 +20,7 @@ from typing import TYPE_CHECKING, Final
 from coframe import _core
 from coframe.errors import WireError
 from coframe.existence import is_dir, is_file
+from coframe.optional_imports import pip_install
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -126,10 +127,10 @@ def how_to_get_one() -> str:
     """Return a sentence about the ways to install the library on this platform."""
     ways = []
     if _package_has_wheels():
-        ways.append("pip install 'coframe[dds]'")
+        ways.append(pip_install("dds"))
     if sys.platform == "linux":
         ways.append("sudo apt-get install libddsc0t64 (on Debian 12: libddsc0debian)")
-    ways.append("pip install 'coframe[zenoh]' to use Zenoh instead of DDS")
+    ways.append(f"{pip_install('zenoh')} to use Zenoh instead of DDS")
     ways += ["source a ROS 2 that has rmw_cyclonedds_cpp", f"set {VARIABLE} to the file of a libddsc"]
     return "Use one of these ways: " + "; ".join(ways) + "."
 

@@ -10,6 +10,7 @@ from pathlib import PurePath
 from typing import TYPE_CHECKING, Any
 
 import launch.logging
+from coframe.optional_imports import pip_install
 from launch.frontend.arguments import check_arguments
 from launch.frontend.expose import expose_substitution
 from launch.substitution import Substitution
@@ -111,5 +112,5 @@ def _run(command: list[str], *, capture: bool) -> subprocess.CompletedProcess[st
 
 
 def _missing(program: str, text: str) -> str:
-    hint = " Install it: pip install 'coframe[robots]'" if PurePath(program).name == "xacro" else ""
+    hint = f" Install it: {pip_install('robots')}" if PurePath(program).name == "xacro" else ""
     return f"executable '{program}' not found on the PATH.{hint} Command: {text}"

@@ -7,6 +7,7 @@ from importlib import import_module
 from typing import Any
 
 from coframe.bounded_yaml import read_yaml
+from coframe.optional_imports import pip_install
 
 __all__ = ["dump_yaml", "load_yaml"]
 
@@ -39,4 +40,4 @@ def _yaml() -> Any:
     try:
         return import_module("yaml")
     except ImportError:
-        raise RuntimeError("Launch files with parameters or YAML need PyYAML: pip install 'coframe[params]'") from None
+        raise RuntimeError(f"Launch files with parameters or YAML need PyYAML: {pip_install('params')}") from None
