@@ -49,7 +49,7 @@ def test_the_format_is_read_and_has_its_suffix_everywhere(tmp_path, monkeypatch,
     from coframe.cli.completion import complete_recordings
 
     monkeypatch.chdir(tmp_path)
-    assert f"run{suffix}" in complete_recordings("run")
+    assert f"run{suffix}" in complete_recordings(None, None, "run")
 
 
 @pytest.mark.parametrize("name", WRITERS)
