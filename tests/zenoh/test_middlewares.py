@@ -9,6 +9,8 @@ pytest.importorskip("dds_library", reason="these tests use both middlewares")
 
 import coframe
 from coframe.messages import find
+from coframe.system.examinations import EXAMINATIONS
+from coframe.system.report import collect
 from coframe.wire import selection
 from coframe.wire.participant import Participant
 
@@ -67,3 +69,15 @@ def _static(parent: str, child: str):
     message.header.frame_id, message.child_frame_id = parent, child
     message.transform.translation.x, message.transform.translation.y, message.transform.translation.z = 1.0, 2.0, 3.0
     return message
+
+
+def test_the_doctor_examines_each_middleware() -> None:
+    assert [examination.wire for examination in EXAMINATIONS] == list(WIRES)
+
+
+@pytest.mark.parametrize("wire", WIRES)
+def test_the_doctor_examines(wire: str, zenoh_domain: int) -> None:
+    report = collect(zenoh_domain, listen=0.1, environment={**os.environ, "COFRAME_WIRE": wire})
+    assert report.wire == (wire, "COFRAME_WIRE is set")
+    assert (report.probe is not None, report.zenoh is not None) == (wire == "dds", wire == "zenoh")
+    assert report.nodes is not None

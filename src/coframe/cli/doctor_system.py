@@ -10,7 +10,9 @@ from typing import TYPE_CHECKING, Any
 from click.exceptions import Exit
 
 from coframe.cli.output import one_line, report_console
-from coframe.system import advise, collect
+from coframe.system.advice import advise
+from coframe.system.examinations import examination_of
+from coframe.system.report import collect
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -73,13 +75,7 @@ def _software(report: SystemReport) -> Iterator[str]:
 def _middleware(report: SystemReport) -> Iterator[str]:
     if report.wire is not None:
         yield f"{report.wire.wire}, because {report.wire.reason}"
-    if report.zenoh is None:
-        return
-    session = report.zenoh
-    configured_by = ", ".join(session.configured_by) or "the defaults of ROS 2"
-    yield f"eclipse-zenoh {session.version}, configured by {configured_by}"
-    yield f"connects to {', '.join(session.connect) or 'no endpoint'}"
-    yield f"routers found: {', '.join(session.routers) or 'none'}; peers found: {session.peers}"
+    yield from examination_of(report.wire).lines(report)
 
 
 def _library(report: SystemReport) -> Iterator[str]:

@@ -7,33 +7,25 @@ import functools
 import os
 import time
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Final, TypeVar
+from typing import TYPE_CHECKING, Final
 
-from coframe.errors import WireError
+from coframe.system.examination import Attempts
+from coframe.system.examinations import examination_of
 from coframe.system.installation import Installation, installation
-from coframe.system.network import Limits, Probe, limits, probe_participant
+from coframe.system.network import Limits, Probe, limits
 from coframe.system.variables import Variable, variables
-from coframe.system.zenoh_session import ZenohProbe, probe_session
 from coframe.wire import domains, selection
-from coframe.wire.dds import config, library, participants
+from coframe.wire.dds import config, library
 from coframe.wire.participant import Participant
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
+    from collections.abc import Mapping
 
+    from coframe.system.examination import Problem
+    from coframe.system.zenoh_session import ZenohProbe
     from coframe.wire.dds.library import Place
 
-ValueT = TypeVar("ValueT")
-
 _SETTLED: Final = 1.0  # seconds without a further node; the rest are found within a few round trips of the first one
-
-
-@dataclass(frozen=True)
-class Problem:
-    """Something that failed: what, and what to do."""
-
-    text: str
-    hint: str
 
 
 @dataclass(frozen=True)
@@ -72,13 +64,13 @@ class SystemReport:
     library: LibraryReport
     domain: int | None
     discovery: str | None
-    participants: tuple[int, int] | None
-    probe: Probe | None
     limits: Limits
     nodes: list[str] | None
     listened: float
     wire: selection.Selection | None
-    zenoh: ZenohProbe | None
+    participants: tuple[int, int] | None = None
+    probe: Probe | None = None
+    zenoh: ZenohProbe | None = None
     problems: list[Problem] = field(default_factory=list)
 
 
@@ -92,57 +84,39 @@ def collect(
         listen: How long other nodes are searched, in seconds.
         environment: The environment variables.
     """
-    problems: list[Problem] = []
-
-    def attempt(action: Callable[[], ValueT]) -> ValueT | None:
-        try:
-            return action()
-        except WireError as error:
-            problems.append(Problem(str(error), error.hint))
-            return None
-
+    attempt = Attempts()
     number = attempt(lambda: domains.domain_id(environment) if domain is None else domains.check_domain_id(domain))
     discovery = attempt(lambda: config.discovery_range(environment))
-    peers = attempt(lambda: config.static_peers(environment))
     wire = attempt(lambda: selection.select(environment))
-    on_zenoh = wire is not None and wire.wire == "zenoh"
-    found = None if on_zenoh else attempt(library.load)
-    used = probe = nodes = zenoh = None
-    if number is not None and on_zenoh:
-        zenoh = attempt(lambda: probe_session(environment))
-        nodes = attempt(functools.partial(_other_nodes, number, listen)) if zenoh is not None else None
-    elif number is not None:
-        used = participants.participant_indexes(number)
-        if found is not None and discovery is not None and peers is not None:
-            probe = attempt(functools.partial(probe_participant, number, environment))
-            nodes = attempt(functools.partial(_other_nodes, number, listen)) if probe is not None else None
+    examined = examination_of(wire).examine(number, environment, attempt)
+    nodes = None
+    if examined.joins and number is not None and wire is not None:
+        nodes = attempt(functools.partial(_other_nodes, number, wire.wire, listen))
     return SystemReport(
-        installation(environment),
-        variables(environment),
-        _library_report(found, environment),
-        number,
-        discovery,
-        used,
-        probe,
-        limits(),
-        nodes,
-        listen,
-        wire,
-        zenoh,
-        problems,
+        installation=installation(environment),
+        variables=variables(environment),
+        library=_library_report(environment),
+        domain=number,
+        discovery=discovery,
+        limits=limits(),
+        nodes=nodes,
+        listened=listen,
+        wire=wire,
+        problems=attempt.problems,
+        **examined.fields,
     )
 
 
-def _library_report(found: library.Library | None, environment: Mapping[str, str]) -> LibraryReport:
-    searched = list(library.places(environment))
+def _library_report(environment: Mapping[str, str]) -> LibraryReport:
+    searched, found = list(library.places(environment)), library.loaded()
     if found is None:
         return LibraryReport("", "", "", searched, [])
     return LibraryReport(found.place.source, str(found.place.path), found.version, searched, list(found.refused))
 
 
-def _other_nodes(domain: int, listen: float) -> list[str]:
+def _other_nodes(domain: int, wire: str, listen: float) -> list[str]:
     """Return the nodes that are found within this time; return early once no further ones appear."""
-    participant = Participant.get(domain)
+    participant = Participant.get(domain, wire)
     try:
         end = time.monotonic() + listen
         nodes: list[str] = []

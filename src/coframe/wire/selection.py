@@ -37,14 +37,16 @@ class MiddlewareRow(NamedTuple):
         module: The module that contains it as ``MIDDLEWARE``. It is imported only when the middleware is considered.
         rmw_name: What the names of its implementations of ROS 2 contain, such as "zenoh" for rmw_zenoh_cpp; "" for all
             that no other row recognizes.
-        selecting_rmw: The value of RMW_IMPLEMENTATION that selects it for coframe as well; "" if there is none.
+        rmw: The implementation of ROS 2 that communicates best with it.
+        rmw_selects_it: Whether RMW_IMPLEMENTATION with this value selects it for coframe as well.
     """
 
     wire: str
     title: str
     module: str
     rmw_name: str
-    selecting_rmw: str
+    rmw: str
+    rmw_selects_it: bool
 
     def load(self) -> Middleware:
         """Return the middleware."""
@@ -53,8 +55,8 @@ class MiddlewareRow(NamedTuple):
 
 # If the environment does not decide, the first one that is available is used.
 MIDDLEWARES: Final = (
-    MiddlewareRow("dds", "DDS", "coframe.wire.dds.middleware", "", ""),
-    MiddlewareRow("zenoh", "Zenoh", "coframe.wire.zenoh.middleware", "zenoh", "rmw_zenoh_cpp"),
+    MiddlewareRow("dds", "DDS", "coframe.wire.dds.middleware", "", "rmw_cyclonedds_cpp", rmw_selects_it=False),
+    MiddlewareRow("zenoh", "Zenoh", "coframe.wire.zenoh.middleware", "zenoh", "rmw_zenoh_cpp", rmw_selects_it=True),
 )
 DEFAULT: Final = MIDDLEWARES[0]
 WIRES: Final = tuple(row.wire for row in MIDDLEWARES)
@@ -128,7 +130,7 @@ def _requested(environment: Mapping[str, str]) -> Selection | None:
         return Selection(wire, f"{VARIABLE} is set")
     implementation = environment.get(RMW_VARIABLE, "").strip()
     for row in MIDDLEWARES:
-        if implementation and implementation == row.selecting_rmw:
+        if row.rmw_selects_it and implementation == row.rmw:
             return Selection(row.wire, f"{RMW_VARIABLE} is {implementation}")
     for row in MIDDLEWARES:
         for name in row.load().variables:

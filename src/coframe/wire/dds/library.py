@@ -89,6 +89,11 @@ def load() -> Library:
     return _loaded[0]
 
 
+def loaded() -> Library | None:
+    """Return the library that is loaded; None if there is none."""
+    return _loaded[0] if _loaded else None
+
+
 def check() -> None:
     """Check that there is a library, without loading it.
 

@@ -1,0 +1,88 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What the examination of a middleware consists of."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeVar
+
+from coframe.errors import WireError
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator, Mapping
+
+    from coframe.system.report import SystemReport
+
+ValueT = TypeVar("ValueT")
+Severity = Literal["error", "warning", "note"]
+
+
+@dataclass(frozen=True)
+class Advice:
+    """A finding.
+
+    Attributes:
+        severity: "error": the graph cannot be joined; "warning": some nodes are not found, or messages are lost;
+            "note": worth knowing if a node is missing.
+        text: What is the case.
+        action: What to do.
+    """
+
+    severity: Severity
+    text: str
+    action: str
+
+
+@dataclass(frozen=True)
+class Problem:
+    """Something that failed: what, and what to do."""
+
+    text: str
+    hint: str
+
+
+class Attempts:
+    """Runs parts of an examination, whose failures are part of the report.
+
+    Attributes:
+        problems: The errors: what failed, and what to do.
+    """
+
+    def __init__(self) -> None:
+        self.problems: list[Problem] = []
+
+    def __call__(self, action: Callable[[], ValueT]) -> ValueT | None:
+        """Return the result of an action; None if it failed."""
+        try:
+            return action()
+        except WireError as error:
+            self.problems.append(Problem(str(error), error.hint))
+            return None
+
+
+class Examined(NamedTuple):
+    """What an examination found.
+
+    Attributes:
+        joins: Whether a process can join the graph.
+        fields: The fields of the `SystemReport` that only this middleware has.
+    """
+
+    joins: bool
+    fields: dict[str, Any]
+
+
+class Examination(NamedTuple):
+    """How a middleware is examined.
+
+    Attributes:
+        wire: The name of the middleware.
+        examine: Examines it in a domain (None if that is not known) with some environment variables.
+        lines: Returns lines about it for the report.
+        checks: Return advice.
+    """
+
+    wire: str
+    examine: Callable[[int | None, Mapping[str, str], Attempts], Examined]
+    lines: Callable[[SystemReport], Iterator[str]]
+    checks: tuple[Callable[[SystemReport], Iterator[Advice]], ...]

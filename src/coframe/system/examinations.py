@@ -1,0 +1,43 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The examination of each middleware, for `coframe doctor --system`."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Final
+
+from coframe.system import dds_examination, zenoh_examination
+from coframe.system.examination import Examination, Examined
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping
+
+    from coframe.system.examination import Attempts
+    from coframe.system.report import SystemReport
+    from coframe.wire.selection import Selection
+
+__all__ = ["EXAMINATIONS", "examination_of"]
+
+EXAMINATIONS: Final = (dds_examination.EXAMINATION, zenoh_examination.EXAMINATION)
+
+
+def examination_of(selected: Selection | None) -> Examination:
+    """Return the examination of the selected middleware; that of DDS if the selection is invalid.
+
+    A middleware without a row is examined by joining the graph only.
+    """
+    if selected is None:
+        return dds_examination.EXAMINATION
+    for examination in EXAMINATIONS:
+        if examination.wire == selected.wire:
+            return examination
+    return Examination(selected.wire, _examine, _lines, ())
+
+
+def _examine(domain: int | None, environment: Mapping[str, str], attempt: Attempts) -> Examined:
+    del environment, attempt
+    return Examined(domain is not None, {})
+
+
+def _lines(report: SystemReport) -> Iterator[str]:
+    del report
+    yield from ()
