@@ -18,7 +18,7 @@ GROUPS = {
     "Find errors": ("doctor", "why"),
     "Publish transforms": ("static", "robot", "joints", "relay", "demo"),
     "Recordings": ("record", "play", "bag", "trajectory", "compare", "plot", "cloud", "batch"),
-    "Programs and packages": ("launch", "run", "router", "hub", "interfaces", "lab"),
+    "Programs and packages": ("launch", "run", "router", "hub", "lab"),
     "Commands of ros2": ("topic", "node", "service", "action", "param", "lifecycle", "interface", "pkg", "ros2"),
 }
 # The names of the pages in the navigation: their headings also say what the command does.

@@ -125,7 +125,7 @@ def _advice(name: str) -> str:
     searched = ", ".join(dict.fromkeys(str(source.folder) for source in sources())) or "any folder: none is searched"
     return (
         f"{missing}found no definitions of it in {searched}. If you have its .msg, .srv or .action files, run "
-        f"`coframe interfaces add FOLDER`, or set {ENVIRONMENT} to the folder of the package or of its workspace."
+        f"`coframe interface add FOLDER`, or set {ENVIRONMENT} to the folder of the package or of its workspace."
     )
 
 

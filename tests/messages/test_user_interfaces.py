@@ -454,7 +454,7 @@ def test_a_script_next_to_the_definitions_needs_no_other_import(tmp_path: Path) 
     ]
     assert "ModuleNotFoundError: No module named 'moon_msgs'. coframe does not contain this package" in done.stderr
     assert f"found no definitions of it in {tmp_path}" in done.stderr
-    assert "coframe interfaces add FOLDER" in done.stderr
+    assert "coframe interface add FOLDER" in done.stderr
 
 
 def test_other_imports_do_not_load_coframe_or_numpy(tmp_path: Path) -> None:

@@ -195,7 +195,7 @@ def test_lists_of_interfaces(tmp_path, monkeypatch):
     assert message_to_yaml(get_message("hand_msgs/msg/Grip")()) == "a: false\n"
     with pytest.raises(LookupError, match=r"Could not find the interface 'hand_msgs/srv/Open'"):
         get_interface_path("hand_msgs/srv/Open")
-    with pytest.raises(LookupError, match=r"coframe interfaces show std_msgs/msg/String"):
+    with pytest.raises(LookupError, match=r"coframe interface show std_msgs/msg/String"):
         get_interface_path("std_msgs/msg/String")
     with pytest.raises(LookupError, match="Unknown package 'no_msgs'"):
         get_interface_path("no_msgs/msg/Grip")

@@ -145,7 +145,6 @@ OTHER_GROUPS = {
     "action",
     "daemon",
     "interface",
-    "interfaces",
     "lab",
     "lifecycle",
     "node",

@@ -154,14 +154,11 @@ COMMANDS: dict[str, CommandRow] = {
         "Change the states of lifecycle nodes, like ros2 lifecycle.", "ros2.lifecycle", ("dds",), graph=True, ros=True
     ),
     "interface": CommandRow(
-        "Show message, service and action types, like ros2 interface.",
+        "Show types like ros2 interface, and add your own packages.",
         "ros2.interface",
         ("params",),
         graph=False,
         ros=True,
-    ),
-    "interfaces": CommandRow(
-        "Find, check and add your own .msg, .srv and .action files.", "interfaces", (), graph=False, ros=False
     ),
     "pkg": CommandRow("Create and find packages, like ros2 pkg.", "ros2.pkg", (), graph=False, ros=False),
     "ros2": CommandRow(

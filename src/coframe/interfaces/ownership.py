@@ -30,7 +30,7 @@ def is_own(path: Path) -> bool:
     if strangers:
         report(
             f"{path} is skipped in the search for interface packages because it belongs to {_name(min(strangers))}. "
-            "If you trust its definitions, run: coframe interfaces add FOLDER"
+            "If you trust its definitions, run: coframe interface add FOLDER"
         )
     return not strangers
 

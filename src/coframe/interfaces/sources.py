@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Where users' interface packages are found.
 
-In this order: the paths in ``COFRAME_INTERFACES``, the paths added with ``coframe interfaces add``, the folder of the
+In this order: the paths in ``COFRAME_INTERFACES``, the paths added with ``coframe interface add``, the folder of the
 program and its workspace, the source folders of ``coframe run`` and ``coframe launch`` (``COFRAME_PACKAGE_PATH``), and
 the prefixes of a sourced ROS workspace (``AMENT_PREFIX_PATH``). With -I, -P or PYTHONSAFEPATH, nowhere.
 """
@@ -60,7 +60,7 @@ def sources() -> list[Source]:
 @functools.lru_cache(maxsize=16)
 def _sources(starts: tuple[Path, ...], given: str, package_path: str, prefixes: str) -> list[Source]:
     found = [Source(ENVIRONMENT, path, _MAX_DEPTH) for path in _paths(given)]
-    found += [Source("coframe interfaces add", path, _MAX_DEPTH) for path in added_paths()]
+    found += [Source("coframe interface add", path, _MAX_DEPTH) for path in added_paths()]
     for start in starts:
         found.append(Source("folder of the program", start, 1, named=False))
         root = workspace_root(start)

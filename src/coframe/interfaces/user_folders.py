@@ -18,7 +18,7 @@ __all__ = ["added_paths", "set_added_paths", "settings_file", "stub_folder"]
 
 
 def settings_file() -> Path:
-    """Return the file with the paths that ``coframe interfaces add`` has added, one in each line."""
+    """Return the file with the paths that ``coframe interface add`` has added, one in each line."""
     return _folder("XDG_CONFIG_HOME", "APPDATA", ".config", "Library/Application Support") / "interfaces.txt"
 
 
@@ -39,7 +39,7 @@ def added_paths() -> list[Path]:
         return []
     damaged = [line for line in lines if "\0" in line]
     if damaged:
-        report(f"{file} is damaged: {len(damaged)} of its lines are skipped. Run: coframe interfaces add FOLDER")
+        report(f"{file} is damaged: {len(damaged)} of its lines are skipped. Run: coframe interface add FOLDER")
     return [Path(line) for line in lines if line.strip() and line not in damaged]
 
 

@@ -82,11 +82,11 @@ def get_interface_path(interface_name: str) -> str:
         )
     package = find_package(parts[0])
     if package is None:
-        raise LookupError(f"Unknown package '{parts[0]}'. See all packages with `coframe interfaces list`.")
+        raise LookupError(f"Unknown package '{parts[0]}'. See all packages with `coframe interface packages`.")
     if package.folder is None:
         raise LookupError(
             f"The package '{parts[0]}' is part of coframe, which has no files of its interfaces. See the definition "
-            f"with `coframe interfaces show {interface_name}`."
+            f"with `coframe interface show {interface_name}`."
         )
     path = package.folder.joinpath(*parts[1:])
     if not path.suffix:

@@ -13,7 +13,9 @@ from coframe.cli.ros2.near_names import near_types
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-__all__ = ["shown_definition"]
+    from coframe.interfaces.definition_files import Definition
+
+__all__ = ["origin", "shown_definition"]
 
 # A field: the type without array bounds, and the name. A constant has "=" after its name.
 _FIELD = re.compile(
@@ -34,7 +36,7 @@ def shown_definition(name: str, *, comments: bool, nested_comments: bool, level:
         level: How deep this type is nested.
     """
     package, kind, base = _parts(name)
-    for line in _definition(package, kind, base).splitlines():
+    for line in _definition(package, kind, base).text.splitlines():
         shown = line.rstrip() if comments else line.partition("#")[0].rstrip()
         if shown or comments:
             yield "\t" * level + shown
@@ -50,6 +52,20 @@ def shown_definition(name: str, *, comments: bool, nested_comments: bool, level:
         )
 
 
+def origin(name: str) -> Iterator[str]:
+    """Yield the file of a definition and its type hash, as comments.
+
+    Args:
+        name: Name of a type, as for :func:`shown_definition`.
+    """
+    from coframe.messages.registry import find  # noqa: PLC0415 - slow import
+    from coframe.messages.type_hash import type_hash  # noqa: PLC0415
+
+    whole = "/".join(_parts(name))
+    yield f"# {whole}, {_definition(*_parts(name)).file or 'contained in coframe'}"
+    yield f"# {type_hash(find(whole))}"
+
+
 def _parts(name: str) -> tuple[str, str, str]:
     parts = name.split("/")
     if len(parts) == 2:
@@ -60,15 +76,15 @@ def _parts(name: str) -> tuple[str, str, str]:
     return parts[0], parts[1], parts[2]
 
 
-def _definition(package: str, kind: str, name: str) -> str:
-    """Return the text of a definition: of coframe or of the user's packages, or from the file of a sourced ROS."""
+def _definition(package: str, kind: str, name: str) -> Definition:
+    """Return a definition: of coframe or of the user's packages, or from the file of a sourced ROS."""
     from coframe.interfaces.definition_files import read  # noqa: PLC0415 - slow import
     from coframe.messages.packages import find_package  # noqa: PLC0415
     from rosidl_runtime_py import get_interface_path  # noqa: PLC0415
 
     found = find_package(package)
     if found is not None and name in found.names(kind):
-        return found.definition(kind, name).text
+        return found.definition(kind, name)
     try:
         path = Path(get_interface_path(f"{package}/{kind}/{name}"))
     except (LookupError, OSError):
@@ -76,4 +92,4 @@ def _definition(package: str, kind: str, name: str) -> str:
             fail(f"Unknown package '{package}'", "coframe interface packages shows all packages with types.")
         whole = f"{package}/{kind}/{name}"
         fail(f"Unknown type '{whole}'", near_types(whole) or f"coframe interface package {package} shows its types.")
-    return read(path).text
+    return read(path)

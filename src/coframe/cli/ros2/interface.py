@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""``coframe interface``: message, service and action types, with the words and the output of ``ros2 interface``."""
+"""``coframe interface``: message, service and action types, with the words and the output of ``ros2 interface``.
+
+The commands about the user's own packages go beyond ``ros2 interface``.
+"""
 
 from __future__ import annotations
 
@@ -10,8 +13,9 @@ import click
 from coframe.cli.declaration import CommandGroup, argument
 from coframe.cli.lifecycle import run_to_completion
 from coframe.cli.output import fail, printable
-from coframe.cli.ros2.definition_text import shown_definition
+from coframe.cli.ros2.definition_text import origin, shown_definition
 from coframe.cli.ros2.graph import load_type
+from coframe.cli.ros2.interface_packages import add, check, remove, stubs
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -22,12 +26,12 @@ _TITLES = {"msg": "Messages", "srv": "Services", "action": "Actions"}
 type_argument = argument(
     "type_name", metavar="TYPE", help="Name of a type, e.g. geometry_msgs/msg/Pose or std_srvs/srv/SetBool."
 )
-messages_option = click.option("--only-msgs", "-m", "only_messages", is_flag=True, help="Only messages.")
-services_option = click.option("--only-srvs", "-s", "only_services", is_flag=True, help="Only services.")
-actions_option = click.option("--only-actions", "-a", is_flag=True, help="Only actions.")
+messages_option = click.option("--only-msgs", "-m", "only_messages", is_flag=True, help="List only messages.")
+services_option = click.option("--only-srvs", "-s", "only_services", is_flag=True, help="List only services.")
+actions_option = click.option("--only-actions", "-a", is_flag=True, help="List only actions.")
 interface = CommandGroup(
     "interface",
-    help="Show message, service and action types, like ros2 interface.\n\n"
+    help="Show message, service and action types, like ros2 interface; find, check and add your own packages.\n\n"
     "Example: coframe interface show sensor_msgs/msg/LaserScan",
 )
 
@@ -115,17 +119,20 @@ def proto(type_name: str, no_quotes: bool) -> None:
 @type_argument
 @click.option("--all-comments", is_flag=True, help="Show the comments of nested types as well.")
 @click.option("--no-comments", is_flag=True, help="Show no comments.")
-def show(
-    type_name: str,
-    all_comments: bool,
-    no_comments: bool,
-) -> None:
+@click.option("--origin", "with_origin", is_flag=True, help="Show the file of the definition and its type hash first.")
+def show(type_name: str, all_comments: bool, no_comments: bool, with_origin: bool) -> None:
     """Print the definition of a type, with the fields of nested types below it.
 
     Example: coframe interface show sensor_msgs/msg/LaserScan
     """
     with run_to_completion():
+        if with_origin:
+            _print_all(origin(type_name))
         _print_all(shown_definition(type_name, comments=not no_comments, nested_comments=all_comments))
+
+
+for _command in (add, check, remove, stubs):
+    interface.add_command(_command)
 
 
 def _kinds(messages: bool, services: bool, actions: bool) -> list[str]:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""`coframe interfaces`: what it prints about packages, definitions and mistakes."""
+"""`coframe interface` about the user's own packages: what it prints about packages, definitions and mistakes."""
 
 import subprocess
 import sys
@@ -38,42 +38,38 @@ def _workspace(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Any:
 
 
 def run(*words: str) -> Any:
-    return CliRunner().invoke(app, ["interfaces", *words])
+    return CliRunner().invoke(app, ["interface", *words])
 
 
 def test_added_folders_are_listed_and_removed(tmp_path: Path) -> None:
-    result = run("list")
+    result = run("check")
     assert result.stdout.startswith("No packages of yours were found. Searched: no folder\n")
     assert "visualization_msgs" in result.stdout
     result = run("add", "ws/src")
     assert (result.exit_code, result.stderr) == (0, "")
     assert f"cli_msgs: 1 msg, 1 srv, 1 action, in {tmp_path}/ws/src/my_msgs\n" in result.stdout
     assert f"Stubs of 1 package written into {tmp_path}/XDG_CACHE_HOME/coframe/stubs\n" in result.stdout
-    listed = f"cli_msgs: 1 msg, 1 srv, 1 action, in {tmp_path}/ws/src/my_msgs (coframe interfaces add)"
-    assert run("list").stdout.startswith(listed)
+    listed = f"cli_msgs: 1 msg, 1 srv, 1 action, in {tmp_path}/ws/src/my_msgs (coframe interface add)"
+    assert run("check").stdout.startswith(listed)
     assert run("remove", "ws").stderr == f"coframe: {tmp_path}/ws was not added\n  Added: {tmp_path}/ws/src.\n"
     assert run("remove", "ws/src").exit_code == 0
     packages.forget()
-    assert "No packages of yours were found" in run("list").stdout
+    assert "No packages of yours were found" in run("check").stdout
 
 
-def test_show_prints_definitions_and_what_there_is_instead() -> None:
+def test_the_origin_of_a_definition_is_shown_on_request(tmp_path: Path) -> None:
     run("add", "ws/src")
-    shown = run("show", "cli_msgs/Num").stdout
-    assert "# cli_msgs/msg/Num, " in shown
-    assert "int64 num\nfloat64[3] v\nstd_msgs/Header header\n" in shown
-    assert "# cli_msgs/action/Num, " in shown
-    shown = run("show", "std_msgs/msg/String").stdout
-    assert shown.splitlines() == [
+    shown = run("show", "cli_msgs/Num", "--origin").stdout
+    assert shown.startswith(f"# cli_msgs/msg/Num, {tmp_path}/ws/src/my_msgs/msg/Num.msg\n# RIHS01_")
+    assert "\nint64 num\nfloat64[3] v\nstd_msgs/Header header\n\tbuiltin_interfaces/Time stamp\n" in shown
+    assert run("show", "std_msgs/msg/String", "--origin", "--no-comments").stdout.splitlines() == [
         "# std_msgs/msg/String, contained in coframe",
         "# RIHS01_df668c740482bbd48fb39d76a70dfd4bd59db1288021743503259e948f6b1a18",
         "string data",
     ]
-    assert run("show", "cli_msgs").stdout == "cli_msgs/msg/Num\ncli_msgs/srv/Ask\ncli_msgs/action/Num\n"
-    assert run("show", "cli_msgs/Nun").stderr.startswith(
-        "coframe: no type cli_msgs/Nun\n  The package has cli_msgs/msg/Num,"
-    )
-    assert run("show", "moon_msgs").stderr.startswith("coframe: no package moon_msgs\n")
+    listed = run("package", "cli_msgs").stdout.splitlines()
+    assert sorted(listed) == ["cli_msgs/action/Num", "cli_msgs/msg/Num", "cli_msgs/srv/Ask"]
+    assert run("show", "cli_msgs/msg/Nun").stderr.startswith("coframe: Unknown type 'cli_msgs/msg/Nun'\n")
 
 
 def test_invalid_definitions_are_reported_with_file_and_line(tmp_path: Path) -> None:
@@ -85,7 +81,7 @@ def test_invalid_definitions_are_reported_with_file_and_line(tmp_path: Path) -> 
     assert f"coframe: {folder}/Bad.msg, line 1: no type 'int'; use int32 or int64, in: int num\n" in result.stderr
     assert f"coframe: {folder}/Unknown.msg, line 2: field 'pose': no type cli_msgs/msg/Pose" in result.stderr
     assert "(Did you mean geometry_msgs/Pose or turtlesim/Pose?)" in result.stderr
-    assert run("list").exit_code == 1
+    assert run("check").exit_code == 1
     assert run("add", "nowhere").stderr == f"coframe: no folder {tmp_path}/nowhere\n"
     (tmp_path / "empty").mkdir()
     assert "no package with .msg, .srv, .action or .idl files in" in run("add", "empty").stderr
