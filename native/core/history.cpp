@@ -5,6 +5,7 @@
 #include <bit>
 #include <cstring>
 
+#include "core/interpolation.hpp"
 #include "kernels/kernels.hpp"
 
 namespace coframe {

@@ -15,6 +15,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/interpolation.hpp"
+
 namespace coframe {
 namespace {
 

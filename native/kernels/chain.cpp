@@ -45,15 +45,14 @@ COFRAME_INLINE Two weights(LargeAngle, double fraction, double cosine) {
   return Two{LargeAngle::weight(1.0 - fraction, cosine), LargeAngle::weight(fraction, cosine)};
 }
 
-// The same as interpolate() of core/pose.hpp.
 COFRAME_INLINE ComposedPose between(const ComposedPose& older, const ComposedPose& newer, double fraction) {
   const Four products = older.q * newer.q;
   const double dot = (products[0] + products[2]) + (products[1] + products[3]);
-  const double size = dot < 0.0 ? -dot : dot, cosine = size < 1.0 ? size : 1.0;
+  const Arc arc = shorter_arc(dot);
   Two weight;
-  choose_slerp(cosine, [&](auto slerp) { weight = weights(slerp, fraction, cosine); });
-  const double second = dot < 0.0 ? -weight[1] : weight[1];
-  return {weight[0] * older.q + second * newer.q, (1.0 - fraction) * older.p + fraction * newer.p};
+  choose_slerp(arc.cosine, [&](auto slerp) { weight = weights(slerp, fraction, arc.cosine); });
+  const Ends<double> line = line_weights(fraction);
+  return {weight[0] * older.q + arc.sign * weight[1] * newer.q, line.first * older.p + line.second * newer.p};
 }
 
 COFRAME_INLINE Four conjugate(const Four& q) { return Four{-1.0, -1.0, -1.0, 1.0} * q; }

@@ -7,7 +7,8 @@
 // contracted (-ffp-contract=fast) if the processor has fused multiply-add: results of levels then differ in the last
 // bits. Kernels may use nothing from other headers except plain data and libm: the linker keeps one copy of an inline
 // function for the whole program, and that copy could contain instructions that not every processor has. For the same
-// reason, everything in the headers of the kernels is in an anonymous namespace and always inlined.
+// reason, everything in the headers of the kernels is in an anonymous namespace and always inlined, and the definition
+// of the interpolation, core/interpolation.inc, is included inside that namespace.
 #pragma once
 
 #include "kernels/kernels.hpp"

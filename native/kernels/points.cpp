@@ -56,11 +56,11 @@ void transform_moving_by(const Motion& motion, const Arc& between, const double*
   const typename Slerp::WeightAt weight(between.cosine);
   double* __restrict xs = points.x, * __restrict ys = points.y, * __restrict zs = points.z;
   for (std::size_t i = 0; i < n; ++i) {
-    const double t = fractions[i], rest = 1.0 - t;
-    const double a = weight(rest), b = weight(t);
-    const Point point =
-        transformed<kInverse>(a * aq[0] + b * bq[0], a * aq[1] + b * bq[1], a * aq[2] + b * bq[2],
-                              a * aq[3] + b * bq[3], MovingOffset{rest, t, ap, bp}, {xs[i], ys[i], zs[i]});
+    const Ends<double> line = line_weights(fractions[i]);
+    const double a = weight(line.first), b = weight(line.second);
+    const Point point = transformed<kInverse>(a * aq[0] + b * bq[0], a * aq[1] + b * bq[1], a * aq[2] + b * bq[2],
+                                              a * aq[3] + b * bq[3], MovingOffset{line.first, line.second, ap, bp},
+                                              {xs[i], ys[i], zs[i]});
     xs[i] = point.x;
     ys[i] = point.y;
     zs[i] = point.z;

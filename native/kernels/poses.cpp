@@ -33,10 +33,10 @@ void interpolate_many(const Pose* older, const Pose* newer, const double* fracti
         seconds[i] = signs[i] * decltype(slerp)::weight(t, cosines[i]);
       }
       for (std::size_t i = 0; i < count; ++i) {
-        const double t = fractions[done + i];
+        const Ends<double> line = line_weights(fractions[done + i]);
         Pose& result = out[done + i];
         for (int k = 0; k < 4; ++k) result.q[k] = firsts[i] * a[i].q[k] + seconds[i] * b[i].q[k];
-        for (int k = 0; k < 3; ++k) result.p[k] = (1.0 - t) * a[i].p[k] + t * b[i].p[k];
+        for (int k = 0; k < 3; ++k) result.p[k] = line.first * a[i].p[k] + line.second * b[i].p[k];
       }
     });
   }

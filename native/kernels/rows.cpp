@@ -70,8 +70,8 @@ COFRAME_INLINE void add_step(const PoseLanes& step, const TwistLanes& rate, bool
   store(first && !kDown ? step : transformed<kDown>(step, pose), poses, i);
 }
 
-// Computes the pose of the edge for the rows from `i` on like interpolate() of core/pose.hpp does, and with kMoving its
-// rate of change in the parent's axes: constant along a line for the translation, about one axis for the rotation.
+// Computes the pose of the edge for the rows from `i` on, and with kMoving its rate of change in the parent's axes:
+// constant along a line for the translation, about one axis for the rotation.
 template <bool kMoving>
 COFRAME_INLINE PoseLanes step_at(const Between& edge, std::size_t i, TwistLanes& rate) {
   const Lanes t = load_lanes(edge.fraction + i);
@@ -79,6 +79,7 @@ COFRAME_INLINE PoseLanes step_at(const Between& edge, std::size_t i, TwistLanes&
   const Lanes product = dot(a, b), sign = sign_of(product);
   const Weights<Lanes> weights = weights_at<kMoving>(t, with_sign(product, sign));
   const Lanes first = weights.first, second = with_sign(weights.second, sign);
+  const Ends<Lanes> line = line_weights(t);
   const Vector<Lanes> from = load_translations(edge.older + i), to = load_translations(edge.newer + i);
   if constexpr (kMoving) {
     const Lanes per_second = load_lanes(edge.per_second + i);
@@ -88,7 +89,7 @@ COFRAME_INLINE PoseLanes step_at(const Between& edge, std::size_t i, TwistLanes&
   }
   return {
       {first * a.x + second * b.x, first * a.y + second * b.y, first * a.z + second * b.z, first * a.w + second * b.w},
-      (1.0 - t) * from + t * to};
+      line.first * from + line.second * to};
 }
 
 // The same for an edge with a constant pose.

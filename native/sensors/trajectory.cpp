@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "core/interpolation.hpp"
+
 namespace coframe {
 
 // Of several samples with the oldest stamp the first one is used, of other equal stamps the last one, as in

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+import { readFileSync } from "node:fs";
+import { join } from "node:path";
 import * as THREE from "three";
 import { describe, expect, it } from "vitest";
 import {
@@ -44,6 +46,19 @@ function three({ position, quaternion }: Pose): THREE.Matrix4 {
 
 function close(found: number[], expected: number[], digits = 9): void {
   found.forEach((value, i) => expect(value).toBeCloseTo(expected[i] as number, digits));
+}
+
+type Row = [number, number, number, number, number, number, number];
+
+const INTERPOLATED = JSON.parse(readFileSync(join(import.meta.dirname, "interpolation.json"), "utf8")) as {
+  first: Row;
+  second: Row;
+  fraction: number;
+  pose: Row;
+}[];
+
+function toPose([x, y, z, ...quaternion]: Row): Pose {
+  return { position: [x, y, z], quaternion };
 }
 
 describe("poses agree with three.js", () => {
@@ -101,6 +116,19 @@ describe("poses agree with three.js", () => {
       const image = [0, 1, 2].map((i) => [0, 1, 2].reduce((sum, j) => sum + entry(i, j) * (axis[j] as number), 0));
       image.forEach((value, i) => expect(value).toBeCloseTo(variance * (axis[i] as number), 9));
     });
+  });
+
+  it("when interpolated as in the core, whose poses tests/core/test_interpolation.py writes", () => {
+    for (const { first, second, fraction, pose } of INTERPOLATED) {
+      const found = interpolate(toPose(first), toPose(second), fraction);
+      const expected = toPose(pose);
+      found.position.forEach((value, k) =>
+        expect(Math.abs(value - (expected.position[k] as number))).toBeLessThan(1e-12),
+      );
+      const { quaternion } = relative(expected, found);
+      for (const value of quaternion.slice(0, 3)) expect(Math.abs(value)).toBeLessThan(1e-12);
+    }
+    expect(INTERPOLATED.length).toBeGreaterThan(50);
   });
 
   it("when interpolated along the shorter rotation", () => {

@@ -53,17 +53,31 @@ export function inverse(a: Pose): Pose {
   return { position: [-back[0], -back[1], -back[2]], quaternion };
 }
 
-/** Interpolates between two poses, along the shorter rotation. */
+/** Interpolates between two poses as native/core does: on a straight line, and on the shorter great arc (slerp). */
 export function interpolate(a: Pose, b: Pose, part: number): Pose {
-  const mix = (x: number, y: number): number => x + (y - x) * part;
   const [p, q] = [a.position, b.position];
-  const sign = a.quaternion.reduce((sum, value, k) => sum + value * (b.quaternion[k] as number), 0) < 0 ? -1 : 1;
-  // Rotations between two samples are small, so normalized linear interpolation is close enough to slerp.
-  const rotation = a.quaternion.map((value, k) => mix(value, sign * (b.quaternion[k] as number)));
-  return {
-    position: [mix(p[0], q[0]), mix(p[1], q[1]), mix(p[2], q[2])],
-    quaternion: normalize(rotation as Quaternion),
-  };
+  const [rotation, other] = [a.quaternion, shorter(a.quaternion, b.quaternion)];
+  const [first, second] = arcWeights(rotation, other, part);
+  const line = (k: 0 | 1 | 2): number => (1 - part) * p[k] + part * q[k];
+  const arc = (k: 0 | 1 | 2 | 3): number => first * rotation[k] + second * other[k];
+  return { position: [line(0), line(1), line(2)], quaternion: normalize([arc(0), arc(1), arc(2), arc(3)]) };
+}
+
+/** b or -b, which are the same rotation: the one that is nearer to a. */
+function shorter(a: Quaternion, [x, y, z, w]: Quaternion): Quaternion {
+  return a[0] * x + a[1] * y + a[2] * z + a[3] * w < 0 ? [-x, -y, -z, -w] : [x, y, z, w];
+}
+
+function arcWeights(a: Quaternion, b: Quaternion, part: number): [number, number] {
+  // More precise for small angles than the arc cosine.
+  const half = Math.atan2(Math.hypot(...a.map((v, k) => v - at(b, k))), Math.hypot(...a.map((v, k) => v + at(b, k))));
+  const angle = 2 * half;
+  if (angle === 0) return [1 - part, part];
+  return [Math.sin((1 - part) * angle) / Math.sin(angle), Math.sin(part * angle) / Math.sin(angle)];
+}
+
+function at(values: readonly number[], k: number): number {
+  return values[k] as number;
 }
 
 /** The pose of `source` relative to `target`; both are expressed in the same frame. */
