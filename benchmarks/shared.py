@@ -161,7 +161,7 @@ def main() -> None:
         print(f"{readers} programs without a listener              {programs:8.1f} % of one core", flush=True)
         print(f"one listener of its own                     {alone:8.1f} % more", flush=True)
         print(f"{readers} programs that share transforms           {shared:8.1f} % more, {ratio}", flush=True)
-        print(f"memory of a further program                 {memory / 1e6:8.2f} MB more", flush=True)
+        print(f"memory per additional program                 {memory / 1e6:8.2f} MB more", flush=True)
         gaps = _takeovers(kills)
         print(
             f"{kills} receivers killed: new transforms after   {statistics.median(gaps):8.0f} ms (median), "

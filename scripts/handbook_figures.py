@@ -318,7 +318,7 @@ def finding_errors() -> Drawing:
 FIGURES: dict[str, tuple[Callable[[], Drawing], str]] = {
     "01_why_frames": (why_frames, "An obstacle has different coordinates in two frames"),
     "02_rotations": (rotations, "Two turns about the new axes and about the fixed axes differ"),
-    "03_static_and_dynamic": (static_and_dynamic, "What a listener receives that joins late"),
+    "03_static_and_dynamic": (static_and_dynamic, "What a late-joining listener receives"),
     "04_lookup_transform": (target_and_source, "The pose of the source relative to the target"),
     "05_time": (interpolation, "Stored samples, interpolation, and times without an answer"),
     "06_sensors": (sensors, "A scan with the transform at its stamp, and with the latest one"),
