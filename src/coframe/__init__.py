@@ -75,7 +75,7 @@ __all__ = [
     "show",
 ]
 
-# Functions whose modules take long to import are imported on first use.
+# Functions in modules that are slow to import are imported on first use.
 _LAZY = {
     "load": "coframe.frozen",
     "open_bag": "coframe.bags",
@@ -106,7 +106,7 @@ _CORE = ("coframe.buffer", "coframe.connection", "coframe.errors", "coframe.tran
 
 
 def _publish(name: str, value: Any) -> Any:
-    """Let a public class or function report `coframe` as its module, as users import it from there.
+    """Set `__module__` of a public class or function to `coframe`, from which users import it.
 
     The drop-in package tf2_py has already given tf2's exceptions the name of upstream's module; they keep it.
     """

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The base class of all exceptions of coframe, for modules that do without the native core; see `coframe.errors`."""
+"""The base class of all coframe exceptions, for modules that do not use the native core; see `coframe.errors`."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import traceback
 
 __all__ = ["CoframeError"]
 
-# What a traceback shows in front of a hint.
+# The label of a hint in a traceback.
 _HINT = "Hint: "
 
 
@@ -20,7 +20,7 @@ class CoframeError(Exception):
 
     @property
     def hint(self) -> str:
-        """What to do next, in one or two sentences; may be empty."""
+        """Advice on what to do next, in one or two sentences; may be empty."""
         return self._hint
 
     @property
@@ -31,7 +31,7 @@ class CoframeError(Exception):
     # The interpreter reads the notes only when it prints a traceback, so other hints are never computed.
     @property
     def __notes__(self) -> list[str]:
-        """The notes below the text in a traceback: the hint, and what ``add_note`` has added."""
+        """The notes that a traceback shows below the message: the hint, and those added with ``add_note``."""
         notes: list[str] | None = self.__dict__.get("__notes__")
         if notes is None:
             notes = self.__dict__["__notes__"] = [f"{_HINT}{self.hint}"] if self.hint else []
@@ -42,7 +42,7 @@ class CoframeError(Exception):
         self.__dict__["__notes__"] = notes
 
     def _render_traceback_(self) -> list[str]:
-        """Return the traceback for IPython, which calls this method; only its newer versions show notes."""
+        """Return the traceback for IPython, which calls this method; older versions do not show notes."""
         ipython = sys.modules.get("IPython")
         shell = ipython.get_ipython() if ipython else None
         if shell is None:

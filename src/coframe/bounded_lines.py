@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A limit for the lines per second in a terminal: other nodes can cause more of them than anyone can read."""
+"""Rate limit for terminal output, because other nodes can cause more lines than anyone can read."""
 
 from __future__ import annotations
 
@@ -22,13 +22,13 @@ _LINE_LENGTH = 1_000  # characters; longer lines count as several
 
 
 class LineLimit:
-    """Passes on texts of at most `MAX_LINES` lines per second; may be used by any thread.
+    """Writes at most `MAX_LINES` lines per second. Thread-safe.
 
-    A text that does not fit is omitted as a whole, so that no message is shown in part; only a text that would never
-    fit is cut. A sentence says how many lines are missing, before the next text that is shown.
+    A message that does not fit is omitted completely, so that no message is shown in part; only a message that would
+    never fit is truncated. Before the next message, a line reports how many lines were omitted.
 
     Args:
-        write: Called with each text to show.
+        write: Called with each message to show.
         clock: Returns the time in seconds.
     """
 
@@ -42,7 +42,7 @@ class LineLimit:
         """The number of lines that were not shown and not reported yet."""
 
     def __call__(self, text: str) -> None:
-        """Show a text of one or more lines, without the last line end, or count its lines."""
+        """Show a message of one or more lines, without a trailing newline, or count its lines as omitted."""
         with self._lock:
             if self._clock() - self._since >= 1.0:
                 self._report()
@@ -58,7 +58,7 @@ class LineLimit:
             self._write("\n".join(lines[:fitting]))
 
     def close(self) -> None:
-        """Say how many lines were not shown since the last report."""
+        """Report how many lines were not shown since the last report."""
         with self._lock:
             self._report()
 
@@ -69,10 +69,10 @@ class LineLimit:
 
 
 def print_bounded(text: str, *, error: bool = False) -> None:
-    """Print text that other nodes caused; a terminal gets at most `MAX_LINES` lines per second, a file all.
+    """Print output caused by other nodes: at most `MAX_LINES` lines per second to a terminal, all lines to a file.
 
     Args:
-        text: One or more lines, without the last line end.
+        text: One or more lines, without a trailing newline.
         error: Whether to print on the standard error.
     """
     stream = _stream(error)
@@ -83,7 +83,7 @@ def print_bounded(text: str, *, error: bool = False) -> None:
 
 
 def _fitting(lines: list[str], room: int) -> int:
-    """Return how many of the first lines fit."""
+    """Return how many lines, counted from the first, fit."""
     for number, line in enumerate(lines):
         room -= _weight(line)
         if room < 0:

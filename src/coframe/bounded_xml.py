@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""XML of untrusted files as ElementTree, with limits on its size and depth, and without entities."""
+"""Parse XML from untrusted files as ElementTree, with limits on size and depth, and without entities."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def read_xml(file: str | os.PathLike[str] | IO[Any]) -> ET.Element:
 
     Raises:
         ValueError: It is not XML, defines entities, or exceeds a limit.
-        OSError: The file at the path cannot be read, is not a regular file, or exceeds the limit of its size.
+        OSError: The file cannot be read, is not a regular file, or exceeds the size limit.
     """
     if hasattr(file, "read"):
         text = file.read(MAX_BYTES + 1)
@@ -45,7 +45,7 @@ def read_xml(file: str | os.PathLike[str] | IO[Any]) -> ET.Element:
 
 
 class _Builder(ET.TreeBuilder):
-    """Builds the elements, and refuses deep nesting: programs go through the tree with recursive functions."""
+    """Builds the elements and rejects deep nesting, because programs traverse the tree recursively."""
 
     def __init__(self) -> None:
         super().__init__()

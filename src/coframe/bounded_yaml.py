@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""YAML of untrusted files, with limits on its size, depth and aliases."""
+"""Parse YAML from untrusted files, with limits on size, depth and aliases."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ MAX_VALUES = 1 << 18
 MAX_DIGITS = 100  # of an integer; one in base 60, such as 1:30:00, takes quadratic time
 _INTEGER = "tag:yaml.org,2002:int"
 _TOO_DEEP = f"it is nested more than {MAX_DEPTH} levels deep"
-_PARSER_TOO_DEEP = "maximum nesting depth"  # newer parsers have a limit of their own, and may reach it before _check
+_PARSER_TOO_DEEP = "maximum nesting depth"  # newer parsers have their own limit, and may reach it before _check
 
 
 def read_yaml(text: str | bytes, max_bytes: int = MAX_BYTES) -> Any:
@@ -25,7 +25,7 @@ def read_yaml(text: str | bytes, max_bytes: int = MAX_BYTES) -> Any:
 
     Args:
         text: The document.
-        max_bytes: The largest size that is read.
+        max_bytes: The maximum size.
 
     Raises:
         ValueError: The text is not valid YAML or exceeds a limit.
@@ -41,7 +41,7 @@ def read_yaml(text: str | bytes, max_bytes: int = MAX_BYTES) -> Any:
 
 
 def compose_yaml(text: str | bytes, max_bytes: int = MAX_BYTES) -> Any:
-    """Return the root node of a YAML document, for callers with typing rules of their own; None if it is empty.
+    """Return the root node of a YAML document, for callers that apply their own typing rules; None if it is empty.
 
     The arguments and errors are those of :func:`read_yaml`. A node with aliases occurs several times in the tree.
     """
@@ -49,7 +49,7 @@ def compose_yaml(text: str | bytes, max_bytes: int = MAX_BYTES) -> Any:
 
 
 def error_position(error: ValueError) -> tuple[int, int] | None:
-    """Return where a text is not valid YAML, as line and column from 0; None for an error without a position."""
+    """Return the position of a YAML error as line and column, counted from 0; None for an error without a position."""
     return error.position if isinstance(error, _SyntaxError) else None
 
 
@@ -60,13 +60,13 @@ class _SyntaxError(ValueError):
 
 
 def _within_limits(text: str | bytes, max_bytes: int, load: Callable[[Any, Any], Any]) -> Any:
-    """Return what a function that takes the module yaml and a loader reads, after a check of the limits."""
+    """Check the limits, then return the result of a function that takes the yaml module and a loader."""
     yaml: Any = importlib.import_module("yaml")
     if len(text) > max_bytes:
         raise ValueError(f"it has more than {max_bytes >> 20} MiB, the limit")
     base = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
     try:
-        # PyYAML recurses without a limit and follows aliases of aliases; the events show both beforehand.
+        # PyYAML recurses without a limit and follows aliases of aliases; the event stream reveals both before that.
         _check(yaml.parse(text, Loader=base), yaml)
         return load(yaml, base)
     except (yaml.YAMLError, ValueError, TypeError, OverflowError) as error:
@@ -88,7 +88,7 @@ def _integer(loader: Any, node: Any) -> Any:
 
 
 class _Extents:
-    """Adds up how many values a document has with its aliases replaced by copies, and how deep they are nested."""
+    """Counts the values of a document with its aliases replaced by copies, and their nesting depth."""
 
     def __init__(self) -> None:
         self._of_anchor: dict[str, tuple[int, int]] = {}  # values and levels

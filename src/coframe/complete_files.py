@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Files that are complete or do not appear: a full disk or Ctrl-C leaves no partial file, and keeps an earlier one."""
+"""Write files atomically: a full disk or Ctrl-C leaves no partial file, and an existing file is kept."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ __all__ = ["complete_or_absent", "write_complete"]
 
 @contextmanager
 def complete_or_absent(path: str | os.PathLike[str]) -> Iterator[Path]:
-    """Yield the name to write to; the file gets its own name only after everything has been written.
+    """Yield a temporary path to write to; the file is renamed to `path` only after everything has been written.
 
-    Several threads and processes may write the same file: each writes under a name of its own, and the last one to
-    finish determines the content. Devices and named pipes are written directly.
+    Several threads and processes may write the same file: each one writes to its own temporary path, and the last one
+    to finish determines the content. Devices and named pipes are written directly.
 
     Raises:
         OSError: The file cannot be written; `filename` is the name of the file itself.
@@ -29,7 +29,7 @@ def complete_or_absent(path: str | os.PathLike[str]) -> Iterator[Path]:
     if path.exists() and not path.is_file():
         yield path
         return
-    path = Path(os.path.realpath(path))  # A symbolic link stays, also one that leads to itself.
+    path = Path(os.path.realpath(path))  # A symbolic link is kept, even if it points to itself.
     part = path.with_name(f".{path.name}.{uuid.uuid4().hex[:12]}.part")
     try:
         yield part
@@ -43,7 +43,7 @@ def complete_or_absent(path: str | os.PathLike[str]) -> Iterator[Path]:
 
 
 def write_complete(path: str | os.PathLike[str], content: bytes) -> None:
-    """Write a file, which keeps its earlier content if this fails.
+    """Write a file; if this fails, the previous content is kept.
 
     Raises:
         OSError: The file cannot be written.

@@ -104,10 +104,10 @@ class MessageSubscription(Generic[M]):
         return self._subscription.matched
 
     def receive(self, timeout: float | str | None = None) -> M | None:
-        """Wait for the next message and return it; None after the timeout or if the subscription is closed.
+        """Wait for the next message and return it; return None after the timeout or if the subscription is closed.
 
         Args:
-            timeout: The timeout in seconds, or a text such as "100ms". If None, there is no timeout.
+            timeout: The timeout in seconds, or a string such as "100ms". If None, wait without a limit.
 
         Raises:
             DecodeError: The received bytes are not a message of the announced type.
@@ -183,12 +183,12 @@ class Connection:
 
     @property
     def node(self) -> GraphNode:
-        """The node. A connection with shared transforms joins the graph at its first use."""
+        """The node; with shared transforms, it is created on first use."""
         return self._join()[1]
 
     @property
     def shared(self) -> bool:
-        """Whether the buffer reads the transforms that one process receives for all."""
+        """Whether the buffer reads transforms that one process receives for all processes."""
         return self._shared is not None
 
     def publisher(self, topic: str, message_type: type[M], qos: QoS | int | None = None) -> MessagePublisher[M]:
@@ -244,12 +244,12 @@ class Connection:
         return self.config.frame(name)
 
     def publishers(self) -> list[TfPublisher]:
-        """Return the publishers that transforms were received from, including those that have left."""
+        """Return the publishers from which transforms were received, including those that have left."""
         participant, readers = self._receiver()
         return [publisher for reader in readers for publisher in publishers_of(participant, reader)]
 
     def awaited_statics(self) -> list[str]:
-        """Return the nodes that have a publisher of static transforms from which nothing was received yet."""
+        """Return the nodes whose publishers of static transforms have not delivered anything yet."""
         participant, readers = self._receiver()
         awaited = {writer for reader in readers if reader.static for writer in reader.awaited_writers()}
         return sorted(participant.writer_node(writer) or "an unnamed node" for writer in awaited)
@@ -261,7 +261,7 @@ class Connection:
         then, lookups of these transforms fail.
 
         Args:
-            timeout: The timeout in seconds, or a text such as "100ms".
+            timeout: The timeout in seconds, or a string such as "100ms".
 
         Returns:
             Whether all have delivered. `awaited_statics` returns the others.
@@ -275,7 +275,7 @@ class Connection:
         return not awaited
 
     def show(self, **options: Any) -> Viewer:
-        """Show the live graph in the viewer, in a notebook below the cell; the same as :func:`coframe.show`.
+        """Show the live graph in the viewer, or below the cell in a notebook; the same as :func:`coframe.show`.
 
         Args:
             options: The options of :func:`coframe.show`, such as ``fixed="map"``.
@@ -356,7 +356,7 @@ class Connection:
         return shared
 
     def _receive_alone(self) -> None:
-        """Stop sharing: the buffer becomes one of its own, because the program changes it."""
+        """Stop sharing and detach the buffer, because the program changes it."""
         with self._closing:
             shared, self._shared = self._shared, None
             if shared is None or self._closed:
@@ -432,12 +432,12 @@ def connect(
         tf_static_topic: The topic of static transforms. If None, it is /tf_static in the namespace.
         cache: The length of the buffer's cache: a text such as "10s", nanoseconds or a timedelta. If None, the buffer
             keeps everything.
-        prefix: The prefix of the frames in the buffer, used as given: "robot1/" makes "robot1/base_link" of
-            "base_link".
+        prefix: The prefix of the frames in the buffer, used as given: "robot1/" turns "base_link" into
+            "robot1/base_link".
         keep: The frames that are shared by robots and get no prefix: ["map"].
         shared: Whether to read the transforms from memory that all processes of this user on this machine share. The
-            first of them receives the transforms for all; if it ends, another one takes over. A buffer that the program
-            changes (`set`, `clear`, ...) becomes one of its own. Linux only: elsewhere, a warning is logged and this
+            first process receives the transforms for all; if it ends, another one takes over. A buffer that the program
+            changes (`set`, `clear`, ...) is detached. Linux only: on other platforms, a warning is logged and this
             process receives the transforms itself. See docs/how-to/shared-transforms.md.
 
     Raises:

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Covariances of poses in other frames.
 
-A covariance is that of ROS's PoseWithCovariance: (6, 6) or its 36 numbers row by row, over x, y, z in metres and small
-rotations about the fixed axes x, y, z in radians, all expressed in the frame of the pose.
+A covariance has the layout of ROS's PoseWithCovariance: (6, 6), or 36 numbers in row-major order, over x, y, z in
+metres and small rotations about the fixed axes x, y, z in radians, all expressed in the frame of the pose.
 """
 
 from __future__ import annotations

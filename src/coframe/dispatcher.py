@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The thread that runs Python callbacks for events of the native code: finished waits and changed edges."""
+"""The thread that runs Python callbacks for native events: finished waits and changed edges."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from coframe import _core
 if TYPE_CHECKING:
     from coframe.transform import Transform
 
-# Functions that start a native wait or watch, which puts the token into the mailbox.
+# Functions that start a native wait or watch, which later puts the token into the mailbox.
 StartWait = Callable[[_core.Mailbox, int], _core.Wait]
 StartWatch = Callable[[_core.Mailbox, int], _core.Watch]
 Cancel = Callable[[], object]
@@ -51,17 +51,17 @@ class Dispatcher:
     """Runs the callbacks of the waits and watches of one buffer.
 
     The thread exists while there are waits or watches. Callbacks run without any lock held, and their exceptions are
-    logged. Callbacks of watches run one after another in the thread. Callbacks of waits that an insertion from Python
-    answers run in the inserting thread.
+    logged. Callbacks of watches run one after another in the thread. Callbacks of waits that are completed by an
+    insertion from Python run in the inserting thread.
     """
 
     def __init__(self) -> None:
-        self._tokens = itertools.count(_WAKE_UP + 1)  # Never starts again: functions to cancel outlive `reset`.
+        self._tokens = itertools.count(_WAKE_UP + 1)  # Never restarts at 0, because cancel functions outlive `reset`.
         self.reset()
         _all.add(self)
 
     def reset(self) -> None:
-        """Drop all waits and watches; also for a forked process, which has no thread but may have locked locks."""
+        """Drop all waits and watches; also in a forked process, where the thread is gone but its locks may be held."""
         self._mailbox = _core.Mailbox()
         # The locks are reentrant, because finalizers and signal handlers can run while a thread holds one.
         self._lock = threading.RLock()  # Guards the attributes below; no callback is called while it is held.
@@ -82,7 +82,7 @@ class Dispatcher:
             thread.join(_EXIT_TIMEOUT)
 
     def user_watches(self) -> int:
-        """Return the number of watches that the user of the buffer has registered."""
+        """Return the number of watches registered by the user of the buffer."""
         return sum(isinstance(entry, _Watch) and entry.of_user for entry in self._entries.values())
 
     @property
@@ -119,7 +119,8 @@ class Dispatcher:
         Args:
             start: Starts the native watch.
             on_change: Called with the frames.
-            of_user: Whether the user of the buffer has registered it; forked children then log that it is not called.
+            of_user: Whether it was registered by the user of the buffer; forked children then log that it is not
+                called.
 
         Returns:
             A function that cancels the watch.
@@ -131,7 +132,7 @@ class Dispatcher:
 
     @contextmanager
     def inserting(self) -> Iterator[None]:
-        """Return a context manager for insertions, which at its end runs the callbacks of waits that they answer."""
+        """Return a context manager for insertions; on exit, it runs the callbacks of completed waits."""
         if self.is_idle:
             yield
             return
@@ -178,7 +179,7 @@ class Dispatcher:
         return entry
 
     def _process(self, tokens: list[int], *, watches: bool) -> None:
-        """Run the callbacks of these tokens; those of watches only if `watches` is set, as only the thread does."""
+        """Run the callbacks of these tokens; only the dispatcher thread sets `watches` and runs those of watches."""
         tokens.reverse()
         try:
             while tokens:
@@ -218,7 +219,7 @@ class Dispatcher:
                 _call(entry.on_end, entry.native.transform())
 
     def turn(self) -> int | None:
-        """Run one round of the thread.
+        """Run one iteration of the thread.
 
         Returns:
             How long the thread may sleep, in nanoseconds (negative: without a limit); None if the thread may end.

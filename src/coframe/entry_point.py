@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Run a console script that is not installed, ``MODULE:FUNCTION``, or a Python file; the first argument names it.
+"""Run the program named by the first argument: an uninstalled console script (``MODULE:FUNCTION``) or a Python file.
 
 A process that a launch has started ends with its launcher, even if that is killed.
 """
@@ -29,7 +29,7 @@ _CHECK = 1.0  # seconds
 
 
 def main() -> object:
-    """Run what the first argument names; the program sees its own file and arguments in ``sys.argv``."""
+    """Run the program named by the first argument; it sees its own file and arguments in ``sys.argv``."""
     if os.environ.get(LAUNCHER) == str(os.getppid()):
         _end_with_launcher()
     del sys.argv[0]
@@ -56,7 +56,7 @@ def _run_file(file: str) -> None:
 
 
 def _end_with_launcher() -> None:
-    """Let this process end when the launcher ends; Windows does not have parents in this sense."""
+    """End this process when its launcher ends; not supported on Windows."""
     if sys.platform == "linux":
         ctypes.CDLL(None).prctl(_PARENT_DEATH_SIGNAL, signal.SIGTERM)
     elif os.name == "posix":

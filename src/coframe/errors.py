@@ -26,10 +26,10 @@
 
 Wrong arguments of Python calls (a wrong type, shape or unit) raise TypeError and ValueError as usual.
 
-The names of the transform exceptions are tf2's, and so are their texts (``str(error)``). Every exception also has a
+The transform exceptions have tf2's names and messages (``str(error)``). Every exception also has a
 ``hint``, which says what to do next, and a ``doctor_code``, which names the doctor's page about the problem. Tracebacks
-show the hint below the text, in Python from 3.11 on and in IPython.
-Transform exceptions carry the facts behind their text as well.
+show the hint below the message in Python 3.11 and later, and in IPython. Transform exceptions also have the details as
+attributes.
 """
 
 from __future__ import annotations
@@ -93,11 +93,11 @@ _NO_FACTS = _Facts()
 class TransformException(CoframeError):  # noqa: N818 - tf2's name
     """A transform could not be looked up or stored.
 
-    ``str(error)`` is the text; the properties are the facts behind it, None where they do not apply.
+    ``str(error)`` is tf2's message; the properties contain the details, None where they do not apply.
     """
 
     # An exception raised by the core holds its Failure in `args` and has no __init__ to run. Most failed lookups are
-    # caught and forgotten, so their text and their facts are computed only on access.
+    # caught and discarded, so the message and the details are computed only on access.
     _details: _Facts = _NO_FACTS
 
     @classmethod
@@ -115,14 +115,14 @@ class TransformException(CoframeError):  # noqa: N818 - tf2's name
         code: str = "",
         doctor_code: str = "",
     ) -> Self:
-        """Return an exception with the text ``reason`` and with these facts."""
+        """Return an exception with the message ``reason`` and these details."""
         error = cls(reason)
         error._details = _Facts(target, source, requested, earliest, latest, edge, hint, code, doctor_code)
         return error
 
     @property
     def args(self) -> tuple[Any, ...]:
-        """The text of the exception as a tuple of one element."""
+        """The message of the exception as a tuple with one element."""
         return self._own_args if self._failure is None else (str(self),)
 
     @args.setter
@@ -145,7 +145,7 @@ class TransformException(CoframeError):  # noqa: N818 - tf2's name
 
     @property
     def code(self) -> str:
-        """The kind of failure as one word, such as ``too_new`` or ``not_connected``; "" if no lookup failed."""
+        """The kind of failure, such as ``too_new`` or ``not_connected``; "" if no lookup failed."""
         return self._facts.code
 
     @property
@@ -180,7 +180,7 @@ class TransformException(CoframeError):  # noqa: N818 - tf2's name
 
     @property
     def hint(self) -> str:
-        """What to do next, in one or two sentences; may be empty."""
+        """Advice on what to do next, in one or two sentences; may be empty."""
         failure = self._failure
         return self._details.hint if failure is None else _hint(failure)
 
@@ -244,7 +244,7 @@ class ViewerError(_HintedError, RuntimeError):
 
 
 class DecodeError(_HintedError, ValueError):
-    """Bytes that do not match their type; the text gives the type, the position and the expected value."""
+    """Bytes that do not match their type; the message gives the type, the position and the expected value."""
 
 
 class _FileError(_HintedError, ValueError):
@@ -252,7 +252,7 @@ class _FileError(_HintedError, ValueError):
 
     Attributes:
         line: Line number, counted from 1; None if the problem has no single line.
-        file: Name of the file; None for a text that does not come from a file.
+        file: Name of the file; None for text that does not come from a file.
     """
 
     def __init__(self, text: str, *, line: int | None = None, file: str | None = None, hint: str = "") -> None:
@@ -266,11 +266,11 @@ class _FileError(_HintedError, ValueError):
 
 
 class RobotDescriptionError(_FileError):
-    """A robot description that is invalid or contradicts itself; ``file`` and ``line`` are where, or None."""
+    """A robot description that is invalid or contradictory; ``file`` and ``line`` give the location, or are None."""
 
 
 class InterfaceError(_FileError, LookupError):
-    """A definition of a message, service or action that is invalid; ``file`` and ``line`` are where, or None.
+    """An invalid definition of a message, service or action; ``file`` and ``line`` give the location, or are None.
 
     It is a LookupError as well, because the type that the definition describes cannot be found.
     """
@@ -346,7 +346,7 @@ def _guess(failure: Failure) -> str:
     if not known:
         return "The buffer has not received any transforms. Is a broadcaster running in the same ROS domain?"
     arguments = (failure.target, failure.source)
-    # The other frame of the lookup cannot be meant.
+    # The other frame of the lookup is not a candidate.
     others = [frame for frame in known if failure.name not in arguments or frame not in arguments]
     meant = _similar_names(failure.name, others)
     frames = f"Known frames: {listed(map(shown, known), most=MOST_LISTED)}."
@@ -360,7 +360,7 @@ def _guess(failure: Failure) -> str:
 
 
 def _similar_names(name: str, known: list[str]) -> list[str]:
-    """Return the frames that may be meant: the same name with another prefix, or a similar spelling."""
+    """Return the frames that may have been meant: the same name with another prefix, or a similar spelling."""
     bare = name.rpartition("/")[2]
     same = [frame for frame in known if frame.rpartition("/")[2] == bare and len(frame) <= LONGEST_COMPARED]
     return same[:_MOST_GUESSES] or similar(name, known)

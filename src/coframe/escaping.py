@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Text from outside for terminals and tables: names, messages and problems can contain any characters."""
+"""Escape untrusted text for terminals and tables: names, messages and problems can contain any characters."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ _FORMULA = ("=", "+", "-", "@", "\t", "\r")
 
 
 def printable(text: str) -> str:
-    r"""Return a text without control characters and marks that change its direction; line ends and tabs stay.
+    r"""Return text without control characters and bidirectional marks; newlines and tabs are kept.
 
     Example:
         >>> printable("arm\x1b[2J")
@@ -21,9 +21,10 @@ def printable(text: str) -> str:
 
 
 def one_line(text: str) -> str:
-    r"""Return a sentence with names from outside as one printable line; the end of a very long one is left out.
+    r"""Return a message that contains untrusted names as one printable line; a very long one is truncated.
 
-    Without its middle, a shell command could end a quotation and run what a name contains; a first part cannot.
+    The end is cut, not the middle: without its middle, a suggested shell command could close a quotation and run what a
+    name contains.
 
     Example:
         >>> one_line("no frame 'two\nlines'")
@@ -34,7 +35,7 @@ def one_line(text: str) -> str:
 
 
 def shown(name: str) -> str:
-    r"""Return a name for a drawing or a table: printable and not too long, for any name that was received.
+    r"""Return a received name for a drawing or a table: printable and shortened.
 
     Example:
         >>> shown("base_link"), shown("two\nlines"), len(shown("x" * 10_000))
@@ -51,7 +52,7 @@ def _shortened(text: str, longest: int) -> str:
 
 
 def csv_cell(value: object) -> object:
-    """Return the value of a cell that a spreadsheet does not take for a formula; numbers stay as they are.
+    """Return a cell value that a spreadsheet does not interpret as a formula; numbers are unchanged.
 
     Example:
         >>> csv_cell("=1+1"), csv_cell(-1.5)

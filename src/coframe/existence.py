@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Whether a file or folder exists and where it is, for the folders that environment variables list.
+"""Check whether files and folders exist, and resolve paths, for folders listed in environment variables.
 
-What the user is not permitted to read counts as absent, as in Python's own search for modules. The methods of
+Paths that the user may not read count as absent, as in Python's own module search. The methods of
 `pathlib.Path` raise PermissionError instead, before Python 3.14.
 """
 
@@ -29,5 +29,5 @@ def is_dir(path: Path) -> bool:
 
 
 def resolved(path: str | os.PathLike[str]) -> Path:
-    """Return the absolute path without links. For a link to itself, `Path.resolve` can raise RuntimeError; it stays."""
+    """Return the absolute path with links resolved; links that form a loop are kept, where `Path.resolve` may raise."""
     return Path(os.path.realpath(path))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Durations, stamps, counts and lists of names as messages show them."""
+"""Format durations, stamps, counts and lists of names for messages."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ def seconds(nanoseconds: int) -> str:
 
 
 def listed(names: Iterable[str], *, most: int = _MOST_LISTED) -> str:
-    """Return names as a list; of a long list the first `most` names and the number of the others.
+    """Return names as a comma-separated list: at most `most` names, then the number of the others.
 
     Example:
         >>> listed("abc"), listed("abcdefg")
@@ -63,7 +63,7 @@ def listed(names: Iterable[str], *, most: int = _MOST_LISTED) -> str:
 
 
 def quoted(names: Iterable[str]) -> str:
-    """Return names in quotation marks as a list, shortened as by :func:`listed`."""
+    """Return a list of quoted names, shortened as in :func:`listed`."""
     return listed(repr(name) for name in names)
 
 
@@ -79,7 +79,7 @@ def did_you_mean(name: str, known: Iterable[str], *, most: int = 1) -> str:
 
 
 def similar(name: str, known: Iterable[str], *, most: int = 1) -> list[str]:
-    """Return the names with the most similar spelling; long names, and names after the first thousands, are skipped."""
+    """Return the names with the most similar spelling; very long names and names beyond a limit are skipped."""
     import difflib  # noqa: PLC0415 - only errors need it
 
     if len(name) > LONGEST_COMPARED:

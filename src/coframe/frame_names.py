@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Frame prefixes, which keep the frames of several robots apart: a prefix in front of all names but the shared ones.
+"""Frame prefixes, which distinguish the frames of several robots: a prefix in front of all names except shared ones.
 
-The prefix is added without a slash of its own, like robot_state_publisher's ``frame_prefix``.
+The prefix is added without an additional slash, like robot_state_publisher's ``frame_prefix``.
 
 ============  ===============  ======================  ==========================================
 prefix        name             becomes                 reason
@@ -58,7 +58,7 @@ def renaming(prefix: str = "", keep: Iterable[str] = ()) -> _core.Renaming | Non
 
 
 def kept(keep: Iterable[str]) -> list[str]:
-    """Return the names of the shared frames as a list, from names or from one string with commas.
+    """Return the names of the shared frames as a list; a string is split at commas.
 
     Raises:
         TypeError: A name is not a string.
@@ -85,7 +85,7 @@ def absolute(topic: str) -> str:
 
 
 def belongs(topic: str, tf_topic: str, tf_static_topic: str) -> bool:
-    """Return whether a topic belongs to the robot with these transform topics: one of them, or in their namespace.
+    """Return whether a topic belongs to the robot of these transform topics: one of them, or in their namespace.
 
     Example:
         >>> belongs("/robot1/scan", "/robot1/tf", "/tf_static"), belongs("/robot2/scan", "/robot1/tf", "/tf_static")
@@ -98,7 +98,7 @@ def belongs(topic: str, tf_topic: str, tf_static_topic: str) -> bool:
 
 
 def prefix_advice(prefix: str) -> str:
-    """Return a warning about a prefix that probably lacks its slash; "" for any other prefix.
+    """Return a warning about a prefix that probably lacks its slash; "" for other prefixes.
 
     Example:
         >>> prefix_advice("robot1")
@@ -118,7 +118,7 @@ def naming_problems(origin: str, slashed: str, prefixed: str, plain: str) -> lis
     """Return a warning for each problem with the frame names that a publisher uses.
 
     Args:
-        origin: The publisher.
+        origin: A description of the publisher.
         slashed: An example of a name with a leading slash; "" if there is none.
         prefixed: An example of a name that has the prefix already; "" if there is none.
         plain: An example of a name without the prefix; "" if there is none.

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Return freed memory to the system, for commands that run for hours; pause the collector, for many new objects."""
+"""Return freed memory to the system in long-running commands, and pause garbage collection."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ if TYPE_CHECKING:
 __all__ = ["collection_paused", "return_freed_arrays", "return_freed_blocks"]
 
 _M_MMAP_THRESHOLD = -3
-_SMALLEST = 128 << 10  # bytes; also glibc's own value at first, before it adapts
+_SMALLEST = 128 << 10  # bytes; glibc starts with the same value and adapts it later
 
 
 @contextmanager
 def collection_paused() -> Iterator[None]:
-    """Pause the cyclic garbage collector while a block creates many objects that stay, such as thousands of topics.
+    """Pause the cyclic garbage collector while a block creates many long-lived objects, such as thousands of topics.
 
-    It would visit all of them again and again, and find nothing.
+    It would scan all of them repeatedly without freeing anything.
     """
     was_enabled = gc.isenabled()
     gc.disable()
@@ -45,15 +45,15 @@ def return_freed_arrays() -> None:
 
 
 def return_freed_blocks() -> None:
-    """Return all other freed memory to the system now, which takes some milliseconds. Call it after a large task.
+    """Return all other freed memory to the system now, which takes a few milliseconds. Call it after a large task.
 
-    By default, glibc returns only what is freed at the end of a heap. Without glibc, nothing is changed.
+    By default, glibc returns only memory that is freed at the end of a heap. Without glibc, nothing is changed.
     """
     if (malloc_trim := _function("malloc_trim")) is not None:
         malloc_trim(0)
 
 
-@cache  # Each CDLL makes classes that refer to each other, which stay until Python's cyclic garbage collector runs.
+@cache  # Each CDLL creates classes that stay in memory until the cyclic garbage collector runs.
 def _function(name: str) -> Any:
     """Return a function of glibc; None without glibc."""
     return getattr(ctypes.CDLL(None), name, None) if sys.platform == "linux" else None

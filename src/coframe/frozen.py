@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Buffers in files: small ones are copied, large ones are mapped into memory that any number of processes share."""
+"""Buffers in files: small files are copied, large ones are mapped into memory that processes share."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ _LOSS = (
 
 
 class FrozenBuffer(Buffer):
-    """A read-only :class:`coframe.Buffer` on a file, as :func:`load` returns it.
+    """A read-only :class:`coframe.Buffer` backed by a file, returned by :func:`load`.
 
     Pickling stores only the path, so worker processes open the file themselves and share its memory.
     """
@@ -54,7 +54,7 @@ class FrozenBuffer(Buffer):
         memory = mmap.mmap(-1, size)
         file.seek(0)
         if memory.write(file.read(size)) != size:
-            raise damaged(self._path, "it was truncated meanwhile")
+            raise damaged(self._path, "it was truncated while it was being read")
         return memory
 
     @property
@@ -89,8 +89,8 @@ def load(path: str | os.PathLike[str], *, verify: bool = False) -> FrozenBuffer:
 
     Args:
         path: The file. Files up to 1 MiB are copied; larger ones are mapped, and must not change while they are open.
-            :meth:`coframe.Buffer.save` never changes a file, but replaces it by a new one. To replace it by a copy of
-            another file, use ``cp --remove-destination`` or rename the copy.
+            :meth:`coframe.Buffer.save` never modifies a file, but replaces it with a new one. To replace it with a copy
+            of another file, use ``cp --remove-destination`` or rename the copy.
         verify: Whether to read the whole file first and compare it with its checksums. By default only the header and
             the table are checked.
 

@@ -40,7 +40,7 @@ _VERSION = 1
 _PAGE = 4096
 _CHUNK = 256 * (8 + 64)
 _OTHER_FILE = "Buffer.save() writes frozen buffers; open_bag() reads recordings."
-_BLOCK = 256  # chunks that are written together
+_BLOCK = 256  # number of chunks written at once
 _CRC = struct.Struct("<I")
 BLOCK_SIZE = _BLOCK * _CHUNK  # bytes that are written or checked at once
 
@@ -49,7 +49,7 @@ class Header(NamedTuple):
     """The first bytes of a file; the CRC-32 of these bytes follows them.
 
     Attributes:
-        magic: Signature of the file type; its line endings reveal a transfer in text mode.
+        magic: File signature; its line endings detect transfers in text mode.
         version: Version of the format.
         table_crc: CRC-32 of the table.
         samples_crc: CRC-32 of the samples.

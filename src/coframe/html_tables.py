@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Small HTML tables, as notebooks show values.
 
-Names of frames, topics and nodes come from the network, so that every text is escaped and shortened. The styles use
-no colours of their own: the tables are readable on light and on dark backgrounds.
+Names of frames, topics and nodes come from the network, so all text is escaped and shortened. The styles set no
+colours: the tables are readable on light and on dark backgrounds.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 __all__ = ["MOST_ROWS", "paragraph", "preformatted", "section", "table"]
 
 MOST_ROWS = 50
-_LONGEST = 1000  # characters of one text
+_LONGEST = 1000  # characters per cell or paragraph
 _BORDER = "1px solid rgba(128, 128, 128, 0.4)"
 _CELL = "text-align: left; padding: 0.15em 0.8em; font-variant-numeric: tabular-nums"
 
@@ -36,16 +36,16 @@ def section(title: str, *parts: str) -> str:
 
 
 def table(titles: Sequence[str], rows: Iterable[Sequence[object]], total: int, noun: str = "row") -> str:
-    """Return a table with at most `MOST_ROWS` rows, and the number of the others.
+    """Return a table with at most `MOST_ROWS` rows, followed by the number of omitted rows.
 
     Args:
         titles: The titles of the columns.
         rows: The cells of each row; only the first rows are read.
         total: The number of all rows.
-        noun: What a row is, in the singular.
+        noun: What a row represents, in the singular.
 
     Returns:
-        HTML; "" without rows.
+        HTML; "" if there are no rows.
     """
     if total == 0:
         return ""
@@ -63,12 +63,12 @@ def _cell(value: object) -> str:
 
 
 def paragraph(text: str) -> str:
-    """Return a text as a paragraph; "" without a text."""
+    """Return text as a paragraph; "" for an empty text."""
     return f'<div style="margin: 0.3em 0">{_escaped(text)}</div>' if text else ""
 
 
 def preformatted(lines: Sequence[str]) -> str:
-    """Return at most `MOST_ROWS` lines in a fixed-width font, and the number of the others."""
+    """Return at most `MOST_ROWS` lines in a fixed-width font, followed by the number of omitted lines."""
     shown = "\n".join(_escaped(line) for line in lines[:MOST_ROWS])
     more = paragraph(_more(len(lines), "line")) if len(lines) > MOST_ROWS else ""
     return f'<pre style="margin: 0; color: inherit; background: transparent">{shown}</pre>{more}'
@@ -79,6 +79,6 @@ def _more(total: int, noun: str) -> str:
 
 
 def _escaped(text: str) -> str:
-    """Return a text for HTML: shortened, and without control characters and marks that change the direction."""
+    """Return text escaped for HTML and shortened, without control characters and bidirectional marks."""
     short = text if len(text) <= _LONGEST else f"{text[:_LONGEST]}..."
     return html.escape("".join(c if c.isprintable() else ascii(c)[1:-1] for c in short))

@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Import of coframe's ROS packages after all others, and of users' interface packages without a build step.
+"""Finds coframe's ROS packages after all others, and imports users' interface packages without a build step.
 
 The file ``coframe_ros.pth`` puts the folder of coframe's ROS packages on `sys.path` when Python starts, and adds one
 condition to the finder of that folder, which Python asks for each package that it has not found in an earlier one. It
 calls `find_last` in this module if the name is one of coframe's ROS packages, or if ``X.msg``, ``X.srv`` or
 ``X.action`` of the missing package X is being imported: Python has a lock for each module during its import. All other
-imports, also those that fail, load no module of coframe and read no file.
+imports, including failing ones, load no module of coframe and read no file.
 
 `install` adds finders to `sys.meta_path` as soon as a ROS package of coframe or a user's interface package is imported.
-They only make modules from definitions: no Python code is imported from a folder that is not on `sys.path`.
+They create modules only from definitions: no Python code is imported from a folder that is not on `sys.path`.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 __all__ = ["find_last", "find_module", "find_package", "install"]
 
-_FINDER = "CoframeInterfaces"  # the class name of the finders
+_FINDER = "CoframeInterfaces"  # class name of the finders
 _KINDS = ("msg", "srv", "action")
 _PACKAGE = re.compile(r"[a-z](?:_?[a-z0-9])*")
 _LOOKS_LIKE_INTERFACES = re.compile(r".*_(?:msgs?|srvs?|actions?|interfaces?)")
@@ -43,7 +43,7 @@ def install() -> None:
 
 
 def find_last(name: str, own: ModuleSpec | None) -> ModuleSpec | None:
-    """Find a package that Python has not found in the folders before that of coframe's ROS packages.
+    """Find a package that Python did not find in the folders before coframe's ROS packages.
 
     Args:
         name: The name of the package.
@@ -54,7 +54,7 @@ def find_last(name: str, own: ModuleSpec | None) -> ModuleSpec | None:
         return find_package(name)
     if any(map(is_coframes, imported_packages())):
         return own
-    # A virtual environment with --system-site-packages has the system's folders after its own.
+    # In a virtual environment with --system-site-packages, the system's folders come after its own.
     later = PathFinder.find_spec(name, folders_after_ros(sys.path))
     return own if later is None or later.loader is None else later
 
@@ -107,7 +107,7 @@ def _find_kind(package: str, kind: str, above: list[str]) -> ModuleSpec | None:
     from coframe.interfaces.ownership import is_own  # noqa: PLC0415
     from coframe.interfaces.sources import find_folder  # noqa: PLC0415
 
-    # The folders above are where Python has found the package, if its folder has no code.
+    # If the folder of the package has no code, the folders above are where Python found it.
     found = [find_folder(package), *(Path(folder) for folder in above if is_own(Path(folder)))]
     for folder in filter(None, found):
         if any(file.startswith(f"{kind}/") for file in definitions_in(folder)):
@@ -122,7 +122,7 @@ def _advice(name: str) -> str:
     missing = f"No module named {name!r}. coframe does not contain this package, and "
     if is_search_off():
         return f"{missing}searches no other one, because Python was started with -I, -P or PYTHONSAFEPATH."
-    searched = ", ".join(dict.fromkeys(str(source.folder) for source in sources())) or "any folder: none is searched"
+    searched = ", ".join(dict.fromkeys(str(source.folder) for source in sources())) or "any folder"
     return (
         f"{missing}found no definitions of it in {searched}. If you have its .msg, .srv or .action files, run "
         f"`coframe interface add FOLDER`, or set {ENVIRONMENT} to the folder of the package or of its workspace."
@@ -136,7 +136,7 @@ def _is_wanted(package: str) -> bool:
 
 
 def _guarded(find: Callable[[], ModuleSpec | None]) -> ModuleSpec | None:
-    """Search, and report any other error than ImportError: programs expect no other one from an import."""
+    """Search, and report any error other than ImportError, because programs expect only ImportError from an import."""
     try:
         return find()
     except ImportError:
@@ -149,7 +149,7 @@ def _guarded(find: Callable[[], ModuleSpec | None]) -> ModuleSpec | None:
 
 
 def _is_foreign() -> bool:
-    """Return whether a ROS installation provides rclpy, which has no use for coframe's classes."""
+    """Return whether a ROS installation provides rclpy; it cannot use coframe's classes."""
     return bool(foreign_packages(tuple(sys.path)))
 
 
@@ -165,14 +165,14 @@ class _Loader:
     """Base class of loaders; Python creates the module."""
 
     def create_module(self, spec: ModuleSpec) -> ModuleType | None:
-        """Let Python create the module."""
+        """Return None, so that Python creates the module."""
 
 
 class _PackageLoader(_Loader):
-    """Loader of ``my_msgs``, a package without folders: Python code next to definitions is not imported."""
+    """Loader of ``my_msgs``, a package without a search path, so Python code next to definitions is not imported."""
 
     def exec_module(self, module: ModuleType) -> None:
-        """Describe the package."""
+        """Set the docstring of the package."""
         module.__doc__ = f"ROS package {module.__name__}."
 
 
@@ -183,7 +183,7 @@ class _KindLoader(_Loader):
         self._folder = folder
 
     def exec_module(self, module: ModuleType) -> None:
-        """Give the module its names; its classes are created when they are first used."""
+        """Set the module's names; classes are created when they are first used."""
         from coframe.messages import packages  # noqa: PLC0415 - it imports NumPy
 
         package, _, kind = module.__name__.partition(".")

@@ -26,7 +26,7 @@ _NAMES = {
     "\x1bOD": "left",
     "\x1b[5~": "page up",
     "\x1b[6~": "page down",
-    # The same keys on Windows.
+    # The key codes on Windows.
     "\xe0H": "up",
     "\xe0P": "down",
     "\xe0M": "right",
@@ -37,15 +37,15 @@ _NAMES = {
 
 
 class Keys:
-    """A reader of key presses, made by :func:`keys`."""
+    """Reads key presses. Created by :func:`keys`."""
 
     def read(self, timeout: float) -> str | None:
-        """Return the next key, a character or a name such as `up` or `page down`; None if none was pressed in time."""
+        """Return the next key as a character or a name such as `up` or `page down`; None after the timeout."""
         raise NotImplementedError
 
 
 class _NoKeys(Keys):
-    """The reader for a standard input that is not a terminal: no key is ever pressed."""
+    """Replacement when standard input is not a terminal: no key is ever pressed."""
 
     def read(self, timeout: float) -> None:
         time.sleep(timeout)
@@ -88,7 +88,7 @@ class _WindowsKeys(Keys):
 
 @contextlib.contextmanager
 def keys() -> Iterator[Keys]:
-    """Read single keys without echoing them; restore the terminal at the end."""
+    """Read single keys without echo; restore the terminal on exit."""
     if not sys.stdin.isatty():
         yield _NoKeys()
         return

@@ -13,7 +13,7 @@ class _Hint(NamedTuple):
     text: str
 
 
-# Keys are the failure codes of the core, and finer ones that `coframe.explanation` distinguishes.
+# The keys are the failure codes of the core, and more specific ones from `coframe.explanation`.
 _HINTS = {
     "empty_name": _Hint("TF004", "Give the name of a frame. Is the frame_id of a header unset?"),
     "far_ahead": _Hint(
@@ -70,7 +70,7 @@ def hint(failure: str, **facts: str) -> str:
 
     Args:
         failure: The failure's code, such as ``too_new``.
-        facts: The values that the text names: ``target``, ``source``, ``parent``, ``child`` and those of this failure.
+        facts: The values for the placeholders: ``target``, ``source``, ``parent``, ``child`` and those of this failure.
     """
     found = _HINTS.get(failure)
     if found is None:

@@ -61,13 +61,13 @@ def import_optional(module: str, purpose: str, extra: str) -> Any:
         extra: The extra that installs it.
 
     Raises:
-        ModuleNotFoundError: The module is not installed. The text says how to install it.
+        ModuleNotFoundError: The module is not installed. The message says how to install it.
     """
     try:
         return importlib.import_module(module)
     except ModuleNotFoundError as error:
         if error.name != module.partition(".")[0]:
-            raise  # The module is there, but something that it needs is not.
+            raise  # The module is installed, but one of its dependencies is not.
         raise ModuleNotFoundError(
             f"{purpose} needs the module {module}, which is not installed: {pip_install(extra)}", name=error.name
         ) from None
@@ -77,7 +77,8 @@ def import_optional(module: str, purpose: str, extra: str) -> Any:
 def importing_matplotlib() -> Iterator[None]:
     """Return a context manager that imports matplotlib without its warnings.
 
-    With a read-only home folder, matplotlib caches its fonts in a temporary folder by itself, but prints two warnings.
+    With a read-only home folder, matplotlib caches its fonts in a temporary folder automatically, but prints two
+    warnings.
     """
     import logging  # noqa: PLC0415 - takes 5 ms, and `coframe --help` imports this module
 

@@ -12,7 +12,7 @@ Array: TypeAlias = NDArray[np.float64]
 
 __all__ = ["from_matrix", "from_rpy", "inverse", "multiply", "rotate", "to_matrix", "to_rpy"]
 
-# From this |sin(pitch)| on, the x axis points straight up or down, and roll and yaw rotate about the same axis.
+# Above this |sin(pitch)|, the x axis points straight up or down, and roll and yaw rotate about the same axis.
 _GIMBAL_LOCK = 1.0 - 1e-12
 
 

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Files from outside, by one rule: check that it is a regular file, open it, and read at most a limit.
+"""Read untrusted files by one rule: check that the file is regular, open it, and read at most a limit.
 
-A path can name something else: a named pipe, whose opening waits for a writer; a device such as ``/dev/zero``, which
-never ends; a socket. A link can lead to each of them. A regular file can be sparse: a terabyte that takes an hour to
-read, of which the disk stores a page.
+A path can also name a pipe, which blocks on opening until there is a writer, a device such as ``/dev/zero``, which
+never ends, or a socket; a link can point to any of them. A regular file can be sparse: a terabyte that takes an hour to
+read although the disk stores one page.
 
-The path is checked first, because opening can already do something: start a watchdog, or release the writer of a pipe.
-The open file is checked as well, because a path can change between the two.
+The path is checked first, because opening can have side effects: it can start a watchdog, or unblock the writer of a
+pipe. The open file is checked again, because the path can change in between.
 """
 
 from __future__ import annotations
@@ -32,16 +32,17 @@ _KINDS: Final[tuple[tuple[Callable[[int], bool], str], ...]] = (
     (stat.S_ISCHR, "it is a device, not a regular file"),
     (stat.S_ISBLK, "it is a device, not a regular file"),
 )
-# A sparse file is smaller than this, or the disk stores a part of it that is plausible for disks that compress.
+# Sparse files below this size are accepted, and larger ones if the stored part is plausible for a compressing file
+# system.
 MAX_SPARSE: Final = 64 << 20  # bytes
-MAX_SPARSE_RATIO: Final = 1000  # of its size to the bytes on the disk
+MAX_SPARSE_RATIO: Final = 1000  # ratio of the size to the bytes on the disk
 _BLOCK: Final = 512  # bytes, the unit of st_blocks
-_MIN_STORED: Final = 8 * _BLOCK  # some file systems state nothing or a block for files that they store elsewhere
+_MIN_STORED: Final = 8 * _BLOCK  # some file systems report nothing or one block for files that they store elsewhere
 _UNNAMED_PIPES: Final = ("/dev/", "/proc/")  # a shell passes the output of a program as /dev/fd/63 or /dev/stdin
 
 
 class UnsuitableFileError(CoframeError, OSError, ValueError):
-    """A file of another kind, or with more bytes than the limit; ``strerror`` says what it is."""
+    """A file that is not regular or is larger than the limit; ``strerror`` gives the reason."""
 
     def __str__(self) -> str:
         return f"{self.filename} cannot be read: {self.strerror}"
@@ -54,7 +55,7 @@ def open_regular(path: str | os.PathLike[str]) -> BinaryIO:
         path: The file, or a link to it.
 
     Raises:
-        UnsuitableFileError: It is not a regular file, nearly all of it is a hole, or the path is not valid.
+        UnsuitableFileError: It is not a regular file, it is sparse, or the path is not valid.
         OSError: There is no such file, or it cannot be read.
     """
     try:
@@ -71,7 +72,7 @@ def read_regular(path: str | os.PathLike[str], max_bytes: int) -> bytes:
 
     Args:
         path: The file, or a link to it.
-        max_bytes: The largest size that is read.
+        max_bytes: The maximum size.
 
     Raises:
         UnsuitableFileError: It is not a regular file, or is larger than `max_bytes`.
@@ -83,7 +84,7 @@ def read_regular(path: str | os.PathLike[str], max_bytes: int) -> bytes:
         except OSError as error:
             error.filename = os.fspath(path)
             raise
-    if content is None:  # files of the kernel, which wait for events
+    if content is None:  # kernel files, which block until there is an event
         raise UnsuitableFileError(errno.EAGAIN, "it has no content yet", os.fspath(path))
     if len(content) > max_bytes:
         raise _too_large(path, max_bytes)
@@ -91,11 +92,11 @@ def read_regular(path: str | os.PathLike[str], max_bytes: int) -> bytes:
 
 
 def read_regular_text(path: str | os.PathLike[str], max_bytes: int, encoding: str = "utf-8") -> str:
-    r"""Return the text of a regular file, whose lines may also end with ``\r\n``.
+    r"""Return the text of a regular file; line endings may also be ``\r\n``.
 
     Args:
         path: The file, or a link to it.
-        max_bytes: The largest size that is read.
+        max_bytes: The maximum size.
         encoding: The encoding.
 
     Raises:
@@ -107,11 +108,11 @@ def read_regular_text(path: str | os.PathLike[str], max_bytes: int, encoding: st
 
 
 def check_regular(path: str | os.PathLike[str], max_bytes: int | None = None) -> None:
-    """Raise OSError if a library that opens files by their names should not open this one.
+    """Raise OSError if this file must not be passed to a library that opens files by name.
 
     Args:
         path: The file, or a link to it.
-        max_bytes: The largest size; None for a library that does not read all of the file.
+        max_bytes: The maximum size; None for a library that does not read the whole file.
 
     Raises:
         UnsuitableFileError: It is not a regular file, or is larger than `max_bytes`.
@@ -123,7 +124,7 @@ def check_regular(path: str | os.PathLike[str], max_bytes: int | None = None) ->
 
 
 def reading_hint(error: OSError) -> str:
-    """Return what to do about a file that cannot be read; "" if the text of the error says it."""
+    """Return what to do about a file that cannot be read; "" if the error message already says it."""
     return "" if isinstance(error, UnsuitableFileError) else "Check the path and the permission to read it."
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Resampling of a motion with as few poses as a limit on the steps between them allows."""
+"""Resample a motion with as few poses as the limits on the steps between them allow."""
 
 from __future__ import annotations
 
@@ -20,13 +20,13 @@ Stamps = NDArray[np.int64]
 
 # Steps are divided into parts of equal time. Parts that are still too long are divided again, at most this many times.
 _MAX_ROUNDS = 30
-# Candidate poses per step. With more of them, the chosen steps come closer to the limits.
+# Candidate poses per step. More candidates bring the chosen steps closer to the limits.
 _CANDIDATES = 4
 
 
 @dataclass(frozen=True)
 class StepLimits:
-    """Largest step between two successive poses.
+    """Maximum step between two successive poses.
 
     Attributes:
         max_translation: Distance in metres; None for no limit.
@@ -64,7 +64,7 @@ class StepLimits:
         return poses[self._thin(poses)]
 
     def _thin(self, poses: Transform) -> NDArray[np.intp]:
-        """Return the indices of the poses to keep; each is the last one within the limits of the one before."""
+        """Return the indices of the poses to keep; each one is the last pose within the limits of the previous one."""
         kept = [0]
         last = len(poses) - 1
         while kept[-1] < last:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Where coframe's ROS packages are, and which ROS packages Python would import from another folder."""
+"""Locate coframe's ROS packages, and find ROS packages that Python would import from other folders."""
 
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
     from types import ModuleType
 
-# The packages that share message classes and nodes. Packages that only use them, such as tf2_sensor_msgs, are not here:
-# they work with the side that provides these.
+# The packages that share message classes and nodes. Packages that only use them, such as tf2_sensor_msgs, are not
+# listed: they work with either side.
 PACKAGES: Final = (
     "rclpy",
     "tf2_py",
@@ -53,17 +53,17 @@ def imported_packages() -> list[ModuleType]:
 
 
 def folders_after_ros(path: Iterable[str]) -> list[str]:
-    """Return the other folders of a search path after that of coframe's ROS packages; [] if it is not there."""
+    """Return the folders of a search path after that of coframe's ROS packages; [] if the path does not contain it."""
     entries, home = list(path), ros_folder()
     return [entry for entry in entries[_position(entries) + 1 :] if Path(entry or ".").resolve() != home]
 
 
-@functools.lru_cache(maxsize=4)  # Each of coframe's ROS packages calls this when it is imported.
+@functools.lru_cache(maxsize=4)  # Every ROS package of coframe calls this when it is imported.
 def foreign_packages(path: tuple[str, ...]) -> dict[str, str]:
     """Find the ROS packages that would be imported from another folder than coframe's.
 
-    Folders after coframe's count if they have a complete ROS 2: coframe's packages are found after all others.
-    Otherwise, they have packages of ROS 1, such as Debian's, which do not belong to any rclpy.
+    Folders after coframe's count only if they have a complete ROS 2, because coframe's packages are found last.
+    Otherwise, they contain packages of ROS 1, such as Debian's, which do not belong to an rclpy.
 
     Args:
         path: Folders in search order, such as `sys.path`.

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A check that all ROS packages are imported from one place: coframe or a ROS installation, never both.
+"""Check that all ROS packages are imported from the same side: coframe or a ROS installation, never both.
 
 The exception is tf2, which `coframe.ros2` replaces in a ROS installation.
 """
@@ -25,7 +25,7 @@ def tf2_is_replaced() -> bool:
 
 
 def allow_tf2() -> None:
-    """Accept that coframe's tf2_py and tf2_ros are used with the rclpy and the messages of a ROS installation."""
+    """Allow coframe's tf2_py and tf2_ros to be used with the rclpy and the messages of a ROS installation."""
     _state["tf2_is_replaced"] = True
 
 
@@ -46,7 +46,7 @@ def listener_wire() -> str:
 def check(importing: str, path: list[str] | None = None) -> None:
     """Raise ImportError if coframe's ROS packages would be mixed with those of a ROS installation.
 
-    Otherwise, users' interface packages can be imported from now on.
+    Otherwise, make users' interface packages importable.
 
     Args:
         importing: Name of coframe's ROS package that is being imported.
@@ -73,7 +73,7 @@ def check(importing: str, path: list[str] | None = None) -> None:
 
 
 def _check_imported(importing: str) -> None:
-    """Raise ImportError if ROS packages of other folders are in use, such as Debian's of ROS 1."""
+    """Raise ImportError if ROS packages of other folders are already imported, such as Debian's ROS 1 packages."""
     others = [module for module in imported_packages() if not is_coframes(module)]
     if others:
         names = ", ".join(module.__name__ for module in others)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The transforms of a domain in memory that all processes of a user on this machine share: one receives, all read."""
+"""Transforms in memory that all processes of a user on this machine share: one process receives, all read."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ __all__ = ["SharedTransforms", "open_segment"]
 _logger = logging.getLogger("coframe.wire")
 
 _FOLDER = "/dev/shm/coframe-{user}"  # noqa: S108 - memory of this user only; the native code checks its owner
-_VACANCY_TIMEOUT = 10 * SECOND  # the end of a writer is noticed at once; each turn costs every process some time
+_VACANCY_TIMEOUT = 10 * SECOND  # the end of a writer is noticed immediately; each check costs every process some time
 _RETRY_PAUSE = 10 * MILLISECOND / SECOND
 _CHECK_PERIOD = 10.0  # seconds between two checks whether the memory is full
 GENERATIONS = 8  # of the memory of one configuration
@@ -66,8 +66,8 @@ class SharedTransforms:
     The first process becomes the writer: it receives the transforms. If it ends, another one takes over.
 
     The memory keeps static transforms that are no longer published, like every buffer, but a listener that starts later
-    does not receive these. So once there are such transforms, later listeners share another memory with the next
-    generation number.
+    does not receive these. Once there are such transforms, later listeners therefore use a separate memory with the
+    next generation number.
     """
 
     _instances: ClassVar[dict[tuple[ListenerConfig, int], SharedTransforms]] = {}
@@ -125,7 +125,7 @@ class SharedTransforms:
 
     @classmethod
     def forget_all(cls) -> None:
-        """Forget everything in a forked process: its buffers continue to read, but it has none of the threads."""
+        """Forget everything in a forked process: its buffers can still read, but the threads do not exist there."""
         cls._instances.clear()
         cls._lock = threading.RLock()
 
@@ -149,7 +149,7 @@ class SharedTransforms:
 
         Args:
             buffer: The buffer.
-            authority: The source of all transforms, as the buffer reports it. Empty: the publishing nodes.
+            authority: The authority of all transforms in the buffer. If empty, the names of the publishing nodes.
 
         Returns:
             False if the buffer is not empty.
@@ -163,7 +163,7 @@ class SharedTransforms:
 
     @property
     def writes(self) -> bool:
-        """Whether this process receives the transforms."""
+        """Whether this process is the writer, which receives the transforms."""
         return self._hub is not None
 
     @property
@@ -173,7 +173,7 @@ class SharedTransforms:
 
     @property
     def writer_is_suspended(self) -> bool:
-        """Whether the process that receives the transforms is suspended (Ctrl-Z, debugger): nothing is stored."""
+        """Whether the process that receives the transforms is suspended (Ctrl-Z, debugger) and stores nothing."""
         return is_suspended(self.writer_process)
 
     @property
@@ -200,14 +200,14 @@ class SharedTransforms:
 
     def _run(self) -> None:
         self._take_over()
-        # The publishers of the static transforms that an earlier writer has received deliver them again.
+        # Publishers deliver the static transforms again that an earlier writer received.
         if not self._closed.wait(STATICS_TIMEOUT):
             for reader in self.readers:
                 reader.settle_statics()
         self._report_shortage()
 
     def _report_shortage(self) -> None:
-        """Log once that the memory is full or lost, as soon as it is."""
+        """Log once when the memory becomes full or is lost."""
         while self.writes:
             if self._segment.lost:
                 _logger.error(
@@ -234,11 +234,11 @@ class SharedTransforms:
                         self._close_hub()
                     return
             except _core.SegmentError as error:
-                _logger.warning("This process cannot receive the shared transforms; another one has to: %s", error)
+                _logger.warning("This process cannot receive the shared transforms; another process has to: %s", error)
                 self._segment.close()
                 return
             except Exception:
-                _logger.exception("This process cannot receive the shared transforms; another one has to.")
+                _logger.exception("This process cannot receive the shared transforms; another process has to.")
                 self._segment.close()
                 return
             self._segment.wait_for_vacancy(_VACANCY_TIMEOUT)
@@ -248,7 +248,7 @@ class SharedTransforms:
             self._closed.wait(_RETRY_PAUSE)
 
     def close(self) -> None:
-        """Stop receiving, also if other parts of this process still use the transforms."""
+        """Stop receiving, even if other parts of this process still use the transforms."""
         self._closed.set()
         self._segment.interrupt()
         if self._thread is not threading.current_thread():
@@ -317,7 +317,7 @@ def is_suspended(process: int) -> bool:
 
 
 def suspension(process: int) -> str:
-    """Return a sentence about a suspended process that receives the shared transforms."""
+    """Return a warning about a suspended process that receives the shared transforms."""
     return (
         f"Process {process}, which receives the shared transforms, is suspended: no new transforms are stored until it "
         f"continues (kill -CONT {process}) or ends."
@@ -325,16 +325,16 @@ def suspension(process: int) -> str:
 
 
 def full(shortage: str) -> str:
-    """Return a sentence about shared memory that cannot grow; `shortage` says why."""
+    """Return a warning about shared memory that cannot grow; `shortage` is the reason."""
     return (
-        f"The memory of the shared transforms is full: {shortage}. New frames are refused, and the oldest samples are "
+        f"The memory of the shared transforms is full: {shortage}. New frames are rejected, and the oldest samples are "
         "dropped early. Make /dev/shm larger (docker run --shm-size=512m) or shorten the cache, and restart the "
         "programs."
     )
 
 
 def _network() -> int:
-    """Return a number that is equal for processes with the same network interfaces; containers often have others."""
+    """Return a number that identifies the network namespace; containers often have their own."""
     try:
         return Path("/proc/self/ns/net").stat().st_ino
     except OSError:

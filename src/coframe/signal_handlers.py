@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Signal handlers of one process, which the processes that are forked from it do not inherit."""
+"""Signal handlers that forked child processes do not inherit."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ _Handler = Callable[[int, FrameType | None], object]
 
 
 class SignalHandlers:
-    """The signal handlers that one part of the program has installed; for the main thread only.
+    """The signal handlers that one part of the program has installed. Use only in the main thread.
 
-    They end what runs in this process: its nodes, its event loop, its command. A forked child has none of that, so
-    there the signals have their previous handlers. Otherwise SIGTERM would not end the workers of a
-    `multiprocessing.Pool`, and the Pool would wait for them for ever.
+    They stop what runs in this process: its nodes, its event loop, its command. None of that exists in a forked child,
+    so the child gets the previous handlers back. Otherwise SIGTERM would not end the workers of a
+    `multiprocessing.Pool`, and the Pool would wait for them forever.
     """
 
     def __init__(self) -> None:
@@ -33,19 +33,19 @@ class SignalHandlers:
 
     @property
     def active(self) -> bool:
-        """Whether handlers are installed: not after `restore`, and not in a forked child."""
+        """Whether the handlers are installed; False after `restore` and in a forked child."""
         return bool(self._installed)
 
     def previous(self, number: int) -> _Handler | None:
-        """Return the handler that a signal had before, or None if it was no function."""
+        """Return the previous handler of a signal, or None if it was not a function."""
         _, previous = self._installed.get(number, (None, None))
         return previous if callable(previous) else None
 
     def restore(self) -> None:
-        """Restore the previous handlers, except where another part of the program has set its own since."""
+        """Restore the previous handlers, except where another part of the program has installed its own since."""
         for number, (handler, previous) in self._installed.items():
             if signal.getsignal(number) is handler:
-                # None: it was set by native code, and Python cannot restore it.
+                # None means that native code set it; Python cannot restore such a handler.
                 signal.signal(number, signal.SIG_DFL if previous is None else previous)
         self._installed.clear()
         if self in _in_use:
@@ -53,11 +53,11 @@ class SignalHandlers:
 
 
 def clear_handled_interrupt() -> None:
-    """Let a process started with ``python -m`` exit with its own exit code after a Ctrl-C that it has handled.
+    """Let a process started with ``python -m`` keep its own exit code after it has handled a Ctrl-C.
 
-    CPython notes a KeyboardInterrupt that leaves the code of ``exec(text)`` or ``eval(text)``, such as the code that
-    `dataclasses` and `collections.namedtuple` generate during an import. At its exit it ends itself with SIGINT then,
-    even if the exception was handled. The next ``exec(text)`` deletes the note (``run_eval_code_obj`` in pythonrun.c).
+    CPython remembers a KeyboardInterrupt that leaves the code of ``exec(text)`` or ``eval(text)``, such as the code
+    that `dataclasses` and `collections.namedtuple` generate during an import. On exit, it then ends itself with SIGINT,
+    even if the exception was handled. The next ``exec(text)`` clears this state (``run_eval_code_obj`` in pythonrun.c).
     """
     exec("")  # noqa: S102 - it runs nothing
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Temporary folders that do not stay behind: what a killed process left is removed by the next one."""
+"""Temporary folders that do not accumulate: the next process removes those left by killed processes."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ if sys.platform != "win32":
 __all__ = ["temporary_folder"]
 
 _LOCK = ".lock"
-_NEW_LOCK = ".lock-new"  # its name until it is locked
+_NEW_LOCK = ".lock-new"  # prefix of prefix of its name until it is locked
 
 
 def temporary_folder(prefix: str) -> tempfile.TemporaryDirectory[str]:
@@ -25,17 +25,17 @@ def temporary_folder(prefix: str) -> tempfile.TemporaryDirectory[str]:
     The folder contains a file ``.lock``. The caller removes the folder with `cleanup` or a `with` block.
 
     Args:
-        prefix: The begin of the name, for one purpose only: "coframe-lab-".
+        prefix: The beginning of the name, unique to one purpose, such as "coframe-lab-".
     """
     _remove_stale_folders(prefix)
     return _LockedFolder(prefix)
 
 
 class _LockedFolder(tempfile.TemporaryDirectory[str]):
-    """A temporary folder with a locked file, which the system unlocks when the process ends in any way.
+    """A temporary folder with a locked file; the system releases the lock however the process ends.
 
-    The ID of the process does not suffice: containers can share a folder for temporary files, but number their
-    processes independently.
+    A process ID would not suffice, because containers can share a temporary folder but number their processes
+    independently.
     """
 
     def __init__(self, prefix: str) -> None:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The publishers of transforms: their state, clocks and frame names, from the messages that a subscription received."""
+"""State, clocks and frame names of transform publishers, from the messages that a subscription received."""
 
 from __future__ import annotations
 
@@ -20,14 +20,14 @@ if TYPE_CHECKING:
 
 __all__ = ["TfPublisher", "publisher_state", "publishers_of", "tf_publisher"]
 
-# A larger difference between stamps and the clock of this machine is not explained by the transport delay.
+# A larger difference between stamps and the clock of this machine cannot be explained by transport delay.
 _CLOCK_TOLERANCE = 500 * MILLISECOND
 # Localization nodes stamp map -> odom ahead of time, so that the transform is valid until the next one.
 _INTENTIONAL_LEAD = 2 * SECOND
 
 
 class TfPublisher(NamedTuple):
-    """A publisher of transforms, as one subscription receives it.
+    """A publisher of transforms, as seen by one subscription.
 
     Attributes:
         node: The full name of its node, such as "/robot1/driver"; "an unnamed node" if it is unknown.
@@ -40,7 +40,7 @@ class TfPublisher(NamedTuple):
             quartile of the last messages. Negative if the stamps are ahead. None if it is static or there are too
             few messages.
         present: Whether the publisher is still on the graph.
-        naming_problems: The problems of its frame names, one text each.
+        naming_problems: Warnings about its frame names.
     """
 
     node: str
@@ -58,7 +58,7 @@ class TfPublisher(NamedTuple):
         return is_stale(self.age * SECOND, self.period * SECOND, static=self.static)
 
     def clock_problem(self, children: Collection[str] = ()) -> str:
-        """Return a text if the stamps do not match the clock of this machine, "" otherwise.
+        """Return a warning if the stamps do not match the clock of this machine, else "".
 
         Args:
             children: The child frames of its transforms, if known. A localization node may stamp the transform to odom
@@ -100,7 +100,7 @@ def publisher_state(publishers: Iterable[TfPublisher]) -> str:
 
 
 def publishers_of(participant: Participant, reader: TfReader) -> list[TfPublisher]:
-    """Return the publishers that a reader has received transforms from, including those that have left."""
+    """Return the publishers from which a reader has received transforms, including those that have left."""
     received = reader.writer_statistics()
     if not received:
         return []
@@ -124,7 +124,7 @@ def tf_publisher(
     """Return a publisher from the statistics of its writer.
 
     Args:
-        statistics: What was received from the writer.
+        statistics: Statistics of the messages received from the writer.
         node: The full name of its node; None if it is unknown.
         topic: The topic.
         static: Whether its transforms are static.

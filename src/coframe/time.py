@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Conversion of times and durations to int64 nanoseconds, and the units of time.
+"""Convert times and durations to int64 nanoseconds; units of time.
 
 Floats of seconds are never accepted: a float64 cannot hold the current time to the nanosecond.
 """
@@ -35,7 +35,7 @@ MINUTE = 60 * SECOND
 HOUR = 3_600 * SECOND
 DAY = 86_400 * SECOND
 
-# Smaller ints are refused as durations: a day has 86 400 seconds, and nothing here waits or stores for under 100 us.
+# Smaller ints are rejected as durations: a day has 86 400 seconds, and no timeout or cache is below 100 us.
 # The native core has the same limit (is_meant_as_seconds).
 SHORTEST_INT = 100 * MICROSECOND
 
@@ -44,14 +44,14 @@ _DURATION = re.compile(r"\s*(\d+)(?:\.(\d+))?\s*([a-z]+)\s*", re.ASCII)
 
 
 class HasNanoseconds(Protocol):
-    """An object like rclpy's Time and Duration."""
+    """An object such as rclpy's Time or Duration."""
 
     @property
     def nanoseconds(self) -> int: ...
 
 
 class HasSecNanosec(Protocol):
-    """A message like Time and Duration of builtin_interfaces."""
+    """A message such as Time or Duration of builtin_interfaces."""
 
     @property
     def sec(self) -> int: ...
@@ -71,7 +71,7 @@ def stamp_ns(stamp: StampLike) -> int:
 
     Raises:
         TypeError: The stamp has another type, such as a float of seconds.
-        ValueError: The stamp is a datetime without a time zone, or NaT, or does not fit 64 bits.
+        ValueError: The stamp is a datetime without a time zone, is NaT, or does not fit into 64 bits.
 
     Example:
         >>> import numpy as np
@@ -93,13 +93,13 @@ def duration_ns(duration: DurationLike) -> int:
     """Return a duration as nanoseconds.
 
     Args:
-        duration: Text such as ``"100ms"`` or ``"1.5s"`` (units ns, us, ms, s, min, h), int nanoseconds,
+        duration: A string such as ``"100ms"`` or ``"1.5s"`` (units ns, us, ms, s, min, h), int nanoseconds,
             ``timedelta``, numpy.timedelta64, rclpy's Duration or a Duration message. A positive int below 100 000
-            is refused, because its caller most likely means seconds; durations below 100 us have the other forms.
+            is rejected, because the caller most likely means seconds; pass durations below 100 us in another form.
 
     Raises:
         TypeError: The duration has another type, such as a float of seconds.
-        ValueError: The text is not a number and a unit, or the duration is NaT or does not fit 64 bits, or is a
+        ValueError: The string is not a number with a unit, or the duration is NaT, does not fit into 64 bits, or is a
             positive int below 100 000.
 
     Example:
@@ -114,7 +114,7 @@ def duration_ns(duration: DurationLike) -> int:
         if np.isnat(duration):
             raise ValueError("a duration must not be NaT")
         return int(duration.astype("timedelta64[ns]").astype(np.int64))
-    accepted = 'text such as "100ms", int nanoseconds, timedelta or a Duration'
+    accepted = 'a string such as "100ms", int nanoseconds, timedelta or a Duration'
     nanoseconds = _in_range(_number_ns(duration, "a duration", accepted))
     if 0 < nanoseconds < SHORTEST_INT and isinstance(duration, SupportsIndex) and not hasattr(duration, "nanoseconds"):
         raise ValueError(
@@ -126,7 +126,7 @@ def duration_ns(duration: DurationLike) -> int:
 
 def _in_range(nanoseconds: int) -> int:
     if not -(2**63) <= nanoseconds < 2**63:
-        raise ValueError(f"{nanoseconds} ns does not fit 64 bits, which hold 292 years")
+        raise ValueError(f"{nanoseconds} ns does not fit into 64 bits, which hold 292 years")
     return nanoseconds
 
 

@@ -24,9 +24,10 @@ __all__ = ["Transform"]
 
 Array = NDArray[np.float64]
 
-# Largest deviation of a matrix from a rotation, for matrices that were stored as float32 or printed with five digits.
+# Maximum deviation of a matrix from a rotation; allows matrices that were stored as float32 or printed with five
+# digits.
 _MATRIX_TOLERANCE = 1e-5
-# The squares of quaternions between these lengths fit a float64 with full precision.
+# Between these lengths, the squared norm of a quaternion fits into a float64 with full precision.
 _SHORT, _LONG = 1e-140, 1e140
 _IDENTITY = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)
 
@@ -34,7 +35,7 @@ _IDENTITY = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)
 class Transform(_core.Transform):
     """A rigid motion, an element of SE(3), that transforms coordinates from ``source`` to ``target``.
 
-    ``point_target = transform @ point_source``. A frame that is None matches every frame. A batch has additional
+    ``point_target = transform @ point_source``. A frame of None matches any frame. A batch has additional
     leading axes: ``translation`` (..., 3), ``quaternion`` (..., 4). Transforms are immutable.
 
     Args:
@@ -42,7 +43,7 @@ class Transform(_core.Transform):
         quaternion: Rotation as x, y, z, w, shape (..., 4); it is normalized.
         target: The frame of the transformed coordinates.
         source: The frame of the coordinates to transform.
-        stamp: Nanoseconds, or anything that :func:`coframe.time.stamp_ns` takes; for a batch also an int64 array of
+        stamp: Nanoseconds, or anything that :func:`coframe.time.stamp_ns` accepts; for a batch also an int64 array of
             its shape.
 
     Raises:
@@ -83,7 +84,7 @@ class Transform(_core.Transform):
             return
         shape = np.broadcast_shapes(t.shape[:-1], q.shape[:-1])
         stamps = _stamps(stamp, shape)
-        # The caller may change the array later, so a batch keeps a copy.
+        # A batch keeps a copy, because the caller may modify the array later.
         batch = (np.broadcast_to(t.copy(), (*shape, 3)), np.broadcast_to(q, (*shape, 4)), stamps, None)
         super().__init__(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, target, source, None, batch)
 
@@ -177,7 +178,7 @@ class Transform(_core.Transform):
         source: str | None = None,
         stamp: StampLike | None = None,
     ) -> Transform:
-        """Create a transform from a rotation of SciPy.
+        """Create a transform from a SciPy rotation.
 
         Args:
             rotation: A ``scipy.spatial.transform.Rotation``, single or with batch axes.
@@ -188,7 +189,7 @@ class Transform(_core.Transform):
 
         Raises:
             InvalidArgumentException: A value is not finite.
-            TypeError: ``rotation`` is not a rotation of SciPy.
+            TypeError: ``rotation`` is not a SciPy rotation.
             ValueError: ``translation`` has another shape.
         """
         if not hasattr(rotation, "as_quat"):
@@ -196,7 +197,7 @@ class Transform(_core.Transform):
         return cls(translation, rotation.as_quat(), target=target, source=source, stamp=stamp)
 
     def as_scipy(self) -> tuple[Any, Array]:
-        """Return the rotation as SciPy's class, and the translation.
+        """Return the rotation as a SciPy object, and the translation.
 
         Returns:
             A ``scipy.spatial.transform.Rotation`` and the translation in metres, shape (..., 3): the arguments of
@@ -315,7 +316,7 @@ class Transform(_core.Transform):
             A transform, or the points in ``target``.
 
         Raises:
-            FrameMismatchException: The inner frames have names, which differ.
+            FrameMismatchException: The inner frames are named and differ.
             ValueError: The points have another shape.
         """
         if isinstance(other, Transform):
@@ -401,7 +402,7 @@ class Transform(_core.Transform):
 
         Args:
             other: The other transform, with batch axes that broadcast.
-            translation: Largest distance in metres.
+            translation: Maximum distance in metres.
             rotation: Largest angle in radians.
         """
         apart = np.linalg.norm(self.translation - other.translation, axis=-1)
@@ -430,7 +431,7 @@ class Transform(_core.Transform):
         return self.shape[0]
 
     def __getitem__(self, index: Any) -> Transform:
-        """Return one transform or a part of a batch, with NumPy's indexing."""
+        """Return a transform or a part of a batch, using NumPy indexing."""
         if not self.shape:
             raise TypeError("a single transform cannot be indexed; only a batch can")
         picked = np.arange(int(np.prod(self.shape))).reshape(self.shape)[index]
@@ -449,7 +450,7 @@ class Transform(_core.Transform):
         return f"Transform({frames}translation={_numbers(self.translation)}, rpy={_numbers(self.rpy)}{stamp})"
 
     def show(self, **options: Any) -> Viewer:
-        """Show the frames in the viewer, in a notebook below the cell; the same as :func:`coframe.show`.
+        """Show the frames in the viewer, or below the cell in a notebook; the same as :func:`coframe.show`.
 
         Args:
             options: The options of :func:`coframe.show`, such as ``fixed="map"``.
@@ -484,12 +485,12 @@ def batch_of(
     stamps: NDArray[np.int64] | None,
     beyond: NDArray[np.int64] | None = None,
 ) -> Transform:
-    """Return a batch on arrays (..., 3) and (..., 4) that no other code writes to; rows of NaN have no transform."""
+    """Return a batch on the given arrays (..., 3) and (..., 4) without copying; rows of NaN mean "no transform"."""
     return _rebuild(_IDENTITY, target, source, None, (translation, quaternion, stamps, beyond))
 
 
 def _derived(translation: Array, quaternion: Array, target: str | None, source: str | None, stamp: Any) -> Transform:
-    """Return a transform with values computed from transforms, so that they need neither checks nor normalisation."""
+    """Return a transform from values computed from other transforms, which need neither checks nor normalisation."""
     shape = np.broadcast_shapes(translation.shape[:-1], quaternion.shape[:-1])
     if shape:
         t, q = np.broadcast_to(translation, (*shape, 3)), np.broadcast_to(quaternion, (*shape, 4))
@@ -516,7 +517,7 @@ def _rebuild(
 def _single_pose(
     translation: ArrayLike, quaternion: ArrayLike
 ) -> tuple[float, float, float, float, float, float, float] | None:
-    """Return the values of a single pose of floats without NumPy, which takes ten times as long for seven numbers.
+    """Return the values of a single pose of floats without NumPy, which would take ten times as long for seven numbers.
 
     Returns:
         x, y, z, qx, qy, qz, qw; None for batches, other types of numbers and invalid values.
@@ -549,7 +550,7 @@ def _vectors(values: ArrayLike, size: int, name: str) -> Array:
 
 
 def _frozen(values: tuple[float, ...]) -> Array:
-    """Return a read-only array, as writing to this copy would not change the transform."""
+    """Return a read-only array, because writing to this copy would not change the transform."""
     array = np.array(values)
     array.setflags(write=False)
     return array

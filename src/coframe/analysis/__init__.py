@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Facts about trees of transforms that every surface shares: structure, liveness, clocks, missing edges, commands."""
+"""Shared analysis of transform trees: structure, liveness, clocks, missing edges, suggested commands."""

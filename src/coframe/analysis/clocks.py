@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The one rule for which clock stamps are on: the system clock, simulated time, or another clock."""
+"""The rule that decides which clock stamps come from: the system clock, simulated time, or another clock."""
 
 from __future__ import annotations
 
@@ -16,23 +16,23 @@ __all__ = ["SAME_CLOCK", "ClockName", "clock_of", "group_by_clock", "is_same_clo
 ClockName = Literal["wall", "simulated", "other"]
 
 SAME_CLOCK = HOUR
-"""Times that differ by at least this much, in nanoseconds, are not on one clock: no delay explains the difference."""
-# Simulated time is compared with /clock at the time of receipt, which leaves much less room.
+"""Times that differ by at least this much, in nanoseconds, are from different clocks: no delay is that long."""
+# Simulated time is compared with /clock at the receive time, so the difference is much smaller.
 _SAME_SIMULATED_CLOCK = MINUTE
 
 
 def is_same_clock(first: float, second: float) -> bool:
-    """Return whether two times can be on one clock, both in nanoseconds."""
+    """Return whether two times, in nanoseconds, can be from the same clock."""
     return abs(first - second) < SAME_CLOCK
 
 
 def clock_of(wall_lag: float, simulated_lag: float | None = None) -> ClockName:
-    """Return which clock stamps are on.
+    """Return which clock stamps come from.
 
     Args:
-        wall_lag: The median of the times of receipt minus the stamps, in nanoseconds.
-        simulated_lag: The median of the simulated time at receipt minus the stamps, in nanoseconds; None without
-            simulated time.
+        wall_lag: The median of receive time minus stamp, in nanoseconds.
+        simulated_lag: The median of the simulated time at reception minus stamp, in nanoseconds; None without simulated
+            time.
 
     Returns:
         "wall" for the system clock, "simulated" for the time of /clock, else "other".
@@ -47,13 +47,13 @@ def clock_of(wall_lag: float, simulated_lag: float | None = None) -> ClockName:
 
 
 def group_by_clock(spans: Sequence[tuple[int, int]]) -> list[list[int]]:
-    """Group spans of time by clock: spans that are less than :data:`SAME_CLOCK` apart are on one clock.
+    """Group time spans by clock: spans less than :data:`SAME_CLOCK` apart share a clock.
 
     Args:
         spans: The first and the last time of each span, in nanoseconds.
 
     Returns:
-        The positions of the spans of each clock; the clock with the earliest time first.
+        The indices of the spans of each clock, starting with the clock with the earliest time.
 
     Example:
         >>> from coframe.time import DAY, SECOND
@@ -73,14 +73,15 @@ def group_by_clock(spans: Sequence[tuple[int, int]]) -> list[list[int]]:
 
 
 def present_for(newest: int, wall: int | None = None) -> int | None:
-    """Return the present time by the clock of the stamps that are being received.
+    """Return the current time on the clock of the stamps that are being received.
 
     Args:
         newest: The newest stamp, in nanoseconds.
         wall: The system time in nanoseconds; None to read the clock.
 
     Returns:
-        The system time if the newest stamp can be on that clock; else None, as the present is not known.
+        The system time if the newest stamp can be from the system clock; otherwise None, because the current time is
+        unknown.
     """
     now = time.time_ns() if wall is None else wall
     return now if is_same_clock(now, newest) else None

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The one rule for when an edge has a gap and when it is stale, and a tracker for buffers that apply it.
+"""The rules for gaps and stale edges, and a tracker that applies them to a buffer.
 
-Every surface uses this module: the doctor, the drawings, ``monitor``, ``why``, the terminal screens, the viewer,
+All parts of coframe use this module: the doctor, the drawings, ``monitor``, ``why``, the terminal screens, the viewer,
 :meth:`coframe.Buffer.edges` and the publishers and relays of transforms.
 """
 
@@ -47,11 +47,11 @@ def usual_period(stamps: NDArray[np.int64]) -> float:
     """Return the usual period of an edge: the median interval between consecutive different stamps.
 
     Args:
-        stamps: (N,) int64 nanoseconds, in any order; of the transforms that the caller has, such as all transforms of
-            a recording or those that a buffer keeps.
+        stamps: (N,) int64 nanoseconds, in any order: those of all transforms that the caller has, such as those of a
+            recording or of a buffer.
 
     Returns:
-        Nanoseconds; 0.0 with fewer than two different stamps, where the period is not known.
+        Nanoseconds; 0.0 with fewer than two different stamps, where the period is unknown.
 
     Example:
         >>> usual_period(np.array([0, 100, 200, 900]))
@@ -61,7 +61,7 @@ def usual_period(stamps: NDArray[np.int64]) -> float:
 
 
 def stamp_intervals(stamps: NDArray[np.int64]) -> NDArray[np.int64]:
-    """Return the intervals between consecutive different stamps in the order of time, in nanoseconds."""
+    """Return the intervals between consecutive different stamps, sorted by time, in nanoseconds."""
     intervals = stamps[1:] - stamps[:-1]
     if (intervals > 0).all():
         return intervals
@@ -95,11 +95,10 @@ def stale_limit(period: float) -> float: ...
 @overload
 def stale_limit(period: NDArray[np.float64]) -> NDArray[np.float64]: ...
 def stale_limit(period: float | NDArray[np.float64]) -> float | NDArray[np.float64]:
-    """Return for how long nothing may be received for an edge before it is stale.
+    """Return how long an edge may receive nothing before it is stale.
 
     Args:
-        period: The usual period in nanoseconds (see :func:`usual_period`), or an array of them; 0 where it is not
-            known.
+        period: The usual period in nanoseconds (see :func:`usual_period`), or an array of them; 0 where it is unknown.
 
     Returns:
         Nanoseconds: :data:`STALE_PERIODS` periods, and at least :data:`STALE_AFTER`.
@@ -121,7 +120,7 @@ def is_stale(silence: float, period: float, *, static: bool = False) -> bool:
 
     Args:
         silence: The time since something was received for it, in nanoseconds.
-        period: Its usual period in nanoseconds; 0 where it is not known.
+        period: Its usual period in nanoseconds; 0 where it is unknown.
         static: Whether it is static.
 
     Example:
@@ -132,11 +131,11 @@ def is_stale(silence: float, period: float, *, static: bool = False) -> bool:
 
 
 def buffered_period(buffer: Buffer, parent: str, child: str, oldest: int, newest: int, samples: int) -> float:
-    """Return the usual period of an edge by the samples that a buffer keeps.
+    """Return the usual period of an edge, computed from the samples in a buffer.
 
     Args:
         buffer: The buffer.
-        parent: The parent frame of the edge, by the newest sample.
+        parent: The parent frame of the edge in the newest sample.
         child: The child frame.
         oldest: Stamp of the oldest sample in nanoseconds.
         newest: Stamp of the newest sample in nanoseconds.
@@ -155,10 +154,10 @@ def buffered_period(buffer: Buffer, parent: str, child: str, oldest: int, newest
 
 
 class LivenessTracker:
-    """Tracks since when nothing was received for each frame of a buffer, and which of its edges are stale.
+    """Tracks how long each frame of a buffer has received nothing, and which edges are stale.
 
-    A buffer keeps stamps, not times of receipt. The tracker therefore notes the time at which the newest stamp of
-    each edge last changed. It must be updated regularly and is used by one thread.
+    A buffer keeps stamps, not receive times. The tracker therefore records when the newest stamp of each edge last
+    changed. It must be updated regularly and is used by one thread.
 
     Args:
         buffer: The buffer whose edges are tracked.
@@ -172,11 +171,11 @@ class LivenessTracker:
         self._newest: NDArray[np.int64] = np.zeros(0, np.int64)
         self._received: NDArray[np.int64] = np.zeros(0, np.int64)
         self._limits: NDArray[np.float64] = np.zeros(0)  # inf: never stale
-        self._known: NDArray[np.bool_] = np.zeros(0, bool)  # whether the limit is by the period of the edge
+        self._known: NDArray[np.bool_] = np.zeros(0, bool)  # whether the limit depends on the period of the edge
         self._next_check = np.inf
 
     def update(self, frames: Sequence[FrameInfo]) -> None:
-        """Note which edges have received transforms since the last update.
+        """Record which edges have received transforms since the last update.
 
         Args:
             frames: All frames of the buffer in its order, from :meth:`coframe.Buffer.frames`.
@@ -197,11 +196,11 @@ class LivenessTracker:
         self._next_check = float((received + limits).min()) if count else np.inf
 
     def any_stale(self) -> bool:
-        """Return whether any edge is stale; the cost does not depend on the number of frames unless one may be."""
+        """Return whether any edge is stale; cheap unless an edge may be stale."""
         return self._clock() > self._next_check and bool(self.stale().any())
 
     def silences(self) -> NDArray[np.int64]:
-        """Return for how long nothing was received for each frame, (N,) nanoseconds; 0 for static frames and roots."""
+        """Return how long each frame has received nothing, (N,) nanoseconds; 0 for static frames and roots."""
         silences = self._clock() - self._received
         silences[np.isinf(self._limits)] = 0
         return silences
@@ -212,7 +211,7 @@ class LivenessTracker:
         if now <= self._next_check:
             return np.zeros(len(self._frames), bool)
         late = now - self._received > self._limits
-        # Periods are read only for the few edges without a transform for longer than STALE_AFTER.
+        # Periods are read only for the few edges that received nothing for longer than STALE_AFTER.
         unknown = np.flatnonzero(late & ~self._known).tolist()
         if unknown:
             for row in unknown:

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 __all__ = ["BASE_FRAMES", "MissingEdge", "estimator_advice", "is_sensor_frame", "missing_edge", "unknown_mount"]
 
 _SIMILARITY = 0.8
-_MOST_COMPARED = 1_000  # names: comparing one takes microseconds
+_MOST_COMPARED = 1_000  # limit on the names compared; one takes microseconds
 # Usual pairs of parent and child, from REP-105 and common robots.
 _USUAL = (
     ("base_footprint", "base_link"),
@@ -30,7 +30,7 @@ _USUAL = (
 )
 
 BASE_FRAMES = ("base_footprint", "base_link")
-"""The names of the frame of a robot's base, the upper one first."""
+"""The names of a robot's base frames, the upper one first."""
 _ESTIMATED = {"odom", "map", *BASE_FRAMES}
 _SENSOR = re.compile(
     "camera|cam(?![a-z])|optical|depth|rgb|stereo|infra|imager|laser|lidar|scan|velodyne|ouster|livox|hokuyo|rplidar|ldlidar"
@@ -44,7 +44,7 @@ class MissingEdge(NamedTuple):
     Attributes:
         parent: A frame of one tree.
         child: The root of the other tree.
-        misspelt: Whether the two names are probably meant to be one frame, one of them misspelt.
+        misspelt: Whether one of the two names is probably a misspelling of the other.
     """
 
     parent: str
@@ -68,7 +68,7 @@ class MissingEdge(NamedTuple):
 
     @property
     def hint(self) -> str:
-        """What to do, as an exception says it: in terms of the Python API."""
+        """What to do, for exceptions: in terms of the Python API."""
         if self.misspelt:
             return (
                 f"In the node that publishes {self.child!r}, change the line to t.header.frame_id = {self.parent!r} "
@@ -84,14 +84,14 @@ class MissingEdge(NamedTuple):
 
 
 def estimator_advice(parent: str, child: str, node: str = "") -> str:
-    """Return what to do if an edge that odometry or localization estimates is missing; "" for all other edges.
+    """Return what to do if an edge that is estimated by odometry or localization is missing; "" for all other edges.
 
     Such an edge must not be published as a static transform: the robot would not move.
 
     Args:
         parent: The parent frame.
         child: The child frame.
-        node: The node that probably estimates the edge, such as the publisher of the odometry; "" if not known.
+        node: The node that probably estimates the edge, such as the publisher of the odometry; "" if unknown.
 
     Example:
         >>> estimator_advice("odom", "base_link")[:61]
@@ -115,7 +115,7 @@ def estimator_advice(parent: str, child: str, node: str = "") -> str:
 
 
 def is_sensor_frame(frame: str) -> bool:
-    """Return whether the name of a frame is that of a sensor, which is usually mounted at a constant pose.
+    """Return whether a frame name looks like that of a sensor, which is usually mounted at a constant pose.
 
     Example:
         >>> is_sensor_frame("front_laser"), is_sensor_frame("imu_link"), is_sensor_frame("odom")
@@ -125,7 +125,7 @@ def is_sensor_frame(frame: str) -> bool:
 
 
 def unknown_mount(root: str) -> str:
-    """Return what to do about a tree with this root where no missing edge is more likely than others."""
+    """Return what to do about a tree with this root if no missing edge is more likely than others."""
     if _without_prefix(root) in _ESTIMATED:
         return (
             f"Start the node that publishes a transform with child_frame_id = {root!r}: odometry, localization or SLAM."
@@ -171,7 +171,7 @@ def missing_edge(first: Sequence[str], second: Sequence[str]) -> MissingEdge | N
 
 
 def _is_misspelling(name: str, other: str) -> bool:
-    """Return whether one name may be meant for the other; not for pairs such as wheel_left and wheel_right."""
+    """Return whether one name may be a misspelling of the other; False for pairs such as wheel_left and wheel_right."""
     return re.findall(r"\d+", name) == re.findall(r"\d+", other) and not (
         {"left", "right", "front", "rear", "back", "upper", "lower"} & (_words(name) ^ _words(other))
     )

@@ -20,8 +20,8 @@ def static_command(parent: str, child: str, pose: Iterable[float] | None = None)
     Args:
         parent: The parent frame.
         child: The child frame.
-        pose: The pose of the child in the parent: x, y, z in metres and the quaternion qx, qy, qz, qw; None where it
-            is not known, which gives placeholders.
+        pose: The pose of the child in the parent: x, y, z in metres and the quaternion qx, qy, qz, qw; None if it is
+            unknown; the command then contains placeholders.
 
     Example:
         >>> static_command("base_link", "lidar")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The structure of trees of frames: roots, children, order, depths, loops, paths and chains."""
+"""The structure of frame trees: roots, children, order, depths, loops, paths and chains."""
 
 from __future__ import annotations
 
@@ -97,7 +97,7 @@ class FrameTrees:
         return None if number is None else self.components[number]
 
     def root(self, frame: str) -> str:
-        """Return the root of the tree of a frame; the frame itself if it is not known."""
+        """Return the root of the tree of a frame; the frame itself if it is unknown."""
         number = self.index.get(frame)
         return frame if number is None else self.names[self.roots[self.components[number]]]
 
@@ -121,13 +121,13 @@ class FrameTrees:
         return [self.names[number] for number in self._path(self.index[frame])]
 
     def chain(self, target: str, source: str) -> list[str] | None:
-        """Return the frames from target up to the first frame in common and down to source; None without one."""
+        """Return the frames from target up to the nearest common ancestor and down to source; None if there is none."""
         if self.component(target) is None or self.component(target) != self.component(source):
             return [target] if target == source else None
         up, down = self._path(self.index[target]), self._path(self.index[source])
         below = {frame: place for place, frame in enumerate(down)}
         top = next((place for place, frame in enumerate(up) if frame in below), None)
-        if top is None:  # frames that hang on one loop always have a frame in common
+        if top is None:  # frames below the same loop always have a common ancestor
             return None
         return [self.names[number] for number in (*up[: top + 1], *reversed(down[: below[up[top]]]))]
 
@@ -142,7 +142,7 @@ class FrameTrees:
 def _add_tree(
     root: int, number: int, children: list[list[int]], components: list[int], depths: list[int], order: list[int]
 ) -> None:
-    """Note the number, the depths and the order of the frames of one tree, depth first."""
+    """Record the number, depths and order of the frames of one tree, depth first."""
     components[root] = number
     pending = [root]
     while pending:
@@ -157,7 +157,7 @@ def _add_tree(
 
 
 def _first_of_loop(frame: int, parents: list[int], names: tuple[str, ...]) -> int:
-    """Return the frame with the first name in the loop above a frame."""
+    """Return the alphabetically first frame of the loop above a frame."""
     passed: dict[int, None] = {}
     while frame not in passed:
         passed[frame] = None

@@ -344,7 +344,7 @@ class Recording:
         return f"Recording({str(self.path)!r}, {len(self.topics)} topics, {seconds:.1f} s)"
 
     def show(self, **options: Any) -> Viewer:
-        """Show the recording in the viewer, in a notebook below the cell; the same as :func:`coframe.show`.
+        """Show the recording in the viewer, or below the cell in a notebook; the same as :func:`coframe.show`.
 
         Args:
             options: The options of :func:`coframe.show`, such as ``fixed="map"``.

@@ -34,20 +34,20 @@ _core.register_time(time)
 
 
 class Buffer(many_lookups.Buffer):
-    """Store of transforms over time with the semantics of tf2, safe to use from any number of threads.
+    """Thread-safe store of transforms over time with the semantics of tf2.
 
     All stamps are in nanoseconds; 0 or None means the latest time at which every edge between the frames has data.
-    By default there is no extrapolation. A failed lookup raises the same exception as tf2 with the same text, and
-    with a ``hint``.
+    By default there is no extrapolation. A failed lookup raises the same exception as tf2 with the same message, plus a
+    ``hint``.
 
     Args:
-        cache: How long dynamic transforms are kept: text such as ``"10s"``, int nanoseconds or a timedelta. None
-            keeps everything, which suits recordings.
+        cache: How long dynamic transforms are kept: a string such as ``"10s"``, int nanoseconds or a timedelta. None
+            keeps everything, as needed for recordings.
 
     Raises:
         TypeError: ``cache`` is not a duration; a float of seconds is not accepted.
-        ValueError: ``cache`` is negative, or its text is not a number and a unit, or it is a positive int below
-            100 000: such a cache would be shorter than 100 us.
+        ValueError: ``cache`` is negative, is not a number with a unit, or is a positive int below 100 000, which would
+            be shorter than 100 us.
 
     Example:
         >>> import coframe
@@ -91,7 +91,7 @@ class Buffer(many_lookups.Buffer):
 
         Raises:
             InvalidArgumentException: tf2 rejects the transform (empty or equal frame names, NaN, ...), with tf2's
-                text; or the transform is between other frames, or has no stamp, or the buffer is frozen.
+                message; or the transform is between other frames, has no stamp, or the buffer is frozen.
             TypeError: ``transform`` is not a :class:`coframe.Transform`.
         """
         refusals = self._set_plain(parent, child, transform, stamp, static) if authority is DEFAULT_AUTHORITY else None
@@ -108,7 +108,7 @@ class Buffer(many_lookups.Buffer):
     def _set(
         self, parent: str, child: str, transform: Transform, stamp: StampLike | None, static: bool, authority: str
     ) -> int:
-        """Store any valid arguments of `set`, and return the reasons for refusal as bits."""
+        """Store any valid arguments of `set`, and return the reasons for rejection as bits."""
         check_single(parent, child, transform, stamp, static=static)
         check_not_frozen(self, parent, child)
         return self._set_values(parent, child, stamp_of(transform, stamp), *transform.values, static, authority)
@@ -131,15 +131,15 @@ class Buffer(many_lookups.Buffer):
             stamps: Times of the samples, shape (N,), int64 nanoseconds or datetime64, in any order; None uses the
                 stamps of the batch.
             poses: A batch of shape (N,), or an array of shape (N, 7): x, y, z in metres and qx, qy, qz, qw.
-            static: Whether the transform is valid for all time; then the last sample is used.
+            static: Whether the transform is valid for all time; if so, the last sample is used.
             authority: Name of the publisher, as shown in reports.
 
         Returns:
             The number of stored samples. Samples older than the cache are not stored.
 
         Raises:
-            InvalidArgumentException: tf2 rejects one of the samples, with tf2's text, or the buffer is frozen; then
-                no sample is stored.
+            InvalidArgumentException: tf2 rejects one of the samples (with tf2's message), or the buffer is frozen. In
+                both cases, no sample is stored.
             ValueError: The shapes do not match.
         """
         times, values = rows_of(parent, child, stamps, poses)
@@ -176,7 +176,7 @@ class Buffer(many_lookups.Buffer):
     async def wait_async(
         self, target: str, source: str, stamp: StampLike | None = None, *, timeout: DurationLike | None = None
     ) -> Transform:
-        """Wait until the transform is available, in asyncio: other tasks run meanwhile, and no thread blocks.
+        """Wait until the transform is available, in asyncio: other tasks run in the meantime, and no thread blocks.
 
         Args:
             target: The target frame.
@@ -208,7 +208,7 @@ class Buffer(many_lookups.Buffer):
             source: The source frame.
             at: Time of the lookup; 0 or None means the latest.
             now: The current time on the clock of the stamps, in nanoseconds. By default the system time, if the stamps
-                are within an hour of it. Buffers that are frozen or keep everything hold recordings, for which there
+                are within an hour of it. Buffers that are frozen or keep everything contain recordings, for which there
                 is no current time.
 
         Returns:
@@ -222,12 +222,12 @@ class Buffer(many_lookups.Buffer):
         """Call ``callback`` when the edge between ``child`` and its parent receives a new sample.
 
         The calls come from a separate thread, one after another and with no lock held, so the callback may use the
-        buffer. Samples that arrive during a call lead to one more call. In a process that is forked later, this
-        thread does not exist and the callback is not called, which the process logs once; it can register its own.
+        buffer. Samples that arrive during a call lead to one more call. In a process that is forked later, this thread
+        does not exist and the callback is not called; the process logs this once, and can register its own callbacks.
 
         Args:
             callback: Called with the current state of the edge.
-            child: The child frame of the edge, which need not exist yet; None means every edge.
+            child: The child frame of the edge, which does not have to exist yet; None means every edge.
 
         Returns:
             A handle. Close it to remove the callback; the callback is also removed together with the buffer.
@@ -241,7 +241,7 @@ class Buffer(many_lookups.Buffer):
         return CallbackHandle(self._dispatcher.watch(start, report, of_user=True))
 
     def snapshot(self) -> Buffer:
-        """Return a frozen copy of the buffer as it is now; the samples are shared, not copied."""
+        """Return a frozen copy of the current buffer; the samples are shared, not copied."""
         copy = Buffer.__new__(Buffer)
         _core.Buffer.__init__(copy, self.cache_ns)
         copy._become_snapshot(self)
@@ -249,9 +249,9 @@ class Buffer(many_lookups.Buffer):
         return copy
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Save the buffer to a file that :func:`coframe.load` opens without reading it first.
+        """Save the buffer to a file that :func:`coframe.load` opens without reading all of it.
 
-        A sample takes 72 bytes, and a moving frame up to 18 kB more. The file is complete or does not appear at all.
+        A sample takes 72 bytes, and a moving frame up to 18 kB more. The file is written atomically.
 
         Args:
             path: The file, usually ``*.cfz``. An existing file is replaced.
@@ -267,7 +267,7 @@ class Buffer(many_lookups.Buffer):
         Args:
             children: Child frames of the edges to return; None returns all edges.
             now: Current time in nanoseconds, from which ages are computed; by default the system time, and no age for
-                recordings. Pass the time of the clock for simulations.
+                recordings. In a simulation, pass the simulated time.
         """
         return edge_infos(self, children, now)
 
@@ -283,7 +283,7 @@ class Buffer(many_lookups.Buffer):
         return f"Buffer(cache={cache}, frames={len(self.frame_names())})"
 
     def show(self, **options: Any) -> Viewer:
-        """Show the frames in the viewer, in a notebook below the cell; the same as :func:`coframe.show`.
+        """Show the frames in the viewer, or below the cell in a notebook; the same as :func:`coframe.show`.
 
         Args:
             options: The options of :func:`coframe.show`, such as ``fixed="map"``.

@@ -57,11 +57,11 @@ class EdgeInfo(NamedTuple):
         longest_gap: The longest of these intervals.
         stored: Number of samples stored since the buffer was created.
         late: Number of stored samples that were older than the newest one at that time.
-        repeated: Number of exact repetitions, which change nothing.
+        repeated: Number of exact duplicates, which have no effect.
         rejected: Number of rejected samples by reason: ``"older than the cache"``, ``"not a number"``,
             ``"invalid quaternion"``, ``"its own parent"``. Reasons that did not occur are omitted.
         stale: Whether the edge is stale: it is not static, and its newest sample is older than 1 s and than 5 times
-            the median interval between its stamps. None where the present is not known: in recordings, and where the
+            the median interval between its stamps. None where the current time is unknown: in recordings, and where the
             stamps are not on the system clock and no `now` was given.
     """
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Lookups at many times: batches, trajectories, and the time interval in which there are transforms."""
+"""Lookups at many times: batches, trajectories, and the time interval with data."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ Array: TypeAlias = "NDArray[np.float64]"
 
 
 class Buffer(_core.Buffer):
-    """The part of :class:`coframe.Buffer` with lookups at many times; it has that name because errors contain it."""
+    """The part of :class:`coframe.Buffer` with lookups at many times; error messages contain its name."""
 
     @overload
     def lookup_many(
@@ -106,12 +106,12 @@ class Buffer(_core.Buffer):
             threads: Number of threads to use.
             on_error: What to do with a time without a transform: ``"raise"`` the exception of :meth:`lookup`, fill
                 its row with ``"nan"``, or ``"clip"`` it to the interval in which all edges have data.
-            twist: Whether to return the twist of ``source`` relative to ``target`` as well.
+            twist: Whether to also return the twist of ``source`` relative to ``target``.
             extrapolate: As in :meth:`lookup`.
             hold: As in :meth:`lookup`.
 
         Returns:
-            A batch of shape (N,) with its ``stamps``, or ``out``. With ``twist`` a tuple of that and an array of
+            A batch of shape (N,) with its ``stamps``, or ``out``. With ``twist``, a tuple of this and an array of
             shape (N, 6): linear velocity in m/s and angular velocity in rad/s of the origin of ``source``, expressed
             in ``target``, from the interpolation between samples (at a sample: in the interval after it).
 
@@ -153,15 +153,15 @@ class Buffer(_core.Buffer):
         max_translation: float | None = None,
         max_rotation: float | None = None,
     ) -> Transform:
-        """Return the path of ``source`` relative to ``target``, at the times of the samples or at a chosen spacing.
+        """Return the path of ``source`` relative to ``target``, at the stamps of the samples or with a maximum spacing.
 
         Args:
             target: The target frame, in which the poses are expressed.
             source: The source frame, whose poses these are.
             start: Time of the first pose; None starts when all edges have data.
             stop: Time of the last pose; None stops when an edge has no more data.
-            max_translation: Largest distance between two successive poses, in metres.
-            max_rotation: Largest rotation between two successive poses, in radians. With one of these two limits, the
+            max_translation: Maximum distance between two successive poses, in metres.
+            max_rotation: Maximum rotation between two successive poses, in radians. With one of these two limits, the
                 result has as few poses as the limits allow: where nothing moves, only the first and the last pose.
 
         Returns:
@@ -194,7 +194,7 @@ class Buffer(_core.Buffer):
         if self.latest_common_time(target, source) == 0:
             return 0, 0
         self._lookup_rows(target, source, ends, np.empty((2, 7)), None, None, "clip", 1)
-        if ends[0] == np.iinfo(np.int64).min + 1:  # Both names are those of one frame: there are no edges.
+        if ends[0] == np.iinfo(np.int64).min + 1:  # Both names are the same frame, so there are no edges.
             return 0, 0
         return int(ends[0]), int(ends[1])
 

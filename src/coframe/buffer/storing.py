@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a buffer stores: the checks of the arguments, and the errors for transforms that tf2 rejects."""
+"""Checks of the arguments that a buffer stores, and the errors for transforms that tf2 rejects."""
 
 from __future__ import annotations
 
@@ -82,7 +82,7 @@ def check_not_frozen(buffer: _core.Buffer, parent: str, child: str) -> None:
 
 
 def rejected(parent: str, child: str, text: str) -> InvalidArgumentException:
-    """Return the error for a transform that tf2 rejects, with tf2's text."""
+    """Return the error for a transform that tf2 rejects, with tf2's message."""
     return InvalidArgumentException.with_details(
         text, target=parent, source=child, edge=(parent, child), hint=_REFUSED_HINT
     )

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Waiting for transforms, and the handles of callbacks for changes."""
+"""Waiting for transforms, and handles of change callbacks."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 
 class CallbackHandle:
-    """A registered callback, as :meth:`Buffer.on_change` returns it; also a context manager that removes it.
+    """A registered callback, returned by :meth:`Buffer.on_change`; a context manager that removes it on exit.
 
     Example:
         >>> import coframe
@@ -35,7 +35,7 @@ class CallbackHandle:
         self._cancel = cancel
 
     def close(self) -> None:
-        """Remove the callback. A call in progress is completed; closing again has no effect."""
+        """Remove the callback. A call in progress completes. Closing again has no effect."""
         self._cancel()
 
     def __enter__(self) -> Self:

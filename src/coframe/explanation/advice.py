@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What to do about a missing transform: the hint of the exception, or a better one where the edges give more detail."""
+"""Advice about a missing transform: the hint of the exception, or a more specific one if the edges allow it."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 __all__ = ["advice"]
 
-# The timeouts to suggest, in seconds. A transform that is later than the longest one is not worth waiting for.
+# The timeouts to suggest, in seconds. If a transform is later than the longest timeout, waiting is not useful.
 _TIMEOUTS = (0.1, 0.2, 0.5, 1.0, 2.0, 5.0)
 
 
@@ -26,7 +26,7 @@ def advice(found: Explanation, error: TransformException, *, recorded: bool) -> 
     Args:
         found: The explanation so far.
         error: The exception that the lookup raises.
-        recorded: Whether the buffer holds recorded data, so that no more transforms will arrive.
+        recorded: Whether the buffer contains recorded data, so that no more transforms will arrive.
     """
     edge = next((edge for edge in found.broken if error.edge and edge.child == error.edge[1]), None)
     edge = edge or next(iter(found.broken), None)

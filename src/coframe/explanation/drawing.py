@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 __all__ = ["draw", "draw_html", "remark", "verdict"]
 
 _DEEPEST = 20  # levels of indentation; more would leave no room for the columns
-_LOOP_LINES = "\nFrame "  # after the first line of tf2's text about a loop, which lists all frames
+_LOOP_LINES = "\nFrame "  # after the first line of tf2's message about a loop, which lists all frames
 _TITLES = ("  frame", "oldest", "newest", "age", "rate", "publisher")
 
 
@@ -35,7 +35,7 @@ def draw(found: Explanation) -> Iterator[str]:
 
 
 def draw_html(found: Explanation) -> str:
-    """Return the same as an HTML table for notebooks."""
+    """Return the explanation as an HTML table for notebooks."""
     rows = [(*row.cells, row.remark) for row in _rows(found)] if found.edges else []
     titles = (*(title.strip() for title in _TITLES), "")
     return html_tables.section(
@@ -56,7 +56,7 @@ def _advice(found: Explanation) -> Iterator[str]:
 
 
 def verdict(found: Explanation) -> str:
-    """Return in one sentence whether there is a transform, and if not, which edge is the reason and by how much."""
+    """Return whether there is a transform, and if not, which edge is the reason and by how much, as one sentence."""
     frames = f"from {shown(found.source)} to {shown(found.target)}"
     if found.answered is None:
         when = f" at {seconds(found.stamp)}" if found.stamp else ""
@@ -71,7 +71,7 @@ def verdict(found: Explanation) -> str:
 
 
 def remark(found: Explanation, edge: ChainEdge) -> str:
-    """Return what is wrong or unusual with an edge, and by how much; "" if nothing is."""
+    """Return what is wrong or unusual about an edge, and by how much; "" if nothing is."""
     return _anomaly(found, edge) if edge.state == "ok" else _fault(found, edge)
 
 
@@ -164,7 +164,7 @@ def _cells(edge: ChainEdge) -> tuple[str, ...]:
 
 
 def _tree(found: Explanation, edges: dict[str, ChainEdge]) -> Iterator[tuple[str, str]]:
-    """Yield the frames in the order of drawing, each with the branches in front of its name."""
+    """Yield the frames in drawing order, each with the branch lines in front of its name."""
     frames = found.frames
     if found.roots is not None:
         cut = frames.index(found.roots[1])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Builds an explanation from a buffer.
+"""Build an explanation from a buffer.
 
 The buffer itself decides whether there is a transform. The edges are those that the lookup uses, or would use if the
 edges without data had some.
@@ -26,14 +26,14 @@ if TYPE_CHECKING:
 
 __all__ = ["explain"]
 
-# What buffers record as the authority of transforms whose publisher is not known.
+# The authorities that buffers record for transforms whose publisher is unknown.
 _UNKNOWN_AUTHORITIES = {"", "no recorded authority", "default_authority", "<no authority available>"}
 # The codes of errors that concern the name of a frame: there is no chain to examine.
 _NAME_ERRORS = {"empty_name", "leading_slash", "unknown_frame"}
 
 
 class _Step(NamedTuple):
-    """An edge at the requested time, as the buffer has it."""
+    """An edge of the buffer at the requested time."""
 
     parent: str
     child: str
@@ -59,8 +59,9 @@ def explain(
         target: The target frame of the lookup.
         source: The source frame of the lookup.
         at: The requested time; 0 or None is the latest common time.
-        now: The present time by the clock of the stamps. The default is the system time if the stamps can be on the
-            system clock; buffers that are frozen or keep everything, as those of recordings, have no default.
+        now: The current time on the clock of the stamps. The default is the system time if the stamps can be from the
+            system clock; there is no default for buffers that are frozen or keep everything, such as those of
+            recordings.
 
     Raises:
         TypeError: `at` or `now` is not a point in time.
@@ -125,7 +126,7 @@ def _chain(buffer: Buffer, target: str, source: str, stamp: int) -> _Chain:
 
 
 def _steps_above(buffer: Buffer, frames: tuple[str, ...], stamp: int) -> dict[str, _Step]:
-    """Return the edges above the frames by child: at that time, or by the newest sample without data at that time."""
+    """Return the edges above the frames by child: at that time, or of the newest sample if there is none."""
     steps: dict[str, _Step] = {}
     for start in frames:
         frame = start
@@ -181,7 +182,7 @@ def _span(edges: tuple[ChainEdge, ...]) -> tuple[int, int] | None:
 
 
 def _missing(buffer: Buffer, roots: tuple[str, str]) -> MissingEdge | None:
-    """Return the likely edge by the names of the frames, or else the one between the roots."""
+    """Return the edge that the frame names suggest, or else the one between the roots."""
     trees = FrameTrees.from_parents({frame.name: frame.parent for frame in buffer.frames()})
     if not all(root in trees.index for root in roots):
         return None

@@ -18,7 +18,7 @@ class ChainEdge(NamedTuple):
     """An edge of the chain between two frames at the requested time. All times are nanoseconds.
 
     Attributes:
-        parent: The parent frame at that time, or by the newest sample; "" where the buffer has no sample.
+        parent: The parent frame at that time, or in the newest sample; "" if the buffer has no sample.
         child: The child frame.
         static: Whether the edge is static.
         state: ``"ok"``, or what is wrong: ``"too_new"`` (the requested time is after the newest sample), ``"too_old"``
@@ -26,14 +26,14 @@ class ChainEdge(NamedTuple):
         by: The distance from the newest sample to the requested time, or, negative, from the oldest sample; 0 if ok.
         oldest: Stamp of the oldest sample; 0 when static.
         newest: Stamp of the newest sample; 0 when static.
-        age: The time from the newest sample to the requested time, or to the present; None when static or not known.
+        age: The time from the newest sample to the requested time, or to the current time; None if static or unknown.
         gap: The interval between the two samples around the requested time; 0 at a sample.
         rate: Samples per second, from the mean interval between their stamps.
         period: The usual period: the median interval between the stamps; 0.0 with fewer than two samples.
-        stale: Whether the edge is stale at present (see :mod:`coframe.analysis.liveness`); None where the present is
-            not known.
-        publisher: The publisher of the newest sample: a node, or the topic of a recording; "" if it is not known.
-        later: The parent by the newest sample, if the parent has changed since the requested time; else "".
+        stale: Whether the edge is currently stale (see :mod:`coframe.analysis.liveness`); None if the current time is
+            unknown.
+        publisher: The publisher of the newest sample: a node, or the topic of a recording; "" if it is unknown.
+        later: The parent in the newest sample, if the parent has changed since the requested time; otherwise "".
     """
 
     parent: str
@@ -58,7 +58,7 @@ class ChainEdge(NamedTuple):
 
     @property
     def due(self) -> int:
-        """The time from the requested time to the next sample that is due by the period, in nanoseconds."""
+        """The time from the requested time to the next sample expected from the period, in nanoseconds."""
         return -self.by % round(self.period) if self.period >= 1.0 else 0
 
 
@@ -72,11 +72,11 @@ class Explanation:
         stamp: The requested time; 0 is the latest common time.
         answered: The time of the transform (0: every edge is static); None if there is no transform.
         code: What is wrong, as the ``code`` of an exception; "" if nothing is wrong.
-        text: The message of that exception, in tf2's words.
+        text: The message of that exception, as in tf2.
         hint: What to do, with the line to change; "" if nothing needs to be done.
         unknown: Which of the two frames do not exist.
-        edges: The edges from the target to the source by way of the first frame in common; empty where a frame does
-            not exist.
+        edges: The edges from the target to the source through their nearest common ancestor; empty if a frame does not
+            exist.
         frames: The frames of the chain in the same order. With two trees: from the target up to its root, then from
             the root of the source down to the source.
         roots: The root of the target's tree and that of the source's tree, if these are two trees; else None.
@@ -88,7 +88,7 @@ class Explanation:
         possible_at: If there is no chain at the requested time: another time with a transform, 0 for the latest; else
             None.
         cache: How far back the buffer keeps samples; negative if it keeps everything.
-        now: The present time by the clock of the stamps; None if it is not known.
+        now: The current time on the clock of the stamps; None if it is unknown.
     """
 
     target: str

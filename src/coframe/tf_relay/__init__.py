@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Relay of transforms: merge the trees of several robots into one topic, or split one topic by robot.
+"""Relay transforms: merge the trees of several robots into one topic, or split one topic by robot.
 
 - `status`: the state of the edges and robots of a relay.
 - `max_error`: the maximum error of thinned transforms.

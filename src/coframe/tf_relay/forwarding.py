@@ -42,7 +42,7 @@ _COLLECTION_TIME = 0.005  # seconds
 _FORGET_AFTER = 60 * SECOND
 # The user data by which relays recognize each other's writers, in the format of ROS type hashes.
 _USER_DATA = "coframe=relay;"
-# The depth is enough to lose no message while the machine is busy for one second.
+# Deep enough that no message is lost while the machine is busy for one second.
 _READER_QOS, _WRITER_QOS = QoS(depth=1000), QoS(depth=1000)
 _STATIC_READER_QOS = QoS(depth=1000, transient_local=True)
 
@@ -63,7 +63,7 @@ class _EdgeRow(NamedTuple):
 
 
 class _Output(NamedTuple):
-    """A topic that is written."""
+    """A topic to which the relay writes."""
 
     topic: str
     native: _core.Relay
@@ -72,14 +72,14 @@ class _Output(NamedTuple):
 
 
 class _Route(NamedTuple):
-    """An output of an input, with the number of the source in the output."""
+    """An output of an input, with the number of its source in the output."""
 
     output: _Output
     source: int
 
 
 class _Input(NamedTuple):
-    """A topic that is read, and the outputs that its messages are forwarded to."""
+    """A topic from which the relay reads, and the outputs to which its messages are forwarded."""
 
     topic: str
     static: bool
@@ -135,7 +135,7 @@ class Relay:
 
     @property
     def routes(self) -> list[str]:
-        """A text for each route: the topic that is read, the topic that is written, and the prefix."""
+        """A description of each route: the topic that is read, the topic that is written, and the prefix."""
         lines = []
         for input_ in self._inputs:
             for output, source in input_.routes:
@@ -155,7 +155,7 @@ class Relay:
         return robots
 
     def edges(self) -> list[RelayedEdge]:
-        """Return every edge that is published, with its origin and its counters."""
+        """Return all published edges with their sources and counters."""
         now = time.monotonic_ns()
         edges = []
         for input_, output in self._outputs:
@@ -183,7 +183,7 @@ class Relay:
         return edges
 
     def close(self) -> None:
-        """Stop the relay. Transforms that were already published stay valid. A second call has no effect."""
+        """Stop the relay. Published transforms remain valid. A second call has no effect."""
         with self._closing:
             if self._closed:
                 return
@@ -256,7 +256,7 @@ class Relay:
             pause.wait(_COLLECTION_TIME)
 
     def _idle_time(self) -> int:
-        """Return how long there is nothing to do if no message arrives, in nanoseconds."""
+        """Return how long the thread can sleep if no message arrives, in nanoseconds."""
         with self._lock:
             due = [output.native.next_due() for _, output in self._outputs]
         now = time.monotonic_ns()
@@ -299,7 +299,7 @@ class Relay:
         return self._relay_writers[writer]
 
     def _received(self) -> dict[str, list[tuple[TfPublisher, NotRelayed]]]:
-        """Return the publishers of each robot, with what could not be relayed of each."""
+        """Return the publishers of each robot, with counts of what could not be relayed."""
         received: dict[str, list[tuple[TfPublisher, NotRelayed]]] = {robot.name: [] for robot in self._robots}
         for input_ in self._inputs:
             for route in input_.routes:
@@ -320,7 +320,7 @@ class Relay:
             yield publisher, NotRelayed(*not_relayed)
 
     def _check(self) -> None:
-        """Warn about problems, once each, and about changes of the state of robots."""
+        """Warn about each problem once, and about state changes of robots."""
         self._forget_departed_writers()
         edges = self.edges()
         for robot, received in self._received().items():

@@ -28,7 +28,7 @@ class MaxError(NamedTuple):
 
     @classmethod
     def of(cls, value: str | tuple[float, float]) -> MaxError:
-        """Return a maximum error from a text or from two numbers.
+        """Return a maximum error from a string or from two numbers.
 
         Args:
             value: A distance and an angle with their units, such as "1mm,0.1deg", or metres and radians. The units

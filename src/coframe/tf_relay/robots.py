@@ -37,11 +37,11 @@ def choose_robots(
     prefix_each: bool,
     keep: Iterable[str],
 ) -> list[Robot]:
-    """Return the robots that `coframe.relay` was called with.
+    """Return the robots selected by the arguments of `coframe.relay`.
 
     Args:
         names: The robots' names, as in `coframe.relay`.
-        sources: Topics of further robots, as in `coframe.relay`.
+        sources: Topics of additional robots, as in `coframe.relay`.
         common: The common topics of dynamic and of static transforms, fully qualified.
         prefix: The prefix of all frames on the common topics.
         prefix_each: Whether a robot without a prefix gets its name as the prefix.
@@ -64,12 +64,12 @@ def choose_robots(
 
 
 def topic_of_kind(topic: str, *, static: bool) -> str:
-    """Return the topic of a robot's static or dynamic transforms, given the latter."""
+    """Return the topic of a robot's static or dynamic transforms, given the dynamic one."""
     return f"{topic}_static" if static else topic
 
 
 def qualified(topic: str) -> str:
-    """Return the name of a topic with a slash in front."""
+    """Return the name of a topic with a leading slash."""
     return topic if topic.startswith("/") else f"/{topic}"
 
 

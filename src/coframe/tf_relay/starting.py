@@ -42,18 +42,18 @@ def relay(
     the first one is used until it becomes stale.
 
     Args:
-        robots: The names of the robots: ``robot1`` stands for the topic ``/robot1/tf``. A text can contain several
+        robots: The names of the robots: ``robot1`` stands for the topic ``/robot1/tf``. A string can contain several
             names, separated by commas.
-        sources: The topics of further robots, such as ``/robot1/tf``, or a mapping from topics to the prefixes of
+        sources: The topics of additional robots, such as ``/robot1/tf``, or a mapping from topics to the prefixes of
             their frames. A prefix is used as given, including its slash.
-        common: The topic of all robots. It is written, or read if `split` is set.
+        common: The topic of all robots. The relay writes to it, or reads from it if `split` is set.
         common_static: The topic of the static transforms of all robots. If None, it is `common` with the suffix
             ``_static``.
         prefix: A prefix for all frames on the common topic, in front of each robot's own prefix.
         prefix_each: Whether to add each robot's name and a slash to its frames: ``robot1/``.
         keep: The frames that are shared by the robots and get no prefix, such as ``["map", "world"]``.
         rate: The maximum rate of each edge in Hz. If None, every transform is forwarded. Static transforms are always
-            forwarded. With `max_error`, see there.
+            forwarded. With `max_error`, see below.
         max_error: Forward a transform only if interpolation between the forwarded ones would be wrong by more than
             this on its edge: a distance and an angle, such as ``"1mm,0.1deg"``, or in metres and radians. While a
             robot moves, all of its edges are forwarded at least at `rate` (10 Hz if None), else at least every 0.5 s.
@@ -62,13 +62,13 @@ def relay(
             begin with its prefix, without the prefix, and the shared frames.
         domain: The ROS domain, 0 to 232. If None, it is ROS_DOMAIN_ID, or 0 if that is not set.
         node_name: The name of the relay's node.
-        warn: Called with the text of each warning, on the thread of the relay: clocks that differ, robots that are
+        warn: Called with each warning, on the thread of the relay: clocks that differ, robots that are
             gone, frames that two robots publish, invalid frame names. If None, warnings go to the logger
             "coframe.wire".
 
     Raises:
         ValueError: There is no robot, a prefix is invalid, a topic would be read and written, the rate is not
-            positive, or the maximum error is not one.
+            positive, or the maximum error is invalid.
         WireError: The graph cannot be joined, see :func:`coframe.connect`.
 
     Example:

@@ -48,12 +48,13 @@ class RelayedEdge(NamedTuple):
 
 
 class NotRelayed(NamedTuple):
-    """How much of what was received could not be relayed.
+    """Counts of what was received but could not be relayed.
 
     Attributes:
         malformed: The number of messages that are not valid TFMessages.
         invalid: The number of transforms with frame names or values that tf2 rejects.
-        over_limit: The number of surplus transforms: of new edges, after the relay had the maximum number of edges.
+        over_limit: The number of transforms of new edges that were dropped because the relay already had the maximum
+            number of edges.
     """
 
     malformed: int = 0
@@ -61,11 +62,11 @@ class NotRelayed(NamedTuple):
     over_limit: int = 0
 
     def problems(self, publisher: str) -> list[str]:
-        """Return one text for each reason, with the name of the publisher."""
+        """Return one message per reason, with the name of the publisher."""
         texts = {
             "messages that are not valid TFMessages": self.malformed,
             "transforms with invalid frame names or values": self.invalid,
-            "transforms of further edges, beyond the maximum of a relay": self.over_limit,
+            "transforms of additional edges, beyond the maximum of a relay": self.over_limit,
         }
         return [f"{publisher} publishes {what}, which are not relayed" for what, number in texts.items() if number]
 
@@ -86,7 +87,7 @@ class RelayedRobot(NamedTuple):
         state: "waiting" (no message has arrived), "live", "stale" (no dynamic transform has arrived recently) or
             "gone" (all publishers have left).
         publishers: The publishers of the robot's transforms, including those that left recently.
-        not_relayed: How much of what these publishers sent could not be relayed.
+        not_relayed: Counts of what these publishers sent but could not be relayed.
     """
 
     name: str
