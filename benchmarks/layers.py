@@ -5,7 +5,7 @@
     python -m benchmarks.layers socket 5       a thread that receives the same bytes from a bare socket
     python -m benchmarks.layers publisher 5    the thread that calls sendTransform with one transform
 
-The numbers are instructions outside the kernel per message, counted for some seconds by Valgrind
+The numbers are instructions outside the kernel per message, counted for a few seconds by Valgrind
 (``apt-get install valgrind``) at 1 kHz, or as fast as the emulated processor can. A busy machine does not change them.
 The functions with the most instructions follow: first their own, then with those of the functions that they call. The
 other side is a process that is not counted.

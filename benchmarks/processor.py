@@ -24,8 +24,8 @@ def leave_processor() -> str:
     """Pin this process to all processors but one, and return its number for `take_processor`.
 
     Of a sender and a receiver, the kernel would otherwise let some pairs share a processor and others not. Waking a
-    receiver on another processor takes as long as sending the message, and a receiver on the same processor runs in
-    place of the sender.
+    receiver on another processor takes as long as sending the message, and a receiver on the same processor runs
+    instead of the sender.
 
     Returns:
         The number; "" if the system has only one processor or does not support it.

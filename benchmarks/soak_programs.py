@@ -130,7 +130,7 @@ def listen(nodes: int) -> None:
 
 
 def pass_by(number: int) -> None:
-    """Listen for 2 s, as a command does that a user enters meanwhile."""
+    """Listen for 2 s, as a command does that a user enters in the meantime."""
     node = rclpy.create_node(f"passing_{number}")
     listener = TransformListener(Buffer(), node, spin_thread=True)
     time.sleep(2.0)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Wait for transforms in an asyncio program: other tasks run meanwhile, and nothing polls."""
+"""Wait for transforms in an asyncio program: other tasks run in the meantime, and nothing polls."""
 
 from __future__ import annotations
 

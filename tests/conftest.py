@@ -70,10 +70,10 @@ def eventually() -> Callable[[Callable[[], object]], None]:
 
 @pytest.fixture(scope="session")
 def shared() -> Path:
-    """The folder of recordings and samples beside the project; the test skips where it is absent."""
+    """The folder of recordings and samples next to the project; the test skips where it is absent."""
     folder = Path(__file__).resolve().parents[2] / "shared"
     if not folder.is_dir():
-        pytest.skip("no folder `shared` beside the project: recordings and wire samples are not there")
+        pytest.skip("no folder `shared` next to the project: recordings and wire samples are not there")
     return folder
 
 

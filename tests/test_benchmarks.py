@@ -38,7 +38,7 @@ class Fake:
 
 
 def row(ours, theirs, target=None, name="work", **more):
-    """Return a row with these results; an exception in place of results is raised."""
+    """Return a row with these results; an exception instead of results is raised."""
 
     def contenders():
         for figures in (ours, theirs):

@@ -7,7 +7,7 @@
 
 Both print "ready", then wait for a line on standard input and print one line of JSON. The line that ends a listener is
 the JSON {robot: [stamps that were sent]}. The translation is a pseudo-random function of the stamp: an interpolated
-value in place of a missing message would be noticed.
+value instead of a missing message would be noticed.
 """
 
 from __future__ import annotations

@@ -20,7 +20,7 @@ MESSAGES, TRANSFORMS = 20_000, 2
 
 @functools.cache
 def messages() -> list[tuple[int, bytes]]:
-    """Return time of receipt and bytes of the messages."""
+    """Return receive time and bytes of the messages."""
     found = []
     for i in range(MESSAGES):
         moment = coframe.Buffer(None)

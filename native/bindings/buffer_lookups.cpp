@@ -270,7 +270,7 @@ Args:
     stamp: Time of the lookup: nanoseconds, datetime64, an aware datetime, or a Time; 0 or None means the
         latest time at which all edges between the frames have data.
     timeout: How long to wait for the transform, such as ``"100ms"``; None and 0 do not wait. Other Python
-        threads run meanwhile.
+        threads run in the meantime.
     extrapolate: How far the lookup may extrapolate beyond the samples of an edge, such as ``"50ms"``, after
         waiting has not helped; None does not extrapolate, as tf2.
     hold: Whether extrapolation holds the last pose instead of continuing with the last twist.

@@ -43,7 +43,7 @@ PyObject* publish(PyObject* self, PyObject* message) {
     try {
       send(*direct.writer, out);
     } catch (const dds::Error& error) {
-      if (direct.writer->closed()) Py_RETURN_FALSE;  // by another thread meanwhile
+      if (direct.writer->closed()) Py_RETURN_FALSE;  // by another thread in the meantime
       const nb::object exception = direct.failure(error.what());
       PyErr_SetObject(reinterpret_cast<PyObject*>(Py_TYPE(exception.ptr())), exception.ptr());
       return nullptr;

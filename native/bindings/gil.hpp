@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Scopes that leave and enter Python and are safe when the interpreter ends meanwhile. CPython ends other threads as
-// they take the GIL by unwinding their stacks, and unwinding through C++ frames aborts the process. A thread that
+// Scopes that leave and enter Python and are safe when the interpreter ends in the meantime. CPython ends other threads
+// as they take the GIL by unwinding their stacks, and unwinding through C++ frames aborts the process. A thread that
 // returns too late therefore waits in native code for the end of the process.
 #pragma once
 

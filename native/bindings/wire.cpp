@@ -294,7 +294,7 @@ void define_readers(nb::module_& wire) {
             return take_messages(self, limit, &codec);
           },
           nb::arg("limit"), nb::arg("codec"),
-          "The same with messages in place of bytes, except for messages that Python code has to read.")
+          "The same with messages instead of bytes, except for messages that Python code has to read.")
       .def_prop_ro("pending", &PyReader::pending, "Whether messages may be waiting.");
   define_reader_properties<PyReader>(reader);
 

@@ -94,7 +94,7 @@ bool GuardedMemory::contains(const void* address) const {
   return offset < size_;
 }
 
-// All of it is replaced, because what is left of a tree is of no use. What other threads read meanwhile is
+// All of it is replaced, because what is left of a tree is of no use. What other threads read in the meantime is
 // inconsistent, which they detect as during a change.
 bool GuardedMemory::lose() {
   if (lost()) return true;  // another thread was faster

@@ -180,7 +180,7 @@ class History {
     // Guesses a sample for any stamp by linear interpolation between both ends: rates are nearly constant.
     std::uint64_t guess(Stamp stamp) const {
       if (stamp <= first_) return low_;
-      // Numbers that change meanwhile may be in any order; the result must be a valid sample.
+      // Numbers that change in the meantime may be in any order; the result must be a valid sample.
       const double offset = static_cast<double>(distance(first_, stamp)) * per_nanosecond_;
       const auto most = static_cast<double>(high_ - low_);
       return low_ + static_cast<std::uint64_t>(offset < most ? offset : most);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A sequence lock: readers detect that what they read changed meanwhile. They take no lock, so no reader ever blocks a
-// writer.
+// A sequence lock: readers detect that what they read changed in the meantime. They take no lock, so no reader ever
+// blocks a writer.
 #pragma once
 
 #include <cstdint>

@@ -197,7 +197,7 @@ void Tree::copy_from(const Tree& other, bool with_samples) {
     frame.counts.copy(theirs.counts);
   };
   copy(tree.frames[0], other.frame(0), 0);
-  // Samples that were copied can have frames that are added meanwhile.
+  // Samples that were copied can have frames that are added in the meantime.
   for (FrameId id = 1; id < other.frame_count(); ++id) {
     const Frame& theirs = other.frame(id);
     tree.frames.append(memory, [&](Frame& frame) {

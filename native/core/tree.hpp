@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Frames by name and by id, each with its history. One thread writes (Buffer ensures that), any number of threads read
-// without a lock; what they read is consistent if revision() did not change meanwhile.
+// without a lock; what they read is consistent if revision() did not change in the meantime.
 #pragma once
 
 #include <atomic>

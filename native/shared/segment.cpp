@@ -335,7 +335,7 @@ class LinuxSegment final : public Segment {
     File lock = open_file(lock_path_, O_RDWR | O_NONBLOCK);
     if (!lock) fail("the file " + lock_path_ + " cannot be opened");
     if (lock.lock(LOCK_EX)) {
-      // Locked until it is replaced, so that no other process opens it meanwhile.
+      // Locked until it is replaced, so that no other process opens it in the meantime.
       const File abandoned = open_file(path_, O_RDONLY);
       if (!abandoned || abandoned.lock(LOCK_EX)) create(cache_length, capacity);
       writer_lock_ = std::move(lock);

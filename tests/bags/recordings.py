@@ -65,7 +65,7 @@ def ros1(parent, child, transform, at):
 
 
 def messages(encode=cdr):
-    """Return (topic, time of receipt, bytes) of the messages of the walk."""
+    """Return (topic, receive time, bytes) of the messages of the walk."""
     return [(topic, at + 1000, encode(parent, child, t, at)) for topic, at, parent, child, t in walk()]
 
 

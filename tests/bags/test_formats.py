@@ -258,7 +258,7 @@ def imu(at, frame="imu"):
 
 @pytest.mark.parametrize("kind", ["mcap", "sqlite", "message"])
 def test_messages_by_their_stamps(tmp_path, kind):
-    """The stamps are 100 ms before the times of receipt, and two of them are swapped."""
+    """The stamps are 100 ms before the receive times, and two of them are swapped."""
     order = [0, 1, 3, 2, 4, 5]
     rows = [("/imu", START + i * SECOND, imu(START + at * SECOND - SECOND // 10)) for i, at in enumerate(order)]
     types = {"/imu": "sensor_msgs/msg/Imu"}

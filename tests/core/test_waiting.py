@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Many threads wait for transforms: each is woken at once by the insertion into its edge and does not slow down others.
 
-What a thread waits for after it is woken is the interpreter: beside a busy Python thread every hand-over of the GIL
+What a thread waits for after it is woken is the interpreter: next to a busy Python thread every hand-over of the GIL
 takes up to sys.getswitchinterval() (5 ms), and threads that are woken together queue for it. That part is measured by
 threads that are woken by nothing but _core.Event, in turn with the others.
 """
@@ -32,7 +32,7 @@ def insert(buffer, child, stamp, x=0.0):
 
 
 def all_asleep(threads):
-    """Return whether none of the threads is running or ready to run; no other thread may be busy meanwhile."""
+    """Return whether none of the threads is running or ready to run; no other thread may be busy in the meantime."""
     tasks = Path("/proc/self/task")
     return all(
         (tasks / str(thread.native_id) / "stat").read_text().rpartition(")")[2].split()[0] == "S" for thread in threads
@@ -185,5 +185,5 @@ def test_waiters_on_other_edges_do_not_slow_down_insertions():
         crowd.release(edge)
     crowd.join()
     ratio = statistics.median(costs[crowded]) / statistics.median(costs[quiet])
-    print(f"an insertion beside 1000 waiters costs {ratio:.3f} times what it does alone")
+    print(f"an insertion next to 1000 waiters costs {ratio:.3f} times what it does alone")
     assert ratio < 1.2

@@ -17,7 +17,7 @@ NUMBERS = {fault.name: number for number, fault in enumerate(FAULTS, 1)}
 
 @pytest.fixture
 def start(domain_id):  # noqa: ARG001 - the domain is in the environment
-    """Run the system with a fault, and a connection beside it, for the duration of the test."""
+    """Run the system with a fault, and a connection next to it, for the duration of the test."""
     opened = []
 
     def run(name):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Named pipes, devices, sockets, folders, links and sparse files in place of every file that coframe reads."""
+"""Named pipes, devices, sockets, folders, links and sparse files instead of every file that coframe reads."""
 
 import subprocess
 import sys

@@ -225,23 +225,23 @@ def test_mount_between_two_trees_can_be_static():
     [
         (
             lambda a: (0, 0, sin(a / 2), cos(a)),
-            "w is cos(yaw) in place of cos(yaw / 2)",
+            "w is cos(yaw) instead of cos(yaw / 2)",
             "z = 0.479426 and .*w = 0.877583",
         ),
         (
             lambda a: (0, sin(a), 0, cos(a / 2)),
-            "y is sin(pitch) in place of sin(pitch / 2)",
+            "y is sin(pitch) instead of sin(pitch / 2)",
             "y = 0.479426 and .*w = 0.877583",
         ),
-        (lambda a: (sin(a) / 2, 0, 0, cos(a / 2)), r"x is sin(roll) / 2 in place of sin(roll / 2)", "x = 0.479426 and"),
+        (lambda a: (sin(a) / 2, 0, 0, cos(a / 2)), r"x is sin(roll) / 2 instead of sin(roll / 2)", "x = 0.479426 and"),
         (
             lambda a: (0, 0, sin(a) / 2, cos(a) / 2),
-            "z and w are sin(yaw) / 2 and cos(yaw) / 2 in place of",
+            "z and w are sin(yaw) / 2 and cos(yaw) / 2 instead of",
             "z = 0.479426",
         ),
         (
             lambda a: (0, 0, sin(-a / 2), cos(a)),
-            "w is cos(yaw) in place of cos(yaw / 2)",
+            "w is cos(yaw) instead of cos(yaw / 2)",
             "yaw = -57.3 degrees .*z = -0.479426",
         ),
     ],
@@ -261,7 +261,7 @@ def test_rotation_with_the_full_angle_at_more_than_120_degrees_is_named(findings
     run = Run.healthy()
     run.tf("base_link", "arm", START, (0.1, 0, 0), (0, 0, sin(2.5), cos(1.25)), static=True)
     (finding,) = findings(run)
-    assert "z is sin(yaw) in place of sin(yaw / 2)" in finding.text
+    assert "z is sin(yaw) instead of sin(yaw / 2)" in finding.text
     assert "yaw = 143 degrees" in finding.fix
 
 

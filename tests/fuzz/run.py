@@ -92,7 +92,7 @@ def environment(scratch: str) -> dict[str, str]:
 
 
 def fuzz(name: str, seconds: int, seed: int, extra: list[Path]) -> Outcome:
-    """Run a target for some seconds; a seed of 0 is a random one."""
+    """Run a target for a few seconds; a seed of 0 is a random one."""
     if name in UNGUIDED:
         return run_unguided(name, seconds, seed)
     folder, seconds_per_input = corpus_of(name), SLOW.get(name, MOST_SECONDS)
@@ -120,7 +120,7 @@ def fuzz(name: str, seconds: int, seed: int, extra: list[Path]) -> Outcome:
 
 
 def run_unguided(name: str, seconds: int, seed: int) -> Outcome:
-    """Run a script for some seconds, which names the case that has failed in its last line."""
+    """Run a script for a few seconds, which names the case that has failed in its last line."""
     log = BUILD / f"{name}.log"
     command = [sys.executable, str(HERE / f"{name}.py"), "--seconds", str(seconds), "--seed", str(seed)]
     with scratch_folder() as scratch, log.open("wb") as output:

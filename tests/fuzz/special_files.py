@@ -90,7 +90,7 @@ def replaced(path: Path, chance: random.Random, closing: contextlib.ExitStack) -
     thread.start()
     closing.callback(thread.join)
     closing.callback(ended.set)
-    return f"{name}, replaced meanwhile"
+    return f"{name}, replaced in the meantime"
 
 
 def written(path: Path, chance: random.Random, closing: contextlib.ExitStack) -> str:

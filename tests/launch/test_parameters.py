@@ -110,7 +110,7 @@ def test_namespaces(base, namespace, combined):
 
 
 def command(*entities, configurations=None):
-    """Return the command line of the last node, with the contents of parameter files in place of their paths."""
+    """Return the command line of the last node, with the contents of parameter files instead of their paths."""
     context = LaunchContext()
     context.launch_configurations.update(configurations or {})
     context._set_is_shutdown(True)  # Nothing is started.

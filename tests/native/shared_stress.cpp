@@ -38,8 +38,8 @@ void insert_all(Buffer& buffer) {
   }
 }
 
-// Returns the stamp of the result: 0 asks for the latest. A sample that the writer has dropped meanwhile is not looked
-// up.
+// Returns the stamp of the result: 0 asks for the latest. A sample that the writer has dropped in the meantime is not
+// looked up.
 Stamp look_up(Buffer& buffer, Stamp stamp, const char* what) {
   LookupQuery query;
   query.target = "map";

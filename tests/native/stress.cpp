@@ -428,7 +428,7 @@ class Reader {
                 "time travel");
   }
 
-  // The latest common time never decreases, unless another thread clears the buffer meanwhile.
+  // The latest common time never decreases, unless another thread clears the buffer in the meantime.
   void check_latest() {
     const std::uint64_t clears = world_.clears.load();
     Stamp before = 0;

@@ -62,7 +62,7 @@ class Processes:
     def observe(self, seconds, *topics, patience=30.0):
         """Return the messages that the independent program receives on TOPIC:TYPE:DURABILITY ... topics.
 
-        It receives for some seconds after the first message, for which it waits at most `patience` seconds.
+        It receives for a few seconds after the first message, for which it waits at most `patience` seconds.
         """
         command = self.network.command(sys.executable, OBSERVER, self.domain_id, patience, seconds, *topics)
         result = subprocess.run(command, capture_output=True, text=True, timeout=90, check=False)

@@ -12,8 +12,9 @@ import pytest
 
 pytestmark = pytest.mark.usefixtures("domain_id")
 
-# The DDS threads call into a publisher, whose last references and events are dropped meanwhile by other threads. A DDS
-# thread that needed the interpreter lock, or a thread that waited for DDS with it, would stop the program for ever.
+# The DDS threads call into a publisher, whose last references and events are dropped in the meantime by other threads.
+# A DDS thread that needed the interpreter lock, or a thread that waited for DDS with it, would stop the program
+# forever.
 _CHURN = """
 import faulthandler, threading, time
 import rclpy

@@ -336,7 +336,7 @@ def test_no_points(buffer):
 
 
 def test_insertions_during_deskewing(buffer, motion, points, random):
-    """All points use one state of the tree, although newer and older samples are inserted meanwhile."""
+    """All points use one state of the tree, although newer and older samples are inserted in the meantime."""
     done = threading.Event()
     times = np.tile(times_of("sorted", motion, random), 100)
     wide = np.tile(points, (100, 1))

@@ -244,7 +244,7 @@ def test_an_unknown_type_is_received_and_announced_once_its_hash_is_known(
     # This process does not know the type, as if std_msgs were a package of the user.
     endpoint = "custom_msgs/msg/Thing"
     subscription = participant.raw_subscription(node, "/thing", endpoint, QoS())
-    assert "The definition of custom_msgs/msg/Thing on /thing is not known" in caplog.text
+    assert "The definition of custom_msgs/msg/Thing on /thing is unknown" in caplog.text
     with pytest.raises(coframe.errors.WireError, match="needs the definition of custom_msgs/msg/Thing"):
         participant.raw_publisher(node, "/thing", endpoint, QoS())
     message = "/thing", "custom_msgs::msg::dds_::Thing_", "ab" * 32, "00010000" + "2a000000"

@@ -47,9 +47,9 @@ class RepairReport(NamedTuple):
     Attributes:
         path: The repaired recording.
         messages: Number of messages it contains.
-        problems: Problems of the original recording, one sentence each.
-        changes: Differences from the original recording, one sentence each.
-        remaining: Problems of the repaired recording, one sentence each.
+        problems: Problems of the original recording, one message each.
+        changes: Differences from the original recording, one message each.
+        remaining: Problems of the repaired recording, one message each.
     """
 
     path: Path
@@ -187,14 +187,14 @@ class _Repair:
             if route is None:
                 self._count(channel, "messages skipped: their type of ROS 1 cannot be converted to ROS 2")
             elif not 0 <= received < 1 << 63:
-                self._count(channel, "messages skipped: invalid time of receipt")
+                self._count(channel, "messages skipped: invalid receive time")
             elif (message := self._repaired(channel, route, data)) is not None:
                 self._writer.write(route.topic, message, received)
                 self._copied += 1
         progress(total, total)
 
     def changes(self) -> list[str]:
-        """Return the differences from the original, one sentence each."""
+        """Return the differences from the original, one message each."""
         topics = len({channel.topic for channel, route in self._routes.items() if route is not None})
         amounts = f"{count(self._copied, 'message')} on {count(topics, 'topic')}"
         copied = f"{amounts} copied, with an index and metadata.yaml"

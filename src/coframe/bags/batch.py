@@ -47,7 +47,7 @@ class QueryResult(NamedTuple):
         bag: Path of the recording.
         poses: Number of poses written.
         missing: Number of stamps omitted because there is no transform.
-        problems: What could not be read of the recording or is unusual, one sentence each.
+        problems: What could not be read of the recording or is unusual, one message each.
         error: Why the query failed; "" if it succeeded.
         kept: Whether the file of an earlier run was kept.
     """

@@ -23,7 +23,7 @@ __all__ = ["run_jobs"]
 def run_jobs(jobs: Sequence[tuple[Any, ...]], workers: int) -> Iterator[tuple[tuple[Any, ...], Any]]:
     """Call `coframe.bags.batch.query_recording` with the arguments of each job in processes.
 
-    A job whose process dies is run once more, because the memory may have been used by the jobs beside it.
+    A job whose process dies is run once more, because the memory may have been used by the jobs next to it.
 
     Args:
         jobs: The arguments of each call.
@@ -110,7 +110,7 @@ class _Worker:
 
         Raises:
             OSError: The process has ended before.
-            EOFError: The process has ended meanwhile.
+            EOFError: The process has ended in the meantime.
         """
         self._send(job)
         assert self._process.stdout is not None

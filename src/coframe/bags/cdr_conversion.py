@@ -104,7 +104,7 @@ def copied_definition(channel: Channel, types: RecordedTypes) -> tuple[str | Non
     """Return the definition for a copy of a channel whose messages stay as they are, and its format.
 
     Returns:
-        None in place of the definition for that of coframe: DDS's IDL has names that differ from that of the type.
+        None instead of the definition for that of coframe: DDS's IDL has names that differ from that of the type.
     """
     if channel.definition_format == "omgidl" and types.own_class(channel) is not None:
         return None, "ros2msg"

@@ -285,7 +285,7 @@ class _BagTopic:
         )
 
     def add(self, cloud: Cloud) -> None:
-        """Write one message, with its stamp as time of receipt, and in its own chunk because clouds are large."""
+        """Write one message, with its stamp as receive time, and in its own chunk because clouds are large."""
         self._writer.write(self._channel, serialize(message_of(cloud)), cloud.stamp, cloud.stamp)
         self._writer.flush()
 

@@ -63,7 +63,7 @@ class Clouds:
         point_times: The field with the times of the points, and its unit (s, ms, us or ns) after a colon:
             ``"time:us"``. Without a unit, or without this argument, they are guessed; see ``times_read``.
         fixed: A frame that does not move during a sweep, if ``frame`` moves with the sensor.
-        fields: The fields to keep besides x, y, z; None: all fields with one number per point.
+        fields: The fields to keep besides x, y, z; None for all fields with one number per point.
 
     Attributes:
         total: Number of messages to read.

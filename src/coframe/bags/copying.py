@@ -37,7 +37,7 @@ class CopyReport(NamedTuple):
     Attributes:
         path: The new recording.
         messages: Number of messages it contains.
-        problems: What could not be read or converted, one sentence each.
+        problems: What could not be read or converted, one message each.
     """
 
     path: Path
@@ -54,7 +54,7 @@ def copy_recordings(
     compression: str = "zstd",
     progress: Callable[[str, int, int], object] = lambda _what, _done, _total: None,
 ) -> CopyReport:
-    """Copy the messages of recordings in the order of receipt into a new recording: rosbag2's layout with MCAP.
+    """Copy the messages of recordings in receive order into a new recording: rosbag2's layout with MCAP.
 
     Messages are read and written one by one; those of ROS 1 are converted to ROS 2. Static transforms received before
     the start of the span are copied as well, at its start.
@@ -62,8 +62,8 @@ def copy_recordings(
     Args:
         sources: Files, or folders of rosbag2.
         target: The new folder, which must not exist.
-        topics: Names of the topics to copy; None: all. Each must exist in at least one recording.
-        span: Returns the first time of receipt and the end (excluded) of the messages of a recording, in nanoseconds.
+        topics: Names of the topics to copy; None for all. Each must exist in at least one recording.
+        span: Returns the first receive time and the end (excluded) of the messages of a recording, in nanoseconds.
         compression: ``zstd``, ``lz4`` or ``none``.
         progress: Called regularly with the step (``reading`` or ``writing``) and the amounts done and in total.
 

@@ -174,7 +174,7 @@ class McapStorage(ChunkedStorage):
                 messages = Slices(data, starts[rows], ends[rows])
                 yield Batch(channel, times[rows].astype(np.int64), records[rows] + np.uint64(base), messages)
         if (times >= _TOO_LATE).any():
-            self.add_problem("messages with an invalid time of receipt", int(np.count_nonzero(times >= _TOO_LATE)))
+            self.add_problem("messages with an invalid receive time", int(np.count_nonzero(times >= _TOO_LATE)))
         return done
 
     def payload(self, source: bytes | None, offset: int) -> bytes | memoryview:

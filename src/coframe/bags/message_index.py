@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Index of all messages of a recording: their positions in the files, times of receipt and stamps."""
+"""Index of all messages of a recording: their positions in the files, receive times and stamps."""
 
 from __future__ import annotations
 
@@ -67,7 +67,7 @@ class Track:
 
 
 class _Rows(NamedTuple):
-    """The messages of a topic in the order of receipt."""
+    """The messages of a topic in receive order."""
 
     tracks: list[Track]
     of_track: NDArray[np.uint32]  # index into tracks
@@ -78,7 +78,7 @@ class _Rows(NamedTuple):
 class MessageIndex:
     """Finds the messages of a recording by topic and time, and reads their bytes.
 
-    The rows of a topic are its messages in the order of receipt, counted from 0.
+    The rows of a topic are its messages in receive order, counted from 0.
 
     Args:
         path: The recording, for error messages.
@@ -109,7 +109,7 @@ class MessageIndex:
         return sorted(self._tracks)
 
     def span(self, storage: Storage | None = None) -> tuple[int, int] | None:
-        """Return the first and last time of receipt, of one file or of all; None if there are no messages."""
+        """Return the first and last receive time, of one file or of all; None if there are no messages."""
         parts = [
             received
             for track in self.tracks()
@@ -136,7 +136,7 @@ class MessageIndex:
         return name
 
     def received(self, topic: str) -> NDArray[np.int64]:
-        """Return the times of receipt of a topic's messages, sorted: (N,) nanoseconds."""
+        """Return the receive times of a topic's messages, sorted: (N,) nanoseconds."""
         return self._rows_of(topic).received
 
     def channel(self, topic: str, row: int) -> Channel:
@@ -158,7 +158,7 @@ class MessageIndex:
         return self._bytes(rows.tracks[rows.of_track[row]], int(rows.positions[row]))
 
     def stamps(self, topic: str) -> NDArray[np.int64]:
-        """Return the stamps of a topic's messages in the order of receipt: (N,) nanoseconds."""
+        """Return the stamps of a topic's messages in receive order: (N,) nanoseconds."""
         if topic not in self._stamps:
             tracks = self._rows_of(topic).tracks
             stamps = np.concatenate([self._track_stamps(track) for track in tracks])
@@ -179,7 +179,7 @@ class MessageIndex:
     def in_order(
         self, topics: Iterable[str] | None, start: int | None, stop: int | None
     ) -> Iterator[tuple[Channel, int, bytes]]:
-        """Yield channel, time of receipt and bytes of the messages of several topics in the order of receipt."""
+        """Yield channel, receive time and bytes of the messages of several topics in receive order."""
         tracks = self.tracks() if topics is None else [track for name in topics for track in self.tracks(name)]
         if not tracks:
             return
@@ -237,7 +237,7 @@ class MessageIndex:
         return reader.stamps(heads, received)
 
     def to_ros_time(self, received: NDArray[np.int64]) -> NDArray[np.int64]:
-        """Convert times of receipt to the ROS clock, if /clock was recorded."""
+        """Convert receive times to the ROS clock, if /clock was recorded."""
         if self._clock is None:
             return received
         wall, simulated = self._clock
@@ -246,7 +246,7 @@ class MessageIndex:
 
     @cached_property
     def _clock(self) -> tuple[NDArray[np.int64], NDArray[np.int64]] | None:
-        """Times of receipt and times of the messages on /clock."""
+        """Receive times and times of the messages on /clock."""
         tracks = self._tracks.get("/clock")
         if not tracks or largest_track(tracks).channel.type != _CLOCK_TYPE:
             return None

@@ -138,7 +138,7 @@ class TransformCollector:
         self._namespaces: dict[str, _NamespaceTransforms] = {}
 
     def ingest(self, channel: Channel) -> Callable[[NDArray[np.int64], Slices], None] | None:
-        """Return a function that ingests messages of a channel with times of receipt; None if they are not wanted."""
+        """Return a function that ingests messages of a channel with receive times; None if they are not wanted."""
         namespace = namespace_of(channel.topic)
         take = ingest_for(channel, self._renaming)
         if take is None or not self._choice.selects(channel.topic):

@@ -35,8 +35,8 @@ class RecordedMessage:
     Attributes:
         topic: Name of its topic.
         type: Name of its type.
-        stamp: The stamp of its header; the time of receipt if it has none.
-        received: The time of receipt.
+        stamp: The stamp of its header; the receive time if it has none.
+        received: The receive time.
         data: The serialized message.
     """
 

@@ -45,7 +45,7 @@ class _Beginning(NamedTuple):
 
     Attributes:
         first: What they begin with; None if that is no stamp or not known.
-        has_header: Whether they have a field ``header``; None if that is not known.
+        has_header: Whether they have a field ``header``; None if that is unknown.
     """
 
     first: FirstStamp | None

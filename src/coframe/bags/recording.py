@@ -59,7 +59,7 @@ def open_bag(
         keep: Frames without the prefix because they are shared: ``["map"]``.
         transforms: Whether to read transforms. If False, the buffers are empty.
         progress: Called regularly with the number of bytes read and the total number of bytes.
-        on_transforms: Called with all messages that contain transforms, in batches: the channel, the times of receipt
+        on_transforms: Called with all messages that contain transforms, in batches: the channel, the receive times
             and the bytes.
 
     Returns:
@@ -137,17 +137,17 @@ class Recording:
 
     @property
     def problems(self) -> list[str]:
-        """What could not be read or is unusual, one sentence each. Reading messages may add to it."""
+        """What could not be read or is unusual, one message each. Reading messages may add to it."""
         return self._problems.sentences()
 
     @property
     def start(self) -> int:
-        """Time of receipt of the first message, in nanoseconds; 0 if there is none."""
+        """Receive time of the first message, in nanoseconds; 0 if there is none."""
         return 0 if self._received_span is None else self._received_span[0]
 
     @property
     def end(self) -> int:
-        """Time of receipt of the last message, in nanoseconds; 0 if there is none."""
+        """Receive time of the last message, in nanoseconds; 0 if there is none."""
         return 0 if self._received_span is None else self._received_span[1]
 
     @property
@@ -159,7 +159,7 @@ class Recording:
     def span(self) -> tuple[int, int]:
         """First and last stamp in nanoseconds, on the clock of most transforms.
 
-        In a simulation this is not the clock of the times of receipt. Without dynamic transforms: :attr:`start` and
+        In a simulation this is not the clock of the receive times. Without dynamic transforms: :attr:`start` and
         :attr:`end`.
         """
         return main_span(self.buffer) or (self.start, self.end)
@@ -167,7 +167,7 @@ class Recording:
     def messages(
         self, topic: str, start: StampLike | None = None, stop: StampLike | None = None
     ) -> Iterator[RecordedMessage]:
-        """Return an iterator over the messages of a topic in the order of receipt; each is read when it is needed.
+        """Return an iterator over the messages of a topic in receive order; each is read when it is needed.
 
         Args:
             topic: The name, with or without its leading slash.
@@ -193,15 +193,15 @@ class Recording:
     def in_order(
         self, topics: Iterable[str] | None = None, start: int | None = None, stop: int | None = None
     ) -> Iterator[tuple[Channel, int, bytes]]:
-        """Yield the messages of several topics in the order of receipt.
+        """Yield the messages of several topics in receive order.
 
         Args:
-            topics: Names of the topics; None: all.
-            start: The first time of receipt in nanoseconds; earlier messages are skipped.
+            topics: Names of the topics; None for all.
+            start: The first receive time in nanoseconds; earlier messages are skipped.
             stop: The end; messages received at this time or later are skipped.
 
         Yields:
-            Channel, time of receipt in nanoseconds, and bytes.
+            Channel, receive time in nanoseconds, and bytes.
 
         Raises:
             RecordingError: A topic does not exist.
@@ -210,14 +210,14 @@ class Recording:
         yield from self._index.in_order(names, start, stop)
 
     def stamps(self, topic: str) -> NDArray[np.int64]:
-        """Return the stamps of a topic's messages in the order of receipt.
+        """Return the stamps of a topic's messages in receive order.
 
         Args:
             topic: The name, with or without its leading slash.
 
         Returns:
             (N,) nanoseconds, not always sorted: the stamp of the header, or of the first header in a sequence. Messages
-            without a stamp have their time of receipt, converted to the clock of ``/clock`` if that was recorded.
+            without a stamp have their receive time, converted to the clock of ``/clock`` if that was recorded.
 
         Raises:
             RecordingError: The topic does not exist.
@@ -225,7 +225,7 @@ class Recording:
         return self._index.stamps(self._index.find_topic(topic))
 
     def received(self, topic: str) -> NDArray[np.int64]:
-        """Return the times of receipt of a topic's messages: (N,) nanoseconds on the recorder's clock, sorted.
+        """Return the receive times of a topic's messages: (N,) nanoseconds on the recorder's clock, sorted.
 
         Args:
             topic: The name, with or without its leading slash.
@@ -236,7 +236,7 @@ class Recording:
         return self._index.received(self._index.find_topic(topic))
 
     def to_ros_time(self, received: NDArray[np.int64]) -> NDArray[np.int64]:
-        """Convert times of receipt to the clock of ``/clock``; unchanged if that was not recorded.
+        """Convert receive times to the clock of ``/clock``; unchanged if that was not recorded.
 
         Args:
             received: (N,) nanoseconds, as returned by :meth:`received`.

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Opens SQLite files of unknown origin: nothing is written next to them, and the work of each query is limited.
 
-A database of some kilobytes can describe rows without end: pages that several rows share, pages that contain
+A database of a few kilobytes can describe rows without end: pages that several rows share, pages that contain
 themselves, views that are programs.
 """
 

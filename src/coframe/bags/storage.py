@@ -64,7 +64,7 @@ class Batch(NamedTuple):
 
     Attributes:
         channel: The channel.
-        received: Times of receipt, (N,) int64 nanoseconds.
+        received: Receive times, (N,) int64 nanoseconds.
         positions: Arguments for :meth:`Storage.read`, (N,) uint64.
         messages: The bytes; None if they are not wanted and reading them takes time.
     """

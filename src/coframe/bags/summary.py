@@ -62,14 +62,14 @@ class Summary(NamedTuple):
 
     Attributes:
         path: Path of the recording.
-        start: Time of receipt of the first message.
-        end: Time of receipt of the last message.
+        start: Receive time of the first message.
+        end: Receive time of the last message.
         span: First and last stamp of the transforms.
         topics: All topics.
         trees: All trees, the largest first.
         edges: All edges in tree order: each below that of its parent.
         sensors: The topics whose messages have a header with a frame, except transforms.
-        problems: Problems of the recording, one sentence each.
+        problems: Problems of the recording, one message each.
         size: Size of all files in bytes.
         files: Number of files.
         format: File format: ``MCAP``, ``SQLite`` or ``ROS 1 bag``.

@@ -192,13 +192,13 @@ class Writer:
     def write(
         self, topic: int, data: bytes, received: int, *, published: int | None = None, publisher: Hashable = None
     ) -> None:
-        """Write a message. It reaches the file with the next flush, which happens automatically after some megabytes.
+        """Write a message. It reaches the file with the next flush, which happens automatically after a few megabytes.
 
         Args:
             topic: The number of the topic.
             data: The serialized message.
-            received: Time of receipt in nanoseconds.
-            published: Time of publication in nanoseconds; None or an invalid time: the time of receipt.
+            received: Receive time in nanoseconds.
+            published: Time of publication in nanoseconds; None or an invalid time: the receive time.
             publisher: Distinguishes the publishers of a latched topic.
 
         Raises:
@@ -295,7 +295,7 @@ class Writer:
         self._file = self._open()
 
     def _begin_file(self, received: int) -> None:
-        """Write the latched messages with the current time of receipt, so that each file can be read by itself."""
+        """Write the latched messages with the current receive time, so that each file can be read by itself."""
         for topic in self._contents.topics:
             for message in topic.latched.messages if topic.latched else []:
                 self._put(topic, message.data, received, message.published)

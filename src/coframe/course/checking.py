@@ -224,7 +224,7 @@ class _Results(threading.Thread):
     def run(self) -> None:
         """Read until the grade ends."""
         for line in self._output:
-            if not line.endswith(b"\n"):  # The grade was ended meanwhile.
+            if not line.endswith(b"\n"):  # The grade was ended in the meantime.
                 break
             content = json.loads(line)
             if "sheet" in content:

@@ -51,7 +51,7 @@ PASSED: Final = (
     "VIRTUAL_ENV",
 )
 FOLDER_LISTS: Final = frozenset({"AMENT_PREFIX_PATH", "DYLD_LIBRARY_PATH", "LD_LIBRARY_PATH", "PATH"})
-DECOYS: Final = "decoys"  # the folder for what programs find in place of solutions
+DECOYS: Final = "decoys"  # the folder for what programs find instead of solutions
 _FIRST_USER, _USERS = 64_000, 1000  # numbers of users without an account, for programs of the superuser
 _START: Final = "import sys; sys.path.append({!r}); from sandbox.start import main; main()"
 

@@ -42,7 +42,7 @@ class Chapter(NamedTuple):
 
 
 def _folder() -> Path:
-    """Return the folder of the handbook: beside this file when installed, in docs in a checkout."""
+    """Return the folder of the handbook: next to this file when installed, in docs in a checkout."""
     here = Path(__file__).resolve().parent
     for folder in (here / "handbook", here.parents[2] / "docs" / "handbook"):
         if (folder / _CONTENTS).is_file():

@@ -63,7 +63,7 @@ def solution_problem(name: str) -> str:
 
 
 class Decoys:
-    """Folders that programs find in place of those with solutions: the same names, but without their content.
+    """Folders that programs find instead of those with solutions: the same names, but without their content.
 
     The kernel reports when one of these files is opened, by whatever way a program has found it.
 

@@ -34,7 +34,7 @@ STEP = 10 * MILLISECOND  # of the simulated clock
 _START = 1000 * SECOND
 _NOT_JOINED = "The program does not join the ROS graph: it needs rclpy.init() and a node that spins."
 _NODE = "lab_check"
-_RECORDER = "/coframe_record"  # the node of coframe record, which runs beside all programs
+_RECORDER = "/coframe_record"  # the node of coframe record, which runs next to all programs
 _CLOCK = "/clock"
 _START_PATIENCE = 15.0  # seconds until the node of a program must have joined the graph, see Patience
 _RESPONSE = 1.0  # seconds that a node may take for one callback, see Patience
@@ -208,7 +208,7 @@ class World:
                 self._find_intruders()
 
     def wait_until(self, is_true: Callable[[], bool], seconds: float) -> None:
-        """Wait until a condition is true, without advancing the clock; at most some seconds, see Patience."""
+        """Wait until a condition is true, without advancing the clock; at most a few seconds, see Patience."""
         patience = Patience(seconds, self._waiting_time)
         while not (is_true() or patience.is_over()) and self._program is not None and self._program.is_running():
             self._spin(_QUIET)

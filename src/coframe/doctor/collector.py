@@ -66,7 +66,7 @@ class Collector:
             columns: The transforms.
             arrived: (M,) time of arrival of each message.
             publisher: (M,) number of the publisher of each message.
-            publishers: The names of the publishers; "" for one that is not known.
+            publishers: The names of the publishers; "" for one that is unknown.
         """
         self.messages[topic] = self.messages.get(topic, 0) + len(arrived)
         self.damaged += columns.damaged

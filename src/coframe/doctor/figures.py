@@ -27,7 +27,7 @@ class EdgeFigures(NamedTuple):
     Attributes:
         parent: The parent frame.
         child: The child frame.
-        publisher: The full name of the node; "" if it is not known.
+        publisher: The full name of the node; "" if it is unknown.
         static: Whether the edge is static, so that it has no rate, delay and age.
         transforms: The number of transforms.
         rate: Transforms per second, by their arrival.

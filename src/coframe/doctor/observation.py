@@ -71,7 +71,7 @@ class Sensor:
         frame: The frame in which they are expressed, without a leading slash.
         stamp: (N,) stamps of their headers.
         arrived: (N,) times of their arrival.
-        publisher: The full name of the node; "" if it is not known.
+        publisher: The full name of the node; "" if it is unknown.
     """
 
     topic: str
@@ -141,7 +141,7 @@ class Observation:
         travel: By publisher, the transport times of its transforms by the clocks of two machines; live only.
         log: Messages of nodes on /rosout.
         cache: The cache length of the buffers of listeners.
-        unread: What could not be read of a recording, one sentence each.
+        unread: What could not be read of a recording, one message each.
         link_name: Returns the frame name of a link of the robot descriptions.
     """
 
@@ -289,7 +289,7 @@ class Observation:
         return clock_of(float(np.median(arrived - stamp)), simulated)
 
     def lags(self, stamp: NDArray[np.int64], arrived: NDArray[np.int64]) -> NDArray[np.int64] | None:
-        """Return the delays from stamps to arrival by the clock of the stamps; None if that clock is not known."""
+        """Return the delays from stamps to arrival by the clock of the stamps; None if that clock is unknown."""
         clock = self.clock_of(stamp, arrived)
         if clock == "simulated" and self.clock is not None:
             return self.clock.at(arrived) - stamp

@@ -57,11 +57,11 @@ def _missing_half(quaternions: NDArray[np.float64]) -> Cause | None:
     axis, component = _axis(quaternions)
     # The mistake, its residuals, and the angle of the first quaternion if it is right.
     candidates = (
-        (f"w is cos({axis}) in place of cos({axis} / 2)", w - (1.0 - 2.0 * v * v), 2.0 * np.arcsin(min(v[0], 1.0))),
-        (f"{component} is sin({axis}) in place of sin({axis} / 2)", v - 2.0 * np.abs(w) * sine, _angle_of(w[0])),
-        (f"{component} is sin({axis}) / 2 in place of sin({axis} / 2)", v - np.abs(w) * sine, _angle_of(w[0])),
+        (f"w is cos({axis}) instead of cos({axis} / 2)", w - (1.0 - 2.0 * v * v), 2.0 * np.arcsin(min(v[0], 1.0))),
+        (f"{component} is sin({axis}) instead of sin({axis} / 2)", v - 2.0 * np.abs(w) * sine, _angle_of(w[0])),
+        (f"{component} is sin({axis}) / 2 instead of sin({axis} / 2)", v - np.abs(w) * sine, _angle_of(w[0])),
         (
-            f"{component} and w are sin({axis}) / 2 and cos({axis}) / 2 in place of the sine and cosine of {axis} / 2",
+            f"{component} and w are sin({axis}) / 2 and cos({axis}) / 2 instead of the sine and cosine of {axis} / 2",
             np.hypot(v, w) - 0.5,
             np.arctan2(v[0], w[0]),
         ),

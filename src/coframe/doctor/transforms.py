@@ -38,7 +38,7 @@ class Transforms:
         names: The names of the frames, with the prefix if one was given; a name that was published with and without a
             leading slash occurs twice.
         sent: The names as published; empty if they are the same.
-        publishers: Full names of nodes; "" for a publisher that is not known.
+        publishers: Full names of nodes; "" for a publisher that is unknown.
     """
 
     arrived: NDArray[np.int64]

@@ -108,7 +108,7 @@ class ResolvedSchema:
         structures: The messages of the definition by name, each after those inside it.
 
     Raises:
-        InterfaceError: The definition refers to messages that are not known, or is too large.
+        InterfaceError: The definition refers to messages that are unknown, or is too large.
     """
 
     def __init__(self, schema: Schema) -> None:

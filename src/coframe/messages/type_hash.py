@@ -77,7 +77,7 @@ def type_hash(interface: Any) -> str:
         interface: The class, such as that which `coframe.messages.find` returns.
 
     Raises:
-        LookupError: The definition contains a message that is not known.
+        LookupError: The definition contains a message that is unknown.
         TypeError: It is not such a class.
 
     Example:

@@ -53,7 +53,7 @@ def evaluate(
     """Return the curves of expressions.
 
     A pose has a value at each sample of the edges between its frames. A rate is a mean over the second before each
-    message; of a topic by the times of receipt, of an edge by the stamps. A delay is the time of receipt minus the
+    message; of a topic by the receive times, of an edge by the stamps. A delay is the receive time minus the
     stamp; in a simulation, the time of ``/clock`` at receipt minus the stamp.
 
     Args:
@@ -164,7 +164,7 @@ def _timing_curve(
 def _delays(
     expression: TimingExpression, recording: Recording, stamps: NDArray[np.int64], received: NDArray[np.int64]
 ) -> NDArray[np.float64]:
-    """Return the times of receipt minus the stamps in seconds, on the clock of the stamps."""
+    """Return the receive times minus the stamps in seconds, on the clock of the stamps."""
     if not stamps.size:
         raise PlotError(f"{expression.text} has no values: there are no messages")
     simulated = recording.to_ros_time(received)
@@ -174,7 +174,7 @@ def _delays(
     )
     if clock == "other":
         raise PlotError(
-            f"{expression.text}: the stamps and the times of receipt are on different clocks, so there is no delay",
+            f"{expression.text}: the stamps and the receive times are on different clocks, so there is no delay",
             hint="In a recording of a simulation this needs the topic /clock.",
         )
     return np.asarray(((simulated if clock == "simulated" else received) - stamps) / SECOND)
@@ -210,7 +210,7 @@ def _edge_stamps(recording: Recording, parent: str, child: str) -> NDArray[np.in
 def _received_transforms(
     expression: TimingExpression, recording: Recording, report: Callable[[str, int, int], object]
 ) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """Return the stamps and the times of receipt of all transforms of an edge."""
+    """Return the stamps and the receive times of all transforms of an edge."""
     parent, child = expression.edge or ("", "")
     topics = {
         channel.topic

@@ -57,7 +57,7 @@ def field_value(message: Any, expression: FieldExpression, type_: str) -> float:
     """Return the value of a numeric field.
 
     Args:
-        message: The message; bytes if the definition of its type is not known.
+        message: The message; bytes if the definition of its type is unknown.
         expression: The field.
         type_: The type of the message.
 
@@ -66,7 +66,7 @@ def field_value(message: Any, expression: FieldExpression, type_: str) -> float:
         NoElementError: A sequence is too short for an index.
     """
     if isinstance(message, bytes):
-        raise PlotError(f"{expression.text}: the messages have the type {type_}, whose definition is not known")
+        raise PlotError(f"{expression.text}: the messages have the type {type_}, whose definition is unknown")
     value, written = message, expression.topic
     for step in expression.path:
         value = _step(value, step, written, expression)

@@ -25,7 +25,7 @@ class FrameRenamer:
         tf_static_topic: The topic of the robot's static transforms.
 
     Attributes:
-        not_renamed: The topics whose frames cannot be renamed because the definition of their type is not known. A
+        not_renamed: The topics whose frames cannot be renamed because the definition of their type is unknown. A
             dict is used as an ordered set.
     """
 

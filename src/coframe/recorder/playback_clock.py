@@ -106,7 +106,7 @@ class PlaybackClock:
             return False
 
     def sleep(self, seconds: float) -> bool:
-        """Wait for some seconds of real time, even if paused. Return False if the clock is stopped."""
+        """Wait for a few seconds of real time, even if paused. Return False if the clock is stopped."""
         with self._changed:
             return not self._changed.wait_for(lambda: self._stopped, min(seconds, threading.TIMEOUT_MAX))
 

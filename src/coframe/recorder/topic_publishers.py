@@ -102,7 +102,7 @@ class TopicPublishers:
         """Publish all static transforms, and the last message before the start on other latched topics.
 
         Args:
-            start: The start of the replay, in nanoseconds of the time of receipt.
+            start: The start of the replay, in nanoseconds of the receive time.
         """
         for topic, transforms in self._static_transforms(start).items():
             self._statics[topic].send(transforms)
@@ -176,7 +176,7 @@ class TopicPublishers:
         frames = FrameNames.of(channel, ros_type, self._recording.types)
         if frames is None:
             self.problems.append(
-                f"{channel.topic}: frames are not renamed, because the definition of {ros_type} is not known"
+                f"{channel.topic}: frames are not renamed, because the definition of {ros_type} is unknown"
             )
             return convert
         rename = self._names

@@ -60,7 +60,7 @@ class Probe:
         interfaces: The network interfaces.
         unicast_ports: The ports of this participant for discovery and data.
         multicast_ports: The ports of the domain for discovery and data.
-        receive_buffer: The size of the receive buffer of its sockets, in bytes; None if it is not known.
+        receive_buffer: The size of the receive buffer of its sockets, in bytes; None if it is unknown.
         exchanged: Whether a message that was sent through the library was received through it.
     """
 

@@ -48,7 +48,7 @@ _OTHER_POLICIES = {
 def mismatch_reasons(
     writer: DiscoveredEndpoint, reader: DiscoveredEndpoint, *, qos_must_match: bool = True
 ) -> list[str]:
-    """Return why the two do not match: "type", or "reliability" and "durability"; empty if it is not known.
+    """Return why the two do not match: "type", or "reliability" and "durability"; empty if it is unknown.
 
     Args:
         writer: A writer on the topic.
@@ -79,7 +79,7 @@ def mismatch_text(
     Args:
         own: The endpoint of this process.
         peer: The endpoint of the other node.
-        node: The name of the other node; None if it is not known.
+        node: The name of the other node; None if it is unknown.
         reason: "type", "services", "other" or a QoS policy.
         middleware: The middleware of the other node, for the reason "services".
     """

@@ -195,7 +195,7 @@ class LocalEndpoint:
         try:
             return closed if self._closed else read()
         except _core.EndpointError:
-            if self._closed:  # by another thread meanwhile
+            if self._closed:  # by another thread in the meantime
                 return closed
             raise
 
@@ -262,8 +262,8 @@ class Publisher(LocalEndpoint):
         Args:
             codec: The codec of the message class.
             closed: When this is set, the function publishes nothing and returns False, as it does after `close`.
-            failure: Returns the exception to raise in place of an error of `publish`.
-            of_items: Whether to pass the items of the message's only field, or a single item, in place of a message.
+            failure: Returns the exception to raise instead of an error of `publish`.
+            of_items: Whether to pass the items of the message's only field, or a single item, instead of a message.
         """
         return self._writer.direct(codec, closed, lambda text: failure(self._write_error(text)), of_items)
 

@@ -9,7 +9,7 @@ TF_MESSAGE_HASH = "RIHS01_e369d0f05a23ae52508854b66f6aa0437f3449d652e8cbf22d5abe
 
 
 def type_hash_of_name(ros_type: str) -> str:
-    """Return the hash of a type; "" if its definition is not known in this process."""
+    """Return the hash of a type; "" if its definition is unknown in this process."""
     if ros_type == TF_MESSAGE:
         return TF_MESSAGE_HASH
     from coframe.messages.registry import find  # noqa: PLC0415 - importing coframe.wire must be cheap

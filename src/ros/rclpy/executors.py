@@ -252,7 +252,7 @@ class Executor:
 
         Args:
             timeout_sec: Maximum time to wait in seconds. None or negative: no limit.
-            nodes: Nodes to consider. None: all added nodes.
+            nodes: Nodes to consider. None for all added nodes.
             condition: Function that ends the wait when it returns True.
 
         Returns:

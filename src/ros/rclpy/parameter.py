@@ -214,7 +214,7 @@ def parameter_dict_from_yaml_file(
     Args:
         parameter_file: Path of the file, which has the format of `--params-file`.
         use_wildcard: Whether to include the parameters of all nodes (`/**`).
-        target_nodes: Fully qualified names of the nodes whose parameters are read. None: all nodes of the file.
+        target_nodes: Fully qualified names of the nodes whose parameters are read. None for all nodes of the file.
         namespace: Prefix of the returned names, without the dot.
 
     Raises:

@@ -95,8 +95,8 @@ class AsyncParameterClient:
         """Request the names of the parameters.
 
         Args:
-            prefixes: Prefixes of the names. None: all parameters.
-            depth: Number of levels below a prefix. None: all levels.
+            prefixes: Prefixes of the names. None for all parameters.
+            depth: Number of levels below a prefix. None for all levels.
             callback: Function that is called with the completed future.
         """
         request = ListParameters.Request(

@@ -38,7 +38,7 @@ def check_formats(options: ConverterOptions) -> None:
 
 
 class SequentialReader:
-    """Reads messages in the order of receipt; errors are RuntimeError, as upstream's."""
+    """Reads messages in receive order; errors are RuntimeError, as upstream's."""
 
     def __init__(self) -> None:
         self.__opened: Recording | None = None
@@ -81,7 +81,7 @@ class SequentialReader:
         return self.__next is not None
 
     def read_next(self) -> _Message:
-        """Return the topic, the serialized message and its time of receipt in nanoseconds."""
+        """Return the topic, the serialized message and its receive time in nanoseconds."""
         if not self.has_next() or self.__next is None:
             raise RuntimeError("Bag is at end. No next message.")
         message, self.__next = self.__next, None

@@ -40,9 +40,9 @@ def read_points(
 
     Args:
         cloud: Cloud to read.
-        field_names: Fields to read. None: all fields.
+        field_names: Fields to read. None for all fields.
         skip_nans: Whether to skip points with a NaN in one of these fields.
-        uvs: Indices of the points to read. None: all points.
+        uvs: Indices of the points to read. None for all points.
         reshape_organized_cloud: Whether to return an organized cloud with the shape (width, height), as upstream.
 
     Returns:

@@ -45,8 +45,8 @@ class StaticTransformBroadcaster:
 
         Args:
             node: Node of the publisher.
-            qos: QoS profile of a separate publisher. None: all broadcasters of the process share a publisher, which is
-                reliable and transient-local with a depth of 1.
+            qos: QoS profile of a separate publisher. None for all broadcasters of the process share a publisher, which
+                is reliable and transient-local with a depth of 1.
             tf_static_topic: Topic to publish on.
             prefix: Prefix of the frame names, such as `robot1/`. No separator is added.
             keep: Frames without prefix, such as `["map"]`.

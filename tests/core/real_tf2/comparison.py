@@ -138,7 +138,7 @@ def _compare(cache, steps, their_answers, explained, make_side):
         if reasons is None and step.their_answer:
             return Difference(step.number, step.theirs, "ROS 1, by its own rules", theirs, step.their_answer)
         if reasons is None:
-            return Difference(step.number, step.ours, "coframe beside ROS 1", ours, theirs)
+            return Difference(step.number, step.ours, "coframe next to ROS 1", ours, theirs)
         explained.update(reasons)
     return None
 

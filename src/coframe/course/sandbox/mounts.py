@@ -41,7 +41,7 @@ def enter_own_root(
         entries: Paths, sorted, and whether each can be read; the contents of the others do not exist, except for
             entries below them.
         links: Symbolic links, and their targets.
-        decoys: A folder to show in place of one that cannot be read.
+        decoys: A folder to show instead of one that cannot be read.
         home: The only folder in which files can be changed.
 
     Raises:

@@ -36,7 +36,7 @@ def choose_user(candidates: Iterable[User], readable: Iterable[str], searchable:
 
 
 def become(user: User) -> None:
-    """Become another user for ever.
+    """Become another user forever.
 
     Raises:
         OSError: It is not possible, for example in the namespace of an ordinary user, which has no other users.

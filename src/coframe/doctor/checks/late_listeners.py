@@ -94,7 +94,7 @@ def _bursts(observation: Observation) -> Iterator[Finding]:
                 text=f"no transform was received for {duration(pause)}, and then {len(burst)} transforms at once that "
                 "had been published in the meantime: the recorder or its network connection was blocked",
                 fix="Record fewer topics (`coframe record /tf /tf_static ...`), or use a faster disk. In this "
-                "recording, lookups by time of receipt are wrong there, those by stamp are correct.",
+                "recording, lookups by receive time are wrong there, those by stamp are correct.",
                 first_stamp=int(burst.min()),
             )
             return

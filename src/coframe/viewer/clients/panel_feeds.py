@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The feeds of the panels beside the scene; a panel that is closed costs nothing."""
+"""The feeds of the panels next to the scene; a panel that is closed costs nothing."""
 
 from __future__ import annotations
 
@@ -164,7 +164,7 @@ class InspectionFeed(_PanelFeed):
         if connection is None:
             return f"there are no messages on {topic}"
         types = [one.ros_type for one in connection.participant.publishers(topic)]
-        return f"the definition of {types[0]} is not known" if types else f"no node publishes {topic}"
+        return f"the definition of {types[0]} is unknown" if types else f"no node publishes {topic}"
 
     def _publishers(self) -> tuple[str, ...]:
         connection = self._client.viewer.source.connection
@@ -184,7 +184,7 @@ def _read_message(
     try:
         content: Any = message.read()
         if isinstance(content, bytes):
-            return failed._replace(text=f"{len(content)} bytes; the definition of {messages.type} is not known")
+            return failed._replace(text=f"{len(content)} bytes; the definition of {messages.type} is unknown")
         return failed._replace(state="ok", fields=message_rows(topic, content))
     except (CoframeError, ValueError) as error:
         return failed._replace(text=f"the message cannot be read: {error}")

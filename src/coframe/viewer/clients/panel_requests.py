@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The requests of the panels beside the scene."""
+"""The requests of the panels next to the scene."""
 
 from __future__ import annotations
 

@@ -100,7 +100,7 @@ class ClientState:
         return [one.display for one in self.subscriptions.values() if one.display is not None]
 
     def subscribe(self, number: int, topic: str, options: Options) -> None:
-        """Display a topic, in place of the display with the same id.
+        """Display a topic, instead of the display with the same id.
 
         Raises:
             BadRequestError: There are too many displays.

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The arriving messages of one topic, with their times of receipt, for all curves that use the topic."""
+"""The arriving messages of one topic, with their receive times, for all curves that use the topic."""
 
 from __future__ import annotations
 
@@ -40,9 +40,9 @@ class ArrivedMessages:
     Attributes:
         type: Their type.
         slices: Their bytes.
-        arrived: The times of receipt, (N,) nanoseconds.
+        arrived: The receive times, (N,) nanoseconds.
         have_stamps: Whether messages of this type begin with a stamp.
-        stamps: Their stamps, or the times of receipt where there is none, (N,) nanoseconds.
+        stamps: Their stamps, or the receive times where there is none, (N,) nanoseconds.
     """
 
     def __init__(self, ros_type: str, batch: MessageBatch) -> None:
@@ -57,7 +57,7 @@ class ArrivedMessages:
         self._decoded: list[Any] | None = None
 
     def decoded(self) -> list[Any]:
-        """Return the messages; bytes if their type is not known, or the error of a damaged message."""
+        """Return the messages; bytes if their type is unknown, or the error of a damaged message."""
         if self._decoded is None:
             self._decoded = [_decode(self.type, bytes(data)) for data in self.slices.each()]
         return self._decoded

@@ -65,7 +65,7 @@ def _complete_topic_expression(source: Source, text: str) -> list[str]:
 
 
 def _example(source: Source, topic: str, ros_type: str) -> Any:
-    """Return a message of the type of a topic; None if the type is not known."""
+    """Return a message of the type of a topic; None if the type is unknown."""
     try:
         recording = source.recording
         message = find(ros_type)() if recording is None else next(recording.messages(topic)).message

@@ -217,7 +217,7 @@ class TopicTimingCurve(TopicCurve):
 
 
 class EdgeDelayCurve(TopicCurve):
-    """The delay of the transforms of an edge: time of receipt minus stamp."""
+    """The delay of the transforms of an edge: receive time minus stamp."""
 
     def __init__(self, expression: TimingExpression, connection: Connection, arrivals: Arrivals) -> None:
         super().__init__(expression, arrivals)
@@ -277,6 +277,6 @@ def _other_clock(
         return None
     return CurveStatus(
         "error",
-        f"{expression.text}: the stamps and the times of receipt are on different clocks, so there is no delay",
+        f"{expression.text}: the stamps and the receive times are on different clocks, so there is no delay",
         "For a simulation, record it with /clock and plot the recording.",
     )

@@ -46,7 +46,7 @@ class Log:
         own: The messages of the viewer.
 
     Attributes:
-        lines: The last messages, in the order of receipt.
+        lines: The last messages, in receive order.
         total: The number of messages since the start.
         text: What is missing, or "".
     """

@@ -32,7 +32,8 @@ _LOOPBACK_SIZES = "<MaxMessageSize>65000B</MaxMessageSize><FragmentSize>64000B</
 _LOOPBACK_THREADS = "<MultipleReceiveThreads>true</MultipleReceiveThreads>"
 
 # Received datagrams are written to one buffer after the other. The default of 1 MiB fills for a quarter of an hour in a
-# process that receives little, whose memory grows meanwhile. Clouds of 1 MB take the same time (benchmarks.publishing).
+# process that receives little, whose memory grows in the meantime. Clouds of 1 MB take the same time
+# (benchmarks.publishing).
 _RECEIVE_BUFFERS = "<ReceiveBufferSize>256KiB</ReceiveBufferSize>"
 
 # A lost message is sent again after a heartbeat of its writer and the answer of its reader, any of which may be lost

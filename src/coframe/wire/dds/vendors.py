@@ -36,7 +36,7 @@ _WITHOUT_DEFAULT_PARTITION = {"Fast DDS"}
 
 
 def vendor(guid: bytes) -> str:
-    """Return the DDS implementation that created an entity; "" if it is not known.
+    """Return the DDS implementation that created an entity; "" if it is unknown.
 
     Args:
         guid: The GUID of an endpoint or a participant.
@@ -45,7 +45,7 @@ def vendor(guid: bytes) -> str:
 
 
 def unknown_vendor(guid: bytes) -> str:
-    """Return what to call a DDS implementation that is not known."""
+    """Return what to call a DDS implementation that is unknown."""
     return f"an unknown DDS implementation (vendor ID {guid[0]}.{guid[1]})"
 
 

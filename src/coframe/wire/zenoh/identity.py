@@ -27,7 +27,7 @@ class Identity:
         number: The number of the endpoint in the session.
         kind: The kind of the token.
         endpoint: The topic or service.
-        type_hash: The hash of its type; `keys.ANY_HASH` if it is not known.
+        type_hash: The hash of its type; `keys.ANY_HASH` if it is unknown.
         qos: Its quality of service.
         buffers: Whether it is a subscription that also receives messages at the key of buffers.
         user_data: Pairs `key=value;` that coframe's processes read.
@@ -55,7 +55,7 @@ class Identity:
         self.gid = keys.gid_of(self._token(node))
 
     def tokens(self, node: NodeToken, numbers: Iterator[int]) -> list[str]:
-        """Return the tokens of the endpoint for one of its nodes; none as long as the hash of its type is not known.
+        """Return the tokens of the endpoint for one of its nodes; none as long as the hash of its type is unknown.
 
         Args:
             node: The node.

@@ -9,7 +9,7 @@ from typing import Any
 
 @cache
 def has_unbounded_bytes(ros_type: str) -> bool:
-    """Return whether a message type contains an unbounded `uint8[]` at any depth. False if it is not known."""
+    """Return whether a message type contains an unbounded `uint8[]` at any depth. False if it is unknown."""
     from coframe.messages.registry import find  # noqa: PLC0415 - importing coframe.wire must be cheap
 
     try:

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from coframe.wire.qos import QoS
 
 KEEP_ALL: Final = 10_000  # messages that wait if all are kept; the memory must have a limit
-# Zenoh's network thread must not wait for Python, which may be busy for some milliseconds. The oldest messages are
+# Zenoh's network thread must not wait for Python, which may be busy for a few milliseconds. The oldest messages are
 # dropped when the thread of the subscription does not keep up.
 _LEAST_RING: Final = 10
 _MOST_PUBLISHERS: Final = 1024  # whose last message numbers are stored

@@ -181,12 +181,12 @@ class ZenohSession:
         self._session.close()
 
     def _subscription_place(self, node: GraphNode, endpoint: Endpoint, qos: QoS) -> Place:
-        """Return the place of a subscription, which receives every definition of a type that is not known."""
+        """Return the place of a subscription, which receives every definition of a type that is unknown."""
         _check_names(endpoint)
         type_hash = self._hash_of(endpoint)
         if not type_hash:
             _logger.warning(
-                "The definition of %s on %s is not known, so messages of any definition are received. Other nodes see "
+                "The definition of %s on %s is unknown, so messages of any definition are received. Other nodes see "
                 "this subscription once the type is published.",
                 endpoint.ros_type,
                 endpoint.name,
@@ -226,7 +226,7 @@ class ZenohSession:
         return self._nodes[node]
 
     def _hash_of(self, endpoint: Endpoint) -> str:
-        """Return the hash of a type: from its definition, or from other nodes that use it; "" if it is not known."""
+        """Return the hash of a type: from its definition, or from other nodes that use it; "" if it is unknown."""
         return type_hash_of_name(keys.interface(endpoint)) or self.graph.known_hash(endpoint)
 
     def _required_hash(self, endpoint: Endpoint) -> str:
@@ -234,7 +234,7 @@ class ZenohSession:
         if type_hash := self._hash_of(endpoint):
             return type_hash
         raise WireError(
-            f"The endpoint on {endpoint.name} needs the definition of {keys.interface(endpoint)}, which is not known: "
+            f"The endpoint on {endpoint.name} needs the definition of {keys.interface(endpoint)}, which is unknown: "
             "over Zenoh, the hash of the definition is part of the address.",
             hint="Add the interface file (see docs/how-to/own-messages.md), or use DDS: COFRAME_WIRE=dds.",
         )

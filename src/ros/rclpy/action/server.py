@@ -197,11 +197,11 @@ class ActionServer:
         self.__handle_accepted_callback = handle_accepted_callback or default_handle_accepted_callback
 
     def register_goal_callback(self, goal_callback: Callable[[Any], Any] | None) -> None:
-        """Set the callback for goal requests. None: all goals are accepted."""
+        """Set the callback for goal requests. None for all goals are accepted."""
         self.__goal_callback = goal_callback or default_goal_callback
 
     def register_cancel_callback(self, cancel_callback: Callable[[ServerGoalHandle], Any] | None) -> None:
-        """Set the callback for cancel requests. None: all cancel requests are rejected."""
+        """Set the callback for cancel requests. None for all cancel requests are rejected."""
         self.__cancel_callback = cancel_callback or default_cancel_callback
 
     def register_execute_callback(self, execute_callback: Callable[[ServerGoalHandle], Any]) -> None:
