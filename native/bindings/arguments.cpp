@@ -46,7 +46,7 @@ std::int64_t to_int64(nb::handle number) {
   int overflow;
   const long long value = PyLong_AsLongLongAndOverflow(number.ptr(), &overflow);
   if (overflow != 0) {
-    PyErr_Format(PyExc_OverflowError, "%R does not fit 64-bit nanoseconds, which reach from 1677 to 2262",
+    PyErr_Format(PyExc_OverflowError, "%R does not fit into 64-bit nanoseconds, which range from 1677 to 2262",
                  number.ptr());
   }
   if (PyErr_Occurred()) throw nb::python_error();

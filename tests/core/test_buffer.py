@@ -346,7 +346,7 @@ def test_frame_names_must_be_strings(buffer):
 
 
 def test_stamps_beyond_64_bits_are_refused(buffer):
-    with pytest.raises(OverflowError, match="does not fit 64-bit nanoseconds"):
+    with pytest.raises(OverflowError, match="does not fit into 64-bit nanoseconds"):
         buffer.lookup("odom", "base", 2**70)
 
 

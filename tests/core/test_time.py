@@ -81,10 +81,10 @@ def test_stamps():
 @pytest.mark.parametrize("read", [stamp_ns, duration_ns])
 def test_values_that_do_not_fit_64_bits(read):
     assert read(2**63 - 1) == 2**63 - 1
-    with pytest.raises(ValueError, match="does not fit 64 bits"):
+    with pytest.raises(ValueError, match="does not fit into 64 bits"):
         read(2**63)
 
 
 def test_text_that_does_not_fit_64_bits():
-    with pytest.raises(ValueError, match="does not fit 64 bits"):
+    with pytest.raises(ValueError, match="does not fit into 64 bits"):
         duration_ns("9999999h")

@@ -303,7 +303,7 @@ def test_invalid_arguments_are_refused(arguments, error, text):
     [
         ({"out": np.zeros((4, 3))}, ValueError, r"out must have the shape of the points, \(3, 3\)"),
         ({"out": [1]}, TypeError, "out must be a NumPy array"),
-        ({"out": np.zeros((3, 3)), "in_place": True}, ValueError, "exclude each other"),
+        ({"out": np.zeros((3, 3)), "in_place": True}, ValueError, "are mutually exclusive"),
         ({"out": np.broadcast_to(np.zeros(3), (3, 3))}, ValueError, "is read-only"),
         ({"threads": 0}, ValueError, "threads must be at least 1"),
         ({"vectors": (3, 4, 5)}, ValueError, "3 columns has no column 3"),

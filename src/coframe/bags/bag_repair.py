@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Writes a repaired copy of a recording: with index and metadata, static transforms first and valid frame names."""
+"""Write a repaired copy of a recording: with an index, metadata, static transforms first and valid frame names."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 __all__ = ["RepairReport", "repair"]
 
 _TF = "tf2_msgs/msg/TFMessage"
-_PLURAL = re.compile(r"\b(messages|transforms|names)\b")  # the nouns of the counted sentences
+_PLURAL = re.compile(r"\b(messages|transforms|names)\b")  # nouns that are counted in messages
 _PROGRESS_STEP = 1000  # messages between two calls of the progress function
 _STATIC_QOS = OfferedQos(1, transient_local=True)
 
@@ -46,7 +46,7 @@ class RepairReport(NamedTuple):
 
     Attributes:
         path: The repaired recording.
-        messages: Number of messages it contains.
+        messages: Number of messages in it.
         problems: Problems of the original recording, one message each.
         changes: Differences from the original recording, one message each.
         remaining: Problems of the repaired recording, one message each.
@@ -86,10 +86,10 @@ def repair(
             these are all topics.
         tf_static_topic: The topic with the robot's static transforms.
         prefix: A prefix for all frame names, such as "robot1/".
-        keep: Frame names without the prefix, such as "map"; a list, or a text with commas.
+        keep: Frame names without the prefix, such as "map"; a list, or a comma-separated string.
         compression: ``zstd``, ``lz4`` or ``none``.
-        progress: Called regularly with the step (``reading``, ``writing`` or ``checking``) and with the amounts done
-            and in total, in bytes or messages.
+        progress: Called regularly with the step (``reading``, ``writing`` or ``checking``) and the completed and total
+            amount, in bytes or messages.
 
     Raises:
         RecordingError: Nothing can be read, or the copy cannot be written.
@@ -130,7 +130,7 @@ class _Renaming:
         self.change = f"given the prefix {prefix!r}" if prefix else "stripped of leading slashes"
 
     def on(self, topic: str) -> _Renaming:
-        """Return the mapping for the messages of a topic: only those of the robot get the prefix."""
+        """Return the mapping for the messages of a topic; only topics of the robot get the prefix."""
         return self if self._renamed is None or belongs(topic, *self._robot) else _Renaming("", (), self._robot)
 
     @property
@@ -161,7 +161,7 @@ class _Route(NamedTuple):
 
 
 class _Repair:
-    """Copies one recording into another and repairs the messages."""
+    """Copies one recording to another and repairs the messages."""
 
     def __init__(self, recording: Recording, writer: Writer, robot: _Robot, rename: _Renaming) -> None:
         self._recording = recording
@@ -169,7 +169,7 @@ class _Repair:
         self._robot = robot
         self._rename = rename
         self._routes: dict[Channel, _Route | None] = {}
-        self._counts: Counter[tuple[str, str]] = Counter()  # by what is before the count, and what follows it
+        self._counts: Counter[tuple[str, str]] = Counter()  # keys: the text before and after the count
         self._copied = 0
         self._moving = {
             name: {edge.child for edge in buffer.edges() if edge.parent and not edge.static}
@@ -257,7 +257,7 @@ class _Repair:
         return message
 
     def _without_rejected(self, channel: Channel, data: bytes) -> bytes:
-        """Return a TFMessage without transforms that tf2 rejects and without static ones of frames that also move."""
+        """Return a TFMessage without transforms that tf2 rejects, and without static transforms of moving frames."""
         message = deserialize(data, find(_TF))
         good = [transform for transform in message.transforms if _is_accepted(transform)]
         if rejected := len(message.transforms) - len(good):
@@ -332,7 +332,7 @@ def _statics_of(path: str | os.PathLike[str]) -> list[TransformStamped]:
 
 
 def _counted(what: str, number: int) -> str:
-    """Return a number and what it counts, with the noun in the singular if the number is 1."""
+    """Return a number with its noun, in the singular if the number is 1."""
     text = f"{number} {what}"
     return _PLURAL.sub(lambda match: match[0].removesuffix("s"), text, count=1) if number == 1 else text
 

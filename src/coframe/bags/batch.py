@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The same trajectory query over many recordings, in parallel; the results form one Parquet dataset.
+"""Run a trajectory query on many recordings in parallel; the results form one Parquet dataset.
 
-:func:`query_recording` does the work for one recording. It is a plain function whose arguments and result can be
-pickled, so that it runs in processes of this machine, on Dask, on Ray or on any other engine.
+:func:`query_recording` does the work for one recording. Its arguments and result can be pickled, so that it runs in
+local processes, on Dask, on Ray or on any other engine.
 """
 
 from __future__ import annotations
@@ -36,8 +36,8 @@ __all__ = ["ENGINES", "QueryResult", "query_recording", "query_recordings"]
 
 _METADATA_KEY = b"coframe"
 _CHECKSUM_DIGITS = 64  # of SHA-256
-_MAX_CHECKSUM_FILE = 10_000  # bytes: the digits and the name of a file
-_REPORT_KEY = b"coframe.report"  # the number of missing poses, and the problems
+_MAX_CHECKSUM_FILE = 10_000  # bytes: the digest and the file name
+_REPORT_KEY = b"coframe.report"  # keys of the number of missing poses and the problems
 
 
 class QueryResult(NamedTuple):
@@ -47,9 +47,9 @@ class QueryResult(NamedTuple):
         bag: Path of the recording.
         poses: Number of poses written.
         missing: Number of stamps omitted because there is no transform.
-        problems: What could not be read of the recording or is unusual, one message each.
+        problems: What could not be read or is unusual, one message each.
         error: Why the query failed; "" if it succeeded.
-        kept: Whether the file of an earlier run was kept.
+        kept: Whether the file from an earlier run was kept.
     """
 
     bag: str
@@ -61,7 +61,7 @@ class QueryResult(NamedTuple):
 
 
 def query_recording(bag: str, query: TrajectoryQuery, folder: str) -> QueryResult:
-    """Run a query on one recording and write its file of the dataset; never raises.
+    """Run a query on one recording and write its file in the dataset; never raises.
 
     An existing file is kept if it was written for the same query, the recording has not changed since, and the file
     has its checksum.
@@ -143,7 +143,7 @@ def _query(bag: str, query: TrajectoryQuery, folder: Path) -> QueryResult:
 
 
 def _fingerprint(bag: str, query: TrajectoryQuery) -> bytes:
-    """Return what the result depends on: the query, and the size and time of the recording's files."""
+    """Return what the result depends on: the query, and the sizes and modification times of the recording's files."""
     path = Path(bag)
     files = sorted(path.iterdir()) if path.is_dir() else [path]
     state = [(file.name, file.stat().st_size, file.stat().st_mtime_ns) for file in files if file.is_file()]
@@ -151,7 +151,7 @@ def _fingerprint(bag: str, query: TrajectoryQuery) -> bytes:
 
 
 def _existing(part: Path, bag: str, fingerprint: bytes) -> QueryResult | None:
-    """Return the result in the file of an earlier run; None if it does not exist, is damaged or is out of date."""
+    """Return the result of an earlier run; None if its file does not exist, is damaged or is out of date."""
     if not _is_intact(part):
         return None
     try:
@@ -173,7 +173,7 @@ def _write(part: Path, poses: Transform, result: QueryResult, fingerprint: bytes
     stamps = np.zeros(1, dtype=np.int64) if poses.stamps is None else poses.stamps
     columns = {"bag": arrow.array([result.bag] * len(values)).dictionary_encode(), "stamp_ns": stamps}
     columns |= dict(zip(POSE_COLUMNS, values.T.copy(), strict=True))
-    temporary = part.with_name(f"_{part.name}.{os.getpid()}")  # readers of datasets ignore names with this prefix
+    temporary = part.with_name(f"_{part.name}.{os.getpid()}")  # dataset readers ignore names with this prefix
     try:
         metadata = {_METADATA_KEY: fingerprint, _REPORT_KEY: json.dumps([result.missing, result.problems])}
         parquet.write_table(arrow.table(columns).replace_schema_metadata(metadata), temporary)
@@ -191,7 +191,7 @@ def _write(part: Path, poses: Transform, result: QueryResult, fingerprint: bytes
 
 
 def _is_intact(part: Path) -> bool:
-    """Return whether a file has the content that was written. A flipped byte would otherwise be another pose."""
+    """Return whether a file matches its checksum. Without this check, a flipped bit would silently change a pose."""
     try:
         return read_regular(_checksum_file(part), _MAX_CHECKSUM_FILE)[:_CHECKSUM_DIGITS].decode() == _checksum(part)
     except (OSError, UnicodeDecodeError):
@@ -236,7 +236,7 @@ def _on_ray(jobs: list[_Job], workers: int | None) -> Iterator[QueryResult]:
     if is_ours:
         ray.init(log_to_driver=False, logging_level="ERROR")
     try:
-        # A recording that kills one worker would kill the next one, too.
+        # A recording that crashes one worker would also crash the next one.
         remote = ray.remote(max_retries=0)(query_recording)
         left, waiting = list(reversed(jobs)), dict[Any, str]()
         while left or waiting:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Processes of this machine for many recordings; one that dies affects its own recording only."""
+"""Local worker processes for many recordings; a crash affects only its own recording."""
 
 from __future__ import annotations
 
@@ -21,16 +21,16 @@ __all__ = ["run_jobs"]
 
 
 def run_jobs(jobs: Sequence[tuple[Any, ...]], workers: int) -> Iterator[tuple[tuple[Any, ...], Any]]:
-    """Call `coframe.bags.batch.query_recording` with the arguments of each job in processes.
+    """Call `coframe.bags.batch.query_recording` for each job in worker processes.
 
-    A job whose process dies is run once more, because the memory may have been used by the jobs next to it.
+    A job whose process dies is run once more, because concurrent jobs may have used the memory.
 
     Args:
         jobs: The arguments of each call.
         workers: The number of processes.
 
     Yields:
-        Each job with its result, as they are done; the result is None if its process died twice.
+        Each job with its result, in order of completion; the result is None if its process died twice.
     """
     pool = _Pool()
     with ThreadPoolExecutor(workers) as threads:
@@ -44,7 +44,7 @@ def run_jobs(jobs: Sequence[tuple[Any, ...]], workers: int) -> Iterator[tuple[tu
 
 
 class _Pool:
-    """Worker processes, which are started when they are needed; may be used by any thread."""
+    """Worker processes, started on demand. Thread-safe."""
 
     def __init__(self) -> None:
         self._idle: queue.SimpleQueue[_Worker] = queue.SimpleQueue()
@@ -67,7 +67,7 @@ class _Pool:
         return None
 
     def close(self) -> None:
-        """End all processes, also those that work."""
+        """End all processes, including busy ones."""
         with self._lock:
             self._closed = True
             for worker in self._all:
@@ -90,7 +90,7 @@ class _Worker:
     """A process that receives the arguments of calls and sends their results."""
 
     def __init__(self) -> None:
-        # Ctrl-C reaches the parent alone, which then ends the workers.
+        # Only the parent receives Ctrl-C; it then ends the workers.
         own_group: Any = (
             {"start_new_session": True}
             if os.name == "posix"
@@ -109,8 +109,8 @@ class _Worker:
         """Return the result of a call.
 
         Raises:
-            OSError: The process has ended before.
-            EOFError: The process has ended in the meantime.
+            OSError: The process had already ended.
+            EOFError: The process ended during the call.
         """
         self._send(job)
         assert self._process.stdout is not None

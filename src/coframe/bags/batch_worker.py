@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A process that queries recordings: it reads the arguments of calls from its standard input, and writes the results.
+"""Worker process that queries recordings: it reads the arguments of calls from standard input and writes the results.
 
-Before these, it reads the folders of the modules whose classes the arguments may have. They come after all others.
+First it reads folders with modules of classes that the arguments may use, and appends them to the search path.
 """
 
 from __future__ import annotations
@@ -15,9 +15,9 @@ from coframe.bags.batch import query_recording
 
 
 def main() -> None:
-    """Work until the standard input ends."""
+    """Process calls until standard input ends."""
     output = os.fdopen(os.dup(sys.stdout.fileno()), "wb")
-    os.dup2(sys.stderr.fileno(), sys.stdout.fileno())  # What libraries print is not a result.
+    os.dup2(sys.stderr.fileno(), sys.stdout.fileno())  # Output of libraries must not be mistaken for a result.
     sys.path += [folder for folder in _received() if folder not in sys.path]
     while True:
         try:

@@ -101,10 +101,10 @@ def _message_classes(cls: Any) -> dict[str, Any]:
 
 
 def copied_definition(channel: Channel, types: RecordedTypes) -> tuple[str | None, str]:
-    """Return the definition for a copy of a channel whose messages stay as they are, and its format.
+    """Return the definition and its format for a copy of a channel whose messages are copied unchanged.
 
     Returns:
-        None instead of the definition for that of coframe: DDS's IDL has names that differ from that of the type.
+        None as the definition means coframe's own: the names in DDS IDL differ from that of the type.
     """
     if channel.definition_format == "omgidl" and types.own_class(channel) is not None:
         return None, "ros2msg"
@@ -121,5 +121,5 @@ def decode_transforms(convert: Callable[[bytes], bytes], data: bytes) -> list[Tr
     kind: Any = find("tf2_msgs/msg/TFMessage")
     try:
         return list(deserialize(convert(data), kind).transforms)
-    except (DecodeError, ValueError):  # Reading the message itself reports the damage.
+    except (DecodeError, ValueError):  # The damage is reported when the message itself is read.
         return []

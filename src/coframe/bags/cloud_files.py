@@ -30,7 +30,7 @@ __all__ = ["CLOUD_FORMATS", "write_clouds"]
 
 CLOUD_FORMATS = ("ply", "pcd", "npz", "npy", "mcap")
 _TYPE = "sensor_msgs/msg/PointCloud2"
-_MAX_DIGITS = 20  # space in the header for the count, which is known at the end
+_MAX_DIGITS = 20  # space in the header for the count, which is known only at the end
 _NPY_HEAD = 12  # bytes before the text of NumPy's header
 
 
@@ -42,7 +42,7 @@ def write_clouds(
     voxel: float | None = None,
     progress: Callable[[int], object] = lambda _count: None,
 ) -> int:
-    """Write the points of all messages while they are read; many messages need no more memory than one.
+    """Stream the points of all messages to a file; memory use does not depend on the number of messages.
 
     Args:
         clouds: The clouds.
@@ -50,8 +50,8 @@ def write_clouds(
             as one cloud. A file that ends with ``.mcap`` is a new recording with one PointCloud2 per message. Any other
             name is a folder with one file per message, named by its stamp.
         format_: Format of the files in a folder: ``"ply"`` (default), ``"pcd"``, ``"npz"`` or ``"npy"``.
-        voxel: Keep only the first point in each voxel with this edge length in metres. For one cloud, the kept points
-            are held in memory.
+        voxel: Keep only the first point in each voxel with this edge length in metres. If one cloud is written, its
+            points are kept in memory.
         progress: Called with the number of messages read so far.
 
     Returns:
@@ -83,7 +83,7 @@ def write_clouds(
 
 
 class _CloudSource:
-    """Iterates over clouds and reports the progress."""
+    """Iterates over clouds and reports progress."""
 
     def __init__(self, clouds: Clouds, progress: Callable[[int], object]) -> None:
         self.clouds = clouds
@@ -120,7 +120,7 @@ def _write_folder(source: _CloudSource, folder: Path, kind: str, voxel: float | 
 
 
 def _write_one(path: Path, kind: str, clouds: Iterable[Cloud], source: _CloudSource) -> int:
-    """Write all clouds to one file, which exists at the end only if it is complete."""
+    """Write all clouds to one file atomically."""
     with complete_or_absent(path) as part:
         if kind == "mcap":
             with closing(McapWriter(part)) as bag:
@@ -147,7 +147,7 @@ def _fill(writer: _Writer, clouds: Iterable[Cloud]) -> int:
 
 
 class _Rows:
-    """Points after a header, which is written again at the end with their number."""
+    """A header followed by points; the header is rewritten at the end with the number of points."""
 
     def __init__(self, stream: BinaryIO) -> None:
         self._stream = stream
@@ -175,11 +175,11 @@ class _Rows:
             self._stream.write(self.header(self.dtype, self.count))
 
     def rows(self, points: NDArray[Any]) -> NDArray[Any]:
-        """Return the points with the types of the format."""
+        """Return the points as the dtypes of the format."""
         return points
 
     def header(self, dtype: np.dtype[Any], count: int) -> bytes:
-        """Return the header for a number of points; its length does not depend on that number."""
+        """Return the header for a number of points; its length is constant."""
         raise NotImplementedError
 
 
@@ -244,7 +244,7 @@ class _Npy(_Rows):
 class _Npz:
     """NumPy's npz, with one array per field.
 
-    All fields are first written to a temporary file, so that only one of them is in memory at a time.
+    All points are first written to a temporary file, so that only one field is in memory at a time.
     """
 
     def __init__(self, stream: BinaryIO) -> None:
@@ -285,7 +285,7 @@ class _BagTopic:
         )
 
     def add(self, cloud: Cloud) -> None:
-        """Write one message, with its stamp as receive time, and in its own chunk because clouds are large."""
+        """Write one message, with its stamp as the receive time, in its own chunk because clouds are large."""
         self._writer.write(self._channel, serialize(message_of(cloud)), cloud.stamp, cloud.stamp)
         self._writer.flush()
 
@@ -293,7 +293,7 @@ class _BagTopic:
         """Do nothing; all messages have been written."""
 
 
-# PointField's constants by NumPy's names of the types.
+# PointField constants by NumPy type name.
 _DATATYPES = {"i1": 1, "u1": 2, "i2": 3, "u2": 4, "i4": 5, "u4": 6, "f4": 7, "f8": 8}
 
 
@@ -322,7 +322,7 @@ def _fields(dtype: np.dtype[Any]) -> str:
 
 
 def _cast(points: NDArray[Any], kinds: dict[str, str], *, xyz: str = "<f8") -> NDArray[Any]:
-    """Return the points with other types, and with names that an ASCII header can contain."""
+    """Return the points with other dtypes, and with field names that an ASCII header can contain."""
     dtype = np.dtype(
         [
             ("".join(c if c.isascii() and c.isprintable() and c != " " else "_" for c in name), kind)

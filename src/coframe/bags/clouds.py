@@ -61,9 +61,9 @@ class Clouds:
         deskew: ``"auto"`` transforms each point at its own time if the message contains it (a field such as ``t``,
             ``time`` or ``timestamp``, or the ``time_increment`` of a scan). ``"off"`` uses the stamp of the message.
         point_times: The field with the times of the points, and its unit (s, ms, us or ns) after a colon:
-            ``"time:us"``. Without a unit, or without this argument, they are guessed; see ``times_read``.
+            ``"time:us"``. If omitted, the field or its unit is guessed; see ``times_read``.
         fixed: A frame that does not move during a sweep, if ``frame`` moves with the sensor.
-        fields: The fields to keep besides x, y, z; None for all fields with one number per point.
+        fields: The fields to keep in addition to x, y, z; None for all fields with one number per point.
 
     Attributes:
         total: Number of messages to read.
@@ -72,7 +72,7 @@ class Clouds:
         skipped: Number of skipped messages by reason.
         points_skipped: Number of skipped points by reason.
         hint: What to do about the first message that could not be transformed; "" if there is none.
-        times_read: Number of deskewed messages by the interpretation of their times.
+        times_read: Number of deskewed messages, by how their times were interpreted.
 
     Raises:
         RecordingError: The topic does not exist or has another type.
@@ -233,7 +233,7 @@ class Clouds:
         return _structured(columns), hits.times if self._deskews and message.time_increment != 0 else None
 
     def _reason(self, error: TransformException) -> str:
-        """Return the text of the first error that differs from this one only in its times."""
+        """Return the message of the first error that differs from this one only in its times."""
         key = (type(error), error.target, error.source, error.edge)
         return self._reasons.setdefault(key, f"{type(error).__name__}: {error}")
 

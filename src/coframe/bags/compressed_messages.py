@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Recordings whose messages are compressed one by one (rosbag2's compression mode "message")."""
+"""Recordings with individually compressed messages (rosbag2's compression mode "message")."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ class UnpackedMessages(Storage):
         self.compressions = {f"{compression} (each message)"}
         self._packed = packed
         self._compression = compression
-        # All messages with an unusual ratio together have a limit. Each of them is counted once.
+        # The total size of messages with an unusual ratio is limited. Each of them is counted once.
         self._budget = unpacked_budget(packed.size)
         self._counted: set[int] = set()  # their positions
 

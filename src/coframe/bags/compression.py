@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Decompression with a size limit that recovers the undamaged beginning of damaged data."""
+"""Decompress with a size limit, and recover the undamaged beginning of damaged data."""
 
 from __future__ import annotations
 
@@ -19,23 +19,23 @@ __all__ = ["LARGEST", "LARGEST_MESSAGE", "DamagedError", "unpack", "unpack_begin
 
 LARGEST = 512 << 20  # bytes of a record or an unpacked chunk: real ones are smaller
 LARGEST_MESSAGE = 128 << 20  # bytes of an unpacked message
-# Recorders finish a chunk at about 1 MB, so only a chunk with one huge message is larger than this; and such a message
-# does not consist of zeros only.
+# Recorders finish a chunk at about 1 MB, so only a chunk with one huge message is larger than this, and such a message
+# does not consist only of zeros.
 _PLAUSIBLE = 64 << 20
 _HIGHEST_RATIO = 1000  # unpacked to packed size, above _PLAUSIBLE
 
 
 class DamagedError(CoframeError):
-    """Part of a file cannot be read; the text says why."""
+    """Part of a file cannot be read; the message gives the reason."""
 
 
 def unpack(compression: str, data: bytes | memoryview, size: int) -> bytes:
-    """Unpack compressed data, or the part of it before the first damage.
+    """Unpack compressed data, or the part before the first damage.
 
     Args:
         compression: ``""`` or ``"none"``, ``"zstd"``, ``"lz4"`` (frames) or ``"bz2"``.
         data: The compressed bytes.
-        size: The unpacked size in bytes, as the file states it.
+        size: The unpacked size in bytes, as stated by the file.
 
     Raises:
         DamagedError: No data can be unpacked, the stated size is above :data:`LARGEST` or implausible for the packed
@@ -63,7 +63,7 @@ def unpack(compression: str, data: bytes | memoryview, size: int) -> bytes:
 
 
 def unpack_beginning(compression: str, data: bytes | memoryview, size: int) -> bytes:
-    """Unpack the first `size` bytes of a message that was compressed by itself, fewer if it is shorter or damaged.
+    """Unpack the first `size` bytes of an individually compressed message; fewer if it is shorter or damaged.
 
     The arguments and errors are those of :func:`unpack_message`.
     """
@@ -71,12 +71,12 @@ def unpack_beginning(compression: str, data: bytes | memoryview, size: int) -> b
 
 
 def unpack_message(compression: str, data: bytes | memoryview, largest: int = LARGEST_MESSAGE) -> bytes:
-    """Unpack a message that was compressed by itself, or the part of it before the first damage.
+    """Unpack an individually compressed message, or the part before the first damage.
 
     Args:
         compression: ``"zstd"``, ``"lz4"`` (frames), ``"bz2"`` or ``""``.
         data: The compressed bytes.
-        largest: The largest number of unpacked bytes.
+        largest: The maximum number of unpacked bytes.
 
     Raises:
         DamagedError: No data can be unpacked, the message is larger than `largest` or implausibly large for its packed
@@ -84,14 +84,14 @@ def unpack_message(compression: str, data: bytes | memoryview, largest: int = LA
         RecordingError: The package for this compression is not installed.
     """
     limit = min(largest, max(_PLAUSIBLE, _HIGHEST_RATIO * len(data)))
-    # One byte more than the limit shows that the message is too large, also if the file states another size.
+    # One byte more than the limit shows that the message is too large, even if the file states another size.
     if _stated_size(compression, data) > limit or len(unpacked := unpack(compression, data, limit + 1)) > limit:
         raise DamagedError(f"a message of {len(data)} bytes unpacks to more than {limit} bytes, the limit")
     return unpacked
 
 
 def _stated_size(compression: str, data: bytes | memoryview) -> int:
-    """Return the unpacked size that compressed data states; 0 if it states none."""
+    """Return the unpacked size stated in compressed data; 0 if there is none."""
     if compression != "zstd":
         return 0
     zstandard = _module("zstandard")
@@ -126,8 +126,8 @@ def _bz2() -> Callable[[Any], Any]:
     return lambda data: bz2.open(io.BytesIO(data))
 
 
-# By compression: a factory for the function that opens compressed bytes as a file. The factory raises if the package is
-# not installed.
+# For each compression, a factory of the function that opens compressed bytes as a file. It raises if the package is not
+# installed.
 _OPENERS: dict[str, Callable[[], Callable[[Any], Any]]] = {"zstd": _zstd, "lz4": _lz4, "bz2": _bz2}
 
 

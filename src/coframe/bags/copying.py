@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Copies the messages of one or several recordings into a new one: conversion, merging and slicing."""
+"""Copy the messages of one or more recordings to a new one, to convert, merge or slice them."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ class CopyReport(NamedTuple):
 
     Attributes:
         path: The new recording.
-        messages: Number of messages it contains.
+        messages: Number of messages in it.
         problems: What could not be read or converted, one message each.
     """
 
@@ -54,9 +54,9 @@ def copy_recordings(
     compression: str = "zstd",
     progress: Callable[[str, int, int], object] = lambda _what, _done, _total: None,
 ) -> CopyReport:
-    """Copy the messages of recordings in receive order into a new recording: rosbag2's layout with MCAP.
+    """Copy the messages of recordings in receive order to a new recording in rosbag2's layout with MCAP.
 
-    Messages are read and written one by one; those of ROS 1 are converted to ROS 2. Static transforms received before
+    Messages are read and written one by one; ROS 1 messages are converted to ROS 2. Static transforms received before
     the start of the span are copied as well, at its start.
 
     Args:
@@ -65,7 +65,7 @@ def copy_recordings(
         topics: Names of the topics to copy; None for all. Each must exist in at least one recording.
         span: Returns the first receive time and the end (excluded) of the messages of a recording, in nanoseconds.
         compression: ``zstd``, ``lz4`` or ``none``.
-        progress: Called regularly with the step (``reading`` or ``writing``) and the amounts done and in total.
+        progress: Called regularly with the step (``reading`` or ``writing``) and the completed and total amount.
 
     Raises:
         RecordingError: Nothing can be read, a topic does not exist, or the copy cannot be written.
@@ -143,7 +143,7 @@ def _write(
 
 
 def _route(writer: Writer, channel: Channel, types: RecordedTypes) -> tuple[int, Callable[[bytes], bytes]] | None:
-    """Return the number of a channel's topic in the copy and the conversion of its messages; None: not possible."""
+    """Return the topic number of a channel in the copy and the conversion of its messages; None if impossible."""
     offered = from_yaml(channel.offered_qos)
     if channel.encoding != "ros1":
         definition, definition_format = copied_definition(channel, types)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Decodes recorded messages, by coframe's classes or by the definitions in the recording."""
+"""Decode recorded messages with coframe's classes or with the definitions in the recording."""
 
 from __future__ import annotations
 
@@ -27,9 +27,9 @@ __all__ = ["decoder"]
 def decoder(channel: Channel, types: RecordedTypes, problems: Problems) -> Callable[[bytes], Any]:
     """Return the function that decodes the messages of a channel.
 
-    Messages of ROS become instances of coframe's class if the definition in the recording matches it, else of a class
-    made from that definition. Messages of protobuf become those of its package, and JSON what :func:`json.loads`
-    returns. Messages of unknown types are returned as bytes, which is added to the problems.
+    ROS messages become instances of coframe's class if the definition in the recording matches it, otherwise of a class
+    created from that definition. Protobuf messages become objects of the protobuf package, JSON becomes what
+    :func:`json.loads` returns. Messages of unknown types are returned as bytes, and a problem is added.
 
     Returns:
         A function that raises a DecodeError if the bytes are damaged.
@@ -82,7 +82,7 @@ def _protobuf_decoder(channel: Channel, types: RecordedTypes) -> Callable[[bytes
 
 
 def _add_all(files: dict[str, Any], pool: Any) -> None:
-    """Add descriptors to a pool, each after those that it depends on."""
+    """Add descriptors to a pool, dependencies first."""
 
     def add(name: str) -> None:
         if (file := files.pop(name, None)) is not None:
@@ -95,7 +95,7 @@ def _add_all(files: dict[str, Any], pool: Any) -> None:
 
 
 def _guarded(decode: Callable[[bytes], Any], name: str, data: bytes) -> Any:
-    """Decode a message, and turn any error of the libraries into a DecodeError."""
+    """Decode a message, and convert any library error to a DecodeError."""
     try:
         return decode(data)
     except Exception as error:  # noqa: BLE001

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Finds the files of a recording below a path and opens each with the reader for its format.
+"""Find the files of a recording below a path, and open each with the reader for its format.
 
 The first bytes of a file decide its format. Names and metadata.yaml only help to find and order the files.
 """
@@ -52,7 +52,7 @@ def open_files(path: Path, problems: Problems, closing: ExitStack) -> OpenedFile
     Args:
         path: A file, a folder with files, or the ``metadata.yaml`` of a folder.
         problems: Receives the problems found.
-        closing: Receives the clean-up that closing the recording requires.
+        closing: Receives the clean-up to perform when the recording is closed.
 
     Raises:
         RecordingError: No file can be read.
@@ -81,7 +81,7 @@ def open_files(path: Path, problems: Problems, closing: ExitStack) -> OpenedFile
 
 
 def _existing_instead(path: Path) -> str:
-    """Return a hint that names what is there instead of an absent path; "" if there is nothing, or if it exists."""
+    """Return a hint with similar paths if a path does not exist; "" if there are none, or if it exists."""
     try:
         entries = [] if os.path.lexists(path) else sorted(path.parent.iterdir())
     except FileNotFoundError:
@@ -166,7 +166,7 @@ def _open(file: Path, problems: Problems, closing: ExitStack) -> Storage | None:
 
 
 def _unpacked(file: Path, problems: Problems, closing: ExitStack) -> tuple[Path, bytes]:
-    """Unpack a file that was compressed as a whole, into a folder that exists while the recording is open."""
+    """Unpack a compressed file into a folder that exists while the recording is open."""
     try:
         zstandard: Any = importlib.import_module("zstandard")
     except ModuleNotFoundError:
@@ -191,7 +191,7 @@ def _unpacked(file: Path, problems: Problems, closing: ExitStack) -> tuple[Path,
 
 
 class _PackedFile:
-    """A compressed file that ends where its bytes have unpacked to fewer: empty blocks can fill a file."""
+    """A compressed file that ends early if its bytes unpack to fewer: empty blocks can fill a file."""
 
     def __init__(self, packed: BinaryIO, whole: BinaryIO) -> None:
         self._packed = packed
@@ -224,7 +224,7 @@ def _metadata(file: Path, problems: Problems) -> dict[str, Any]:
 
 
 def _word(metadata: dict[str, Any], key: str) -> str:
-    """Return a value that is a word; "" if it is of another type."""
+    """Return a string value; "" for another type."""
     value = metadata.get(key)
     return value if isinstance(value, str) else ""
 

@@ -20,14 +20,14 @@ MAX_BYTES = 64 << 20
 
 
 class LatchedSpace:
-    """How many messages and bytes all latched topics of a recording have, which must not fill the memory."""
+    """Limits the number and bytes of all latched messages of a recording, which must not fill the memory."""
 
     def __init__(self) -> None:
         self._messages = 0
         self._bytes = 0
 
     def take(self, size: int) -> bool:
-        """Take the space of a message with `size` bytes. Return False if there is not enough."""
+        """Reserve space for a message of `size` bytes. Return False if there is not enough."""
         if self._messages >= MAX_MESSAGES or self._bytes + size > MAX_BYTES:
             return False
         self._messages += 1
@@ -35,7 +35,7 @@ class LatchedSpace:
         return True
 
     def give_back(self, size: int) -> None:
-        """Give back the space of a message."""
+        """Release the space of a message."""
         self._messages -= 1
         self._bytes -= size
 
@@ -112,4 +112,4 @@ class LatchedMessages:
                 frames = frozenset()
             if frames:
                 return frames
-        return frozenset([(publisher,)])  # a tuple, which is not equal to the name of a frame
+        return frozenset([(publisher,)])  # a tuple, which never equals a frame name

@@ -30,7 +30,7 @@ _LAST_OPCODE = 0x0F  # opcodes from 0x80 are reserved for applications
 _RECORD = struct.Struct("<BQ")  # opcode, length
 _MESSAGE_RECORD = struct.Struct("<BQHIQQ")  # opcode, length, channel, sequence, log time, publish time
 _CHUNK_HEAD = struct.Struct("<QQQI")  # first and last log time, unpacked size, its CRC or 0
-_BLOCK = 4 << 20  # bytes to read at once of records outside chunks
+_BLOCK = 4 << 20  # bytes to read at once from records outside chunks
 _FOOTER_RECORD = struct.Struct("<BQQQI")  # opcode, length, start of the summary, of its offsets, CRC
 _CRC_AND_MAGIC = 4 + len(MCAP.magic)  # bytes at the end of the file that the CRC of the summary does not cover
 
@@ -50,7 +50,7 @@ class McapStorage(ChunkedStorage):
         return list(self._channels.values())
 
     def batches(self, wanted: Callable[[Channel], bool], progress: Callable[[int], object]) -> Iterator[Batch]:
-        """Yield all messages in file order; the bytes of unwanted ones are included because chunks contain both."""
+        """Yield all messages in file order, including the bytes of unwanted ones, because chunks contain both."""
         del wanted
         done = 0
         for offset, opcode, end in self._walk(self._read_summary()):
@@ -192,7 +192,7 @@ class McapStorage(ChunkedStorage):
         ]
 
     def _define(self, opcode: int, data: bytes) -> None:
-        """Read a schema or a channel, unless it is known: the summary and later chunks repeat them."""
+        """Read a schema or a channel unless it is already known; the summary and later chunks repeat them."""
         identifier = int.from_bytes(data[:2], "little")
         if opcode == _CHANNEL and identifier in self._channels:
             return
@@ -203,7 +203,7 @@ class McapStorage(ChunkedStorage):
                     return
                 name, position = _text(data, 2)
                 kind, position = _text(data, position)
-                name, kind = sys.intern(name), sys.intern(kind)  # Tens of thousands of schemas can have one name.
+                name, kind = sys.intern(name), sys.intern(kind)  # Tens of thousands of schemas can have the same name.
                 (length,) = struct.unpack_from("<I", data, position)
                 self._schemas[identifier] = (name, kind, data[position + 4 : position + 4 + length])
                 return
@@ -225,7 +225,7 @@ _TOO_LATE = np.uint64(1 << 63)
 
 
 def _ros_type(name: str) -> str:
-    """Return the full name of a message type; DDS and ROS 1 have others."""
+    """Return the full name of a message type, whose form differs in DDS and ROS 1."""
     try:
         return name if "/msg/" in name else sys.intern(ros_name(name))
     except ValueError:
@@ -249,7 +249,7 @@ def _entry(data: bytes, position: int, wanted: str) -> str:
 
 
 def _text(data: bytes | memoryview, position: int) -> tuple[str, int]:
-    """Return the string at a position, which follows its length, and the offset of its end."""
+    """Return the length-prefixed string at a position, and the offset of its end."""
     (length,) = struct.unpack_from("<I", data, position)
     end = position + 4 + length
     if end > len(data):

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Writer for one MCAP file that is valid at any moment; the format is described at https://mcap.dev/spec.
 
-Each flush writes a chunk and, after it, the end of the file. The next flush overwrites that end. So a recorder that is
-killed leaves a file that any reader opens. While the index of all chunks is small, the end contains it, because some
-readers (Rerun's) require an index. Once it is large, only `close` writes it.
+Each flush writes a chunk and, after it, the end of the file. The next flush overwrites that end. If the recorder is
+killed, any reader can therefore open the file. While the index of all chunks is small, the end contains it, because
+some readers (Rerun's) require an index. Once it is large, only `close` writes it.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ _MESSAGE_RECORD = struct.Struct("<BQHIQQ")  # opcode, length, channel, sequence,
 _MESSAGE = 0x05
 _MESSAGE_HEAD = _MESSAGE_RECORD.size - _RECORD.size
 _LARGEST_INDEX = 1 << 20  # bytes to write with each chunk: enough for half an hour or more
-_ZSTD_LEVEL = 1  # level 3 takes half as long again, and the files are only a few percent smaller
+_ZSTD_LEVEL = 1  # level 3 takes 50 percent longer, and the files are only a few percent smaller
 
 
 class McapWriter:
@@ -46,7 +46,7 @@ class McapWriter:
         compression: One of `COMPRESSIONS`.
 
     Attributes:
-        size: Bytes of the file, including those that the next flush writes.
+        size: Size of the file in bytes, including pending messages.
         counts: Number of flushed messages by channel.
         start: First log time of the flushed messages, in nanoseconds; 0 if there are none.
         end: Last log time of the flushed messages, in nanoseconds; 0 if there are none.
@@ -77,7 +77,7 @@ class McapWriter:
 
     @property
     def size(self) -> int:
-        """Bytes of the file, including those that the next flush writes."""
+        """Size of the file in bytes, including pending messages."""
         return self._end + len(self._pending)
 
     @property
@@ -87,7 +87,7 @@ class McapWriter:
 
     @property
     def pending(self) -> int:
-        """Bytes that the next flush writes, before compression."""
+        """Bytes to be written by the next flush, before compression."""
         return len(self._pending)
 
     def add_channel(
@@ -134,7 +134,8 @@ class McapWriter:
         """Write the pending messages to the file as one chunk; they survive the end of this process.
 
         Raises:
-            OSError: The disk is full, for example. The file is unchanged, and the pending messages are lost.
+            OSError: Writing failed, for example because the disk is full. The file is unchanged, and the pending
+                messages are lost.
         """
         if not self._index:
             return
@@ -163,7 +164,7 @@ class McapWriter:
         """Write the pending messages and the index, and wait until all is on the disk.
 
         Raises:
-            OSError: The disk is full, for example. The file is valid, but has no index.
+            OSError: Writing failed, for example because the disk is full. The file is valid, but has no index.
         """
         try:
             self.flush()
@@ -241,7 +242,7 @@ class McapWriter:
         return list(groups.items())
 
     def _append(self, data: bytes, *, with_summary: bool) -> None:
-        """Append data and an end of the file."""
+        """Append data and a file end."""
         end = self._end + len(data)
         self._write_at(self._end, data + (self._summary(end) if with_summary else _END))
         self._file.truncate()
@@ -249,7 +250,7 @@ class McapWriter:
         self._has_summary = with_summary
 
     def _restore_end(self) -> None:
-        """End the file as before an append that failed; if the disk is full, only the short end may fit."""
+        """Restore the file end after a failed append; if the disk is full, only the short end may fit."""
         for with_summary in (self._has_summary, False):
             with suppress(OSError):
                 self._file.truncate(self._end)

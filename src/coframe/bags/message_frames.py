@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Frame names in messages of any type: finds them by the fields of its class and replaces them."""
+"""Find and replace frame names in messages of any type, using the fields of its class."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ class FrameNames:
 
     @classmethod
     def of(cls, channel: Channel, ros_type: str, types: RecordedTypes) -> FrameNames | None:
-        """Return the frame names for a channel's messages in CDR; None if the type is unknown."""
+        """Return a FrameNames for a channel's messages in CDR; None if the type is unknown."""
         is_described = channel.encoding == "cdr" and channel.definition
         if not is_described and (known := known_class(ros_type)) is not None:
             return cls(known)
@@ -71,7 +71,7 @@ class FrameNames:
 
 
 def _plan(cls: Any, known: dict[Any, _Plan]) -> _Plan:
-    """Return the plan of a class; `known` has those of the classes inside it, so that each is visited once."""
+    """Return the plan of a class; `known` caches the plans of nested classes, so that each is visited once."""
     if cls not in known:
         plan: _Plan = {}
         for slot, type_ in zip(cls.__slots__, cls.SLOT_TYPES, strict=True):

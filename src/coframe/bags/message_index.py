@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
 __all__ = ["MessageIndex", "Track", "largest_track", "reread"]
 
-_FEW_MESSAGES = 8  # of a topic, whose rows are computed again: a recording can have tens of thousands of such topics
+_FEW_MESSAGES = 8  # of a topic whose rows are recomputed: a recording can have tens of thousands of such topics
 _CLOCK_TYPE = "rosgraph_msgs/msg/Clock"
 
 
@@ -50,7 +50,7 @@ class Track:
         return self.types.stamp_reader(self.channel)
 
     def add(self, batch: Batch) -> None:
-        """Add messages, with their stamps if the bytes are available."""
+        """Add messages, and their stamps if the bytes are available."""
         self.received.frombytes(batch.received.tobytes())
         self.positions.frombytes(batch.positions.tobytes())
         if batch.messages is not None:
@@ -101,7 +101,7 @@ class MessageIndex:
         return track
 
     def close(self) -> None:
-        """Refuse to read from now on, because the files are closed."""
+        """Let all further reads raise an error, because the files are closed."""
         self._closed = True
 
     def topics(self) -> list[str]:
@@ -109,7 +109,7 @@ class MessageIndex:
         return sorted(self._tracks)
 
     def span(self, storage: Storage | None = None) -> tuple[int, int] | None:
-        """Return the first and last receive time, of one file or of all; None if there are no messages."""
+        """Return the first and last receive time of one file or of all files; None if there are no messages."""
         parts = [
             received
             for track in self.tracks()
@@ -250,7 +250,7 @@ class MessageIndex:
         tracks = self._tracks.get("/clock")
         if not tracks or largest_track(tracks).channel.type != _CLOCK_TYPE:
             return None
-        if any(track.stamp_reader is None for track in tracks):  # Its definition is not that of a clock.
+        if any(track.stamp_reader is None for track in tracks):  # Its definition is not that of a Clock message.
             return None
         return self.received("/clock"), self.stamps("/clock")
 
@@ -264,12 +264,12 @@ def reread(tracks: Iterable[Track]) -> Iterator[tuple[Channel, Slices]]:
     """Yield the messages of tracks one by one in file order, without those that cannot be read."""
     for track in tracks:
         for position in track.positions:
-            with suppress(DamagedError):  # The first reading of the file reported it.
+            with suppress(DamagedError):  # This was reported when the file was first read.
                 yield track.channel, Slices.join([track.storage.read(position)])
 
 
 def _numbers(sizes: list[int]) -> NDArray[np.uint32]:
-    """Return the number of its track for each message; nearly all topics have one track."""
+    """Return the track number of each message; nearly all topics have one track."""
     if len(sizes) == 1:
         return np.zeros(sizes[0], dtype=np.uint32)
     return np.repeat(np.arange(len(sizes), dtype=np.uint32), sizes)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The transforms of a recording by namespace: one buffer per robot, and a common one if the names are distinct."""
+"""The transforms of a recording by namespace: one buffer per robot, plus a common one if the names are distinct."""
 
 from __future__ import annotations
 
@@ -138,7 +138,7 @@ class TransformCollector:
         self._namespaces: dict[str, _NamespaceTransforms] = {}
 
     def ingest(self, channel: Channel) -> Callable[[NDArray[np.int64], Slices], None] | None:
-        """Return a function that ingests messages of a channel with receive times; None if they are not wanted."""
+        """Return a function that ingests a channel's messages with their receive times; None if they are not needed."""
         namespace = namespace_of(channel.topic)
         take = ingest_for(channel, self._renaming)
         if take is None or not self._choice.selects(channel.topic):
@@ -226,7 +226,7 @@ def _clocks(buffer: Buffer) -> list[list[EdgeInfo]]:
 
 
 def main_span(buffer: Buffer) -> tuple[int, int] | None:
-    """Return the first and last stamp on the clock of most transforms; None without dynamic transforms."""
+    """Return the first and last stamp on the clock that most transforms use; None without dynamic transforms."""
     clocks = _clocks(buffer)
     if not clocks:
         return None
@@ -234,7 +234,7 @@ def main_span(buffer: Buffer) -> tuple[int, int] | None:
 
 
 def report_mixed_clocks(buffer: Buffer, problems: Problems) -> None:
-    """Add a problem for each clock that differs from the clock of most transforms."""
+    """Add a problem for each clock other than the one that most transforms use."""
     main, *others = _clocks(buffer) or [[]]
     for clock in others:
         names = ", ".join(f"{edge.parent} -> {edge.child}" for edge in clock[:5])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Quality of service that the publishers of a topic offered, in the YAML of rosbag2."""
+"""QoS profiles that the publishers of a topic offered, as rosbag2 stores them in YAML."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 __all__ = ["OfferedQos", "from_yaml", "to_yaml"]
 
 _MAX_LENGTH = 1 << 20
-# The numbers of rmw, and the words that rosbag2 writes since version 9 of its metadata.
+# The enum values of rmw, and the words that rosbag2 writes since metadata version 9.
 _KEEP_LAST, _KEEP_ALL = 1, 2
 _RELIABLE, _BEST_EFFORT = 1, 2
 _TRANSIENT_LOCAL, _VOLATILE = 1, 2
@@ -33,7 +33,7 @@ _PROFILE = """\
 
 
 class OfferedQos(NamedTuple):
-    """Quality of service that one publisher offered.
+    """QoS that one publisher offered.
 
     Attributes:
         depth: History depth in messages.

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Problems found in a recording, as sentences; equal ones are counted."""
+"""Problems found in a recording, as messages; equal ones are counted."""
 
 from __future__ import annotations
 
@@ -10,20 +10,20 @@ _MAX_LENGTH = 1000
 
 
 class Problems:
-    """Collects sentences and counts how often each occurs."""
+    """Collects messages and counts how often each occurs."""
 
     def __init__(self) -> None:
         self._counts: dict[str, int] = {}
         self._omitted = 0
 
     def add(self, sentence: str, times: int = 1) -> None:
-        """Add a sentence. Once there are too many different ones, further ones are only counted.
+        """Add a problem. Once there are too many different ones, others are only counted.
 
         Args:
-            sentence: The problem, in one sentence.
-            times: The number of occurrences; 0 for a sentence that is shown without a count.
+            sentence: The message.
+            times: The number of occurrences; 0 for a message that is shown without a count.
         """
-        # Names in recordings may contain control characters, and sentences are printed on terminals.
+        # Names in recordings may contain control characters, and the messages are printed on terminals.
         sentence = sentence[:_MAX_LENGTH]
         if not sentence.isprintable():
             sentence = "".join(c if c.isprintable() else "\N{REPLACEMENT CHARACTER}" for c in sentence)
@@ -33,6 +33,6 @@ class Problems:
         self._counts[sentence] = self._counts.get(sentence, 0) + times
 
     def sentences(self) -> list[str]:
-        """Return all sentences, in the order in which they first occurred."""
+        """Return all messages, in the order in which they first occurred."""
         counted = [text if count <= 1 else f"{text} ({count} times)" for text, count in self._counts.items()]
         return [*counted, f"{self._omitted} more problems of other kinds"] if self._omitted else counted

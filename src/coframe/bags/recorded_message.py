@@ -16,9 +16,9 @@ class Topic(NamedTuple):
 
     Attributes:
         name: Name of the topic.
-        type: Type of its messages, such as ``sensor_msgs/msg/Imu``; as recorded if it is not a type of ROS.
+        type: Type of its messages, such as ``sensor_msgs/msg/Imu``; as recorded if it is not a ROS type.
         messages: Number of messages.
-        rate: Messages per second between the first and the last one; 0 for fewer than two and for a single burst.
+        rate: Messages per second between the first and the last one; 0 for fewer than two messages or a single burst.
         encoding: Encoding of the messages: ``cdr``, ``ros1``, ``protobuf``, ``json``, ...
     """
 
@@ -54,7 +54,7 @@ class RecordedMessage:
 
     @property
     def message(self) -> Any:
-        """The message, decoded at the first access; bytes if its type is unknown.
+        """The message, decoded on first access; bytes if its type is unknown.
 
         Raises:
             DecodeError: The bytes are damaged.

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The message types of a recording: coframe's classes, or those made from the definitions in the recording."""
+"""The message types of a recording: coframe's classes, or classes created from the definitions in the recording."""
 
 from __future__ import annotations
 
@@ -30,21 +30,21 @@ __all__ = ["RecordedTypes", "UnknownTypeError"]
 
 _ROS_ENCODINGS = {"cdr", "ros1"}
 _EVENT = "_Event"
-_KEPT_TEXT = 2 << 20  # bytes of the definitions that stay parsed
-_SHORT_TEXT = 1 << 13  # bytes of definitions whose beginning is stored for the next recording
-_SMALLEST_TEXT = 1 << 12  # bytes that a definition counts at least
+_KEPT_TEXT = 2 << 20  # bytes of the definitions that are kept parsed
+_SHORT_TEXT = 1 << 13  # bytes of definitions whose beginning is cached for the next recording
+_SMALLEST_TEXT = 1 << 12  # minimum bytes counted per definition
 
-# What a definition contains whose messages begin with a stamp: its name, or a sequence of messages that have one.
+# The definition of a message that begins with a stamp contains one of these, or a sequence of messages that do.
 _MAY_BEGIN_WITH_STAMP = re.compile(rb"Header|[Tt]ime|\[|sequence").search
 
 _Key = tuple[str, str, str, bytes]
 
 
 class _Beginning(NamedTuple):
-    """What is known about the beginning of messages.
+    """Cached knowledge about the beginning of a type's messages.
 
     Attributes:
-        first: What they begin with; None if that is no stamp or not known.
+        first: What they begin with; None if it is not a stamp or is unknown.
         has_header: Whether they have a field ``header``; None if that is unknown.
     """
 
@@ -60,7 +60,7 @@ class UnknownTypeError(CoframeError):
 
 
 class RecordedTypes:
-    """The types of one recording. Equal definitions are read once, and all together have a limit. It is thread-safe."""
+    """The types of one recording. Equal definitions are read once, and their total size is limited. Thread-safe."""
 
     def __init__(self) -> None:
         self._lock = threading.RLock()
@@ -120,12 +120,12 @@ class RecordedTypes:
         return None if first is None else StampReader(first, channel.encoding)
 
     def peek_header(self, channel: Channel, data: bytes) -> HeaderPeek | None:
-        """Return the header of a message, which is not decoded; None if it does not begin with one that can be read."""
+        """Return the header of a message without decoding the rest; None if it does not begin with a valid one."""
         is_header = self._beginning(channel).first is FirstStamp.HEADER
         return peek_header(data, channel.encoding) if is_header else None
 
     def may_have_header(self, channel: Channel) -> bool:
-        """Return whether the messages of a channel have a field ``header``, as far as that is known."""
+        """Return whether the messages of a channel have a field ``header``; True if that is unknown."""
         return self._beginning(channel).has_header is not False
 
     def _beginning(self, channel: Channel) -> _Beginning:
@@ -175,7 +175,7 @@ class RecordedTypes:
         """Count the definition of a channel.
 
         Raises:
-            UnknownTypeError: The definitions of the recording are too large together.
+            UnknownTypeError: The definitions of the recording are too large in total.
         """
         if self._text + len(channel.definition) > MAX_RECORDED_TEXT:
             raise UnknownTypeError(f"the definitions of the recording have more than {MAX_RECORDED_TEXT} bytes")
@@ -208,7 +208,7 @@ def _name(channel: Channel) -> str:
 
 
 def _schema_without_text(name: str) -> ResolvedSchema:
-    """Return the definition of the events of a service, which follows from the service."""
+    """Return the definition of service events, derived from the service."""
     package, _, rest = name.partition("/srv/")
     if not rest.endswith(_EVENT) or known_class(f"{package}/srv/{rest.removesuffix(_EVENT)}_Request") is None:
         raise UnknownTypeError("the recording contains no definition")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Recording: every transform of a recording in a buffer, and its other messages by topic and time."""
+"""Recording: all transforms of a recording in a buffer, and its other messages by topic and time."""
 
 from __future__ import annotations
 
@@ -132,12 +132,12 @@ class Recording:
         return ", ".join(each.name for each in self.formats)
 
     def frame(self, name: str) -> str:
-        """Return the name in the buffers of a frame in a message: without leading slash, and with the prefix."""
+        """Return the buffer's name for a frame in a message: without a leading slash, with the prefix."""
         return name.removeprefix("/") if self._renaming is None else self._renaming(name)
 
     @property
     def problems(self) -> list[str]:
-        """What could not be read or is unusual, one message each. Reading messages may add to it."""
+        """What could not be read or is unusual, one message each. Reading messages can add more."""
         return self._problems.sentences()
 
     @property
@@ -157,17 +157,16 @@ class Recording:
 
     @cached_property
     def span(self) -> tuple[int, int]:
-        """First and last stamp in nanoseconds, on the clock of most transforms.
+        """First and last stamp in nanoseconds, on the clock that most transforms use.
 
-        In a simulation this is not the clock of the receive times. Without dynamic transforms: :attr:`start` and
-        :attr:`end`.
+        In a simulation, receive times use another clock. Without dynamic transforms, :attr:`start` and :attr:`end`.
         """
         return main_span(self.buffer) or (self.start, self.end)
 
     def messages(
         self, topic: str, start: StampLike | None = None, stop: StampLike | None = None
     ) -> Iterator[RecordedMessage]:
-        """Return an iterator over the messages of a topic in receive order; each is read when it is needed.
+        """Return an iterator over the messages of a topic in receive order; each one is read on demand.
 
         Args:
             topic: The name, with or without its leading slash.
@@ -217,7 +216,7 @@ class Recording:
 
         Returns:
             (N,) nanoseconds, not always sorted: the stamp of the header, or of the first header in a sequence. Messages
-            without a stamp have their receive time, converted to the clock of ``/clock`` if that was recorded.
+            without a stamp use their receive time, converted to the clock of ``/clock`` if that was recorded.
 
         Raises:
             RecordingError: The topic does not exist.
@@ -270,7 +269,7 @@ class Recording:
         return "" if first is None else self._frame(*first)
 
     def may_have_header(self, topic: str) -> bool:
-        """Return whether messages of a topic have a field ``header``, as far as their definitions are known.
+        """Return whether messages of a topic have a field ``header``; True if their definition is unknown.
 
         Args:
             topic: The name, with or without its leading slash.
@@ -300,7 +299,8 @@ class Recording:
 
         Returns:
             The columns ``stamp_ns`` (int64; 0 if static), ``parent``, ``child``, ``x``, ``y``, ``z`` (metres, expressed
-            in the parent), ``qx``, ``qy``, ``qz``, ``qw``, ``static``, ``topic`` (that published the edge last).
+            in the parent), ``qx``, ``qy``, ``qz``, ``qw``, ``static``, ``topic`` (on which the edge was last
+            published).
 
         Raises:
             RecordingError: The package is not installed.
@@ -329,7 +329,7 @@ class Recording:
         return self._decoders[key]
 
     def close(self) -> None:
-        """Close the files; the transforms stay available."""
+        """Close the files; the transforms remain available."""
         self._index.close()
         self._closing.close()
 

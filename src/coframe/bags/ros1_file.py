@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Reader for bags of ROS 1 (http://wiki.ros.org/Bags/Format/2.0), with or without an index."""
+"""Reader for ROS 1 bags (http://wiki.ros.org/Bags/Format/2.0), with or without an index."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ class Ros1Storage(ChunkedStorage):
         return list(self._channels.values())
 
     def batches(self, wanted: Callable[[Channel], bool], progress: Callable[[int], object]) -> Iterator[Batch]:
-        """Yield all messages in file order; the bytes of unwanted ones are included because chunks contain both."""
+        """Yield all messages in file order, including the bytes of unwanted ones, because chunks contain both."""
         del wanted
         for offset, opcode, header, start, end in self._walk(self._read_index()):
             if opcode == _CHUNK:

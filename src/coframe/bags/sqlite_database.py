@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Opens SQLite files of unknown origin: nothing is written next to them, and the work of each query is limited.
+"""Open untrusted SQLite files: nothing is written next to them, and the work of each query is limited.
 
-A database of a few kilobytes can describe rows without end: pages that several rows share, pages that contain
-themselves, views that are programs.
+A database of a few kilobytes can describe endless rows: pages shared by several rows, pages that contain themselves,
+views that are programs.
 """
 
 from __future__ import annotations
@@ -25,21 +25,21 @@ if TYPE_CHECKING:
 
 __all__ = ["DAMAGE", "Database"]
 
-# SQLite's error texts quote damaged data, which may not be UTF-8.
+# SQLite's error messages quote damaged data, which may not be UTF-8.
 DAMAGE: Final = (sqlite3.Error, UnicodeDecodeError)
 
 # SQLite's virtual machine runs about 50 million steps per second. A row of a recording takes about 20 steps and has
-# more bytes than that.
+# more than 20 bytes.
 MIN_STEPS: Final = 5_000_000
 MAX_STEPS_PER_BYTE: Final = 4
-MAX_SCHEMA_STEPS: Final = 20_000  # about 2000 tables and indexes; recordings have at most six
+MAX_SCHEMA_STEPS: Final = 20_000  # enough for about 2000 tables and indexes; recordings have at most six
 MAX_SQL: Final = 20_000  # bytes of the definition of a table; those of recordings have less than 500
 MAX_COLUMNS: Final = 100
 MAX_RECOVERED: Final = 4 << 30  # bytes of a database that is copied because its recorder was killed
 _STEPS_PER_CHECK: Final = 1000
 _BEFORE_ALL: Final = -(1 << 63) - 1
 _PLAIN_DEFINITION: Final = re.compile(r"CREATE (TABLE|(UNIQUE )?INDEX) ", re.IGNORECASE)
-# Where two databases were changed together, a journal ends with the name of another file, which SQLite may delete.
+# If two databases were changed together, a journal ends with the name of another file, which SQLite may delete.
 _NAMES_ANOTHER_FILE: Final = b"\xd9\xd5\x05\xf9\x20\xa1\x63\xd7"
 
 
@@ -48,16 +48,16 @@ class Database:
 
     Args:
         path: The file.
-        add_problem: Receives a sentence if a journal next to the file cannot be used.
+        add_problem: Receives a message if a journal next to the file cannot be used.
 
     Attributes:
-        size: The bytes of the file and of its journal: all its data together cannot have more.
+        size: The size of the file and its journal in bytes, an upper bound for all data.
     """
 
     def __init__(self, path: Path, add_problem: Callable[[str], object]) -> None:
         self._closing = ExitStack()
         self._steps = 0
-        self._path = path.resolve()  # SQLite searches for journals next to the file to which a link leads.
+        self._path = path.resolve()  # SQLite looks for journals next to the target of a link.
         self.size = self._path.stat().st_size
         self._connection = self._recovered(add_problem) or self._connect(self._path, "mode=ro&immutable=1")
         self._closing.callback(self._connection.close)
@@ -74,25 +74,25 @@ class Database:
         """
         found = self._query("SELECT name, sql FROM sqlite_master", (), MAX_SCHEMA_STEPS).fetchall()
         for name, definition in found:
-            # The definitions are what counts: the names and types that stand next to them can be different ones.
+            # Only the definitions matter: the names and types in the other columns can differ from them.
             if definition is not None and not _PLAIN_DEFINITION.match(str(definition)):
                 raise sqlite3.DatabaseError(f"{str(name)[:60]} is neither a table nor an index, unlike in recordings")
         self._limit("SQL_LENGTH", LARGEST)
         return {str(name): str(definition) for name, definition in found if definition is not None}
 
     def rows(self, table: str, columns: str, condition: str = "") -> Iterator[tuple[Any, ...]]:
-        """Yield the rows of a table in the order of their ids.
+        """Yield the rows of a table in the order of their IDs.
 
         Args:
             table: Its name.
-            columns: What to read of each row, as SQL.
-            condition: Which rows to read, as SQL after the word WHERE; "": all.
+            columns: The values to read from each row, as SQL.
+            condition: The rows to read, as an SQL condition after WHERE; "" for all.
 
         Raises:
             sqlite3.Error: The database is damaged, or is not a simple one with a plain table of this name.
         """
         if any(hidden for *_, hidden in self._query(f"PRAGMA table_xinfo({table})")):
-            # Their expressions can ask for any amount of memory and time.
+            # Their expressions can take any amount of memory and time.
             raise sqlite3.DatabaseError(f"the table {table} has generated columns, unlike recordings of rosbag2")
         # Safe from SQL injection: callers pass only integers and names of their own.
         query = f"SELECT rowid, {columns} FROM {table} NOT INDEXED {condition and 'WHERE'} {condition} ORDER BY rowid"  # noqa: S608
@@ -109,7 +109,7 @@ class Database:
                 yield row
 
     def last_row(self, table: str) -> int | None:
-        """Return the largest id of a table's rows; None if it has none."""
+        """Return the largest row ID of a table; None if it is empty."""
         (number,) = self._query(f"SELECT max(rowid) FROM {table}").fetchone()  # noqa: S608 - as in `rows`
         if number is not None and not isinstance(number, int):
             raise sqlite3.DatabaseError(f"{table} has a column of the name rowid, unlike in recordings of rosbag2")
@@ -135,7 +135,7 @@ class Database:
 
     @contextmanager
     def _explained(self) -> Iterator[None]:
-        """Replace SQLite's text for a query that was interrupted."""
+        """Replace SQLite's message for an interrupted query."""
         try:
             yield
         except sqlite3.OperationalError as error:
@@ -159,12 +159,12 @@ class Database:
             self._connection.setlimit(getattr(sqlite3, f"SQLITE_LIMIT_{name}"), value)
 
     def _count_steps(self) -> bool:
-        """Return whether the query is interrupted."""
+        """Count steps; return True to interrupt the query."""
         self._steps -= _STEPS_PER_CHECK
         return self._steps < 0
 
     def _recovered(self, add_problem: Callable[[str], object]) -> sqlite3.Connection | None:
-        """Return a connection that also reads the journal of a killed or running recorder; None without one."""
+        """Return a connection that also reads the journal of a killed or running recorder; None without a journal."""
         wal, journal, shared = (self._path.with_name(f"{self._path.name}-{kind}") for kind in ("wal", "journal", "shm"))
         try:
             there = [file for file in (wal, journal) if os.path.lexists(file) and _has_content(file)]

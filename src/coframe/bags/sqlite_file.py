@@ -25,7 +25,7 @@ __all__ = ["SqliteStorage"]
 
 _BATCH_SIZE = 2000  # rows
 _BATCH_BYTES = 64 << 20
-# Asking for the type and the size does not read the data. Both are NULL for data of a wrong type or size.
+# Querying type and size does not read the data. The value is NULL for data of a wrong type or size.
 _DATA, _SIZE = (
     f"CASE WHEN typeof(data) = 'blob' AND length(data) <= {LARGEST} THEN {value} END"
     for value in ("data", "length(data)")
@@ -33,7 +33,7 @@ _DATA, _SIZE = (
 
 
 class SqliteStorage(Storage):
-    """A ``.db3`` file; the position of a message is the id of its row."""
+    """A ``.db3`` file; the position of a message is its row ID."""
 
     format = SQLITE
 
@@ -42,7 +42,7 @@ class SqliteStorage(Storage):
         self._lock = threading.Lock()
         self._database = Database(path, self.add_problem)
         self._channels: dict[int, Channel] = {}
-        # Rows that share their pages have more data than the file.
+        # Rows that share pages have more data than the file.
         self._bytes_left = self._database.size
 
     def channels(self) -> list[Channel]:
@@ -50,7 +50,7 @@ class SqliteStorage(Storage):
         return list(self._channels.values())
 
     def batches(self, wanted: Callable[[Channel], bool], progress: Callable[[int], object]) -> Iterator[Batch]:
-        """Yield the messages of the wanted channels with their bytes, then the others without."""
+        """Yield the messages of the wanted channels with their bytes, then the others without bytes."""
         try:
             self._channels = self._read_channels()
             total = self._database.last_row("messages")
@@ -79,7 +79,7 @@ class SqliteStorage(Storage):
             self.add_problem(f"the database is damaged and was read only in part: {error}")
 
     def _parts(self, found: Iterator[tuple[Any, ...]]) -> Iterator[list[tuple[Any, ...]]]:
-        """Yield the rows in parts of limited size, so that the data of few messages is in memory."""
+        """Yield the rows in parts of limited size, so that only a few messages are in memory."""
         rows: list[tuple[Any, ...]] = []
         size = 0
         for row in found:
@@ -130,7 +130,7 @@ class SqliteStorage(Storage):
             for _, type_, kind, text in self._counted(self._database.rows("message_definitions", columns)):
                 definitions[type_] = (str(text).encode(), str(kind))
         qos = "offered_qos_profiles" if "offered_qos_profiles" in tables["topics"] else "''"
-        # Not all recordings have the column id of topics as the number of the row.
+        # In some recordings, the column id of topics is not the row number.
         found = self._counted(self._database.rows("topics", f"id, name, type, serialization_format, {qos}"))
         return {
             number: Channel(str(topic), str(type_), str(encoding), *definitions.get(type_, (b"", "")), str(offered))
@@ -139,7 +139,7 @@ class SqliteStorage(Storage):
         }
 
     def _counted(self, rows: Iterator[tuple[Any, ...]]) -> Iterator[tuple[Any, ...]]:
-        """Yield rows, and count the bytes of their texts."""
+        """Yield rows, and count the bytes of their strings."""
         for row in rows:
             self._bytes_left -= sum(len(value) for value in row if isinstance(value, str | bytes))
             if self._bytes_left < 0:
@@ -171,5 +171,5 @@ class SqliteStorage(Storage):
 
 
 def _row(position: int) -> int:
-    """Return the id of a row, which may be negative, for a position, which is unsigned."""
+    """Return the row ID (signed) for a position (unsigned)."""
     return position - (1 << 64) if position >= 1 << 63 else position

@@ -31,7 +31,7 @@ INSERT INTO schema(schema_version, ros_distro) VALUES (4, 'iron');
 
 
 class SqliteWriter:
-    """Writes one SQLite file; has the methods and attributes of `McapWriter`. Not thread-safe.
+    """Writes one SQLite file, with the methods and attributes of `McapWriter`. Not thread-safe.
 
     Args:
         path: The file, which must not exist.
@@ -55,7 +55,7 @@ class SqliteWriter:
 
     @property
     def size(self) -> int:
-        """Bytes of all messages, including those that the next flush writes."""
+        """Bytes of all messages, including pending ones."""
         return self._written + self.pending
 
     @property
@@ -90,7 +90,7 @@ class SqliteWriter:
         return len(self.counts) - 1
 
     def write(self, channel: int, data: bytes, log_time: int, publish_time: int) -> None:  # noqa: ARG002
-        """Add a message, which the next flush writes. The format has no place for the time of publication."""
+        """Add a message, which the next flush writes. The format does not store the time of publication."""
         self._pending.append((channel, log_time, data))
         self.pending += len(data)
 
@@ -98,7 +98,7 @@ class SqliteWriter:
         """Write the pending messages; they survive the end of this process.
 
         Raises:
-            OSError: The disk is full, for example.
+            OSError: Writing failed, for example because the disk is full.
         """
         pending, self._pending = self._pending, []
         self._written, self.pending = self._written + self.pending, 0
@@ -117,7 +117,7 @@ class SqliteWriter:
         """Write the pending messages and close the file.
 
         Raises:
-            OSError: The disk is full, for example.
+            OSError: Writing failed, for example because the disk is full.
         """
         try:
             self.flush()
@@ -127,7 +127,7 @@ class SqliteWriter:
 
 @contextmanager
 def _os_errors() -> Iterator[None]:
-    """Raise errors of SQLite as OSError, as other files do."""
+    """Raise SQLite errors as OSError, as for other files."""
     try:
         yield
     except sqlite3.Error as error:

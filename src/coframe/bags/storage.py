@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Interface of the readers for the file formats: all messages once in file order, then single messages by position."""
+"""Interface of the file format readers: all messages once in file order, then individual messages by position."""
 
 from __future__ import annotations
 
@@ -26,15 +26,15 @@ if TYPE_CHECKING:
 
 __all__ = ["MOST_DAMAGED", "Batch", "Channel", "ChunkedStorage", "Storage", "next_chunk"]
 
-# A chunk whose size is plausible for its packed bytes is read in full. All chunks together have a limit as well, or a
-# small file could take hours.
-MAX_RATIO = 200  # of the unpacked chunks to the size of the file
-MIN_BUDGET = 4 << 30  # bytes of unpacked chunks that any file may have
-MOST_DAMAGED = 1000  # places in a file after which a reader continues; an index can name any number of them
+# A chunk whose size is plausible for its packed bytes is read in full. The total of all chunks is limited as well,
+# because a small file could otherwise take hours.
+MAX_RATIO = 200  # ratio of the unpacked chunks to the file size
+MIN_BUDGET = 4 << 30  # bytes of unpacked chunks that every file may have
+MOST_DAMAGED = 1000  # damaged places after which a reader continues; an index can list any number of them
 
 
 def unpacked_budget(size: int) -> int:
-    """Return how many bytes a file of some bytes may unpack to."""
+    """Return how many bytes a file of this size may unpack to."""
     return max(MIN_BUDGET, MAX_RATIO * size)
 
 
@@ -66,7 +66,7 @@ class Batch(NamedTuple):
         channel: The channel.
         received: Receive times, (N,) int64 nanoseconds.
         positions: Arguments for :meth:`Storage.read`, (N,) uint64.
-        messages: The bytes; None if they are not wanted and reading them takes time.
+        messages: The bytes; None if they are not wanted and reading them would take time.
     """
 
     channel: Channel
@@ -95,7 +95,7 @@ class Storage(ABC):
         """Yield all messages that can be read; damage is added to the problems.
 
         Args:
-            wanted: Returns whether the bytes of a channel's messages are required.
+            wanted: Returns whether the bytes of a channel's messages are needed.
             progress: Called regularly with the number of bytes of the file that have been read.
         """
 
@@ -184,7 +184,7 @@ class ChunkedStorage(Storage):
         """Count the unpacked size of a chunk when it is read for the first time.
 
         Args:
-            offset: The offset of the chunk; chunks are read for the first time in their order.
+            offset: The offset of the chunk; chunks are first read in order.
             packed: The size of the packed bytes.
             size: The unpacked size.
 
@@ -192,7 +192,7 @@ class ChunkedStorage(Storage):
             DamagedError: The chunks up to this one are larger than a plausible recording of this size.
         """
         if offset <= self._unpacked_end or size <= packed or size > LARGEST:
-            return  # `unpack` refuses a chunk that is too large.
+            return  # `unpack` rejects a chunk that is too large.
         budget = unpacked_budget(self.size)
         if self._unpacked_bytes + size > budget:
             raise DamagedError(

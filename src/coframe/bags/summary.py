@@ -67,7 +67,7 @@ class Summary(NamedTuple):
         span: First and last stamp of the transforms.
         topics: All topics.
         trees: All trees, the largest first.
-        edges: All edges in tree order: each below that of its parent.
+        edges: All edges in tree order, each after that of its parent.
         sensors: The topics whose messages have a header with a frame, except transforms.
         problems: Problems of the recording, one message each.
         size: Size of all files in bytes.

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Points in time as users write them (stamps, offsets and ISO 8601), parsed to nanoseconds."""
+"""Parse points in time as written by users (stamps, offsets and ISO 8601) to nanoseconds."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ def parse_time_point(text: str, span: tuple[int, int]) -> int:
         Nanoseconds.
 
     Raises:
-        ValueError: The text is none of these, has more than nine decimals, or does not fit 64 bits.
+        ValueError: The text is none of these, has more than nine decimals, or does not fit into 64 bits.
 
     Example:
         >>> parse_time_point("1666859837.363141536", (0, 0))
@@ -79,5 +79,5 @@ def _iso(text: str, match: re.Match[str]) -> int:
 
 def _checked(text: str, nanoseconds: int) -> int:
     if not -(2**63) <= nanoseconds < 2**63:
-        raise ValueError(f"{text[:60]!r} does not fit 64-bit nanoseconds, which end in the year 2262")
+        raise ValueError(f"{text[:60]!r} does not fit into 64-bit nanoseconds, which end in the year 2262")
     return nanoseconds

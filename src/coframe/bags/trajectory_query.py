@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""TrajectoryQuery: the poses of one frame relative to another, requested in the same way from any recording."""
+"""TrajectoryQuery: a request for the poses of one frame relative to another, for any recording."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ class TrajectoryQuery:
         source: The frame that moves.
         rate: Poses per second (Hz); None: one pose per recorded sample.
         stamps_of: A topic. One pose at the stamp of each of its messages, instead of a rate.
-        start: The first stamp: nanoseconds, or text that :func:`coframe.bags.parse_time_point` reads for each
+        start: The first stamp: nanoseconds, or a string that :func:`coframe.bags.parse_time_point` parses for each
             recording.
         stop: The last stamp, as nanoseconds or text.
         transforms: Which transforms of a recording are read, and how their frames are named.

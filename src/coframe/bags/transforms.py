@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Ingests recorded transforms into a buffer: TFMessages as bytes, other types decoded here."""
+"""Ingest recorded transforms into a buffer: TFMessages as bytes, other types after decoding."""
 
 from __future__ import annotations
 
@@ -43,10 +43,10 @@ class Ingest:
     """Ingests the messages of one channel into a buffer.
 
     Args:
-        decode: Decodes a message; or the encoding of TFMessages, which the buffer decodes itself.
+        decode: Decodes a message; for TFMessages, which the buffer decodes itself, their encoding.
         static: Whether the transforms are static.
         authority: The authority of the transforms in the buffer.
-        renaming: Maps frame names to their names in the buffer; None: the names stay.
+        renaming: Maps frame names to their names in the buffer; None keeps the names.
     """
 
     def __init__(
@@ -73,7 +73,7 @@ class Ingest:
         """Ingest messages, each completely or not at all.
 
         Returns:
-            The number of damaged messages, and what is wrong with the first of them.
+            The number of damaged messages, and what is wrong with the first one.
         """
         if isinstance(self._decode, str):
             slices = (messages.data, messages.starts, messages.ends)
@@ -124,7 +124,7 @@ def _decoded(decode: Callable[[bytes | memoryview], Iterator[_Stamped]], message
             raise ValueError("a stamp is beyond the range of ROS times")
         for name in (transform.parent, transform.child):
             if not isinstance(name, str):  # JSON can contain anything
-                raise TypeError("a frame name is not text")
+                raise TypeError("a frame name is not a string")
             name.encode()  # fails for half of a surrogate pair, which is not a character
     return transforms
 
@@ -135,7 +135,7 @@ def is_static(topic: str) -> bool:
 
 
 def ingest_for(channel: Channel, renaming: _core.Renaming | None = None) -> Ingest | None:
-    """Return the ingest for a channel's messages; None if they are not transforms."""
+    """Return the Ingest for a channel's messages; None if they are not transforms."""
     kind = (channel.encoding, channel.type.replace("/msg/", "/"))
     if kind not in _DECODINGS:
         return None

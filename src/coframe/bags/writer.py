@@ -35,7 +35,7 @@ _MAX_TOPICS = 65_000  # channels have numbers of 16 bits
 _MAX_TIME = 1 << 63
 _LARGEST_CHUNK = 4 << 20  # bytes before compression
 T = TypeVar("T")
-_VERSION = 5  # of the metadata: Humble writes it, and later versions of rosbag2 read it
+_VERSION = 5  # metadata version that Humble writes and later versions of rosbag2 read
 
 
 @dataclass
@@ -72,7 +72,7 @@ class _Contents:
 
 
 class Writer:
-    """Writes a recording that rosbag2, Foxglove and other tools open.
+    """Writes a recording that rosbag2, Foxglove and other tools can open.
 
     A context manager; not thread-safe. Each file begins with the latched (transient-local) messages that are valid at
     that time, such as static transforms. Flushed messages survive the end of the process, and the files are valid after
@@ -82,12 +82,14 @@ class Writer:
         path: The folder, which must not exist.
         compression: Compression of the chunks of MCAP files: ``zstd``, ``lz4`` or ``none``.
         storage: Format of the files: ``mcap`` or ``sqlite3``, as rosbag2 names them.
-        max_size: Size in bytes at which a new file begins; None: never.
-        max_duration: Duration after which a new file begins, as "10min", a timedelta or nanoseconds; None: never.
+        max_size: Size in bytes at which a new file begins; None for no limit.
+        max_duration: Duration after which a new file begins, such as "10min", a timedelta or nanoseconds; None for no
+            limit.
 
     Attributes:
         path: The folder.
-        undescribed: Types whose definitions coframe does not have. Readers of the recording need to have them.
+        undescribed: Types whose definitions coframe does not have. Readers of the recording need them from another
+            source.
 
     Raises:
         RecordingError: The folder exists or cannot be created, or a package is not installed.
@@ -155,11 +157,11 @@ class Writer:
         """Add a topic; return its number, which is the same for the same name and type.
 
         Args:
-            name: The name with its slash, such as "/tf".
+            name: The name with a leading slash, such as "/tf".
             ros_type: The type of the messages, such as "tf2_msgs/msg/TFMessage".
             offered_qos: The QoS that its publishers offer. The topic is latched if one of them is transient local.
             encoding: The encoding of the messages.
-            definition: The definition of the type; None: the definition in coframe.
+            definition: The definition of the type; None uses coframe's definition.
             definition_format: The format of the definition.
 
         Raises:
@@ -192,13 +194,13 @@ class Writer:
     def write(
         self, topic: int, data: bytes, received: int, *, published: int | None = None, publisher: Hashable = None
     ) -> None:
-        """Write a message. It reaches the file with the next flush, which happens automatically after a few megabytes.
+        """Write a message. It is written by the next flush, which happens automatically every few megabytes.
 
         Args:
             topic: The number of the topic.
             data: The serialized message.
             received: Receive time in nanoseconds.
-            published: Time of publication in nanoseconds; None or an invalid time: the receive time.
+            published: Time of publication in nanoseconds; None or an invalid time means the receive time.
             publisher: Distinguishes the publishers of a latched topic.
 
         Raises:
@@ -218,7 +220,7 @@ class Writer:
             self.flush()
 
     def flush(self) -> None:
-        """Pass all messages to the operating system; they survive the end of the process, but not a power failure.
+        """Pass all messages to the operating system; they survive a crash of the process, but not a power failure.
 
         Raises:
             RecordingError: The operating system reports an error, such as a full disk.
@@ -244,7 +246,7 @@ class Writer:
 
     @property
     def incomplete(self) -> list[str]:
-        """Topics of which not all latched messages are repeated at the beginning of each file: there are too many."""
+        """Topics with too many latched messages to repeat all of them at the beginning of each file."""
         return [topic.name for topic in self._contents.topics if topic.latched and topic.latched.omitted]
 
     def close(self) -> None:
@@ -295,7 +297,7 @@ class Writer:
         self._file = self._open()
 
     def _begin_file(self, received: int) -> None:
-        """Write the latched messages with the current receive time, so that each file can be read by itself."""
+        """Write the latched messages with the current receive time, so that each file can be read on its own."""
         for topic in self._contents.topics:
             for message in topic.latched.messages if topic.latched else []:
                 self._put(topic, message.data, received, message.published)
@@ -323,7 +325,7 @@ class Writer:
         file.start, file.end, file.count = self._file.start, self._file.end, self._file.count
 
     def _write_metadata(self) -> None:
-        """Write metadata.yaml; if the disk is full, the previous version stays."""
+        """Write metadata.yaml; if the disk is full, the previous version is kept."""
         self._note_file()
         text = self._dump({"rosbag2_bagfile_information": self._metadata()})
         with suppress(OSError):

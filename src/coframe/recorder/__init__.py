@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Recording of topics to a bag, and replay of a bag on the graph.
+"""Record topics to a bag, and replay a bag.
 
 It connects `bags`, which reads and writes files, with `wire`, which communicates with the graph.
 """

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Renaming of the frames in the messages of one robot, before they are recorded."""
+"""Rename the frames in the messages of one robot before they are recorded."""
 
 from __future__ import annotations
 

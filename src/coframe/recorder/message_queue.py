@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The queue of received messages that are not on the disk yet. Its size is limited, because the disk may be slow."""
+"""The queue of received messages that are not yet on disk. Its size is limited, because the disk may be slow."""
 
 from __future__ import annotations
 
@@ -10,16 +10,16 @@ from typing import NamedTuple
 
 __all__ = ["MessageQueue", "ReceivedMessage", "Source"]
 
-_OVERHEAD = 200  # bytes that Python needs for a message in addition to its data
+_OVERHEAD = 200  # bytes of Python overhead per message
 
 
 class Source(NamedTuple):
-    """The origin of messages.
+    """Where a message came from.
 
     Attributes:
         topic: The fully qualified name of the topic.
         type: The ROS type.
-        latched: Whether the publishers are transient local, as those of /tf_static are.
+        latched: Whether the publishers are transient local, like those of /tf_static.
     """
 
     topic: str
@@ -31,7 +31,7 @@ class ReceivedMessage(NamedTuple):
     """A received message.
 
     Attributes:
-        source: The topic and its type.
+        source: Where the message came from.
         data: The serialized message.
         received: The time of arrival, in nanoseconds since 1970.
         published: The time of publication, in nanoseconds since 1970.
@@ -82,7 +82,7 @@ class MessageQueue:
         """Remove and return the oldest messages, in the order in which they were received.
 
         Args:
-            timeout: The time to wait for the first message, in seconds.
+            timeout: How long to wait for the first message, in seconds.
             limit: The approximate number of bytes to return.
 
         Returns:
@@ -109,7 +109,7 @@ class MessageQueue:
             return self._closed and not (self._messages or self._latched)
 
     def close(self) -> None:
-        """Mark the queue as complete: no further messages are added."""
+        """Close the queue: no more messages are added."""
         with self._changed:
             self._closed = True
             self._changed.notify_all()

@@ -14,13 +14,13 @@ _LONGEST_WAIT = 3600.0  # seconds; the operating system rejects waits that are l
 
 
 class PlaybackClock:
-    """The recorded time during a replay. It starts to run with the first call of `jump`.
+    """The recorded time during a replay. It starts with the first call of `jump`.
 
     Times are nanoseconds. All methods are thread-safe.
 
     Args:
         start: The initial recorded time.
-        rate: The recorded seconds per second.
+        rate: Recorded seconds per real second.
         paused: Whether the clock is paused at first.
     """
 
@@ -41,7 +41,7 @@ class PlaybackClock:
 
     @property
     def rate(self) -> float:
-        """The recorded seconds per second."""
+        """Recorded seconds per real second."""
         return self._rate
 
     @property
@@ -61,7 +61,7 @@ class PlaybackClock:
             self._changed.notify_all()
 
     def set_rate(self, rate: float) -> None:
-        """Set the rate: recorded seconds per second."""
+        """Set the rate: recorded seconds per real second."""
         with self._changed:
             self._anchor()
             self._rate = rate
@@ -76,14 +76,14 @@ class PlaybackClock:
             self._changed.notify_all()
 
     def step(self) -> None:
-        """Let one call of `wait_until` return although the clock is paused."""
+        """Let one call of `wait_until` return while the clock is paused."""
         with self._changed:
             if self._paused:
                 self._steps += 1
                 self._changed.notify_all()
 
     def stop(self) -> None:
-        """Stop the clock. All current and future waits return at once."""
+        """Stop the clock. All current and future waits return immediately."""
         with self._changed:
             self._stopped = True
             self._changed.notify_all()
@@ -106,7 +106,7 @@ class PlaybackClock:
             return False
 
     def sleep(self, seconds: float) -> bool:
-        """Wait for a few seconds of real time, even if paused. Return False if the clock is stopped."""
+        """Wait in real time, even if paused. Return False if the clock is stopped."""
         with self._changed:
             return not self._changed.wait_for(lambda: self._stopped, min(seconds, threading.TIMEOUT_MAX))
 

@@ -33,7 +33,7 @@ __all__ = ["FASTEST", "Player", "play"]
 FASTEST = 1000.0  # times as fast as recorded
 _CLOCK, _CLOCK_TYPE = "/clock", "rosgraph_msgs/msg/Clock"
 _FASTEST_CLOCK = 1000.0  # Hz
-_LINGER = 0.3  # seconds to keep the publishers open, so that the last messages are delivered
+_LINGER = 0.3  # seconds to keep the publishers open so that the last messages are delivered
 
 
 class Player:
@@ -93,7 +93,7 @@ class Player:
 
     @property
     def problems(self) -> list[str]:
-        """A text for each topic or message that cannot be replayed."""
+        """A message for each topic or message type that cannot be replayed."""
         return self._publishers.problems
 
     @property
@@ -102,10 +102,10 @@ class Player:
         return self._threads[0].is_alive()
 
     def wait(self, timeout: float | None = None) -> bool:
-        """Wait for the end of the replay.
+        """Wait until the replay ends.
 
         Args:
-            timeout: The timeout in seconds. If None, there is no timeout.
+            timeout: The timeout in seconds. If None, wait without a limit.
 
         Returns:
             True at the end, False after the timeout.
@@ -133,7 +133,7 @@ class Player:
         self.clock.step()
 
     def set_rate(self, rate: float) -> None:
-        """Set the rate of the replay: recorded seconds per second.
+        """Set the rate of the replay: recorded seconds per real second.
 
         Raises:
             ValueError: The rate is not above 0 and at most `FASTEST`.
@@ -170,7 +170,7 @@ class Player:
 
     def _play(self) -> None:
         self._publishers.publish_latched(self._start)
-        # Discovery needs time: messages that are published before subscriptions match would be lost.
+        # Discovery takes time: messages published before subscriptions match would be lost.
         if not self.clock.sleep(self._delay):
             return
         self.clock.jump(self._start)
@@ -222,13 +222,13 @@ def play(
     """Replay a recording on the graph in the background: publish its messages in order and at their original rate.
 
     Latched messages are published first, wherever the replay starts: all static transforms of the recording, and the
-    last message before the start on other latched topics. Late-joining subscriptions receive them, too.
+    last message before the start on other latched topics. Late-joining subscriptions also receive them.
 
     Args:
-        path: A file or a rosbag2 folder. Bags of ROS 1 are supported as far as ROS 2 has the types of their messages.
+        path: A file or a rosbag2 folder. From ROS 1 bags, the topics whose types exist in ROS 2 are replayed.
         topics: The topics to replay. If None, all topics are replayed.
         remap: A mapping from recorded topic names to published topic names: {"/tf": "/robot1/tf"}.
-        rate: The rate in recorded seconds per second, above 0 and at most 1000.
+        rate: The rate in recorded seconds per real second, above 0 and at most 1000.
         loop: Whether to start again at the end. Stamps and /clock then jump back.
         start_offset: The start of the replay, relative to the start of the recording, such as "10s".
         paused: Whether the replay is paused at first.
@@ -236,8 +236,8 @@ def play(
             If None, /clock is replayed like any other topic.
         delay: The time before the first message, such as "1s", in which subscriptions can match.
         domain: The ROS domain, 0 to 232. If None, it is ROS_DOMAIN_ID, or 0 if that is not set.
-        prefix: A prefix for the frames in all messages, used as given: ``robot1/`` makes ``robot1/base_link`` of
-            ``base_link``.
+        prefix: A prefix for the frames in all messages, used as given: ``robot1/`` turns ``base_link`` into
+            ``robot1/base_link``.
         keep: The frames that are shared by robots and get no prefix: ``["map"]``.
 
     Raises:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""`coframe.record()`: recording of topics, with one thread that receives and one that writes to the disk."""
+"""`coframe.record()`: record topics with one thread that receives and one that writes to disk."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ class RecorderStatistics(NamedTuple):
         messages: The number of messages written.
         size: The size of the files in bytes.
         topics: The number of subscribed topics.
-        waiting: The size of the received messages that are not written yet, in bytes.
+        waiting: The size of received messages not yet written, in bytes.
         dropped: The number of messages, by topic, that were dropped because the disk was too slow.
         missing: The topics that were requested by name and have no publisher yet.
         refused: The topics that cannot be recorded: their type is not a ROS type, or there are too many topics.
@@ -116,10 +116,10 @@ class Recorder:
         )
 
     def wait(self, timeout: float | None = None) -> bool:
-        """Wait until the recording ends, which happens if it is closed or fails.
+        """Wait until the recording is closed or fails.
 
         Args:
-            timeout: The timeout in seconds. If None, there is no timeout.
+            timeout: The timeout in seconds. If None, wait without a limit.
 
         Returns:
             True if the recording has ended, False after the timeout.
@@ -137,7 +137,8 @@ class Recorder:
         """Write the messages received so far and close the files. A second call has no effect.
 
         Raises:
-            RecordingError: Writing failed, for example because the disk is full. The files up to then are readable.
+            RecordingError: Writing failed, for example because the disk is full. Files written before the error are
+                readable.
         """
         with self._closing:
             if self._stopping:
@@ -164,7 +165,7 @@ class Recorder:
         self.close()
 
     def _run_guarded(self, run: Callable[[], None]) -> None:
-        """Run the function of a thread. If it raises, end the recording; `wait` and `close` raise it again."""
+        """Run a thread's function. If it raises, end the recording; `wait` and `close` raise the exception again."""
         try:
             run()
         except Exception as error:  # noqa: BLE001 - `wait` and `close` raise it in the thread of the caller
@@ -234,16 +235,16 @@ def record(
         exclude: A regular expression. Topics whose full name matches it are not recorded.
         domain: The ROS domain, 0 to 232. If None, it is ROS_DOMAIN_ID, or 0 if that is not set.
         compression: ``zstd``, ``lz4`` or ``none``.
-        max_size: The size in bytes after which a new file is started. If None, it is not limited.
-        max_duration: The duration after which a new file is started, such as "10min". If None, it is not limited.
+        max_size: The size in bytes after which a new file is started. If None, there is no limit.
+        max_duration: The duration after which a new file is started, such as "10min". If None, there is no limit.
         backlog: The size in bytes of the queue for a slow disk. If it is full, the oldest messages are dropped and
             counted.
         on_topic: Called with the name and the type of each topic when its recording starts.
-        tf_topic: The topic of the transforms of the robot that `prefix` is for. All topics in its namespace belong to
-            the robot; with ``/tf``, these are all topics.
+        tf_topic: The topic with the transforms of the robot to which `prefix` applies. All topics in its namespace
+            belong to the robot; with ``/tf``, these are all topics.
         tf_static_topic: The topic of the static transforms of that robot.
-        prefix: A prefix for the frames in all messages of that robot, used as given: ``robot1/`` makes
-            ``robot1/base_link`` of ``base_link``.
+        prefix: A prefix for the frames in all messages of that robot, used as given: ``robot1/`` turns ``base_link``
+            into ``robot1/base_link``.
         keep: The frames that are shared by robots and get no prefix: ``["map"]``.
 
     Raises:
@@ -259,7 +260,7 @@ def record(
     names = renaming(prefix, keep)
     frames = None if names is None else FrameRenamer(names, tf_topic, tf_static_topic)
     folder = datetime.now().astimezone().strftime("rosbag2_%Y_%m_%d-%H_%M_%S") if path is None else path
-    participant = Participant.get(domain)  # before the folder is created, because this can fail
+    participant = Participant.get(domain)  # before the folder is created, because it can fail
     try:
         writer = Writer(folder, compression=compression, max_size=max_size, max_duration=max_duration)
         callback = on_topic or (lambda _topic, _type: None)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The publishers of a replay: one for each recorded topic; static transforms are merged into one message."""
+"""The publishers of a replay: one per recorded topic; static transforms are merged into one message."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ class TopicPublishers:
 
     Attributes:
         topics: The topics to replay.
-        problems: A text for each topic or message that cannot be replayed.
+        problems: A message for each topic or message type that cannot be replayed.
     """
 
     def __init__(
@@ -86,7 +86,7 @@ class TopicPublishers:
             return False
         try:
             publisher.write(publisher.convert(data))
-        except WireError as error:  # for example, a subscription does not keep up
+        except WireError as error:  # for example because a subscription does not keep up
             self._add_problem(str(error))
             return False
         except Exception:  # noqa: BLE001 - the middleware and the conversion can raise many exceptions
@@ -102,7 +102,7 @@ class TopicPublishers:
         """Publish all static transforms, and the last message before the start on other latched topics.
 
         Args:
-            start: The start of the replay, in nanoseconds of the receive time.
+            start: The start of the replay, as a receive time in nanoseconds.
         """
         for topic, transforms in self._static_transforms(start).items():
             self._statics[topic].send(transforms)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The subscriptions of a recorder: to each selected topic, as soon as it has a publisher, with the offered QoS."""
+"""The subscriptions of a recorder: to each selected topic with the offered QoS, as soon as it has a publisher."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ __all__ = ["TopicFilter", "TopicSubscriptions"]
 _DEPTH = 1000  # messages that the middleware queues while Python is busy
 _BATCH = 256  # messages
 _MAX_SUBSCRIPTIONS = 4000  # a typical graph has hundreds of topics
-MAX_PUBLISHERS = 100_000  # whose QoS is stored, and topics that cannot be recorded
+MAX_PUBLISHERS = 100_000  # limit of the publishers whose QoS is stored, and of topics that cannot be recorded
 _HIDDEN = "/_"  # a name with a part that begins with an underscore is hidden, such as the topics of actions
 
 
@@ -70,9 +70,9 @@ class _Offer(NamedTuple):
 class TopicSubscriptions:
     """The subscriptions to the selected topics, which are created as topics appear.
 
-    A subscription matches only publishers that offer at least what it requests. One that requests little matches all
+    A subscription matches only publishers that offer at least what it requests. One with weak requirements matches all
     publishers, but receives no latched messages. Therefore, there is one subscription for each QoS that is offered on a
-    topic, and a message that several of them receive is taken from the one whose request equals the publisher's offer.
+    topic. If several of them receive a message, it is taken from the one whose request equals the publisher's offer.
 
     Args:
         participant: The participant.
@@ -111,7 +111,7 @@ class TopicSubscriptions:
         return {offer.topic for offer in list(self._refused)}
 
     def take(self) -> Iterator[ReceivedMessage]:
-        """Yield the received messages, those of latched topics first, because other messages depend on them."""
+        """Yield the received messages, starting with latched topics, because other messages depend on them."""
         for offer, reader in sorted(self._readers.items(), key=lambda pair: not pair[0].transient_local):
             source = Source(offer.topic, offer.type, offer.transient_local)
             while reader.pending():
@@ -160,7 +160,7 @@ class TopicSubscriptions:
             return True
         if publisher not in self._offers:
             self.refresh()
-        # The publisher is not discovered yet. The subscription that requests least receives all its messages.
+        # The publisher is not discovered yet. The subscription with the weakest request receives all its messages.
         return self._offers.get(publisher, min(offers)) == offer
 
 

@@ -153,7 +153,7 @@ class Document:
 
 
 class _Builder:
-    """Builds the tree of elements from the events of expat."""
+    """Builds the element tree from expat events."""
 
     def __init__(self, parser: expat.XMLParserType, warnings: list[str]) -> None:
         self.parser = parser

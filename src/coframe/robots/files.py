@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Loading of robot descriptions from URDF and xacro files."""
+"""Load robot descriptions from URDF and xacro files."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ def load(
         packages: Folders that ``$(find PACKAGE)`` searches first; see :class:`Packages`.
 
     Raises:
-        RobotDescriptionError: The file cannot be read or is not valid, see :func:`parse_urdf`. The text contains the
+        RobotDescriptionError: The file cannot be read or is not valid, see :func:`parse_urdf`. The message contains the
             file and the line.
     """
     file = Path(path)
@@ -76,8 +76,8 @@ def expand_xacro(
         path: The xacro file.
         arguments: The values of ``$(arg NAME)``.
         packages: Folders that ``$(find PACKAGE)`` searches first; see :class:`Packages`.
-        run: Runs Python with some arguments and a standard input, and returns the standard output. None: a child
-            process with limits on its time and memory only, which is not enough for files of untrusted people.
+        run: Runs Python with some arguments and a standard input, and returns the standard output. None uses a child
+            process with limits only on time and memory, which is not sufficient for untrusted files.
 
     Raises:
         RobotDescriptionError: xacro fails, or is not installed.
@@ -111,7 +111,7 @@ def _run(words: Sequence[str], request: bytes) -> subprocess.CompletedProcess[by
 def _expanded(
     request: dict[str, Any], run: Callable[[Sequence[str], bytes], subprocess.CompletedProcess[bytes]]
 ) -> dict[str, Any]:
-    """Return the answer of a process that expands a file: Python expressions in it can take any time and memory."""
+    """Expand a file in a separate process, because Python expressions in it can take any amount of time and memory."""
     try:
         done = run(("-I", str(_PROCESS)), json.dumps(request).encode())
     except subprocess.TimeoutExpired:
@@ -124,14 +124,14 @@ def _expanded(
 
 
 def run_xacro(command: list[str], *, capture: bool = False) -> subprocess.CompletedProcess[str]:
-    """Run the program xacro with a limit on its time, its memory and its output; Windows limits only the time.
+    """Run the program xacro with limits on time, memory and output; on Windows, only time is limited.
 
     Args:
         command: The path of the program, and its arguments.
-        capture: Whether what it writes to standard error becomes a part of its output.
+        capture: Whether standard error is captured as part of the output.
 
     Raises:
-        RobotDescriptionError: The limit of the time or of the output was exceeded. Without memory, xacro fails.
+        RobotDescriptionError: The time or output limit was exceeded. If memory runs out, xacro itself fails.
     """
     limited = [sys.executable, "-I", str(_PROCESS)] if os.name == "posix" else []
     with tempfile.TemporaryFile() as output, tempfile.TemporaryFile() as errors:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Joint states by the rules of joint_state_publisher: defaults, values from other sources, and mimic joints."""
+"""Joint states computed like in joint_state_publisher: defaults, values from other sources, and mimic joints."""
 
 from __future__ import annotations
 
@@ -76,7 +76,7 @@ class JointStates:
         efforts: Whether joints have the effort 0 until another source sets it.
 
     Raises:
-        RobotDescriptionError: Joints follow each other in a circle, or a joint that does not exist.
+        RobotDescriptionError: Joints follow each other in a circle, or follow a joint that does not exist.
     """
 
     def __init__(

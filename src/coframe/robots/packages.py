@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Search for ROS packages, with or without ROS, and for the files of ``package://`` URLs."""
+"""Find ROS packages, with or without ROS, and files of ``package://`` URLs."""
 
 from __future__ import annotations
 
@@ -19,19 +19,18 @@ if TYPE_CHECKING:
 __all__ = ["Packages"]
 
 _MAX_DEPTH = 4  # levels of folders between a workspace and its packages
-_NEIGHBOR_DEPTH = 2  # less, because the folder around a package may be large, such as a home folder
+_NEIGHBOR_DEPTH = 2  # fewer, because the folder around a package may be large, such as a home folder
 # The meshes of the lab's robot are part of coframe.
 _OWN = {"coframe_lab": Path(__file__).parents[1] / "lab"}
-_SEARCHED = "Packages are searched in the folders of COFRAME_PACKAGE_PATH."
+_SEARCHED = "coframe searches the folders of COFRAME_PACKAGE_PATH."
 
 
 class Packages:
-    """A search for packages by name.
+    """Finds packages by name.
 
-    The following places are searched in this order: the package that contains `near` and its neighbors, `folders`, the
-    folders in COFRAME_PACKAGE_PATH, the installations in AMENT_PREFIX_PATH, and the folders in ROS_PACKAGE_PATH. A
-    folder can be a package (it has a ``package.xml``), contain packages in subfolders, or contain folders with the
-    names of packages.
+    It searches, in this order: the package that contains `near` and its siblings, `folders`, the folders in
+    COFRAME_PACKAGE_PATH, the installations in AMENT_PREFIX_PATH, and the folders in ROS_PACKAGE_PATH. A folder can be a
+    package (it has a ``package.xml``), contain packages in subfolders, or contain folders with the names of packages.
 
     Args:
         near: The file of a robot description, or its folder.
@@ -65,8 +64,8 @@ class Packages:
     def resolve(self, url: str) -> Path:
         """Return the file of a URL ``package://NAME/PATH`` or a relative path.
 
-        A relative path starts at the folder of `near`. It must lead to a file in the package that contains this folder,
-        or below the folder if there is no such package.
+        A relative path is resolved against the folder of `near`. It must point to a file in the package that contains
+        this folder, or below the folder if there is no such package.
 
         Raises:
             PackageError: The package or the file does not exist, or the file is outside the package.
@@ -109,7 +108,7 @@ class Packages:
         return package_around(folder) or folder, folder / unquote(url)
 
     def _search(self, name: str) -> Path:
-        # The name must not contain path separators or anything else that leads to another folder.
+        # The name must not contain path separators or anything else that points to another folder.
         if not name or name.startswith(".") or not all(c.isalnum() or c in "_-." for c in name):
             raise PackageError(
                 f"{name!r} is not a valid package name", hint=f"Use letters, digits, '_', '-' and '.'. {_SEARCHED}"
@@ -133,7 +132,7 @@ class Packages:
         )
 
     def _nearby_folders(self) -> list[Path]:
-        """Return the package that contains the description, and the folder with its neighbors."""
+        """Return the package that contains the description, and the folder with its siblings."""
         if self.near is None:
             return []
         package = package_around(self.near)

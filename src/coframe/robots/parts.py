@@ -70,7 +70,7 @@ class Mesh:
     """A shape from a mesh file.
 
     Attributes:
-        filename: The text in the description: ``package://...``, ``file://...`` or a path; see
+        filename: The file name in the description: ``package://...``, ``file://...`` or a path; see
             ``coframe.robots.Packages``.
         scale: The scale factors along x, y and z.
     """

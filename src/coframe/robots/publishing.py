@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Transforms from joint states by the rules of robot_state_publisher. This module does not publish them."""
+"""Compute transforms from joint states by the rules of robot_state_publisher; this module does not publish them."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ __all__ = ["StatePublisher"]
 
 
 class StatePublisher:
-    """The transforms that robot_state_publisher would publish for a robot.
+    """Computes the transforms that robot_state_publisher would publish for a robot.
 
     Args:
         robot: The robot.

@@ -221,7 +221,7 @@ class Robot:
 
     def _of_one(self, known: dict[str, Array], *, in_root: bool) -> dict[str, Transform]:
         found = self._kinematics.transforms({name: value.tolist() for name, value in known.items()}, in_root=in_root)
-        if found is None:  # the shapes were checked before
+        if found is None:  # the shapes were already checked
             self.positions(known)
             raise ValueError("the position of a joint that follows another is not finite")
         return found
@@ -240,7 +240,7 @@ class Robot:
         return value.shape[: value.ndim - len(_axes(self.joints[name]))]
 
     def _position(self, joint: Joint, known: dict[str, Array]) -> Array:
-        """Return the position that is given, follows from a mimic rule, or is the default, and add it to `known`."""
+        """Return the position of a joint (given, by its mimic rule, or the default), and add it to `known`."""
         followers: list[tuple[str, Mimic]] = []
         while joint.name not in known and joint.mimic is not None:
             followers.append((joint.name, joint.mimic))

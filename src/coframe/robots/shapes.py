@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Parsing of links in URDF: visuals, collisions, materials and inertia."""
+"""Parse URDF links: visuals, collisions, materials and inertia."""
 
 from __future__ import annotations
 

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Expands one xacro file in a process of its own, whose memory is limited; see :mod:`coframe.robots.files`.
+"""Expand one xacro file in a separate process with limited memory; see :mod:`coframe.robots.files`.
 
 With arguments, it runs them as a command with the same limits. Otherwise the request and the answer are JSON on
 standard input and output. The file is run as a script, and imports the native core only for ``$(find PACKAGE)``,
-because that takes longer than the rest.
+because that import takes longer than everything else.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ def _answer(request: Mapping[str, Any]) -> dict[str, Any]:
 
         return str(Packages(request["path"], request["packages"]).find(name))
 
-    # xacro has no public hook for $(find PACKAGE), which otherwise requires an installed ROS, and none for its files.
+    # xacro has no public hooks for its files and for $(find PACKAGE), which otherwise requires an installed ROS.
     substitution_args._eval_find = find  # noqa: SLF001
     xacro.open = lambda path: io.StringIO(read_regular_text(path, MAX_OUTPUT))
     try:
@@ -57,11 +57,11 @@ def _answer(request: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _main() -> None:
-    with contextlib.suppress(ImportError):  # Windows has no limits of this kind.
+    with contextlib.suppress(ImportError):  # Windows has no such limits.
         import resource  # noqa: PLC0415
 
         _, most = resource.getrlimit(resource.RLIMIT_AS)
-        with contextlib.suppress(ValueError, OSError):  # macOS refuses the limit.
+        with contextlib.suppress(ValueError, OSError):  # macOS rejects the limit.
             resource.setrlimit(resource.RLIMIT_AS, (MAX_MEMORY, most))
         _, most = resource.getrlimit(resource.RLIMIT_FSIZE)
         with contextlib.suppress(ValueError, OSError):
@@ -70,7 +70,7 @@ def _main() -> None:
         os.execv(sys.argv[1], sys.argv[1:])  # noqa: S606 - the command of the caller
     request = json.load(sys.stdin)
     sys.path[:] = request["module_folders"]
-    output, sys.stdout = sys.stdout, sys.stderr  # What a file prints is not the answer.
+    output, sys.stdout = sys.stdout, sys.stderr  # Output printed by the file must not be mistaken for the answer.
     json.dump(_answer(request), output)
 
 

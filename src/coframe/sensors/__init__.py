@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Transformation of laser scans and point clouds, as messages and as arrays, to other frames.
+"""Transform laser scans and point clouds, as messages or arrays, to other frames.
 
 `transform_cloud` transforms a cloud as a whole, `deskew` transforms each point at its own time, and `project_scan`
 converts a laser scan to points.

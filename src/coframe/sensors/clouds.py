@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Transformation of point clouds to another frame."""
+"""Transform point clouds to another frame."""
 
 from __future__ import annotations
 
@@ -184,13 +184,13 @@ def stamp_of(points: Any) -> int:
 
 
 def set_stamp(message: Any, stamp: int) -> None:
-    """Set the stamp of a message's header to a new object, as the old one may be shared."""
+    """Set the stamp of a message's header to a new object, because the old one may be shared."""
     message.header.stamp = copy.copy(message.header.stamp)
     message.header.stamp.sec, message.header.stamp.nanosec = divmod(stamp, SECOND)
 
 
 def thread_count(threads: int) -> int:
-    """Return the number of threads after a check.
+    """Check the number of threads and return it.
 
     Raises:
         ValueError: The number is less than one.

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Deskewing of point clouds that were measured while the sensor moved."""
+"""Deskew point clouds that were measured while the sensor moved."""
 
 from __future__ import annotations
 
@@ -79,9 +79,9 @@ def deskew(
         field of times is not changed.
 
     Raises:
-        TransformException: As :meth:`coframe.Buffer.lookup`, and the text names the point; with ``"nan"`` only if no
+        TransformException: As :meth:`coframe.Buffer.lookup`, and the message names the point; with ``"nan"`` only if no
             point has a transform.
-        ValueError: As :func:`transform_cloud`; or the number of times is not that of the points, or the unit is
+        ValueError: As :func:`transform_cloud`; or the number of times differs from the number of points, or the unit is
             missing, or ``fixed`` is missing for a target that is the sensor.
         TypeError: Times are floats without a unit.
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Access to the fields of points in messages and arrays, and to the memory for results."""
+"""Access the fields of points in messages and arrays, and the memory for results."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ Triple: TypeAlias = "tuple[NDArray[Any], NDArray[Any], NDArray[Any]]"
 
 _POSITION = ("x", "y", "z")
 NORMALS = (("normal_x", "normal_y", "normal_z"), ("nx", "ny", "nz"))
-# NumPy types by PointField's constants, for both byte orders.
+# NumPy dtypes by PointField constant, for both byte orders.
 _KINDS = {1: "i1", 2: "u1", 3: "i2", 4: "u2", 5: "i4", 6: "u4", 7: "f4", 8: "f8"}
 _DTYPES = {
     is_bigendian: {number: np.dtype(order + kind) for number, kind in _KINDS.items()}
@@ -32,7 +32,7 @@ _DTYPES = {
 
 
 def is_message(points: Any) -> bool:
-    """Return whether the points are a PointCloud2 message, of coframe, of ROS or of a reader of recordings.
+    """Return whether the points are a PointCloud2 message, whether of coframe, ROS or a bag reader.
 
     Raises:
         TypeError: The points are neither a message nor an array.
@@ -111,7 +111,7 @@ def destination(points: Any, out: Any, *, in_place: bool) -> Any:
         ValueError: Both ``out`` and ``in_place`` are given, or the array has another shape or is read-only.
     """
     if in_place and out is not None and out is not points:
-        raise ValueError("in_place=True and out=... exclude each other")
+        raise ValueError("in_place=True and out=... are mutually exclusive")
     in_place = in_place or out is points
     if not is_message(points):
         return _array_destination(points, out, in_place=in_place)
@@ -160,7 +160,7 @@ def _copied(data: Any) -> Any:
 
 
 def _copy_into(memory: Any, data: Any) -> bool:
-    """Copy the data into the memory of a message that is reused; return False if the memory is not suitable."""
+    """Copy the data into the memory of a reused message; return False if the memory is not suitable."""
     if memory is data or _memory(memory).readonly or len(_memory(memory)) != len(_memory(data)):
         return False
     _memory(memory)[:] = _memory(data)

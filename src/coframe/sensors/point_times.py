@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The time of each point of a cloud, as drivers of lidars publish it.
+"""The time of each point of a cloud, as published by lidar drivers.
 
 A message contains the name and type of the time field, but not its unit, which is therefore guessed from the values:
-integers are nanoseconds; floats are seconds, or nanoseconds if they are too large for seconds. A caller that knows the
-unit passes it.
+integers are nanoseconds; floats are seconds, or nanoseconds if they are too large for seconds. Callers that know the
+unit should pass it.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ TIME_FIELDS = ("t", "time", "timestamp", "offset_time")
 UNITS = {"s": SECOND, "ms": MILLISECOND, "us": MICROSECOND, "ns": 1}
 
 NO_TIME = np.iinfo(np.int64).min  # The integer of NumPy's NaT.
-_LONGEST_SWEEP = 10 * SECOND  # Values that differ more from the stamp of the message are not times of its points.
+_LONGEST_SWEEP = 10 * SECOND  # Values that differ more from the message's stamp are not times of its points.
 _LONGEST_OFFSET = 100_000_000  # Seconds, about three years: larger values are absolute times.
 _LATEST = 2.0**62  # Nanoseconds, in the year 2116.
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Conversion of laser scans to points."""
+"""Convert laser scans to points."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ _FLOAT32, _INT32 = 7, 5  # Constants of PointField.
 
 @dataclass(frozen=True, eq=False)
 class ScanPoints:
-    """The points that a laser scan has measured.
+    """The points measured by a laser scan.
 
     Attributes:
         points: Positions in ``frame`` in metres, shape (N, 3), float64.
@@ -50,7 +50,7 @@ class ScanPoints:
     def to_cloud(self) -> Any:
         """Return the points as a PointCloud2 message.
 
-        Its class is that of ROS if the scan is a message of a ROS installation. The fields are those of
+        The class is that of ROS if the scan is a message of a ROS installation. The fields are those of
         `laser_geometry`: float32 x, y, z, intensity if the scan has intensities, and int32 `index` of the beam.
         """
         cloud_class, field_class = self._classes
@@ -142,7 +142,7 @@ def project_scan(
     return ScanPoints(points, hits.astype(np.int32), times, intensities, frame, stamp, _classes_beside(scan))
 
 
-@lru_cache(maxsize=8)  # All scans of a sensor have the same beams.
+@lru_cache(maxsize=8)  # Cached, because all scans of a sensor have the same beams.
 def _directions(start: float, increment: float, count: int) -> NDArray[np.float64]:
     """Return the directions of all beams as unit vectors in the plane of the scan, shape (count, 2)."""
     angles = start + increment * np.arange(count)

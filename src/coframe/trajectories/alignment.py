@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Alignment of one trajectory with another by a rigid motion or a similarity (Umeyama, 1991)."""
+"""Align one trajectory with another by a rigid motion or a similarity (Umeyama, 1991)."""
 
 from __future__ import annotations
 
@@ -66,7 +66,7 @@ def align(reference: Transform, estimate: Transform, *, with_scale: bool = False
 
 
 def check_positions(poses: Transform) -> None:
-    """Raise a TrajectoryError if a position is too large to calculate with."""
+    """Raise a TrajectoryError if a position is too large for the computation."""
     largest = float(np.abs(poses.translation).max(initial=0.0))
     if largest > MAX_POSITION:
         raise TrajectoryError(
@@ -83,7 +83,7 @@ def _umeyama(
     centred = points - mean
     covariance = (targets - target_mean).T @ centred / len(points)
     u, singular, vt = np.linalg.svd(covariance)
-    # The rounding error of the sums; of positions on one line, the second value is only that.
+    # The rounding error of the sums; for positions on one line, the second singular value is not larger than this.
     if singular[1] <= len(points) * np.finfo(np.float64).eps * singular[0]:
         raise TrajectoryError(
             f"The alignment is not determined: the {len(points)} paired positions are on one line or at one point",

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Association of the poses of two trajectories by their stamps."""
+"""Associate the poses of two trajectories by their stamps."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ MAX_DIFFERENCE = 10 * MILLISECOND
 def associate(
     reference: Transform, estimate: Transform, max_difference: DurationLike = MAX_DIFFERENCE
 ) -> tuple[Transform, Transform]:
-    """Return the poses of two trajectories that belong together, as two batches of the same length.
+    """Return the matching poses of two trajectories, as two batches of the same length.
 
     Each pose of the trajectory with fewer poses is paired with the pose of the other one whose stamp is nearest.
     Trajectories without stamps (KITTI) must have the same number of poses, which are paired in order.
@@ -33,7 +33,7 @@ def associate(
     Args:
         reference: A batch of shape (N,).
         estimate: A batch of shape (M,).
-        max_difference: The largest difference between the stamps of a pair; poses without a partner are dropped.
+        max_difference: The maximum difference between the stamps of a pair; poses without a match are dropped.
 
     Raises:
         TrajectoryError: There is no pair, or one trajectory has no stamps and the numbers of poses differ.
@@ -68,7 +68,7 @@ def associate(
 def _nearest(
     stamps: NDArray[np.int64], others: NDArray[np.int64], limit: int
 ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Return the indices of the pairs; the earlier one of two stamps that are equally near is taken."""
+    """Return the indices of the pairs; if two stamps are equally near, the earlier one is used."""
     order = np.argsort(others, kind="stable")
     ordered = others[order]
     upper = np.minimum(np.searchsorted(ordered, stamps, side="right"), len(ordered) - 1)

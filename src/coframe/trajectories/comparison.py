@@ -29,7 +29,7 @@ _FRAMES, _METRES = {"", "f", "frame", "frames"}, {"m", "metre", "metres", "meter
 
 
 class Delta(NamedTuple):
-    """How far apart the two poses of a relative error are.
+    """The distance between the two poses of a relative error.
 
     Attributes:
         value: A number of poses, metres along the path of the estimate, or seconds between the stamps.
@@ -78,7 +78,7 @@ class PoseErrors:
     Attributes:
         translation: Distances in metres, (N,).
         rotation: Angles in radians, (N,).
-        index: The pose of the pair of trajectories that each error belongs to, (N,); the later one of a motion.
+        index: The index of the pose to which each error belongs, (N,); for a motion, its later pose.
     """
 
     translation: NDArray[np.float64]
@@ -106,7 +106,7 @@ class Comparison:
         alignment: The alignment that was applied to the estimate; None without one.
         ape: The absolute pose errors, (N,).
         rpe: The relative pose errors, one for each pair of poses that are ``delta`` apart.
-        delta: How far apart the poses of a relative error are.
+        delta: The distance between the poses of a relative error.
     """
 
     reference: Transform
@@ -150,12 +150,12 @@ def compare_trajectories(
         reference: A batch of shape (N,), such as from :func:`read_trajectory` or :meth:`coframe.Buffer.trajectory`.
         estimate: A batch of shape (M,). The names of the frames are not compared.
         align: ``none``, ``se3`` for a rigid motion of the estimate, ``sim3`` to scale it as well.
-        max_difference: The largest difference between the stamps of two poses that are compared.
-        delta: A number of poses, or text as for :func:`parse_delta`.
+        max_difference: The maximum difference between the stamps of two compared poses.
+        delta: A number of poses, or a string for :func:`parse_delta`.
 
     Raises:
         TrajectoryError: No stamps match, the alignment is not determined, no two poses are ``delta`` apart, or a
-            position is too large to calculate with.
+            position is too large for the computation.
         ValueError: An argument is not valid.
 
     Example:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Writing of trajectory files: TUM, KITTI, EuRoC, CSV, Parquet and NumPy's npz."""
+"""Write trajectory files: TUM, KITTI, EuRoC, CSV, Parquet and NumPy's npz."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 __all__ = ["EUROC_HEADER", "FORMATS", "POSE_COLUMNS", "format_of", "write_trajectory"]
 
 POSE_COLUMNS = ("x", "y", "z", "qx", "qy", "qz", "qw")
-# The line that the data set has.
+# The header line of the EuRoC data set.
 EUROC_HEADER = "#timestamp [ns],p_RS_R_x [m],p_RS_R_y [m],p_RS_R_z [m],q_RS_w [],q_RS_x [],q_RS_y [],q_RS_z []"
 FORMATS = ("tum", "kitti", "euroc", "csv", "parquet", "npz")
 _SUFFIXES = {
@@ -39,7 +39,7 @@ _SUFFIXES = {
     ".parquet": "parquet",
     ".npz": "npz",
 }
-# Text takes twenty times the memory of the numbers, so only this many rows are formatted at once.
+# Text takes twenty times as much memory as numbers, so only this many rows are formatted at once.
 _ROWS = 10_000
 
 
@@ -73,7 +73,7 @@ def write_trajectory(
         target: A file name, or a text stream for the text formats.
         format_: ``tum`` (seconds x y z qx qy qz qw), ``kitti`` (upper three rows of the matrix, no times), ``euroc``
             (stamps in nanoseconds, x, y, z, qw, qx, qy, qz), ``csv`` (stamps in nanoseconds, columns with names),
-            ``parquet`` or ``npz``; None: by the suffix of the file name, or ``tum`` for a stream.
+            ``parquet`` or ``npz``; None chooses it by the suffix of the file name, or ``tum`` for a stream.
         progress: Called regularly with the number of poses written.
 
     Raises:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Reading of trajectory files: TUM, KITTI, EuRoC, CSV and NumPy's npz."""
+"""Read trajectory files: TUM, KITTI, EuRoC, CSV and NumPy's npz."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ _LATEST = 1 << 63
 # The differences between the formats, for error messages.
 _LAYOUTS = (
     "TUM has 8 columns separated by spaces (seconds x y z qx qy qz qw), KITTI has 12 (a 3x4 matrix), EuRoC has at "
-    "least 8 separated by commas (ns, x, y, z, qw, qx, qy, qz), and CSV begins with a line of names: "
+    "least 8 separated by commas (ns, x, y, z, qw, qx, qy, qz), and CSV begins with a header line: "
     f"stamp_ns,{','.join(POSE_COLUMNS)}."
 )
 
@@ -47,7 +47,7 @@ def read_trajectory(path: str | os.PathLike[str], format_: str | None = None) ->
 
     Args:
         path: The file.
-        format_: ``tum``, ``kitti``, ``euroc``, ``csv`` or ``npz``; None: by the contents of the file, because EuRoC and
+        format_: ``tum``, ``kitti``, ``euroc``, ``csv`` or ``npz``; None detects it from the contents, because EuRoC and
             CSV have the same suffix.
 
     Returns:
@@ -55,7 +55,7 @@ def read_trajectory(path: str | os.PathLike[str], format_: str | None = None) ->
         the names of the frames.
 
     Raises:
-        TrajectoryError: The file cannot be read, or its contents do not have the format.
+        TrajectoryError: The file cannot be read, or its contents do not match the format.
         ValueError: The format is unknown.
 
     Example:
