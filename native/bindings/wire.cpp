@@ -205,7 +205,7 @@ void define_writer(nb::module_& wire) {
           "code, as always once `closed` is set or the writer is closed. `failure` returns the exception for an error "
           "text. With `of_items`, the function takes the items of the message's only field, or a single item.")
       .def("forward", &write_bytes<&Writer::forward>, nb::arg("message"),
-           "Send a message without a check of its bytes.")
+           "Send a message without checking its bytes.")
       .def("assert_liveliness", &PyWriter::assert_liveliness, ReleaseGil(),
            "Show the readers that the writer is alive.")
       .def("wait_for_acks", &PyWriter::wait_for_acks, nb::arg("timeout_ns"), ReleaseGil(),
@@ -271,12 +271,12 @@ void define_store_properties(Class& cls, Of of) {
           "Note that the writer with this handle no longer exists, so its static transforms are not published.")
       .def(
           "settle_statics", [of](Reader& self) { of(self).settle_statics(); }, ReleaseGil(),
-          "Note that static transforms that shared data contained before are published only if they were received.")
+          "From now on, count previously shared static transforms as published only if they were received.")
       .def(
           "writers", [of](const Reader& self) { return writers_of(of(self)); }, "Return the statistics of each writer.")
       .def_prop_ro(
           "stored_at", [of](const Reader& self) { return of(self).stored_at(); },
-          "When the newest message's transforms were stored, in nanoseconds of the steady clock; 0: never.");
+          "When the transforms of the newest message were stored, in nanoseconds of the steady clock; 0 if never.");
 }
 
 void define_readers(nb::module_& wire) {

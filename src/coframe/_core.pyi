@@ -862,7 +862,7 @@ class Writer:
         """
 
     def forward(self, message: bytes) -> None:
-        """Send a message without a check of its bytes."""
+        """Send a message without checking its bytes."""
 
     def assert_liveliness(self) -> None:
         """Show the readers that the writer is alive."""
@@ -999,14 +999,14 @@ class TfReader:
         """Note that the writer with this handle no longer exists, so its static transforms are not published."""
 
     def settle_statics(self) -> None:
-        """Note that static transforms that shared data contained before are published only if they were received."""
+        """From now on, count previously shared static transforms as published only if they were received."""
 
     def name_writer(self, writer: int, authority: str) -> None:
         """Store `authority` as the source of this writer's past and future transforms."""
 
     @property
     def stored_at(self) -> int:
-        """When the newest message's transforms were stored, in nanoseconds of the steady clock; 0: never."""
+        """When the transforms of the newest message were stored, in nanoseconds of the steady clock; 0 if never."""
 
     def take_status(self, kind: int) -> tuple[int, int, int, int] | None:
         """Return the counts of the status DEADLINE_MISSED, ... if it has changed since the last call."""
@@ -1064,14 +1064,14 @@ class TransformStore:
         """Note that the writer with this handle no longer exists, so its static transforms are not published."""
 
     def settle_statics(self) -> None:
-        """Note that static transforms that shared data contained before are published only if they were received."""
+        """From now on, count previously shared static transforms as published only if they were received."""
 
     def name_writer(self, writer: int, authority: str) -> None:
         """Store `authority` as the source of this writer's past and future transforms."""
 
     @property
     def stored_at(self) -> int:
-        """When the newest message's transforms were stored, in nanoseconds of the steady clock; 0: never."""
+        """When the transforms of the newest message were stored, in nanoseconds of the steady clock; 0 if never."""
 
 class EndpointReader:
     """The writers (PUBLICATIONS) or readers (SUBSCRIPTIONS) found by DDS discovery."""

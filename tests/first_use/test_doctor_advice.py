@@ -363,7 +363,7 @@ def test_rate_below_that_of_the_scans_that_need_it(findings, rate, scans, child,
     assert bool(slow) is found
     if found:
         assert slow[0].edge == (parents[child], child)
-        assert f"({rate} Hz) only, but /scan, which needs it, every" in slow[0].text
+        assert f"({rate} Hz), but /scan, which needs it, every" in slow[0].text
         assert "create_timer(0.05, self.broadcast)" in slow[0].fix
 
 

@@ -100,7 +100,7 @@ def test_memory_that_becomes_full_is_reported_and_known_frames_are_stored():
     assert full.startswith("The memory of the shared transforms is full: /dev/shm/coframe-")
     assert "No space left on device. New frames are refused" in full
     assert rejected.startswith("Rejected ")
-    assert rejected.endswith("their frames are new, and the buffer has no room for more frames of other nodes.")
+    assert rejected.endswith("their frames are new, and the buffer cannot store more frames of other nodes.")
 
 
 @pytest.mark.usefixtures("domain_id")

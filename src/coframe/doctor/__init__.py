@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Checks of the transforms of a robot: what is wrong, why it matters, and what to do; live or in a recording.
+"""Check the transforms of a robot, live or in a recording: what is wrong, why it matters, and what to do.
 
 The package is built in layers:
 
@@ -9,9 +9,9 @@ The package is built in layers:
   system; all later steps are the same for both. It provides the edges (`Edge`) with statistics that are computed when
   they are first used.
 - A check is a module of `checks`: its CODE and ``find``, a pure function from an observation to findings. `diagnosis`
-  finds the modules by itself: a new check is a module, a page and a test.
-- `coframe.doctor.codes` reads the page of a code, which `--explain`, the documentation, SARIF and the line "why" below
-  a finding use.
+  finds the modules automatically: a new check is a module, a page and a test.
+- `coframe.doctor.codes` reads the page of a code, which is used by `--explain`, the documentation, SARIF and the line
+  "why" below a finding.
 - `causes` defines as data which findings are consequences of which; consequences are listed below their cause.
 - `rendering` formats reports as text, as plain data for JSON, and as SARIF.
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The causes of findings, as data: a report lists consequences below their cause."""
+"""Which findings cause which others; a report lists consequences below their cause."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ __all__ = ["CAUSES", "joined"]
 
 # (cause, consequence, whether both must concern the same frame)
 CAUSES: tuple[tuple[str, str, bool], ...] = (
-    ("TF012", "TF011", False),  # after a jump back, all new transforms look old
+    ("TF012", "TF011", False),  # after time jumps back, all new transforms look old
     ("TF012", "TF013", False),
     ("TF012", "TF008", False),
     ("TF017", "TF001", False),  # without its static transforms, a tree is split
     ("TF017", "TF014", False),
-    ("TF016", "TF001", False),  # and also if these are not delivered
+    ("TF016", "TF001", False),  # and if these are not delivered
     ("TF016", "TF014", False),
     ("TF024", "TF022", False),  # without a model there are no joints
     ("TF024", "TF023", False),
@@ -72,7 +72,7 @@ def _worst(finding: Finding) -> int:
 
 
 def _causes(findings: list[Finding]) -> dict[int, int | None]:
-    """Return, by position, the first finding of the first code that is its cause."""
+    """Return the cause of each finding, by index: the first finding of the first matching code."""
     first: dict[tuple[str, str | None], int] = {}  # by code, and by code and frame
     for position, finding in enumerate(findings):
         for frame in (None, *finding.frames):

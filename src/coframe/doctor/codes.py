@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The page of each code, which `coframe doctor --explain` prints and the documentation links to.
+"""The page of each code, printed by `coframe doctor --explain` and linked from the documentation.
 
 A page is Markdown: a title ``# TF001: ...``, then sections. The first paragraph of "Why it matters" is printed below
 every finding of the code.

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Collector"]
 
-# A publisher may send any number of names by mistake; the limit bounds the memory that they use.
+# A faulty publisher may send any number of names; the limit bounds the memory for them.
 MAX_NAMES = 100_000
 MAX_NAME_BYTES = 64 << 20
 
@@ -34,7 +34,7 @@ class Collector:
     Attributes:
         empty: The number of messages without transforms.
         damaged: The number of messages that are not valid TFMessages.
-        ignored: The number of messages that were ignored because there were too many names before them.
+        ignored: The number of messages ignored because the limit of names was reached.
         messages: The number of messages by topic.
     """
 
@@ -97,7 +97,7 @@ class Collector:
 
     @property
     def forgotten_until(self) -> int:
-        """The time of arrival of the last transform that was removed because there were too many; 0 if none was."""
+        """The arrival time of the last transform removed because of the limit; 0 if none was."""
         return max(self._static.forgotten_until, self._moving.forgotten_until)
 
     def transforms(self) -> Transforms:

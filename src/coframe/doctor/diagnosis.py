@@ -28,20 +28,20 @@ if TYPE_CHECKING:
 
 __all__ = ["Report", "SensorFacts", "all_checks", "diagnose"]
 
-# The timeouts with which a consumer may wait for a transform.
+# Typical timeouts with which a consumer waits for a transform.
 TIMEOUTS = (0, 50 * MILLISECOND, 100 * MILLISECOND, 200 * MILLISECOND)
 
 
 class SensorFacts(NamedTuple):
-    """How many messages of a topic could be transformed to the root of their tree, and after which time.
+    """How many messages of a topic could be transformed to the root of their tree, and after what delay.
 
     Attributes:
         topic: The topic.
         frame: The frame in which its messages are expressed.
         root: The root of the tree of that frame; the frame itself if no transform contains it.
         messages: The number of messages.
-        possible: How many can be transformed at once, and within 50, 100 and 200 ms of their arrival.
-        median_wait: The median wait of those that can be transformed at all, in nanoseconds; None without any.
+        possible: How many can be transformed immediately, and within 50, 100 and 200 ms of their arrival.
+        median_wait: The median wait of the messages that can be transformed, in nanoseconds; None if there are none.
         longest_wait: The longest wait of these messages.
     """
 
@@ -59,7 +59,7 @@ class Report(NamedTuple):
 
     Attributes:
         findings: The causes with their consequences, the worst first.
-        sensors: When the messages of each sensor could be transformed.
+        sensors: How well the messages of each sensor could be transformed.
         observation: The observation that was examined.
     """
 
@@ -96,11 +96,11 @@ def diagnose(observation: Observation, *, ignore: Collection[str] = ()) -> Repor
     """Run all checks except those to ignore.
 
     Args:
-        observation: What was received or recorded.
+        observation: The data to examine.
         ignore: The codes of checks to ignore, such as ``TF012``.
     """
     ignored = {code.upper() for code in ignore}
-    # Published values may overflow; comparisons with limits are false for NaN.
+    # Published values may overflow; comparisons with NaN are false.
     with np.errstate(all="ignore"):
         findings = [
             finding for code, check in all_checks().items() if code not in ignored for finding in check(observation)

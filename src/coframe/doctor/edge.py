@@ -70,14 +70,14 @@ class Edge:
 
     @cached_property
     def steps(self) -> NDArray[np.int64]:
-        """(N - 1,) difference of consecutive stamps in the order of arrival; negative where time went back."""
+        """(N - 1,) difference of consecutive stamps in the order of arrival; negative where time goes back."""
         return np.asarray(self.stamp[1:] - self.stamp[:-1])
 
     @property
     def current(self) -> Edge:
         """The edge without the rows that were more than a second late, such as those repeated after time went back."""
-        # An edge that referred to itself would be freed by the cyclic garbage collector only, which does not know how
-        # large arrays are: the memory of `doctor --watch` would grow from report to report.
+        # An edge that referred to itself would be freed only by the cyclic garbage collector, which does not take array
+        # sizes into account: the memory of `doctor --watch` would grow with each report.
         return self if self._without_late is None else self._without_late
 
     @cached_property
@@ -90,17 +90,17 @@ class Edge:
 
     @cached_property
     def unset(self) -> int:
-        """The number of transforms with the stamp 0, whose stamp was never set."""
+        """The number of transforms whose stamp is 0, because it was never set."""
         return int(np.count_nonzero(self.stamp == 0))
 
     @property
     def is_unset(self) -> bool:
-        """Whether the stamps count as never set: all, or more than 5 %, are 0. A simulation may begin with a few."""
+        """Whether the stamps count as never set: more than 5 % are 0. A simulation may begin with a few."""
         return self.unset == self.count or (self.unset >= _LEAST_UNSET and self.unset > 0.05 * self.count)
 
     @cached_property
     def intervals(self) -> NDArray[np.int64]:
-        """The intervals between consecutive different stamps, in the order of time; without stamps of 0."""
+        """The intervals between consecutive different stamps, sorted by time, without stamps of 0."""
         return stamp_intervals(self.stamp[self.stamp != 0] if self.unset else self.stamp)
 
     @cached_property
@@ -132,7 +132,7 @@ class Edge:
     @cached_property
     def length(self) -> float:
         """The distance between the two frames in the last row, in metres."""
-        return math.hypot(*self.values[-1, :3].tolist())  # without the overflow of squares
+        return math.hypot(*self.values[-1, :3].tolist())  # avoids overflow of squares
 
     @cached_property
     def angle(self) -> float:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Figures of edges: rate, jitter, delay and age per publisher, and the edge that limits a chain."""
+"""Statistics of edges: rate, jitter, delay and age per publisher, and the edge that limits a chain."""
 
 from __future__ import annotations
 
@@ -22,13 +22,13 @@ _SAMPLES = 1000
 
 
 class EdgeFigures(NamedTuple):
-    """The transforms of one edge from one publisher. Times are nanoseconds; None where they are not defined.
+    """The transforms of one edge from one publisher. Times are nanoseconds; None where undefined.
 
     Attributes:
         parent: The parent frame.
         child: The child frame.
         publisher: The full name of the node; "" if it is unknown.
-        static: Whether the edge is static, so that it has no rate, delay and age.
+        static: Whether the edge is static, so that rate, delay and age are undefined.
         transforms: The number of transforms.
         rate: Transforms per second, by their arrival.
         jitter: Standard deviation of the intervals between arrivals.
@@ -36,7 +36,7 @@ class EdgeFigures(NamedTuple):
         delay_p99: The 99th percentile of the delays.
         delay_max: The longest delay.
         age: The time from the newest stamp to the end of the observation.
-        stale: Whether the edge is stale (see :mod:`coframe.analysis.liveness`), whichever publisher it has.
+        stale: Whether the edge is stale (see :mod:`coframe.analysis.liveness`), regardless of the publisher.
     """
 
     parent: str
@@ -72,10 +72,10 @@ class ChainFigures(NamedTuple):
         delay: The mean age of the latest common time during the observation; None if all edges are static, or if an
             edge has no data.
         delay_p99: The 99th percentile of this age.
-        delay_max: The largest age.
+        delay_max: The maximum age.
         limit: The edge, as (parent, child), that limits the latest common time most often; None if all edges are
             static.
-        limit_share: The share of the time in which it does, from 0 to 1.
+        limit_share: The share of the time for which it does, from 0 to 1.
     """
 
     frames: list[str]
@@ -114,7 +114,7 @@ def publisher_figures(observation: Observation) -> list[PublisherFigures]:
 
 
 def chain_figures(observation: Observation, target: str, source: str) -> ChainFigures | None:
-    """Return the figures of the chain between two frames; None if they are not connected."""
+    """Return the statistics of the chain between two frames; None if they are not connected."""
     frames = observation.structure.chain(target, source)
     if frames is None:
         return None
@@ -135,7 +135,7 @@ def chain_figures(observation: Observation, target: str, source: str) -> ChainFi
 
 
 def _newest(edge: Edge, times: NDArray[np.int64]) -> NDArray[np.int64]:
-    """Return the newest stamp that had arrived at each of these times."""
+    """Return the newest stamp that had arrived by each of the given times."""
     row = np.searchsorted(edge.arrived, times, side="right") - 1
     return np.asarray(np.maximum.accumulate(edge.stamp)[np.maximum(row, 0)])
 

@@ -39,12 +39,12 @@ class Finding:
         text: What is wrong, with values; without the names of the edge and the publishers.
         fix: What to do: the command to run, or the line of code to change.
         edge: The edge as (parent, child); None if the finding concerns something else.
-        frames: The frames that it concerns, including those of the edge; they connect it to its cause.
+        frames: The frames that it concerns, including those of the edge; used to find its cause.
         topic: The topic that it concerns, or "".
-        first_stamp: The stamp of the first affected transform or message, in nanoseconds; None without one.
+        first_stamp: The stamp of the first affected transform or message, in nanoseconds; None if there is none.
         publishers: The full names of the affected publishers, as far as they are known.
         explains: Its consequences: findings that disappear with this one.
-        harm: Why it matters, if this differs from the page of the code.
+        harm: Why it matters, if it differs from the page of the code.
     """
 
     code: str
@@ -93,6 +93,6 @@ class Finding:
 
 
 def findings_table(findings: Sequence[Finding], noun: str = "finding") -> str:
-    """Return findings as an HTML table for notebooks, the first of them if they are many."""
+    """Return findings as an HTML table for notebooks; only the first ones if there are many."""
     rows = ((one.code, one.severity, one.subject, one.text, one.fix) for one in findings)
     return html_tables.table(("code", "severity", "subject", "problem", "fix"), rows, len(findings), noun)

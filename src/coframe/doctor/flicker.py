@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Flicker: an edge that alternates between two poses, as with two publishers that disagree."""
+"""Flicker: an edge that alternates between two poses, as if two publishers disagree."""
 
 from __future__ import annotations
 
@@ -19,13 +19,13 @@ __all__ = ["Flicker", "flicker"]
 _LEAST = 6  # jumps away and back
 _METRES = 1e-3
 _RADIANS = 1e-2
-# A jump must be larger than this many usual steps.
+# A jump must be larger than this multiple of the usual step.
 _CLEARLY = 6.0
 _SAMPLE = 1_000  # rows, which are enough for a quantile
 _TURNS = 3
 _MOSTLY = 0.4
 _GOLDEN = 0.6180339887498949
-# The longest distance between two rows of the slower publisher.
+# The maximum distance between two rows of the slower publisher.
 _LONGEST_RUN = 12
 
 
@@ -42,7 +42,7 @@ def flicker(edge: Edge) -> Flicker | None:
     """Return the flicker of an edge that repeatedly jumps away and back; None if it does not."""
     if edge.count < _LEAST + 2:
         return None
-    # The usual step is computed only if there are enough steps of any importance: it takes most of the time.
+    # The usual step is computed only if there are enough large steps, because it takes most of the time.
     if np.count_nonzero((edge.distances > _METRES) | (edge.turns > _RADIANS)) < _LEAST:
         return None
     typical_distance, typical_angle = _typical(edge)
@@ -80,7 +80,7 @@ def _typical(edge: Edge) -> tuple[float, float]:
 
 
 def _sample(count: int) -> NDArray[np.intp]:
-    """Return a sample of rows with irregular distances: regular ones could hit the rows of one publisher only."""
+    """Return a sample of rows at irregular distances, because a regular one could contain only one publisher."""
     if count <= _SAMPLE:
         return np.arange(count)
     return np.asarray(np.arange(_SAMPLE) * _GOLDEN % 1.0 * count).astype(np.intp)

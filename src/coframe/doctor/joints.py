@@ -18,11 +18,11 @@ if TYPE_CHECKING:
 __all__ = ["joint_states"]
 
 _MAX_POSITIONS = 10_000_000
-"""Of all joints and messages together: one message can name any number of joints."""
+"""For all joints and messages together, because one message can contain any number of joints."""
 
 
 def joint_states(topic: str, stamps: Sequence[int], messages: Sequence[Any]) -> JointStates:
-    """Return the positions in JointState messages; with fewer positions than names, those of the first joints."""
+    """Return the positions in JointState messages; if there are fewer positions than names, for the first joints."""
     positions: dict[str, NDArray[np.float64]] = {}
     most = _MAX_POSITIONS // max(len(messages), 1)
     for row, message in enumerate(messages):

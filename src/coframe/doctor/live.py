@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Observation of a live graph: a node that subscribes to transforms, sensors, joint states and log messages."""
+"""Observe a live graph: a node that subscribes to transforms, sensors, joint states and log messages."""
 
 from __future__ import annotations
 
@@ -86,7 +86,7 @@ class _Delays(NamedTuple):
 
 
 class _Topic:
-    """A subscribed topic other than those of transforms, with what was received on it."""
+    """A subscribed topic other than those of transforms, with the received data."""
 
     def __init__(self, name: str, ros_type: str, subscription: BatchSubscription) -> None:
         self.name = name
@@ -98,16 +98,16 @@ class _Topic:
         self.decoded: deque[tuple[int, Any]] = deque()
         self._sizes: deque[int] = deque()  # bytes of the decoded messages
         self._bytes = 0
-        self.forgotten_until = 0  # the time of the last message that was dropped or forgotten because of a limit
+        self.forgotten_until = 0  # the time of the last message dropped because of a limit
 
     def add_header(self, header: _ReceivedHeader) -> None:
-        """Store a header, and forget the oldest one beyond the limit on their number."""
+        """Store a header, and drop the oldest one if there are too many."""
         self.headers.append(header)
         if len(self.headers) > MAX_MESSAGES:
             self.forgotten_until = self.headers.popleft().arrived
 
     def add_decoded(self, size: int, arrived: int, message: Any) -> None:
-        """Store a message, and forget the oldest ones beyond the limits on their number and their bytes."""
+        """Store a message, and drop the oldest ones beyond the limits on number and bytes."""
         self.decoded.append((arrived, message))
         self._sizes.append(size)
         self._bytes += size
@@ -116,7 +116,7 @@ class _Topic:
             self._drop_oldest()
 
     def forget(self, before: int) -> None:
-        """Remove headers and decoded messages that arrived before a time; latched descriptions stay."""
+        """Remove headers and decoded messages that arrived before a time, except latched descriptions."""
         while self.headers and self.headers[0].arrived < before:
             self.headers.popleft()
         while self.type in _DECODED and self.decoded and self.decoded[0][0] < before:
@@ -166,7 +166,7 @@ class LiveObserver:
         self._static_writers: set[int] = set()  # those that have delivered
         self._topics: dict[str, _Topic] = {}
         self._topics_ignored = 0
-        self._dropped_at: dict[str, int] = {}  # by topic of transforms, the time of the last dropped message
+        self._dropped_at: dict[str, int] = {}  # by transform topic: the time of the last dropped message
         self._return_due = 0.0
         try:
             self._node = self._participant.add_node(node_namespace, node_name)
@@ -179,7 +179,7 @@ class LiveObserver:
             raise
 
     def close(self) -> None:
-        """Leave the graph. What was received stays available."""
+        """Leave the graph. Received data remains available."""
         self._node.close()
         self._participant.close()
 
@@ -196,7 +196,7 @@ class LiveObserver:
             for handle, endpoint in handles.items():
                 self._add_writer(handle, endpoint)
         before = 0 if self.window is None else time.time_ns() - self.window
-        # Before new transforms are added: they take the place of old ones, also after a pause.
+        # Done before new transforms are added, so that they reuse the space of old ones, even after a pause.
         self._collector.forget(before, MAX_TRANSFORMS)
         for topic, (subscription, static) in self._transforms.items():
             self._take_transforms(topic, subscription.take(), static)
@@ -232,7 +232,7 @@ class LiveObserver:
 
     def observe(self) -> Observation:
         """Return what was received within the window."""
-        self._return_due = 0.0  # The caller discards a large report: the next poll returns its memory.
+        self._return_due = 0.0  # The caller discards a large report; the next poll returns its memory.
         end = time.time_ns()
         start = self.start if self.window is None else max(self.start, end - self.window)
         return Observation(
@@ -288,7 +288,7 @@ class LiveObserver:
         return writer.node if number == 0 else f"{writer.node} (copy {number + 1})"
 
     def _forget(self, before: int, present: set[int]) -> None:
-        """Discard messages that arrived before a time, and the departed writers of only such messages."""
+        """Discard messages that arrived before a time, and departed writers without later messages."""
         self._collector.forget(before, MAX_TRANSFORMS)
         for topic in self._topics.values():
             topic.forget(before)
@@ -304,7 +304,7 @@ class LiveObserver:
         self._delays = {handle: delays for handle, delays in self._delays.items() if handle in active}
 
     def _return_memory(self) -> None:
-        """Return the memory of discarded messages and reports to the system from time to time."""
+        """Periodically return the memory of discarded messages and reports to the system."""
         if time.monotonic() >= self._return_due:
             self._return_due = time.monotonic() + _RETURN_PERIOD
             return_freed_blocks()
@@ -323,7 +323,7 @@ class LiveObserver:
         return {name: np.concatenate(batches) for name, batches in by_name.items() if batches}
 
     def _awaited_statics(self) -> set[int]:
-        """Return the handles of the matched publishers of static transforms that nothing was received from."""
+        """Return the handles of matched publishers of static transforms that have not delivered anything."""
         readers = [subscription for subscription, static in self._transforms.values() if static]
         return {writer for reader in readers for writer in reader.matched_handles()} - self._static_writers
 
@@ -352,7 +352,7 @@ class LiveObserver:
                     delays.popleft()
 
     def _leave(self, topics: Iterable[str]) -> None:
-        """Close the subscriptions to topics that are not published any more."""
+        """Close the subscriptions to topics that are no longer published."""
         for name in topics:
             self._topics.pop(name).subscription.close()
 
@@ -414,7 +414,7 @@ class LiveObserver:
         }
         published = self._participant.published()
         for topic in self._topics.values():
-            # Only topics without messages are examined by their publishers.
+            # Publishers are examined only for topics without messages.
             publishers = self._endpoints(published.get(topic.name, {}).values()) if not topic.messages else ()
             facts[topic.name] = TopicFacts(
                 topic.name, topic.type, topic.messages, publishers, observed=now - topic.since
@@ -422,7 +422,7 @@ class LiveObserver:
         return facts
 
     def _endpoints(self, endpoints: Iterable[EndpointInfo]) -> tuple[Endpoint, ...]:
-        """Return the endpoints that have a node. Others are not ROS programs, or are not fully discovered yet."""
+        """Return the endpoints with a known node. Others are not ROS programs, or are not fully discovered yet."""
         return tuple(
             Endpoint(full_name(endpoint.namespace, endpoint.node), endpoint.qos.transient_local)
             for endpoint in endpoints
@@ -431,7 +431,7 @@ class LiveObserver:
 
 
 def _decode(ros_type: str, messages: Iterable[tuple[bytes, int, int]]) -> Iterator[tuple[int, int, Any]]:
-    """Yield the size, the time of arrival and the content of each valid message."""
+    """Yield the size, arrival time and content of each valid message."""
     message_type = find(ros_type)
     for data, arrived, _ in messages:
         with contextlib.suppress(DecodeError):

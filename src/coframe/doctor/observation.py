@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Observation: the transforms and messages that were received or recorded, with the facts that several checks need.
+"""Observation: received or recorded transforms and messages, with derived data that several checks need.
 
 The rows are the transforms as published, including those that a buffer rejects. All times are int64 nanoseconds.
 """
@@ -37,7 +37,7 @@ class Endpoint:
     """A publisher or a subscription.
 
     Attributes:
-        node: The full name of its node; "" in a recording, which does not contain it.
+        node: The full name of its node; "" in recordings, which do not contain it.
         transient_local: Whether its durability is transient local: late joiners receive earlier messages.
     """
 
@@ -49,8 +49,8 @@ class Endpoint:
 class TopicFacts:
     """A topic: its type, the number of received messages, its publishers and its subscriptions.
 
-    In a recording, only the publishers of static transforms are known. For how long messages could be received, in
-    nanoseconds, is 0 in a recording.
+    In a recording, only the publishers of static transforms are known. The time for which messages could be received,
+    in nanoseconds, is 0 in a recording.
     """
 
     name: str
@@ -93,13 +93,13 @@ class JointStates:
 
 @dataclass(frozen=True, eq=False)
 class Clock:
-    """Simulated time: the times of arrival of the messages on /clock, and the times that they contain; (N,) each."""
+    """Simulated time: the arrival times of the messages on /clock, and the times in them; (N,) each."""
 
     arrived: NDArray[np.int64]
     stamp: NDArray[np.int64]
 
     def at(self, arrived: NDArray[np.int64]) -> NDArray[np.int64]:
-        """Return the simulated time at some times of arrival, interpolated between the messages."""
+        """Return the simulated time at given arrival times, interpolated between the messages."""
         between = np.interp((arrived - self.arrived[0]).astype(np.float64), self.arrived - self.arrived[0], self._since)
         return np.asarray(self.stamp[0] + np.rint(between).astype(np.int64))
 
@@ -128,11 +128,11 @@ class Observation:
         transforms: The transforms as published.
         empty_messages: The number of messages without any transform.
         damaged_messages: The number of messages that are not valid TFMessages.
-        messages_ignored: The number of messages that were ignored because of too many frame names before them.
-        topics_ignored: The number of topics that were not examined because there are too many.
-        transforms_since: The time of arrival since which all transforms are included, if older ones were forgotten
-            because there are too many; otherwise 0.
-        incomplete: The topics of which some messages are not included, because there are too many.
+        messages_ignored: The number of messages ignored because the limit of frame names was reached.
+        topics_ignored: The number of topics that were not examined because of the limit.
+        transforms_since: The arrival time since which all transforms are included, if older ones were dropped because
+            of the limit; otherwise 0.
+        incomplete: The topics with messages that are not included because of a limit.
         topics: The topics by name.
         sensors: Messages with a header that names a frame.
         descriptions: The robot descriptions, in the order of arrival.
@@ -141,7 +141,7 @@ class Observation:
         travel: By publisher, the transport times of its transforms by the clocks of two machines; live only.
         log: Messages of nodes on /rosout.
         cache: The cache length of the buffers of listeners.
-        unread: What could not be read of a recording, one message each.
+        unread: What could not be read from a recording, one message each.
         link_name: Returns the frame name of a link of the robot descriptions.
     """
 
@@ -173,7 +173,7 @@ class Observation:
 
     @cached_property
     def edges(self) -> tuple[Edge, ...]:
-        """The edges by the rows that tf2 accepts, static and dynamic ones separately, in the order of arrival."""
+        """The edges, from the rows that tf2 accepts, with static and dynamic ones separate, in the order of arrival."""
         rows_of = self.transforms
         rows = np.flatnonzero(rows_of.accepted)
         if not len(rows):
@@ -217,7 +217,7 @@ class Observation:
 
     @cached_property
     def last(self) -> dict[str, Edge]:
-        """By child: the edge of the last transform, which is the one that a buffer holds."""
+        """The edge of the last transform by child, which is the one in a buffer."""
         found: dict[str, Edge] = {}
         for edge in self.edges:
             other = found.get(edge.child)
@@ -226,11 +226,11 @@ class Observation:
         return found
 
     def silence(self, edge: Edge) -> int:
-        """Return for how long no transform of an edge was received before the end."""
+        """Return how long no transform of an edge was received before the end."""
         return self.end - int(edge.arrived[-1])
 
     def is_stale(self, edge: Edge) -> bool:
-        """Return whether an edge was stale at the end; not if its child frame has another parent by then."""
+        """Return whether an edge was stale at the end; False if its child frame had another parent by then."""
         is_current = self.last[edge.child] is edge
         return is_current and is_stale(self.silence(edge), edge.period, static=edge.static)
 
@@ -241,7 +241,7 @@ class Observation:
 
     @cached_property
     def structure(self) -> FrameTrees:
-        """The trees of the frames at the end, by the last parent of each frame."""
+        """The frame trees at the end, from the last parent of each frame."""
         return FrameTrees.from_parents({child: edge.parent for child, edge in self.last.items()}, self.frames)
 
     @cached_property
@@ -254,7 +254,7 @@ class Observation:
         return self.structure.root(frame)
 
     def path(self, frame: str) -> list[Edge]:
-        """Return the edges from a frame up to its root; the edges of a loop once."""
+        """Return the edges from a frame up to its root, with the edges of a loop once."""
         return [self.last[name] for name in self.structure.path(frame) if name in self.last]
 
     @cached_property
@@ -267,8 +267,8 @@ class Observation:
     def clocks(self) -> dict[str, str]:
         """By name of a dynamic edge and by topic of a sensor: the clock of its stamps.
 
-        The clock is ``wall``, ``simulated``, or ``other 1`` and so on for each clock that is hours off both. Edges
-        and sensors of which all stamps are 0 have no clock.
+        The clock is ``wall``, ``simulated``, or ``other 1`` and so on for clocks that are hours off both. Edges and
+        sensors whose stamps are all 0 have no clock.
         """
         times = {edge.name: (edge.stamp, edge.arrived) for edge in self.dynamic}
         times |= {sensor.topic: (sensor.stamp, sensor.arrived) for sensor in self.sensors if len(sensor.stamp)}
@@ -284,21 +284,21 @@ class Observation:
         return found
 
     def clock_of(self, stamp: NDArray[np.int64], arrived: NDArray[np.int64]) -> ClockName:
-        """Return the clock of stamps, by the times of their arrival."""
+        """Return the clock of stamps, determined from their arrival times."""
         simulated = None if self.clock is None else float(np.median(self.clock.at(arrived) - stamp))
         return clock_of(float(np.median(arrived - stamp)), simulated)
 
     def lags(self, stamp: NDArray[np.int64], arrived: NDArray[np.int64]) -> NDArray[np.int64] | None:
-        """Return the delays from stamps to arrival by the clock of the stamps; None if that clock is unknown."""
+        """Return the delays from stamp to arrival on the clock of the stamps; None if that clock is unknown."""
         clock = self.clock_of(stamp, arrived)
         if clock == "simulated" and self.clock is not None:
             return self.clock.at(arrived) - stamp
         return np.asarray(arrived - stamp) if clock == "wall" else None
 
     def waits(self, sensor: Sensor) -> NDArray[np.int64]:
-        """Return how long after the arrival of each message its transform to the root of the tree is available, (N,).
+        """Return how long after the arrival of each message its transform to the root is available, (N,).
 
-        0 stands for at once, NEVER for not at all. For the stamp 0, tf2 uses the latest transform.
+        0 means immediately; NEVER, not at all. For the stamp 0, tf2 uses the latest transform.
         """
         ready = np.zeros(len(sensor.stamp), dtype=np.int64)
         for edge in self.path(sensor.frame):

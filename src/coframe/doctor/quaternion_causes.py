@@ -15,10 +15,10 @@ if TYPE_CHECKING:
 
 __all__ = ["Cause", "likely_cause"]
 
-_CLOSE = 1.5e-3  # components that were typed with three digits
+_CLOSE = 1.5e-3  # for components that were typed with three digits
 _NAMES = ("roll", "pitch", "yaw")
 _SET = "t.transform.rotation."
-_ROUND = 5  # degrees; angles that were typed are multiples of it
+_ROUND = 5  # degrees; typed angles are multiples of this
 _DEFAULT_W = 1.0
 
 
@@ -27,7 +27,7 @@ class Cause(NamedTuple):
 
     Attributes:
         text: What the quaternions look like, as a clause.
-        fix: The line of code to use, with the right values of the first quaternion.
+        fix: The line of code to use, with the correct values of the first quaternion.
     """
 
     text: str
@@ -35,7 +35,7 @@ class Cause(NamedTuple):
 
 
 def likely_cause(quaternions: NDArray[np.float64]) -> Cause | None:
-    """Return the mistake that all given quaternions fit; None if there is none.
+    """Return the mistake that explains all given quaternions; None if there is none.
 
     Args:
         quaternions: (N, 4) x, y, z, w; finite, not 0, and not normalized.
@@ -53,7 +53,7 @@ def _missing_half(quaternions: NDArray[np.float64]) -> Cause | None:
     v = np.linalg.norm(quaternions[:, :3], axis=1)
     sine = np.sqrt(np.maximum(1.0 - w * w, 0.0))
     if (v < _CLOSE).all() or (len(w) == 1 and abs(v[0] - abs(w[0])) < _CLOSE):
-        return None  # a rotation of 90 degrees that was not normalized fits, too
+        return None  # an unnormalized rotation of 90 degrees also matches
     axis, component = _axis(quaternions)
     # The mistake, its residuals, and the angle of the first quaternion if it is right.
     candidates = (

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Observation of a recording, one per namespace: robots with their own /tf may use the same frame names."""
+"""Observe a recording, once per namespace, because robots with their own /tf may use the same frame names."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ if TYPE_CHECKING:
 
 __all__ = ["collecting", "observe_recording"]
 
-_MOST_DECODED = 2000  # messages per topic; more would only take longer
+_MOST_DECODED = 2000  # limit of messages per topic
 _MOST_DESCRIPTIONS = 10
 _LOGS = {"rcl_interfaces/msg/Log", "rosgraph_msgs/msg/Log"}
 
@@ -164,7 +164,7 @@ class _Facts:
         self.log = tuple(line for name in self._of_type(_LOGS) for line in self._lines(name))
 
     def _publishers(self, topic: str) -> tuple[Endpoint, ...]:
-        """Return the publishers of a topic of static transforms: their QoS, as the recording has no node names."""
+        """Return the publishers of a static transform topic: only their QoS, because recordings have no node names."""
         if not is_static(topic):
             return ()
         channels = (channel for channel in self._recording.channels() if channel.topic == topic)
@@ -181,10 +181,10 @@ class _Facts:
         return Clock(arrived, stamp) if len(stamp) else None
 
     def _decoded(self, topic: str, most: int) -> Iterator[Any]:
-        """Yield the first messages of a topic; damaged ones are in the problems of the recording.
+        """Yield the first messages of a topic; damaged ones are reported as problems of the recording.
 
-        The definition in a recording can differ from that of the type's name: any field can be missing, and a message
-        whose definition cannot be used is bytes.
+        The definition in a recording can differ from that of the type: any field can be missing, and a message without
+        a usable definition is returned as bytes.
         """
         messages = islice(self._recording.messages(topic), most)
         while (recorded := next(messages, None)) is not None:

@@ -26,7 +26,7 @@ def parsed(text: str) -> Robot:
 
 
 def model(observation: Observation) -> Robot | None:
-    """Return the robot of the newest valid description; None without one."""
+    """Return the robot of the newest valid description; None if there is none."""
     for text in reversed(observation.descriptions):
         try:
             return parsed(text)

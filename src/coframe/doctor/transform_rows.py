@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""TransformRows: transforms that are appended at the end and removed at the beginning, in arrays that stay."""
+"""TransformRows: transforms that are appended at the end and removed at the beginning, in reused arrays."""
 
 from __future__ import annotations
 
@@ -14,21 +14,19 @@ if TYPE_CHECKING:
 
 __all__ = ["TransformRows"]
 
-_GROWTH = 1.5  # of the arrays, when they are almost full
-_LEAST_ROOM = 1.1  # with less, the rows would be moved too often
-_MOST_PUBLISHERS = 1000  # with more, those without rows are forgotten
+_GROWTH = 1.5  # growth factor of the arrays when they are almost full
+_LEAST_ROOM = 1.1  # with fewer, rows would be moved too often
+_MOST_PUBLISHERS = 1000  # with more, unused ones are removed
 
 
 class TransformRows:
     """Rows of transforms in the order in which they were appended.
 
-    The arrays are used again for new rows. If each batch had arrays of its own, they would come and go several times
-    per second between other blocks, and the holes between them would add to the memory of a process that runs for
-    hours.
+    The arrays are reused for new rows. If each batch had its own arrays, they would be allocated and freed several
+    times per second, and fragmentation would increase the memory of long-running processes.
 
     Attributes:
-        forgotten_until: The time of arrival of the last row that was removed because there were too many; 0 if none
-            was.
+        forgotten_until: The arrival time of the last row removed because of the limit; 0 if none was.
     """
 
     def __init__(self) -> None:
@@ -52,7 +50,7 @@ class TransformRows:
         self._end = rows.stop
 
     def forget(self, before: int, most: int) -> None:
-        """Remove the first rows up to one that arrived at a time or later, and those beyond a maximum number."""
+        """Remove the rows that arrived before a time, and the oldest ones beyond a maximum number."""
         recent = self._columns["arrived"][self._begin : self._end] >= before
         self._begin = self._begin + int(recent.argmax()) if recent.any() else self._end
         if len(self) > most:
@@ -62,7 +60,7 @@ class TransformRows:
             self._forget_publishers()
 
     def table(self) -> Transforms:
-        """Return the rows without a copy: valid until the next change."""
+        """Return the rows without copying; valid until the next change."""
         rows = slice(self._begin, self._end)
         columns: dict[str, Any] = {name: column[rows] for name, column in self._columns.items()}
         return Transforms(**columns, publishers=tuple(self._publishers))
@@ -73,7 +71,7 @@ class TransformRows:
         return {names[number] for number in np.unique(self._columns["publisher"][self._begin : self._end]).tolist()}
 
     def _make_room(self, count: int) -> None:
-        """Let this number of rows fit behind the end: move the rows to the beginning, and enlarge full arrays."""
+        """Make room for this number of rows at the end: move rows to the beginning, and enlarge full arrays."""
         capacity = len(self._columns["stamp"])
         if self._end + count <= capacity:
             return
@@ -81,7 +79,7 @@ class TransformRows:
         larger = int(_GROWTH * (length + count)) if _LEAST_ROOM * (length + count) > capacity else 0
         for name, column in self._columns.items():
             target = np.empty((larger, *column.shape[1:]), column.dtype) if larger else column
-            # As one-dimensional arrays: for others, NumPy makes a copy of all rows if they overlap.
+            # One-dimensional, because NumPy copies all rows of other arrays if they overlap.
             target[:length].reshape(-1)[:] = column[kept].reshape(-1)
             self._columns[name] = target
         self._begin, self._end = 0, length

@@ -18,8 +18,8 @@ __all__ = ["COLUMNS", "NORM_TOLERANCE", "NO_TRANSFORMS", "Transforms", "bare", "
 
 # tf2 rejects a quaternion whose squared length differs from 1 by this much or more.
 NORM_TOLERANCE = 0.01
-_DENSE = 1_000_000  # keys up to this one are counted, which is faster than sorting them
-# All but the publishers, whose numbers depend on their names.
+_DENSE = 1_000_000  # keys up to this value are counted, which is faster than sorting
+# All except the publishers, whose numbers depend on their names.
 COLUMNS = ("arrived", "stamp", "parent", "child", "static", "values")
 
 
@@ -28,7 +28,7 @@ class Transforms:
     """Transforms as published, one row each, in the order of arrival.
 
     Attributes:
-        arrived: (N,) time of arrival of the message, by the clock of the listener.
+        arrived: (N,) arrival time of the message on the clock of the listener.
         stamp: (N,) stamp of the header.
         parent: (N,) number of the name of the parent.
         child: (N,) number of the name of the child.
@@ -38,7 +38,7 @@ class Transforms:
         names: The names of the frames, with the prefix if one was given; a name that was published with and without a
             leading slash occurs twice.
         sent: The names as published; empty if they are the same.
-        publishers: Full names of nodes; "" for a publisher that is unknown.
+        publishers: Full names of nodes; "" for an unknown publisher.
     """
 
     arrived: NDArray[np.int64]
@@ -54,7 +54,7 @@ class Transforms:
 
     @staticmethod
     def joined(batches: Sequence[Transforms], names: tuple[str, ...], sent: tuple[str, ...] = ()) -> Transforms:
-        """Return the rows of all batches in the order of arrival; the numbers of frames are those of these names."""
+        """Return the rows of all batches in the order of arrival, with frame numbers that refer to `names`."""
         columns: dict[str, Any] = {
             name: np.concatenate([getattr(batch, name) for batch in (NO_TRANSFORMS, *batches)]) for name in COLUMNS
         }
@@ -96,7 +96,7 @@ class Transforms:
         if not len(keys) or keys.max() > _DENSE:
             pairs, edge = np.unique(keys, return_inverse=True)
             return pairs, edge
-        pairs = np.flatnonzero(np.bincount(keys))  # takes a tenth of the time of np.unique
+        pairs = np.flatnonzero(np.bincount(keys))  # ten times as fast as np.unique
         number = np.zeros(int(pairs[-1]) + 1, dtype=np.int64)
         number[pairs] = np.arange(len(pairs))
         return pairs, number[keys]
@@ -117,7 +117,7 @@ class Transforms:
         return self.names[parent], self.names[child]
 
     def publishers_of(self, rows: NDArray[np.intp]) -> tuple[str, ...]:
-        """Return the names of the publishers of some rows, as far as they are known."""
+        """Return the names of the publishers of given rows, as far as they are known."""
         numbers = np.unique(self.publisher[rows]).tolist()
         return tuple(self.publishers[number] for number in numbers if self.publishers[number])
 
@@ -128,7 +128,7 @@ def numbered(known: dict[str, int], names: Iterable[str]) -> NDArray[np.int64]:
 
 
 def bare(names: tuple[str, str]) -> tuple[str, str]:
-    """Return parent and child as tf2 reads them: without a leading slash."""
+    """Return parent and child as tf2 stores them, without a leading slash."""
     parent, child = names
     return parent.lstrip("/"), child.lstrip("/")
 

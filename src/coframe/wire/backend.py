@@ -4,8 +4,8 @@
 `coframe.wire.dds` and `coframe.wire.zenoh` implement these protocols. Everything above them is the same for both. The
 endpoints of DDS are the native classes themselves, so that DDS messages pass through no extra layer.
 
-Two facts hold in both: topics and types are named as in DDS (`coframe.wire.names`), and a writer is identified by a
-handle, a 64-bit number that messages carry and the graph knows.
+In both, topics and types are named as in DDS (`coframe.wire.names`), and a writer is identified by a handle, a 64-bit
+number that is part of each message and of the graph.
 """
 
 from __future__ import annotations
@@ -24,12 +24,12 @@ if TYPE_CHECKING:
 
 
 class QueueLimits(NamedTuple):
-    """What a `BackendTap` keeps until it is taken.
+    """Limits on what a `BackendTap` queues.
 
     Attributes:
-        head: The number of bytes of each message.
+        head: The number of bytes to keep of each message.
         messages: The number of messages.
-        size: The number of bytes of all messages. The last one may exceed it.
+        size: The total number of bytes. The last message may exceed it.
     """
 
     head: int
@@ -66,10 +66,10 @@ class BackendWriter(BackendEndpoint, Protocol):
     """A publisher of serialized messages: 4 bytes of encapsulation, then CDR."""
 
     def write(self, message: bytes) -> None:
-        """Send a message. Transforms are checked if the writer was created so."""
+        """Send a message. Transforms are checked if the writer was created with `checked`."""
 
     def forward(self, message: bytes) -> None:
-        """Send a message without a check of its bytes."""
+        """Send a message without checking its bytes."""
 
     def publish(self, codec: _core.MessageCodec, message: object) -> bool:
         """Serialize and send a message without a copy. Return False if nothing was sent: `write` its bytes."""
@@ -91,7 +91,7 @@ class BackendWriter(BackendEndpoint, Protocol):
         """
 
     def assert_liveliness(self) -> None:
-        """Show the subscriptions that this publisher is alive."""
+        """Assert that this publisher is alive."""
 
     def wait_for_acks(self, timeout_ns: int) -> bool:
         """Wait until all reliable subscriptions have received all messages. Return False after the timeout."""
@@ -224,10 +224,10 @@ class Session(Protocol):
         """Publish the nodes of this process with their endpoints."""
 
     def repeat_announcement(self) -> int:
-        """Announce this process again if it is time to. Return the time until the next call in nanoseconds."""
+        """Announce this process again if it is due. Return the time until the next call in nanoseconds."""
 
     def adapt(self) -> str:
         """Adapt to a change of the graph. Return a warning, or "" if there is none."""
 
     def close(self) -> None:
-        """Leave the domain. All endpoints are closed before."""
+        """Leave the domain. All endpoints must be closed first."""

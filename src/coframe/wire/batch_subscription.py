@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from coframe.wire.qos import QoS
 
 
-MAX_QUEUED_BYTES = 256 << 20  # of one subscription, until its messages are taken
+MAX_QUEUED_BYTES = 256 << 20  # per subscription, until its messages are taken
 
 
 class MessageBatch(NamedTuple):
@@ -30,7 +30,7 @@ class MessageBatch(NamedTuple):
         arrived: The arrival times on the clock of this machine, (N,) int64.
         sent: The publication times on the clock of the publisher's machine, (N,) int64.
         writers: The handles of the writers, (N,) uint64, for `Participant.writer_node`.
-        dropped: The number of further messages, which were dropped because the queue was full.
+        dropped: The number of messages that were dropped because the queue was full.
     """
 
     data: bytes

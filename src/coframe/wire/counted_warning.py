@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Warnings about what other nodes can cause at any rate, for example by invalid messages."""
+"""Rate-limited warnings about events that other nodes can cause at any rate, such as invalid messages."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ REPEAT_AFTER: Final = 10.0  # seconds
 
 
 class CountedWarning:
-    """A warning that is issued at most every 10 s, with the number of its causes; may be used by any thread.
+    """A warning that is issued at most every 10 s, with the number of events. Thread-safe.
 
     Args:
-        warn: Called with the text of each warning.
+        warn: Called with each warning.
         clock: Returns the time in seconds.
     """
 
@@ -29,7 +29,7 @@ class CountedWarning:
         self._omitted = 0
 
     def __call__(self, text: str) -> None:
-        """Issue the warning, or count it if the last one is too recent."""
+        """Issue the warning, or only count it if the last one is too recent."""
         with self._lock:
             if self._clock() < self._next:
                 self._omitted += 1

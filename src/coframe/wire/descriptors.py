@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The check that enough file descriptors are left to join the graph: middlewares crash if they get none."""
+"""Check that enough file descriptors are left to join the graph: middlewares crash if there are none."""
 
 from __future__ import annotations
 
@@ -13,8 +13,8 @@ def check(needed: int, middleware: str, domain: int) -> None:
 
     Args:
         needed: The number of file descriptors that the middleware needs.
-        middleware: Its name in the error.
-        domain: The domain ID in the error.
+        middleware: Its name in the error message.
+        domain: The domain ID in the error message.
 
     Raises:
         WireError: Fewer descriptors are left.

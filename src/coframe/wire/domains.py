@@ -29,8 +29,8 @@ def check_domain_id(value: str | int, what: str = "domain") -> int:
     """Return `value` as a domain ID.
 
     Args:
-        value: The domain ID, as a number or a text.
-        what: The name of the value in the error text.
+        value: The domain ID, as a number or a string.
+        what: The name of the value in the error message.
 
     Raises:
         WireError: It is not an integer from 0 to 232.

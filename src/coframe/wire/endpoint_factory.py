@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Creation of publishers and subscriptions."""
+"""Create publishers and subscriptions."""
 
 from __future__ import annotations
 
@@ -89,7 +89,7 @@ class EndpointFactory:
             topic: The fully qualified name of the topic or service.
             message_type: The message class.
             qos: The requested quality of service.
-            on_data: An event that is set whenever messages arrive or a status changes (see
+            on_data: An event that is set when messages arrive or a status changes (see
                 `LocalEndpoint.take_status`).
             kind: "topic", "request" or "reply". The type and the bytes of requests and replies are not checked.
             adapts: Whether the caller replaces the subscription when publishers offer less than `qos`. If so, no
@@ -140,7 +140,7 @@ class EndpointFactory:
             message_type: The class of the requests or replies.
             qos: The requested quality of service.
             kind: "request" or "reply".
-            on_data: An event that is set whenever messages arrive.
+            on_data: An event that is set when messages arrive.
 
         Raises:
             WireError: The middleware cannot create the subscription.
@@ -181,7 +181,7 @@ class EndpointFactory:
             topic: The fully qualified name of the topic, such as "/scan".
             ros_type: The type, such as "sensor_msgs/msg/LaserScan". It does not have to be known in this process.
             qos: The requested quality of service.
-            on_data: An event that is set whenever messages arrive.
+            on_data: An event that is set when messages arrive.
             adapts: Whether the caller replaces the subscription when publishers offer less than `qos`. If so, no
                 warning about incompatible QoS is logged.
 
@@ -202,7 +202,7 @@ class EndpointFactory:
             ros_type: The type, such as "sensor_msgs/msg/LaserScan". It does not have to be known in this process.
             qos: The requested quality of service.
             max_bytes: The number of bytes to keep of each message.
-            capacity: The number of messages that can be queued. Further messages, and those beyond
+            capacity: The number of messages that can be queued. Messages beyond this number, and beyond
                 :data:`MAX_QUEUED_BYTES <coframe.wire.batch_subscription.MAX_QUEUED_BYTES>`, are dropped and counted.
 
         Raises:
@@ -234,7 +234,7 @@ class EndpointFactory:
             buffer: The buffer that stores the transforms.
             static: Whether the transforms are static.
             qos: The requested quality of service. If None, it is that of tf2's listener.
-            authority: The source that the buffer records for the transforms. If None, it is the publishing node.
+            authority: The authority that the buffer records for the transforms. If None, it is the publishing node.
             renaming: The renaming of frames (see `coframe.frame_names.renaming`). If None, frames keep their names.
             on_data: An event that is set whenever a status changes, and by the next message after `TfReader.arm`.
             on_mismatch: The attribute of the reader; see `LocalEndpoint`.

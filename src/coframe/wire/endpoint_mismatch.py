@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Warnings about publishers and subscriptions on one topic that cannot communicate."""
+"""Warnings about publishers and subscriptions on the same topic that cannot communicate."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 _PREFIX_SIZE = 12  # bytes of a GUID that identify the participant
 
-# For each QoS policy: what the publisher offers, what the subscription requests, and how to correct it.
+# For each QoS policy: the offer, the request, and how to fix the mismatch.
 _QOS = {
     "reliability": (
         "best-effort",
@@ -114,10 +114,10 @@ class MismatchMonitor:
 
     Args:
         graph: The graph, which contains the endpoints of other processes.
-        warn: Called with the text of each warning.
+        warn: Called with each warning.
     """
 
-    # An endpoint may be discovered before the name of its node is known and before the match is decided.
+    # An endpoint may be discovered before the name of its node and the result of the match are known.
     _GRACE_PERIOD = 2.0  # seconds
 
     def __init__(self, graph: Graph, warn: Callable[[str], None]) -> None:
@@ -181,7 +181,7 @@ class MismatchMonitor:
 def _reasons(own: LocalEndpoint, peer: DiscoveredEndpoint, graph: Graph) -> list[str]:
     pair = (own.description, peer) if own.is_writer else (peer, own.description)
     reasons = mismatch_reasons(*pair, qos_must_match=graph.qos_must_match) or ["other"]
-    # As in ROS, endpoints with a callback report the first policy only.
+    # As in ROS, endpoints with a callback report only the first policy.
     return reasons if own.on_mismatch is None else reasons[:1]
 
 

@@ -105,13 +105,13 @@ class GraphNode:
 class LocalEndpoint:
     """A reader or writer of this process, announced as an endpoint of one or more of its nodes.
 
-    The constructor announces the endpoint, after which the maintenance thread uses it. A subclass must therefore
-    call this constructor last.
+    The constructor announces the endpoint, after which the maintenance thread uses it. Subclasses must therefore call
+    this constructor last.
 
     Attributes:
         adapts: Whether the caller replaces the endpoint when its QoS does not match the other side. If so, no
             warning about incompatible QoS is logged.
-        on_mismatch: Called with the reason ("type" or a QoS policy) and a sentence for each endpoint on the topic that
+        on_mismatch: Called with the reason ("type" or a QoS policy) and a message for each endpoint on the topic that
             cannot communicate with this one. If None, the participant warns.
     """
 
@@ -174,7 +174,7 @@ class LocalEndpoint:
         return self._closed
 
     def share(self, node: GraphNode) -> None:
-        """Announce this as an endpoint of `node` as well."""
+        """Also announce this as an endpoint of `node`."""
         with self._lock:
             if node not in self._nodes:
                 self._nodes.append(node)
@@ -239,7 +239,8 @@ class Publisher(LocalEndpoint):
         """Serialize and publish a message, without the copies of large arrays that `write` needs.
 
         Returns:
-            False if the message was not published, because the codec leaves it to Python code: `write` its bytes.
+            False if the message was not published, because the codec does not support it: serialize it and call
+            `write`.
 
         Raises:
             WireError: As for `write`.
@@ -268,7 +269,7 @@ class Publisher(LocalEndpoint):
         return self._writer.direct(codec, closed, lambda text: failure(self._write_error(text)), of_items)
 
     def assert_liveliness(self) -> None:
-        """Show the subscriptions that this publisher is alive."""
+        """Assert that this publisher is alive."""
         if not self._closed:
             self._writer.assert_liveliness()
 
@@ -331,5 +332,5 @@ class Subscription(LocalEndpoint):
         return [Sample(*message) for message in self._reader.take_decoded(limit, codec)]
 
     def pending(self) -> bool:
-        """Return whether messages may be queued. The check is cheap and can be true although `take` finds none."""
+        """Return whether messages may be queued. Cheap; may return True although `take` returns none."""
         return not self._closed and self._reader.pending

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The warning about a node whose middleware sends requests and replies in another form."""
+"""Warn about a node whose middleware sends requests and replies in another form."""
 
 from __future__ import annotations
 

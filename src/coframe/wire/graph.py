@@ -68,7 +68,7 @@ class Graph:
 
     Attributes:
         qos_must_match: Whether endpoints with incompatible quality of service do not communicate.
-        replies_need_discovery: Whether a reply reaches only clients that were discovered before.
+        replies_need_discovery: Whether a reply reaches only clients that are already discovered.
     """
 
     qos_must_match = True
@@ -84,7 +84,7 @@ class Graph:
         self._version = 0
 
     def close(self) -> None:
-        """Stop discovery. The state stays available."""
+        """Stop discovery. The state remains available."""
         raise NotImplementedError
 
     def foreign_services(self, guid: bytes) -> str:
@@ -93,7 +93,7 @@ class Graph:
         return ""
 
     def ignores_requests(self, peer: DiscoveredEndpoint, qos: QoS) -> bool:
-        """Return whether a reader with foreign services does not match writers of requests of this process.
+        """Return whether a reader with foreign services does not match request writers of this process.
 
         Args:
             peer: The reader.
@@ -109,7 +109,7 @@ class Graph:
 
     @property
     def version(self) -> int:
-        """The number that `refresh` has returned last."""
+        """The number that `refresh` last returned."""
         return self._version
 
     def refresh(self) -> int:
@@ -189,7 +189,7 @@ class Graph:
     def writer_node(self, handle: int) -> str | None:
         """Return the full name of the node of a writer on a ROS topic; None if it is unknown.
 
-        The names of the last writers that have left are kept.
+        The names of recently departed writers are kept.
         """
         self.refresh()
         with self._lock:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Questions about the nodes, topics, services and endpoints on the ROS graph."""
+"""Query the nodes, topics, services and endpoints of the ROS graph."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ __all__ = ["GraphQueries"]
 
 
 class GraphQueries:
-    """The methods of a participant that answer questions about the ROS graph."""
+    """The methods of a participant that query the ROS graph."""
 
     _graph: Graph
 

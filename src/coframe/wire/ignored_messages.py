@@ -12,15 +12,15 @@ if TYPE_CHECKING:
 
     from coframe.wire.endpoints import LocalEndpoint
 
-_COLLECTED: Final = 1.0  # seconds after the first one, so that the warning has the number of all of them
+_COLLECTED: Final = 1.0  # seconds to wait after the first one, so that the warning contains the total number
 _REPEAT_AFTER: Final = 10.0  # seconds
 
 
 class IgnoredMessageMonitor:
-    """Warns about requests and replies that were ignored, with their number, at most every 10 s for each service.
+    """Warns about ignored requests and replies, with their number, at most every 10 s per service.
 
     Args:
-        warn: Called with the text of each warning.
+        warn: Called with each warning.
     """
 
     def __init__(self, warn: Callable[[str], None]) -> None:
@@ -29,7 +29,7 @@ class IgnoredMessageMonitor:
         self._due: weakref.WeakKeyDictionary[LocalEndpoint, float] = weakref.WeakKeyDictionary()
 
     def check(self, endpoints: Iterable[LocalEndpoint]) -> None:
-        """Warn about messages that `endpoints` have ignored since the last warning."""
+        """Warn about messages that `endpoints` ignored since the last warning."""
         now = time.monotonic()
         for endpoint in endpoints:
             if not endpoint.has_warning:

@@ -22,13 +22,13 @@ _AFFIXES: dict[Kind, tuple[str, str]] = {
 def check_name(name: str) -> None:
     """Raise a WireError if a name is too long or not valid UTF-8.
 
-    The DDS standard allows 256 bytes. Cyclone DDS and Zenoh end the process when they announce a name of 64 KiB.
+    The DDS standard allows 256 bytes. Cyclone DDS and Zenoh abort the process when they announce a name of 64 KiB.
     """
     if (size := len(name.encode(errors="surrogatepass"))) > MAX_NAME:
         raise WireError(
             f"The name {shown(name)!r} has {size} bytes. The limit is {MAX_NAME} bytes.", hint="Choose a shorter name."
         )
-    if any("\ud800" <= c <= "\udfff" for c in name):  # in arguments of programs, for bytes that are not UTF-8
+    if any("\ud800" <= c <= "\udfff" for c in name):  # surrogates, which represent non-UTF-8 bytes in program arguments
         raise WireError(f"The name {shown(name)!r} is not valid UTF-8.", hint="Choose another name.")
 
 
@@ -49,7 +49,7 @@ def ros_topic(name: str, kind: Kind = "topic") -> str | None:
 
 
 def is_topic(name: str) -> bool:
-    """Return whether a DDS topic is that of a ROS topic, and not of a service."""
+    """Return whether a DDS topic belongs to a ROS topic, not to a service."""
     return ros_topic(name) is not None
 
 
@@ -68,7 +68,7 @@ def ros_type(name: str) -> str:
 
 
 class Endpoint(NamedTuple):
-    """What a publisher or subscription sends: its topic or service, the part of the service, and the ROS type.
+    """The topic or service of a publisher or subscription, with its ROS type.
 
     Attributes:
         name: The fully qualified ROS name of the topic or service.

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The parameter services of nodes without parameters, so that `ros2 param` gets an answer from them.
+"""Parameter services of nodes without parameters, so that `ros2 param` receives a response from them.
 
 The services of a node are created when the first client is discovered. Until then, they cost nothing.
 """
@@ -57,7 +57,7 @@ class ParameterServices:
         self._closing = False
 
     def serve(self, nodes: Iterable[GraphNode], requested: Collection[str]) -> None:
-        """Create the services of the nodes that a client has been discovered for.
+        """Create the services of the nodes for which a client has been discovered.
 
         Args:
             nodes: Nodes without parameters.
@@ -106,7 +106,7 @@ class ParameterServices:
 
 
 def _answer(service: _Service) -> None:
-    # Importing coframe.wire must be cheap.
+    # Imported here because importing coframe.wire must be cheap.
     from coframe.messages.codec import deserialize_whole, serialize  # noqa: PLC0415
 
     for message in service.requests.take_messages() if service.requests.pending() else ():
@@ -119,7 +119,7 @@ def _answer(service: _Service) -> None:
 
 
 def _response(srv_type: Any, request: Any) -> Any:
-    """Return the response of a node without parameters: there are none, and none can be set."""
+    """Return the response of a node without parameters: it has none, and none can be set."""
     response = srv_type.Response()
     if not hasattr(request, "parameters"):
         return response

@@ -115,8 +115,8 @@ class Participant(EndpointFactory, GraphQueries):
         Args:
             namespace: The absolute namespace: "/" or "/a/b".
             name: The name without the namespace.
-            has_parameters: Whether the caller answers the parameter services of the node. If not, the participant
-                answers that there are no parameters.
+            has_parameters: Whether the caller provides the parameter services of the node. If not, the participant
+                provides services without parameters.
 
         Raises:
             WireError: The namespace is not absolute, or a name is longer than 256 bytes.
@@ -154,7 +154,7 @@ class Participant(EndpointFactory, GraphQueries):
             return shared.join(node)
 
     def watch_graph(self, event: _core.Event) -> None:
-        """Set `event` whenever the graph changes, until `unwatch_graph` is called."""
+        """Set `event` when the graph changes, until `unwatch_graph` is called."""
         with self._lock:
             self._watchers.append(event)
 
@@ -164,7 +164,7 @@ class Participant(EndpointFactory, GraphQueries):
             self._watchers = [watcher for watcher in self._watchers if watcher is not event]
 
     def on_warning(self, callback: Callable[[str], None]) -> None:
-        """Call `callback` with the text of each communication warning, on the maintenance thread.
+        """Call `callback` with each communication warning, on the maintenance thread.
 
         If no callback is registered, warnings go to the logger "coframe.wire".
         """
@@ -179,14 +179,14 @@ class Participant(EndpointFactory, GraphQueries):
             self._session.announce(self._nodes)
 
     def is_inherited(self) -> bool:
-        """Return whether this process was forked from the one that created the participant."""
+        """Return whether this process was forked from the process that created the participant."""
         return self._process != os.getpid()
 
     def _warn(self, text: str) -> None:
         with self._lock:
             callbacks = list(self._warning_callbacks)
         for callback in callbacks or [_logger.warning]:
-            callback(printable(text))  # with names from the network
+            callback(printable(text))  # contain names from the network
 
     def _endpoints(self) -> list[LocalEndpoint]:
         with self._lock:
@@ -211,12 +211,12 @@ class Participant(EndpointFactory, GraphQueries):
                 readers = [endpoint for endpoint in endpoints if isinstance(endpoint, TfReader)]
                 self._rejections.check(readers)
                 self._warn_of_naming_problems(readers)
-                if (fault := clock_fault()) is not None:  # The clock was set while the process runs.
+                if (fault := clock_fault()) is not None:  # The clock was changed while the process was running.
                     self._warn_once("clock", f"{fault} {fault.hint}")
             except Exception:
                 # A warning callback raised, or an endpoint was closed in the meantime.
                 if not self._closing:
-                    _logger.exception("The maintenance of the ROS graph failed. It is tried again in 1 s.")
+                    _logger.exception("The maintenance of the ROS graph failed. Retrying in 1 s.")
             self._wake.wait(pause)
 
     def _warn_of_naming_problems(self, readers: list[TfReader]) -> None:

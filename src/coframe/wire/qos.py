@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Quality of service: what a publisher offers and a subscription requests."""
+"""Quality of service that a publisher offers or a subscription requests."""
 
 from __future__ import annotations
 
@@ -19,10 +19,10 @@ class QoS:
         transient_local: Whether late-joining subscriptions receive the last messages ("transient local"), or not
             ("volatile").
         keep_all: Whether every message is kept until it is delivered.
-        manual_liveliness: Whether the publisher asserts its liveliness itself, rather than its process.
-        deadline: The longest time between two messages, in nanoseconds.
+        manual_liveliness: Whether the publisher asserts its own liveliness, instead of its process.
+        deadline: The maximum time between two messages, in nanoseconds.
         lifespan: The time after which a publisher's messages are no longer delivered, in nanoseconds.
-        lease: The time without a sign of life after which a publisher counts as lost, in nanoseconds.
+        lease: The time after which a publisher that does not assert its liveliness counts as lost, in nanoseconds.
 
     Raises:
         ValueError: The depth is less than 1.
@@ -46,6 +46,6 @@ DEFAULT = QoS()
 SENSOR = QoS(depth=5, reliable=False)
 TF = QoS(depth=100)
 TF_STATIC_WRITER = QoS(depth=1, transient_local=True)
-# The topic has no key, so a reader with a depth of 1 would keep the message of only one broadcaster.
+# The topic has no key, so a reader with a depth of 1 would keep only the message of one broadcaster.
 TF_STATIC_READER = QoS(depth=100, transient_local=True)
 GRAPH_WRITER = QoS(depth=1, transient_local=True)

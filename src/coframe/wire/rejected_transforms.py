@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 _REPEAT_AFTER = 10.0  # seconds
 
-# For each counter of `Buffer.statistics`: what happened, to what, and why.
+# For each counter of `Buffer.statistics`: what happened, what was affected, and why.
 _REASONS = {
     "refused": (
         "Rejected",
@@ -28,7 +28,7 @@ _REASONS = {
     "over_limit": (
         "Rejected",
         "transforms",
-        "their frames are new, and the buffer has no room for more frames of other nodes.",
+        "their frames are new, and the buffer cannot store more frames of other nodes.",
     ),
     "old": (
         "Dropped",
@@ -44,13 +44,13 @@ _REASONS = {
 
 
 class RejectedTransformMonitor:
-    """Warns about received transforms that were not stored in a buffer, at most every 10 s for each reason.
+    """Warns about received transforms that were not stored in a buffer, at most every 10 s per reason.
 
     A later lookup only reports that the frame does not exist. tf2 logs every rejected transform instead.
 
     Args:
         graph: The graph, which contains the publishers.
-        warn: Called with the text of each warning.
+        warn: Called with each warning.
     """
 
     def __init__(self, graph: Graph, warn: Callable[[str], None]) -> None:

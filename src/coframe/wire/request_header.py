@@ -8,13 +8,13 @@ from typing import Final, NamedTuple
 
 from coframe.messages.encapsulation import byte_order
 
-ENCAPSULATION_SIZE: Final = 4  # The CDR header remains in front of the request header.
+ENCAPSULATION_SIZE: Final = 4  # The CDR header stays before the request header.
 _LITTLE: Final = struct.Struct("<Qq")
 _BIG: Final = struct.Struct(">Qq")
 
 
 class RequestHeader(NamedTuple):
-    """Identifier of the client and the sequence number of its request."""
+    """The client ID and the sequence number of a request."""
 
     client: int
     sequence: int

@@ -192,7 +192,7 @@ def join(wire: str, domain: int, changed: _core.Event) -> Session:
     Args:
         wire: The middleware.
         domain: The domain ID.
-        changed: Set whenever the graph may have changed.
+        changed: Set when the graph may have changed.
 
     Raises:
         WireError: The middleware is not installed, its configuration is not valid, or it cannot join the domain.

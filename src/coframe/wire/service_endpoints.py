@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Publishers and subscriptions of requests and replies, for nodes whose middleware sends services in the same form."""
+"""Publishers and subscriptions of requests and replies, for nodes whose middleware encodes services the same way."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 
 class RefusedRequestError(WireError):
-    """A request was not sent, because the server would not understand it."""
+    """A request was not sent because the server would misread it."""
 
 
 class ServiceMessage(NamedTuple):
@@ -37,9 +37,9 @@ class _Peers(NamedTuple):
     """The endpoints on the other side of an endpoint.
 
     Attributes:
-        understood: The number of matched endpoints that send requests and replies in the same form.
+        understood: The number of matched endpoints that use the same form of requests and replies.
         foreign: An endpoint that uses another form, whether it is matched or not; None if there is none.
-        receiver: The same for an endpoint that may receive what this process publishes.
+        receiver: An endpoint of the same kind that may receive what this process publishes.
     """
 
     understood: int
@@ -48,7 +48,7 @@ class _Peers(NamedTuple):
 
     @property
     def refusing(self) -> DiscoveredEndpoint | None:
-        """The endpoint because of which no request can be sent; None if requests can be sent."""
+        """The endpoint that prevents requests from being sent; None if requests can be sent."""
         return self.receiver if self.understood else self.foreign
 
 
@@ -68,8 +68,8 @@ class ServicePublisher(RawPublisher):
     """A publisher of requests or replies.
 
     Attributes:
-        on_unreachable: Called with a sentence while the only servers are ones that do not understand the requests, on
-            the maintenance thread of the participant.
+        on_unreachable: Called with a message, on the maintenance thread of the participant, while all servers would
+            misread the requests.
     """
 
     on_unreachable: Callable[[str], object] | None = None
@@ -88,7 +88,7 @@ class ServicePublisher(RawPublisher):
 
     @property
     def refusal(self) -> str:
-        """Why no request can be sent: the warning about a server that would misread it; "" if there is none."""
+        """The warning about a server that would misread a request, so that none can be sent; "" if there is none."""
         peer = self._peers().refusing
         return "" if peer is None else self._text(peer)
 
@@ -96,8 +96,8 @@ class ServicePublisher(RawPublisher):
         """Publish a request or a reply.
 
         Raises:
-            RefusedRequestError: A server on the graph would take the request for another one. If another server
-                understands it, and the first one does not receive it, it is sent.
+            RefusedRequestError: A server on the graph would misread the request. The request is sent if that server
+                does not receive it and another one understands it.
             WireError: As for `Publisher.write`.
         """
         if self._sends_requests and (reason := self.refusal):
@@ -105,7 +105,7 @@ class ServicePublisher(RawPublisher):
         super().write(cdr)
 
     def report_unreachable(self) -> None:
-        """Call `on_unreachable` if there are only servers that do not understand the requests."""
+        """Call `on_unreachable` if all servers would misread the requests."""
         if self.on_unreachable is not None:
             peers = self._peers()
             if peers.foreign is not None and not peers.understood:
@@ -162,7 +162,7 @@ class ServiceSubscription(Subscription):
         return [sample for sample in super().take(limit) if not self._graph.foreign_writer(sample.writer)]
 
     def take_messages(self, limit: int = 100) -> list[ServiceMessage]:
-        """Return the same without their headers. Messages without a header are ignored."""
+        """Return the messages without their headers. Messages without a header are ignored."""
         messages = []
         for sample in self.take(limit):
             parts = request_header.split(sample.data)
@@ -173,7 +173,7 @@ class ServiceSubscription(Subscription):
         return messages
 
     def ignore(self, writer: int, reason: str) -> None:
-        """Count a message that was ignored.
+        """Count an ignored message.
 
         Args:
             writer: The handle of its writer.
@@ -183,7 +183,7 @@ class ServiceSubscription(Subscription):
         self._last_ignored = writer, reason
 
     def ignore_request(self, request: ServiceMessage, reason: str) -> None:
-        """Count a request that was ignored and will not be answered; see `ignore`."""
+        """Count an ignored request that will not be answered; see `ignore`."""
         self.ignore(request.writer, reason)
         self._service_reader.reject(request.header)
 

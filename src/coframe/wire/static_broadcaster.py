@@ -117,7 +117,7 @@ class StaticBroadcaster:
         return self._shared.matched
 
     def send(self, transforms: Iterable[Any]) -> None:
-        """Publish TransformStamped messages, together with all that this process has sent on the topic before.
+        """Publish TransformStamped messages, together with all that this process has already sent on the topic.
 
         A transform replaces an earlier one with the same child frame. The messages are copied.
 
@@ -155,8 +155,8 @@ class StaticBroadcaster:
         return True
 
     def direct(self, *_: object, of_items: bool = False) -> None:
-        """Return None: there is no native function that does what `publish` does."""
+        """Return None, because there is no native equivalent of `publish`."""
 
     def close(self) -> None:
-        """Close this broadcaster. Its transforms stay available until the last broadcaster of the topic is closed."""
+        """Close this broadcaster. Its transforms remain available until the last broadcaster of the topic is closed."""
         self._shared.leave(self)

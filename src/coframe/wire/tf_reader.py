@@ -18,17 +18,17 @@ if TYPE_CHECKING:
     from coframe.wire.names import Endpoint
     from coframe.wire.qos import QoS
 
-# tf2's text for a transform without a publisher.
+# tf2's authority for a transform without a publisher.
 NO_AUTHORITY = "<no authority available>"
 
-# How long to wait for the static transforms of publishers that were started earlier. Fast DDS takes 2 to 3.5 seconds.
+# How long to wait for static transforms of publishers that were started earlier. Fast DDS takes 2 to 3.5 seconds.
 STATICS_TIMEOUT = 5.0  # seconds
 
 _DEPARTED_WRITERS = 100  # writers whose node names are kept after they have left
 
 
 class WriterStatistics(NamedTuple):
-    """The messages that were received from one writer of transforms.
+    """Statistics of the messages received from one transform writer.
 
     Attributes:
         writer: The writer's handle.
@@ -98,15 +98,15 @@ class TfReader(LocalEndpoint):
         self._reader.arm()
 
     def writer_statistics(self) -> list[WriterStatistics]:
-        """Return what was received from each writer, including writers that have left; nothing after `close`."""
+        """Return statistics for each writer, including writers that have left; nothing after `close`."""
         return [] if self._closed else [WriterStatistics(*facts) for facts in self._reader.writers()]
 
     def awaited_writers(self) -> set[int]:
-        """Return the handles of the matched writers that no message was received from."""
+        """Return the handles of the matched writers from which no message was received."""
         return self.matched_handles() - {known.writer for known in self.writer_statistics() if known.messages}
 
     def settle_statics(self) -> None:
-        """Note that static transforms that shared data contained before are published only if they were received."""
+        """From now on, count previously shared static transforms as published only if they were received."""
         if not self._closed:
             self._reader.settle_statics()
 

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The type hashes of endpoints, by the names of their types."""
+"""The type hashes of endpoints, by type name."""
 
 from __future__ import annotations
 
 TF_MESSAGE = "tf2_msgs/msg/TFMessage"
-# Computing it would import message classes, which a process that only receives transforms does not need.
+# Imported on demand, because computing a hash imports message classes, which pure transform listeners do not need.
 TF_MESSAGE_HASH = "RIHS01_e369d0f05a23ae52508854b66f6aa0437f3449d652e8cbf22d5abe85d020f087"
 
 

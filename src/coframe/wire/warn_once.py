@@ -10,16 +10,16 @@ if TYPE_CHECKING:
 
 
 MAX_WARNINGS = 1000
-"""The most warnings of a process: their texts contain names from the network, of which there can be any number."""
+"""The maximum number of warnings per process, because they contain names from the network."""
 
-LAST_WARNING = f"Further warnings are not shown: there were {MAX_WARNINGS}. Check which node creates these names."
+LAST_WARNING = f"No more warnings are shown: there were {MAX_WARNINGS}. Check which node creates these names."
 
 
 class WarnOnce:
-    """A function that passes on each warning the first time only, and at most `MAX_WARNINGS`.
+    """Passes on each warning only the first time, and at most `MAX_WARNINGS` in total.
 
     Args:
-        warn: Called with the text of each new warning.
+        warn: Called with each new warning.
     """
 
     def __init__(self, warn: Callable[[str], None]) -> None:
@@ -27,7 +27,7 @@ class WarnOnce:
         self._keys: set[str] = set()
 
     def __call__(self, key: str, text: str) -> None:
-        """Pass on `text`, unless it is empty or a warning with the same key was passed on before."""
+        """Pass on `text` unless it is empty or a warning with the same key was already passed on."""
         if not text or key in self._keys or len(self._keys) > MAX_WARNINGS:
             return
         self._keys.add(key)

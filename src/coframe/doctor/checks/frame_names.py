@@ -58,7 +58,7 @@ def _characters(observation: Observation) -> Iterator[Finding]:
             severity=Severity.NOTE,
             text=f"{count(len(unusual), 'frame name')} with spaces or other characters that some tools do not accept: "
             f"{quoted(unusual)}",
-            fix=f"Use letters, digits and '_' only: {re.sub(r'[^0-9A-Za-z_/]+', '_', unusual[0]).strip('_')!r}.",
+            fix=f"Use only letters, digits and '_': {re.sub(r'[^0-9A-Za-z_/]+', '_', unusual[0]).strip('_')!r}.",
             frames=frozenset(unusual),
         )
 

@@ -23,13 +23,13 @@ if TYPE_CHECKING:
 __all__ = ["CODE", "find"]
 
 CODE = "TF013"
-_SLOW = 400 * MILLISECOND  # the longest period of a moving edge that is not a finding
+_SLOW = 400 * MILLISECOND  # the maximum period of a moving edge without a finding
 _SENSED = 110 * MILLISECOND  # the same for an edge that sensors with a higher rate need: 10 Hz, and some jitter
-_FASTER = 2.0  # how many times the rate of the edge a sensor must have; poses of the base concern every sensor
+_FASTER = 2.0  # minimum ratio of the sensor rate to the edge rate; poses of the base concern every sensor
 _BASES = {"base_link", "base_footprint"}
-_CORRECTIONS = {"odom"}  # localization corrects map -> odom at a low rate on purpose
-_LEAST = 5  # transforms from which a rate and gaps can be judged
-# Poses of the robot between two transforms matter for what these sensors see.
+_CORRECTIONS = {"odom"}  # localization intentionally corrects map -> odom at a low rate
+_LEAST = 5  # minimum number of transforms to judge the rate and gaps
+# For these sensors, the robot's poses between two transforms matter.
 _NEED_POSES = {
     "sensor_msgs/msg/CameraInfo",
     "sensor_msgs/msg/CompressedImage",
@@ -63,7 +63,7 @@ def _slow(edge: Edge) -> Finding:
         f"published only every {duration(edge.period)}; a lookup at now() has to wait that long, or fails",
         "Publish it at 10 Hz or more"
         + (
-            f"; as it never changes, better publish it once as static: `{command}`."
+            f"; because it never changes, publish it once as static: `{command}`."
             if edge.constant
             else ": self.create_timer(0.02, self.broadcast)."
         ),
@@ -100,10 +100,10 @@ def _below_sensor(edge: Edge, period: float, topic: str) -> Finding:
     return _finding(
         [edge],
         Severity.WARNING,
-        f"published every {duration(edge.period)} ({rate:.3g} Hz) only, but {topic}, which needs it, every "
+        f"published every {duration(edge.period)} ({rate:.3g} Hz), but {topic}, which needs it, every "
         f"{duration(period)} ({sensor_rate:.3g} Hz): its messages wait up to {duration(edge.period)} for the next "
         "transform, and their poses are interpolated",
-        "Publish it at 20 Hz or more, best at the rate of the sensor: "
+        "Publish it at 20 Hz or more, ideally at the rate of the sensor: "
         f"self.create_timer({min(0.05, period / SECOND):.3g}, self.broadcast), or raise the rate in the parameters of "
         "the node (publish_rate, frequency).",
         edge.first_stamp,

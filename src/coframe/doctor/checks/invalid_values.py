@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 __all__ = ["CODE", "find"]
 
 CODE = "TF019"
-# Quaternions that are computed in single precision are off by less.
+# Quaternions computed in single precision deviate less.
 _ROUNDING = 1e-6
 _NORMALIZE = "normalize it before publishing: q / numpy.linalg.norm(q)"
 
@@ -37,7 +37,7 @@ def find(observation: Observation) -> Iterator[Finding]:
         zero = transforms.finite & (transforms.squared_norms == 0.0)
         refused = transforms.finite & ~zero & (np.abs(transforms.squared_norms - 1.0) >= NORM_TOLERANCE)
         rounded = transforms.finite & ~zero & ~refused & (off > _ROUNDING)
-        # With the same mistake, the quaternions of a moving edge may be nearly normalized at some angles.
+        # With the same mistake, quaternions of a moving edge can be nearly normalized at some angles.
         rounded &= ~np.isin(transforms.edge, transforms.edge[refused])
     yield from _kind(
         transforms,
@@ -105,6 +105,6 @@ def _kind(
 
 
 def _largest_deviation(quaternions: NDArray[np.float64]) -> float:
-    """Return by how much the length of a quaternion differs from 1 at most, (N, 4), without the overflow of squares."""
+    """Return the largest difference of a quaternion's length from 1, (N, 4), without overflow."""
     x, y, z, w = quaternions.T
     return float(np.abs(np.hypot(np.hypot(x, y), np.hypot(z, w)) - 1.0).max())

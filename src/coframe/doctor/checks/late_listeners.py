@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""TF025: listeners that are too slow: lookups that keep failing, and messages that are received in bursts."""
+"""TF025: listeners that are too slow: lookups that keep failing, and messages received in bursts."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ _WAIT = (
     "Request the latest transform: lookup_transform(target, source, rclpy.time.Time()), or wait for the requested "
     "time: lookup_transform(target, source, stamp, timeout=Duration(seconds=0.1))."
 )
-# The messages of tf2, and the line to change.
+# Messages of tf2, and the line to change.
 _FAILURES = (
     (re.compile(r"would require extrapolation (?:into the future|at time)", re.IGNORECASE), _WAIT),
     (
@@ -52,7 +52,7 @@ def find(observation: Observation) -> Iterator[Finding]:
 
 
 def _logged_errors(observation: Observation) -> Iterator[Finding]:
-    """Yield the lookups that still fail at the end; at the start of a system some lookups always fail."""
+    """Yield lookups that still fail at the end; during startup, some lookups always fail."""
     middle = observation.start + observation.duration // 2
     by_kind: dict[tuple[str, int], list[LogLine]] = {}
     for line in observation.log:
@@ -74,7 +74,7 @@ def _logged_errors(observation: Observation) -> Iterator[Finding]:
 
 
 def _bursts(observation: Observation) -> Iterator[Finding]:
-    """Yield a pause of all edges at once after which the delayed messages arrive together: the recorder was blocked."""
+    """Yield a simultaneous pause of all edges followed by a burst of the delayed messages: the recorder was blocked."""
     edges = [edge for edge in observation.dynamic if edge.count > 10 and edge.period < _STALL / 5]
     if not edges:
         return
@@ -91,7 +91,8 @@ def _bursts(observation: Observation) -> Iterator[Finding]:
             yield Finding(
                 code=CODE,
                 severity=Severity.WARNING,
-                text=f"no transform was received for {duration(pause)}, and then {len(burst)} transforms at once that "
+                text=f"no transform was received for {duration(pause)}, followed by a burst of {len(burst)} "
+                f"transforms that "
                 "had been published in the meantime: the recorder or its network connection was blocked",
                 fix="Record fewer topics (`coframe record /tf /tf_static ...`), or use a faster disk. In this "
                 "recording, lookups by receive time are wrong there, those by stamp are correct.",

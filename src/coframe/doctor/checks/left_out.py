@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""TF027: what the report does not cover, because there is more of it than the doctor examines."""
+"""TF027: data that the report does not cover, because it exceeds the doctor's limits."""
 
 from __future__ import annotations
 
@@ -26,8 +26,7 @@ def find(observation: Observation) -> Iterator[Finding]:
             code=CODE,
             severity=Severity.WARNING,
             text=f"{observation.messages_ignored} messages were ignored: there are too many frame names",
-            fix="Find the publisher that creates new frame names all the time. This report covers the messages before "
-            "them.",
+            fix="Find the publisher that keeps creating frame names. This report covers the messages before them.",
             harm="Every buffer grows with each new frame name, for as long as its process runs.",
         )
     if observation.topics_ignored:
@@ -35,7 +34,7 @@ def find(observation: Observation) -> Iterator[Finding]:
             code=CODE,
             severity=Severity.WARNING,
             text=f"{observation.topics_ignored} topics were not examined: there are too many",
-            fix="Find the node that creates new topics all the time. This report covers the topics before them.",
+            fix="Find the node that keeps creating topics. This report covers the topics before them.",
             harm="Every participant stores each announced topic, for as long as it is published.",
         )
     if observation.transforms_since:

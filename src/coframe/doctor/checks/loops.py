@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 __all__ = ["CODE", "find"]
 
 CODE = "TF004"
-_MOST_NAMES = 20  # of a loop, in the text of a finding
+_MOST_NAMES = 20  # maximum number of frames of a loop to list in a finding
 
 
 def find(observation: Observation) -> Iterator[Finding]:

@@ -22,10 +22,10 @@ __all__ = ["CODE", "find"]
 
 CODE = "TF010"
 _LEAST = 20  # messages
-# A message that arrives before it was sent proves that the clocks differ; a network may well take 100 ms.
+# A message that arrives before it was sent proves that the clocks differ; a network may take 100 ms.
 _AHEAD = 1 * MILLISECOND
 _BEHIND = 100 * MILLISECOND
-# The stamps of one machine are off by nearly the same time.
+# The stamps of one machine are off by nearly the same amount.
 _SPREAD = 20 * MILLISECOND
 _FIX = (
     "Synchronize the clocks of all machines: install chrony and make one machine the server of the others; check with "
@@ -34,7 +34,7 @@ _FIX = (
 
 
 def find(observation: Observation) -> Iterator[Finding]:
-    """Yield findings by the times at which messages were sent if these are known, else by constant stamp offsets."""
+    """Yield findings based on the send times of messages if known, else on constant stamp offsets."""
     if observation.live:
         yield from _by_travel(observation)
     else:

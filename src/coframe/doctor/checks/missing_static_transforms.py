@@ -18,7 +18,7 @@ CODE = "TF017"
 
 
 def find(observation: Observation) -> Iterator[Finding]:
-    """Yield a finding if there are several trees and no static transforms at all."""
+    """Yield a finding if there are several trees but no static transforms."""
     if observation.live or observation.static or len(observation.trees) < 2:
         return
     yield Finding(

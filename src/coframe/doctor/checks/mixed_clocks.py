@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""TF009: stamps on several clocks in one system: the system clock, simulated time, or the clock of another day."""
+"""TF009: stamps from several clocks in one system: the system clock, simulated time, or a clock that is days off."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ CODE = "TF009"
 
 
 def find(observation: Observation) -> Iterator[Finding]:
-    """Yield one finding for every clock but the most used one, and a note for static transforms."""
+    """Yield one finding for every clock except the most used one, and a note for static transforms."""
     by_clock: dict[str, list[str]] = {}
     for name, clock in observation.clocks.items():
         by_clock.setdefault(clock, []).append(name)
@@ -48,7 +48,8 @@ def _finding(observation: Observation, usual: str, usual_names: list[str], clock
         + (
             "Start these nodes with --ros-args -p use_sim_time:=true."
             if should_be_simulated
-            else "In a simulation start every node with --ros-args -p use_sim_time:=true, on a robot none. Replay a "
+            else "In a simulation, start every node with --ros-args -p use_sim_time:=true; on a real robot, none. "
+            "Replay a "
             "recording with its own clock (`coframe play BAG --clock`)."
         ),
         edge=first.key if first else None,

@@ -38,7 +38,7 @@ class _Difference(NamedTuple):
 
 
 def find(observation: Observation) -> Iterator[Finding]:
-    """Yield one finding per joint, and one per static transform between other links that cannot move."""
+    """Yield one finding per joint, and one per static transform between rigidly connected links."""
     robot = model(observation)
     if robot is None:
         return
@@ -56,7 +56,7 @@ def find(observation: Observation) -> Iterator[Finding]:
             severity=Severity.WARNING,
             text=f"differs from joint {name!r} of the robot description by {found.metres:.3g} m and "
             f"{degrees(found.radians):.3g} degrees (median of {found.compared})",
-            fix="Publish the links of the robot description with robot_state_publisher only, and stop the other "
+            fix="Publish the links of the robot description only with robot_state_publisher, and stop the other "
             "publisher of this transform; or correct <origin> in the URDF, and restart robot_state_publisher after "
             "the change.",
             edge=edge.key,
@@ -90,7 +90,7 @@ def _other_parents(observation: Observation, robot: Robot) -> Iterator[Finding]:
 
 
 def _rigid(robot: Robot) -> dict[str, str]:
-    """Return the topmost link to which each link is fixed."""
+    """Return the topmost link to which each link is rigidly connected."""
     joint_above = {joint.child: joint for joint in robot.joints.values()}
     rigid = {}
     for link in robot.links:
@@ -112,7 +112,7 @@ def _other_mounts(observation: Observation, robot: Robot) -> Iterator[Finding]:
         if not parent or not child or rigid[parent] != rigid[child] or observation.last[edge.child] is not edge:
             continue
         if child in joint_above and joint_above[child].parent == parent:
-            continue  # compared with the joint itself
+            continue  # already compared with the joint itself
         poses = poses or robot.frames()
         expected = poses[parent].inverse() @ poses[child]
         found = _deviation(edge, np.array([edge.count - 1]), expected)
@@ -148,7 +148,7 @@ def _origin(pose: Transform) -> str:
 
 
 def _numbers(values: NDArray[np.float64], digits: int) -> list[str]:
-    """Return numbers rounded to some decimal places; adding 0.0 turns -0.0 into 0.0."""
+    """Return rounded numbers; adding 0.0 turns -0.0 into 0.0."""
     return [f"{value + 0.0:.12g}" for value in np.round(values, digits).tolist()]
 
 
@@ -173,7 +173,7 @@ def _difference(observation: Observation, robot: Robot, name: str, edge: Edge) -
 
 
 def _deviation(edge: Edge, rows: NDArray[np.intp], expected: Transform) -> _Difference:
-    """Return the median difference between some rows of an edge and the expected poses, one or one per row."""
+    """Return the median difference between rows of an edge and the expected pose or poses."""
     rotations = np.broadcast_to(expected.quaternion, (len(rows), 4))
     metres = np.linalg.norm(edge.values[rows, :3] - expected.translation, axis=1)
     radians = angles_between(edge.rotations[rows], rotations)
@@ -183,7 +183,7 @@ def _deviation(edge: Edge, rows: NDArray[np.intp], expected: Transform) -> _Diff
 def _positions(
     observation: Observation, name: str, stamps: NDArray[np.int64]
 ) -> tuple[NDArray[np.intp], NDArray[np.float64]] | None:
-    """Return the rows whose stamp is that of exactly one joint state with this joint, and the positions there."""
+    """Return the rows whose stamp matches exactly one joint state with this joint, and the positions in it."""
     for states in observation.joint_states:
         if name not in states.positions:
             continue

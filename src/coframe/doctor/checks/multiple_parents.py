@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 __all__ = ["CODE", "find"]
 
 CODE = "TF002"
-# A grasped object changes its parent a few times; publishers that disagree alternate all the time.
+# A grasped object changes its parent a few times; publishers that disagree alternate continuously.
 _CHANGES = 3
 
 
@@ -44,7 +44,7 @@ def _finding(child: str, edges: list[Edge]) -> Finding:
         code=CODE,
         severity=Severity.ERROR if disagree else Severity.NOTE,
         text=f"{child!r} has more than one parent: {parents}; the parent changed {times(changes)}",
-        fix=f"Publish {child!r} from one node only: stop the other one, or give its frame another name "
+        fix=f"Publish {child!r} from only one node: stop the other one, or give its frame another name "
         f"(t.child_frame_id = {child + '_2'!r}), or invert its transform: t.header.frame_id = {child!r}, "
         f"t.child_frame_id = {others[0].parent!r}."
         if disagree

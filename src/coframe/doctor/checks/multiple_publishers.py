@@ -24,7 +24,7 @@ _CHANGES = 3
 
 
 def find(observation: Observation) -> Iterator[Finding]:
-    """Yield one finding per edge, by its publishers if they are known, else by its poses."""
+    """Yield one finding per edge, based on its publishers if known, else on its poses."""
     for edge in (edge.current for edge in observation.edges):
         if len(edge.publishers) > 1:
             yield from _known_publishers(edge)
@@ -35,7 +35,7 @@ def find(observation: Observation) -> Iterator[Finding]:
 def _known_publishers(edge: Edge) -> Iterator[Finding]:
     changes = int(np.count_nonzero(np.diff(edge.publisher)))
     if not edge.static and changes < _CHANGES:
-        return  # one publisher has replaced the other
+        return  # one publisher replaced the other
     found = flicker(edge)
     differ = found is not None or (edge.static and not edge.constant)
     first, second, *_ = edge.publishers

@@ -31,7 +31,7 @@ _LEAST = 10
 
 
 def find(observation: Observation) -> Iterator[Finding]:
-    """Yield one finding per edge; flicker by one known publisher is found here, flicker by several in TF003."""
+    """Yield one finding per edge; flicker of one publisher is reported here, of several as TF003."""
     for edge in (edge.current for edge in observation.dynamic):
         if edge.count < _LEAST:
             continue
@@ -67,8 +67,8 @@ def _jumps(edge: Edge) -> Iterator[Finding]:
         severity=Severity.WARNING,
         text=f"jumps {times(len(rows))}, at worst {edge.distances[worst]:.3g} m and {degrees(edge.turns[worst]):.3g} "
         f"degrees within {seconds[worst] * 1e3:.3g} ms",
-        fix="If the robot was not moved on purpose (initialpose, a reset), limit what the estimator accepts "
-        "(robot_localization: odom0_pose_rejection_threshold). Publish jumps in map -> odom only: odom -> base_link "
+        fix="If the jump is not intended (initialpose, a reset), limit what the estimator accepts "
+        "(robot_localization: odom0_pose_rejection_threshold). Publish jumps only in map -> odom: odom -> base_link "
         "must be continuous (REP-105).",
         edge=edge.key,
         first_stamp=int(edge.stamp[worst + 1]),

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""TF011: repeated stamps, and transforms that are older than a buffer keeps."""
+"""TF011: repeated stamps, and transforms older than the cache length."""
 
 from __future__ import annotations
 

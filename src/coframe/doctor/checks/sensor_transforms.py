@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""TF014: sensor messages that cannot be transformed, not even after a delay."""
+"""TF014: sensor messages that cannot be transformed, even after a delay."""
 
 from __future__ import annotations
 
@@ -68,7 +68,7 @@ def _unknown(observation: Observation, frame: str, sensors: list[Sensor]) -> Fin
 
 
 def _one_name(observation: Observation, frame: str, similar: str) -> str:
-    """Return what to do about a frame of messages that differs in a few letters from a frame of transforms.
+    """Return what to do about a message's frame whose name differs in a few letters from one in the tree.
 
     Either of the two may be misspelt. A name with the usual ending is probably the right one.
     """
@@ -84,7 +84,7 @@ def _one_name(observation: Observation, frame: str, similar: str) -> str:
 
 
 def _missing_frame(observation: Observation, frame: str, publishers: tuple[str, ...]) -> str:
-    """Return what to do about a frame that no transform contains: only sensors are mounted by static transforms."""
+    """Return what to do about a frame that no transform contains; only sensors can be mounted statically."""
     prefix, slash, name = frame.rpartition("/")
     root = next(iter(observation.trees))
     known = [f"{prefix}{slash}{usual}" for usual in ("map", "odom", *BASE_FRAMES)]
@@ -118,7 +118,7 @@ def _late(observation: Observation, sensor: Sensor) -> Iterator[Finding]:
     root = observation.root(sensor.frame)
     edges = [edge for edge in observation.path(sensor.frame) if not edge.static]
     if any(edge.is_unset for edge in edges):
-        return  # the stamps are the problem, which TF008 reports
+        return  # the problem is the stamps, which TF008 reports
     slowest = max(edges, key=lambda edge: edge.period)
     yield Finding(
         code=CODE,

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 __all__ = ["CODE", "find"]
 
 CODE = "TF001"
-_MOST = 50  # trees with a finding of their own
+_MOST = 50  # maximum number of trees with a separate finding
 
 
 def find(observation: Observation) -> Iterator[Finding]:
@@ -48,7 +48,7 @@ def find(observation: Observation) -> Iterator[Finding]:
         yield Finding(
             code=CODE,
             severity=Severity.WARNING,
-            text=f"{len(rest)} more trees: {listed(rest)}; a publisher may create new frame names all the time",
+            text=f"{len(rest)} more trees: {listed(rest)}; a publisher may keep creating frame names",
             fix="Find the publisher that creates new frame names, or connect the frames of one robot to one root.",
             frames=frozenset(rest),
             first_stamp=min((edge.first_stamp for root in rest for edge in by_root.get(root, [])), default=None),

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""TF015: sensor messages that arrive when a buffer no longer has the transforms of their time."""
+"""TF015: sensor messages that arrive after the buffer has dropped the transforms of their time."""
 
 from __future__ import annotations
 
@@ -36,13 +36,13 @@ def find(observation: Observation) -> Iterator[Finding]:
         if len(late) < _LEAST or sensor.topic not in observation.clocks:
             continue
         if any(observation.clocks.get(edge.name) != observation.clocks[sensor.topic] for edge in moving):
-            continue  # with stamps on another clock, no buffer is long enough
+            continue  # with stamps from another clock, no cache is long enough
         need = int(np.ceil(behind.max() / SECOND)) + 1
         yield Finding(
             code=CODE,
             severity=Severity.WARNING,
             text=f"{len(late)} of {len(sensor.stamp)} messages arrive up to {duration(int(behind.max()))} after their "
-            f"stamps, but a buffer keeps transforms for {duration(observation.cache)} only",
+            f"stamps, but a buffer keeps transforms for only {duration(observation.cache)}",
             fix=f"Use a longer cache: tf2_ros.Buffer(cache_time=Duration(seconds={need})) or "
             f"coframe.Buffer(cache='{need}s'); or reduce the processing time of the sensor data.",
             topic=sensor.topic,

@@ -19,7 +19,7 @@ __all__ = ["CODE", "find"]
 
 CODE = "TF026"
 _LEAST = 4 * SECOND  # a GPS publishes once per second, and a driver may still be starting
-# These messages are published regularly; others, such as goals or maps, only on an event.
+# These types are published regularly; others, such as goals or maps, only on an event.
 _REGULAR = {
     "nav_msgs/msg/Odometry",
     "sensor_msgs/msg/CameraInfo",
@@ -32,8 +32,8 @@ _REGULAR = {
     "sensor_msgs/msg/PointCloud2",
     "sensor_msgs/msg/Range",
 }
-# This one also, if its node receives transforms: it may compute the poses from them, and every lookup may fail. Some
-# nodes publish a pose on an event only, so this is a note.
+# Also this type, if its node receives transforms: the node may compute poses from them, and every lookup may fail. Some
+# nodes publish a pose only on an event, so this is a note.
 _COMPUTED = "geometry_msgs/msg/PoseStamped"
 _EVENT = re.compile("cmd|command|goal|desired|target|request|map|debug|trigger|snapshot|initial|click")
 _TRANSFORMS = "tf2_msgs/msg/TFMessage"

@@ -45,7 +45,7 @@ def find(observation: Observation) -> Iterator[Finding]:
             yield _behind(edge, lags)
     for sensor in observation.sensors:
         unset = int(np.count_nonzero(sensor.stamp == 0))
-        # A few stamps of 0 are right: simulations begin at 0.
+        # A few stamps of 0 are normal, because simulations begin at 0.
         if unset >= _LEAST and unset > 0.05 * len(sensor.stamp):
             yield Finding(
                 code=CODE,
@@ -67,7 +67,7 @@ def _unset(edge: Edge) -> Finding:
         severity=Severity.WARNING,
         text=f"the stamp was never set: {edge.unset} of {edge.count} transforms have the stamp 0",
         fix="Add the line: t.header.stamp = self.get_clock().now().to_msg(). If it is there, the node has "
-        "use_sim_time:=true and no simulation publishes /clock, so that its time stays 0.",
+        "use_sim_time:=true and no simulation publishes /clock, so its time stays 0.",
         harm="A transform with the stamp 0 belongs to the year 1970: lookups at now() or at the stamp of a sensor "
         "message fail, however long they wait.",
         edge=edge.key,

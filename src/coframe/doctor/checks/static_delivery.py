@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""TF016: static transforms that late joiners do not receive, and outdated ones from earlier processes."""
+"""TF016: static transforms that late joiners do not receive, and outdated ones from old processes."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ _BROADCASTER = (
 
 
 def find(observation: Observation) -> Iterator[Finding]:
-    """Yield wrong QoS on both sides, static transforms that their publisher overwrites, and outdated ones."""
+    """Yield findings for wrong QoS on either side, for overwritten static transforms, and for outdated ones."""
     for facts in observation.topics.values():
         if facts.name.rpartition("/")[2] != "tf_static":
             continue
@@ -72,7 +72,7 @@ def _subscriber(topic: str, node: str) -> Finding:
 
 
 def _overwritten(observation: Observation) -> Iterator[Finding]:
-    """Yield static transforms that late joiners miss: a publisher usually keeps its last message only."""
+    """Yield static transforms that late joiners miss, because a publisher usually keeps only its last message."""
     transforms = observation.transforms
     for number, publisher in enumerate(transforms.publishers):
         rows = np.flatnonzero(transforms.static & (transforms.publisher == number))
@@ -107,7 +107,7 @@ def _outdated(edge: Edge) -> Iterator[Finding]:
         severity=Severity.NOTE if edge.constant else Severity.WARNING,
         text=f"published {times(len(stamps))} with stamps up to {duration(int(stamps.max() - stamps.min()))} apart"
         + (" and equal values" if edge.constant else " and different values")
-        + ": the older ones are from processes that were started earlier and still run",
+        + ": the older ones are from processes that were started earlier and are still running",
         harm="A late joiner receives the message of each of these processes; if their values differ, the one that "
         "arrives last is used.",
         fix="Stop the older processes: find them with `ps` (static_transform_publisher, robot_state_publisher).",

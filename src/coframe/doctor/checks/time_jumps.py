@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""TF012: time that jumped back, as after a restarted recording or a reset simulation."""
+"""TF012: time that jumped back, for example after a recording was restarted or a simulation was reset."""
 
 from __future__ import annotations
 
@@ -23,12 +23,12 @@ __all__ = ["CODE", "find"]
 
 CODE = "TF012"
 _JUMP = -SECOND
-# Two publishers on different clocks make the time go back all the time; a reset is rare.
+# With two publishers on different clocks, time goes back continuously; a reset is rare.
 _RARE = 0.1
 
 
 def find(observation: Observation) -> Iterator[Finding]:
-    """Yield one finding in all: a reset affects every edge."""
+    """Yield at most one finding, because a reset affects every edge."""
     found = [(edge, jumps) for edge in observation.dynamic if not edge.is_unset and len(jumps := _jumps(edge.stamp))]
     on_clock = _jumps(observation.clock.stamp) if observation.clock is not None else np.zeros(0, dtype=np.intp)
     if not found and not len(on_clock):
@@ -57,7 +57,7 @@ def find(observation: Observation) -> Iterator[Finding]:
 
 
 def _jumps(stamps: NDArray[np.int64]) -> NDArray[np.intp]:
-    """Return the rows after which time goes back and does not return at once."""
+    """Return the rows after which time goes back and does not return immediately."""
     jumps = np.flatnonzero(np.diff(stamps) < _JUMP)
     if len(jumps) > max(3, _RARE * len(stamps)):
         return jumps[:0]

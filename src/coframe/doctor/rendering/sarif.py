@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A report as SARIF 2.1.0, which code hosts show next to a change."""
+"""A report as SARIF 2.1.0, which code hosting sites show next to a change."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ def as_sarif(reports: dict[str, Report], recording: Path | None) -> dict[str, An
 
     Args:
         reports: The reports by namespace.
-        recording: The path of the examined recording; None for the running system.
+        recording: The path of the examined recording; None for a running system.
     """
     rules = [
         {
@@ -74,5 +74,5 @@ def _result(finding: Finding, namespace: str, recording: Path | None) -> dict[st
 
 
 def _uri(path: Path) -> str:
-    """Return the URI of a path; a relative one for a relative path, which code hosts search in the repository."""
+    """Return the URI of a path; relative for a relative path, which code hosting sites resolve in the repository."""
     return path.as_uri() if path.is_absolute() else quote(path.as_posix())

@@ -32,7 +32,7 @@ def lines(report: Report) -> Iterator[tuple[str, str]]:
 
 
 def headline(finding: Finding) -> str:
-    """Return code, severity, subject, text, first stamp and publishers of a finding in one line."""
+    """Return the code, severity, subject, text, first stamp and publishers of a finding as one line."""
     subject = f"{finding.subject}: " if finding.subject else ""
     stamp = "" if finding.first_stamp is None else f"; first stamp {seconds(finding.first_stamp)}"
     publishers = f"; published by {listed(finding.publishers)}" if finding.publishers else ""
@@ -61,7 +61,7 @@ def _summary(report: Report) -> Iterator[tuple[str, str]]:
 
 
 def _elsewhere(seen: Observation) -> str:
-    """Return which other topics have transforms, or what to check."""
+    """Return the other topics with transforms, or what to check."""
     # The type is tf/tfMessage in ROS 1.
     topics = [
         topic.name for topic in seen.topics.values() if topic.type.lower().endswith("/tfmessage") and topic.messages

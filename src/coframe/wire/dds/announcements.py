@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Repeated announcements of a new participant, because the network can lose the best-effort messages that contain them.
+"""Repeat the announcements of a new participant, because they are best-effort messages, which the network can lose.
 
 Cyclone DDS announces a participant when it is created and 0.1 s later, then once per interval. A participant that
-receives an announcement of an unknown one answers once per second, four times. A participant is announced again at
-once if its user data changes, so they contain a number.
+receives an announcement of an unknown one answers once per second, four times. A participant is announced again
+immediately if its user data changes, so the user data contains a counter.
 """
 
 from __future__ import annotations
@@ -17,9 +17,9 @@ from coframe.time import MILLISECOND, SECOND
 if TYPE_CHECKING:
     from coframe import _core
 
-_ENCLAVE: Final = "enclave=/;"  # the user data that every ROS participant has
+_ENCLAVE: Final = "enclave=/;"  # user data of every ROS participant
 _DELAYS: Final = (250 * MILLISECOND, 500 * MILLISECOND, 1000 * MILLISECOND)
-_LARGEST_SHIFT: Final = 50 * MILLISECOND  # random, so that processes that start together do not send at the same time
+_LARGEST_SHIFT: Final = 50 * MILLISECOND  # randomized for processes that start together
 
 
 def participant_user_data(number: int = 0) -> str:
@@ -28,10 +28,10 @@ def participant_user_data(number: int = 0) -> str:
 
 
 class Announcements:
-    """Announces a participant again several times after its start.
+    """Announces a participant several more times after its start.
 
     Args:
-        participant: The participant, which has just been created.
+        participant: The participant, just created.
         repeated: Whether to announce it again.
     """
 
@@ -42,7 +42,7 @@ class Announcements:
         self._due = [start + delay for delay in _DELAYS] if repeated else []
 
     def send_due(self) -> int:
-        """Announce the participant if it is time to. Return the time until the next call in nanoseconds."""
+        """Announce the participant if it is due. Return the time until the next call in nanoseconds."""
         now = time.monotonic_ns()
         if self._due and self._due[0] <= now:
             del self._due[0]

@@ -20,26 +20,28 @@ MAX_BYTES = 16 << 20  # of a configuration file
 _FILE = "file://"
 
 # Large messages are sent in fragments, and a reader requests up to 256 lost ones at a time. Fragments about as large as
-# the datagrams of Cyclone DDS (14720 bytes) need a tenth of the requests: Fast DDS receives 40 MB in 1 s, not in 12 s.
+# the datagrams of Cyclone DDS (14720 bytes) need a tenth of the requests: Fast DDS receives 40 MB in 1 s instead of 12
+# s.
 _SIZES = "<FragmentSize>14000B</FragmentSize>"
 
 # A packet of the loopback interface has up to 64 kB, so that 1 MB needs 16 system calls instead of 72.
 _LOOPBACK_SIZES = "<MaxMessageSize>65000B</MaxMessageSize><FragmentSize>64000B</FragmentSize>"
 
-# A thread of its own for data waits in recvmsg. Without it, one thread waits for all sockets in epoll_wait first, which
-# is a second system call for each message. Cyclone DDS ends such a thread by a packet to its own address, which only
-# the loopback interface delivers for certain: another interface can disappear.
+# A dedicated thread for data waits in recvmsg. Without it, one thread first waits for all sockets in epoll_wait, which
+# is a second system call per message. Cyclone DDS stops such a thread with a packet to its own address, which is
+# guaranteed to arrive only on the loopback interface: another interface can disappear.
 _LOOPBACK_THREADS = "<MultipleReceiveThreads>true</MultipleReceiveThreads>"
 
-# Received datagrams are written to one buffer after the other. The default of 1 MiB fills for a quarter of an hour in a
-# process that receives little, whose memory grows in the meantime. Clouds of 1 MB take the same time
+# Received datagrams are appended to a buffer. In a process that receives little, the default buffer of 1 MiB takes a
+# quarter of an hour to fill, and memory grows during that time. Clouds of 1 MB take the same time
 # (benchmarks.publishing).
 _RECEIVE_BUFFERS = "<ReceiveBufferSize>256KiB</ReceiveBufferSize>"
 
-# A lost message is sent again after a heartbeat of its writer and the answer of its reader, any of which may be lost
-# too. With Cyclone DDS's own intervals of 100 ms, messages are given up at 30 % loss, because a writer of transforms
-# keeps only the last 100 messages. The writer sends heartbeats only while answers are outstanding, and doubles the
-# interval up to the maximum: the longer that is, the sooner many processes that discover each other have done so.
+# A lost message is sent again after a heartbeat from its writer and the response of its reader, both of which may also
+# be lost. With Cyclone DDS's own intervals of 100 ms, messages are lost for good at 30 % packet loss, because a writer
+# of transforms keeps only the last 100 messages. The writer sends heartbeats only while acknowledgements are
+# outstanding, and doubles the interval up to the maximum: the longer the maximum, the faster many processes discover
+# each other.
 _RETRANSMISSION = (
     '<NackDelay>10ms</NackDelay><HeartbeatInterval min="5ms" minsched="10ms" max="2s">20ms</HeartbeatInterval>'
 )
@@ -54,8 +56,8 @@ _LOOPBACK_INTERFACE = (
     "<AllowMulticast>true</AllowMulticast>"
 )
 
-# Peers are given where multicast is not delivered. Cyclone DDS would still send by multicast what several processes
-# receive, and none of them would learn what it has missed.
+# Peers are configured where multicast is not delivered. Cyclone DDS would still use multicast for data with several
+# receivers, and they would not notice what they miss.
 _UNICAST_DATA = "<AllowMulticast>spdp</AllowMulticast>"
 
 _RANGES = ("OFF", "LOCALHOST", "SUBNET", "SYSTEM_DEFAULT")
@@ -96,7 +98,7 @@ def discovery_range(environment: Mapping[str, str] = os.environ) -> str:
 
 
 def static_peers(environment: Mapping[str, str] = os.environ) -> list[str]:
-    """Return the hosts in ROS_STATIC_PEERS, which are separated by semicolons.
+    """Return the hosts in ROS_STATIC_PEERS, a list separated by semicolons.
 
     Raises:
         WireError: An entry is not an address or a host name.
@@ -125,13 +127,13 @@ def cyclone_config(environment: Mapping[str, str] = os.environ) -> str:
     """Return the configuration for Cyclone DDS. The user's CYCLONEDDS_URI is appended and overrides it.
 
     Raises:
-        WireError: An environment variable has an invalid value, or names a file that is not a regular one.
+        WireError: An environment variable has an invalid value, or names a file that is not regular.
     """
     allowed = discovery_range(environment)
     general, internal = _SIZES, _RETRANSMISSION
     if allowed == "OFF":
         general += "<AllowMulticast>false</AllowMulticast>"
-        # The tag excludes participants of other processes, even if they know the port.
+        # The tag excludes participants of other processes, even if they use the same port.
         discovery = f"<ParticipantIndex>none</ParticipantIndex><Tag>coframe_{os.getpid()}</Tag>"
     elif allowed == "LOCALHOST":
         peers = static_peers(environment)
@@ -166,7 +168,7 @@ def _check_files(user: str) -> None:
             except UnsuitableFileError as error:
                 raise WireError(f"CYCLONEDDS_URI: {error}.") from None
             except OSError:
-                continue  # Cyclone DDS names a missing file.
+                continue  # Cyclone DDS reports a missing file itself.
 
 
 def _on_this_machine(peers: list[str]) -> bool:

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 TOPIC = "ros_discovery_info"
 
-# In the user data of a writer on this topic: its form depends on the readers, so no other process should adapt to it.
+# Marks a writer on this topic whose form depends on the readers, so that no other process adapts to it.
 ADAPTS = "coframe=adapts;"
 
 _LONG_GID_DISTROS = ("foxy", "galactic", "humble")
@@ -43,7 +43,7 @@ def gid_size(environment: Mapping[str, str]) -> int:
 
 
 def choose_gid_size(preferred: int, others: Collection[int]) -> int:
-    """Return the size of the identifiers to publish: that of the other participants if they agree, else the preferred.
+    """Return the size of the identifiers to publish: that of the other participants if they agree, else `preferred`.
 
     Args:
         preferred: The size to use if there are no others or if they differ, from `gid_size`.
@@ -155,5 +155,5 @@ class _Cursor:
         return gid[:_GUID_SIZE]
 
     def _guids(self) -> tuple[bytes, ...]:
-        # From a list, which has a length: CPython keeps tuples whose size has changed in memory, up to 2000 per size.
+        # Built from a list of known length: CPython caches up to 2000 resized tuples per size.
         return tuple([self._guid() for _ in range(self._number(len(self._body) // self._gid_size))])

@@ -13,7 +13,7 @@ from coframe.wire.dds.user_data import type_hash_of
 from coframe.wire.graph import DiscoveredEndpoint, Graph
 from coframe.wire.qos import QoS
 
-MAX_DEPARTED_WRITERS = 1_000  # whose implementation is remembered for requests that are still queued
+MAX_DEPARTED_WRITERS = 1_000  # remembered after they have left, because their requests may still be queued
 
 _BATCH = 256  # messages
 
@@ -24,7 +24,7 @@ class DdsGraph(Graph):
     Args:
         participant: The handle of the participant.
         topic: The handle of the topic ros_discovery_info, which is released.
-        changed: Set whenever discovery messages arrive.
+        changed: Set when discovery messages arrive.
     """
 
     def __init__(self, participant: int, topic: int, changed: _core.Event) -> None:
@@ -37,7 +37,7 @@ class DdsGraph(Graph):
         self._departed: OrderedDict[int, bytes] = OrderedDict()  # writers that send requests in another form
 
     def close(self) -> None:
-        """Close the discovery readers. The state stays available."""
+        """Close the discovery readers. The state remains available."""
         for reader in (self._info_reader, self._writer_reader, self._reader_reader):
             reader.close()
 
@@ -46,11 +46,11 @@ class DdsGraph(Graph):
         return "" if vendors.shares_services(guid) else vendors.vendor(guid) or vendors.unknown_vendor(guid)
 
     def ignores_requests(self, peer: DiscoveredEndpoint, qos: QoS) -> bool:
-        """Return whether a reader does not match the partitions of writers of requests."""
+        """Return whether the partitions of request writers do not match those of a reader."""
         return vendors.uses_service_partitions(qos) and vendors.ignores_service_partitions(peer.guid, peer.partitions)
 
     def foreign_writer(self, handle: int) -> str:
-        """Return what `foreign_services` returns for a writer, also after it has left."""
+        """Return what `foreign_services` returns for a writer, even after it has left."""
         writer = self.writer(handle)
         guid = self._departed.get(handle) if writer is None else writer.guid
         return "" if guid is None else self.foreign_services(guid)

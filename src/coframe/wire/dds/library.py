@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Where the C library of Cyclone DDS, `libddsc`, is on this machine.
+"""Find the C library of Cyclone DDS, `libddsc`, on this machine.
 
 It is searched for in this order: the file in `COFRAME_DDS_LIBRARY`; the `cyclonedds` package; the folder `_bundled` of
 coframe's own wheels; a sourced ROS 2; the system. No other part of the `cyclonedds` package is used.
@@ -42,7 +42,7 @@ class Place:
     Attributes:
         source: What provides the library there, such as "the cyclonedds package".
         searched: The file or the folders that were searched, or what is missing.
-        path: The library; None if it is not there.
+        path: The library; None if it was not found.
     """
 
     source: str
@@ -61,8 +61,8 @@ class Library:
 
     Attributes:
         place: Where it was found.
-        release: The release whose binary interface it has: "0.10" or "11".
-        refused: The libraries that were found first and cannot be used, each as a sentence.
+        release: The release with the same binary interface: "0.10" or "11".
+        refused: A message for each library that was found earlier but cannot be used.
     """
 
     place: Place
@@ -129,7 +129,7 @@ def file_version(path: Path) -> str:
 
 
 def how_to_get_one() -> str:
-    """Return a sentence about the ways to install the library on this platform."""
+    """Return advice on how to install the library on this platform."""
     ways = []
     if _package_has_wheels():
         ways.append(pip_install("dds"))
@@ -174,8 +174,8 @@ def _missing(looked: list[Place]) -> WireError:
         return WireError(text, hint=f"Unset {VARIABLE} to search the usual places. {how_to_get_one()}")
     return WireError(
         "Joining the ROS graph requires the DDS library libddsc, which is not installed. " + how_to_get_one(),
-        hint="`coframe doctor --system` lists where it was searched. "
-        "All features of coframe that need no network work without it.",
+        hint="`coframe doctor --system` lists the places that were searched. All features of coframe that need no "
+        "network work without it.",
     )
 
 
@@ -185,18 +185,18 @@ def _package_has_wheels() -> bool:
 
 
 def _of_package() -> Place:
-    """Return the library of the cyclonedds package, which is not imported: that would take 100 ms and more."""
+    """Return the library of the cyclonedds package without importing it, which would take more than 100 ms."""
     source = "the cyclonedds package"
     try:
         package = importlib.util.find_spec("cyclonedds")
-    except (ImportError, ValueError):  # blocked, as in tests of a program
+    except (ImportError, ValueError):  # blocked, for example by tests
         package = None
     if package is None or not package.submodule_search_locations:
         return Place(source, "not installed", None)
     folders = []
     for name in package.submodule_search_locations:
         folder = Path(name)
-        # Where the tools that repair wheels put libraries on Linux and Windows, and on macOS.
+        # The folders into which wheel repair tools put libraries, on Linux and Windows, and on macOS.
         folders += [folder.with_name("cyclonedds.libs"), folder / ".dylibs", folder / ".libs"]
     return _in_folders(source, folders)
 
@@ -237,7 +237,7 @@ def _folders(paths: str) -> list[Path]:
 
 
 def _in_folders(source: str, folders: list[Path]) -> Place:
-    """Return the library in the first of the folders that has one; of several versions, the newest."""
+    """Return the library in the first folder that has one; the newest if there are several versions."""
     folders = list(dict.fromkeys(folders))
     searched = os.pathsep.join(map(str, folders))
     for folder in filter(is_dir, folders):
@@ -248,5 +248,5 @@ def _in_folders(source: str, folders: list[Path]) -> Place:
 
 
 def _version_key(path: Path) -> tuple[list[int], int]:
-    """Return a key by which the newest version is the greatest, and its shortest name among those."""
+    """Return a sort key: the newest version is the largest, then the shortest name."""
     return [int(part) for part in file_version(path).split(".") if part], -len(path.name)

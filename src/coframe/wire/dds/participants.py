@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Participants of the DDS library."""
+"""Create participants of the DDS library."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from coframe.errors import WireError
 from coframe.wire import descriptors
 from coframe.wire.dds import config
 
-_DESCRIPTORS = 16  # Cyclone DDS opens about 8, and more for each network interface; it crashes if it gets none.
+_DESCRIPTORS = 16  # Cyclone DDS opens about 8, and more for each network interface; it crashes if none are left.
 
 
 def join(domain: int, xml: str, user_data: str) -> _core.DomainParticipant:
@@ -42,7 +42,7 @@ def join(domain: int, xml: str, user_data: str) -> _core.DomainParticipant:
 
 
 def participant_indexes(domain: int) -> tuple[int, int]:
-    """Return how many participant indexes of `domain` are in use on this machine, and how many there are.
+    """Return the number of participant indexes of `domain` in use on this machine, and the total number.
 
     RTPS assigns UDP ports to each index; those of high domains end at the last port.
     """

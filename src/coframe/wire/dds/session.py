@@ -45,7 +45,7 @@ class DdsSession:
 
     Args:
         domain: The domain ID.
-        changed: Set whenever the graph may have changed.
+        changed: Set when the graph may have changed.
 
     Attributes:
         native: The participant.
@@ -63,7 +63,7 @@ class DdsSession:
         self._announcements = Announcements(self.native, repeated=config.reaches_other_machines())
         self.gid_size = self._preferred_gid_size = gid_size(os.environ)
         self._announced: list[NodeInfo] = []
-        self._is_published = True  # whether the nodes of this process are on the graph as they are now
+        self._is_published = True  # whether the published state of this process's nodes is current
         self._info_writer = _core.Writer(
             self.native.entity, create_topic(self.native.entity, TOPIC, _GRAPH_TYPE), native_qos(GRAPH_WRITER), ADAPTS
         )
@@ -167,7 +167,7 @@ class DdsSession:
             self._info_writer.write(encode_info(self.native.guid, self._announced, self.gid_size))
             self._is_published = True
         except _core.EndpointError:
-            # A node must be able to end while the clock is wrong. The next announcement contains all nodes.
+            # A node must be able to shut down while the clock is wrong. The next announcement contains all nodes.
             self._is_published = False
             if clock_fault() is None:
                 raise
@@ -186,7 +186,7 @@ class DdsSession:
 
 
 def native_qos(qos: QoS, partitions: Sequence[str] = ()) -> _core.QosProfile:
-    """Return the quality of service as the native code takes it.
+    """Return the quality of service as arguments of the native code.
 
     Args:
         qos: The quality of service.

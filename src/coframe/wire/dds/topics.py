@@ -11,8 +11,8 @@ from coframe.wire.names import check_name
 def create_topic(participant: int, name: str, type_name: str) -> int:
     """Create a DDS topic and return its handle.
 
-    Only the name of the type is declared, as ROS does: the endpoints match by it, and the receiver of a message
-    validates the bytes. Declaring the fields as well would take several milliseconds for each type.
+    As in ROS, only the type name is declared: endpoints match by name, and the receiver of a message validates the
+    bytes. Declaring the fields as well would take several milliseconds for each type.
 
     Args:
         participant: The handle of the participant.

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The DDS user data of endpoints: pairs ``key=value;``. From Iron on, ROS 2 shows the type hash to its users."""
+"""The DDS user data of endpoints: pairs ``key=value;``. ROS 2 Iron and later show the type hash to users."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ def endpoint_user_data(ros_type: str, extra: str = "") -> str:
 
     Args:
         ros_type: The type of its messages, such as "sensor_msgs/msg/LaserScan".
-        extra: More pairs.
+        extra: Additional pairs.
     """
     hashed = type_hash_of_name(ros_type)
     return f"typehash={hashed};{extra}" if hashed else extra

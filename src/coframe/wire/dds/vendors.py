@@ -16,9 +16,9 @@ _NAMES = {
     b"\x01\x11": "GurumDDS",
     b"\x01\x12": "RustDDS",
 }
-# rmw_cyclonedds sends the client and the sequence number of a request in front of it. rmw_fastrtps and, by default, the
-# others send them as inline QoS of the RTPS message (related_sample_identity), which the library of Cyclone DDS neither
-# writes nor returns. A server that expects the one form reads shifted fields from the other.
+# rmw_cyclonedds sends the client ID and the sequence number of a request before its payload. rmw_fastrtps and, by
+# default, the others send them as inline QoS of the RTPS message (related_sample_identity), which the library of
+# Cyclone DDS neither writes nor returns. A server that expects one form misreads the other.
 _SAME_SERVICES = {"Cyclone DDS"}
 
 SERVICE_PARTITIONS: Final = ("*", "request-header")
@@ -29,8 +29,8 @@ Fast DDS compares patterns only with names in the list of the other side, which 
 other, so that the endpoints of two processes that use coframe match by the second name.
 
 Writers of replies are in the default partition: a client on Fast DDS ignores replies without its identity. Cyclone DDS
-itself matches the reader of Fast DDS with "*". It waits for acknowledgements that the reader does not send, 1 s when
-the writer is closed, and keeps messages for it; therefore writers have these partitions only where it is necessary.
+itself matches a Fast DDS reader with "*". It waits for acknowledgements that the reader never sends (1 s when the
+writer is closed), and keeps messages for it; therefore writers have these partitions only where necessary.
 """
 _WITHOUT_DEFAULT_PARTITION = {"Fast DDS"}
 
@@ -45,7 +45,7 @@ def vendor(guid: bytes) -> str:
 
 
 def unknown_vendor(guid: bytes) -> str:
-    """Return what to call a DDS implementation that is unknown."""
+    """Return a name for an unknown DDS implementation."""
     return f"an unknown DDS implementation (vendor ID {guid[0]}.{guid[1]})"
 
 
@@ -67,6 +67,6 @@ def ignores_service_partitions(guid: bytes, partitions: tuple[str, ...]) -> bool
 
     Args:
         guid: The GUID of the endpoint.
-        partitions: Its partitions; empty: the default partition.
+        partitions: Its partitions; empty for the default partition.
     """
     return vendor(guid) in _WITHOUT_DEFAULT_PARTITION and not partitions

@@ -23,7 +23,7 @@ ROUTER_FILE: Final = "ZENOH_ROUTER_CONFIG_URI"
 OVERRIDE: Final = "ZENOH_CONFIG_OVERRIDE"
 ROUTER_CHECK: Final = "ZENOH_ROUTER_CHECK_ATTEMPTS"
 DEFAULT_ROUTER: Final = "tcp/localhost:7447"
-MAX_BYTES: Final = 16 << 20  # of a configuration, and of each file that it names
+MAX_BYTES: Final = 16 << 20  # of a configuration, and of each file named in it
 
 _COMMON: Final[dict[str, Any]] = {
     "scouting/multicast/enabled": False,
@@ -52,7 +52,8 @@ ROUTER_DEFAULTS: Final[dict[str, Any]] = {
     **_COMMON,
 }
 # rmw_zenoh_cpp finds nothing without a router. Processes of coframe on one machine find each other by multicast on the
-# loopback interface. A user who configures Zenoh chooses who finds whom, so this applies without a configuration only.
+# loopback interface. A user who configures Zenoh decides which processes find each other, so this applies only without
+# a configuration.
 _LOOPBACK_DISCOVERY: Final[dict[str, Any]] = {
     "scouting/multicast/enabled": True,
     "scouting/multicast/interface": "127.0.0.1",
@@ -64,10 +65,10 @@ _logger = logging.getLogger("coframe.wire")
 
 
 def session_config(environment: Mapping[str, str] = os.environ) -> zenoh.Config:
-    """Return the configuration of a session, as rmw_zenoh_cpp reads it.
+    """Return the configuration of a session, read as in rmw_zenoh_cpp.
 
-    ZENOH_SESSION_CONFIG_URI names a file that replaces the defaults; ZENOH_CONFIG_OVERRIDE changes single values. If
-    neither is set, processes on this machine also find each other by multicast on the loopback interface.
+    ZENOH_SESSION_CONFIG_URI names a file that replaces the defaults; ZENOH_CONFIG_OVERRIDE changes individual values.
+    If neither is set, processes on this machine also find each other by multicast on the loopback interface.
 
     Raises:
         WireError: Zenoh is not installed, or the file cannot be read.
@@ -83,11 +84,11 @@ def router_config(
     listen: list[str] | None = None,
     connect: list[str] | None = None,
 ) -> zenoh.Config:
-    """Return the configuration of a router, as rmw_zenoh_cpp's router reads it.
+    """Return the configuration of a router, read as in rmw_zenoh_cpp's router.
 
     Args:
         environment: The environment variables: ZENOH_ROUTER_CONFIG_URI names a file that replaces the defaults;
-            ZENOH_CONFIG_OVERRIDE changes single values.
+            ZENOH_CONFIG_OVERRIDE changes individual values.
         file: The path of the file that replaces the defaults, with priority over the variable.
         listen: The endpoints to listen on, with priority over the file and the variables.
         connect: The endpoints of other routers to connect to, with the same priority.
@@ -129,7 +130,7 @@ def endpoints(config: zenoh.Config, direction: str) -> list[str]:
 
 
 def router_check_attempts(environment: Mapping[str, str] = os.environ) -> int | None:
-    """Return how often to check for a router, one second apart: 0 to skip the check, None to check without end.
+    """Return how often to check for a router, one second apart: 0 to skip the check, None to check without a limit.
 
     Raises:
         WireError: ZENOH_ROUTER_CHECK_ATTEMPTS is not an integer.
@@ -140,7 +141,8 @@ def router_check_attempts(environment: Mapping[str, str] = os.environ) -> int | 
     except ValueError:
         raise WireError(
             f"{ROUTER_CHECK} is {text!r}: it must be an integer.",
-            hint="A positive number is the number of checks, 0 checks without end, a negative number skips the check.",
+            hint="A positive number is the number of checks, 0 checks without a limit, a negative number skips the "
+            "check.",
         ) from None
     return None if attempts == 0 else max(attempts, 0)
 
@@ -158,7 +160,7 @@ def override_pairs(text: str) -> list[tuple[str, str]]:
 
 
 def reason_of(error: Exception) -> str:
-    """Return Zenoh's reason for an error without the places in Zenoh's source code."""
+    """Return Zenoh's reason for an error without source code locations."""
     text = re.sub(r" at /\S+| location: .*", "", str(error), flags=re.DOTALL)
     quoted = re.search(r'"(.*?)(?:"|\Z)', text) if text.startswith(("Json5Err", "Str(")) else None
     *_, last = (quoted[1] if quoted else text).replace("\\n", "\n").splitlines() or [text]
@@ -195,7 +197,7 @@ def _check_named_files(config: zenoh.Config) -> None:
             except UnsuitableFileError as error:
                 raise WireError(f"The Zenoh configuration has the {key} {error}.") from None
             except OSError:
-                continue  # Zenoh names a missing file.
+                continue  # Zenoh reports a missing file itself.
 
 
 def _from_file(module: Any, file: str, variable: str) -> zenoh.Config:
@@ -203,8 +205,8 @@ def _from_file(module: Any, file: str, variable: str) -> zenoh.Config:
         check_regular(file, MAX_BYTES)
     except FileNotFoundError:
         raise WireError(
-            f"There is no file {file}, which {variable} names.",
-            hint="Name a configuration file of Zenoh (JSON5), or leave it out to use the defaults of ROS 2.",
+            f"The file {file}, named by {variable}, does not exist.",
+            hint="Name a configuration file of Zenoh (JSON5), or unset the variable to use the defaults of ROS 2.",
         ) from None
     except OSError as error:
         reason = error.strerror or type(error).__name__

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Opening of Zenoh sessions, and the check for a router."""
+"""Open Zenoh sessions and check for a router."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ from coframe.wire.zenoh import config, library
 if TYPE_CHECKING:
     import zenoh
 
-_CHECK_PERIOD: Final = 1.0  # seconds between two checks for a router
+_CHECK_PERIOD: Final = 1.0  # seconds between two router checks
 _START: Final = "Start a router: coframe router, or ros2 run rmw_zenoh_cpp rmw_zenohd."
 
 _logger = logging.getLogger("coframe.wire")
 
 
 def open_session() -> zenoh.Session:
-    """Open a session with the configuration of the environment, and warn if it finds no router.
+    """Open a session with the configuration from the environment, and warn if it finds no router.
 
     Raises:
         WireError: Zenoh is not installed, the configuration is not valid, or a client finds no router.
@@ -57,7 +57,7 @@ def open_with(chosen: zenoh.Config) -> zenoh.Session:
 
 
 def missing_router(endpoints: list[str]) -> str:
-    """Return the warning that there is no router at some endpoints."""
+    """Return the warning that there is no router at the given endpoints."""
     routers = " or ".join(endpoints) or "any endpoint"
     if config.is_configured():
         return f"There is no Zenoh router at {routers}, so other processes are not found until it runs. {_START}"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the publishers and subscriptions of a Zenoh session have in common."""
+"""The common base of publishers and subscriptions of a Zenoh session."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 class Place(NamedTuple):
-    """Where a subscription is: its session, graph, keys, and identity."""
+    """The context of a subscription: its session, graph, keys, and identity."""
 
     session: zenoh.Session
     graph: ZenohGraph
@@ -35,7 +35,7 @@ class ZenohEndpoint:
         endpoint: The topic or service.
         type_hash: The hash of its type, or `keys.ANY_HASH`.
         guid: The identifier of the endpoint.
-        on_change: Set whenever a status changes; may be None.
+        on_change: Set when a status changes; may be None.
     """
 
     is_writer = False
@@ -95,7 +95,7 @@ class ZenohEndpoint:
                 self._undeclare()
 
     def _undeclare(self) -> None:
-        """Release what the endpoint has declared in Zenoh."""
+        """Undeclare the Zenoh entities of the endpoint."""
 
     def _is_forked(self) -> bool:
         return os.getpid() != self._process
@@ -120,13 +120,13 @@ class ZenohEndpoint:
 
 
 class Sequence:
-    """The attachments of one publisher or client: a counter from 1, and its identifier."""
+    """Creates the attachments of one publisher or client: a counter from 1, and its identifier."""
 
     def __init__(self, gid: bytes) -> None:
         self._gid = gid
         self._last = 0
 
     def next(self) -> bytes:
-        """Return the attachment of the next message. The caller makes sure that messages are sent in this order."""
+        """Return the attachment of the next message. The caller must send messages in this order."""
         self._last += 1
         return keys.attachment(self._last, self._gid)

@@ -20,11 +20,11 @@ if TYPE_CHECKING:
     from coframe.wire.names import Endpoint, Kind
     from coframe.wire.zenoh.tokens import Token
 
-# A process that declares tokens without end must not fill the memory, but none may be dropped, because the token of a
-# node that leaves arrives once. The thread that receives them therefore processes them itself if no other thread does.
+# A process that keeps declaring tokens must not fill the memory, but none may be dropped, because the removal of a node
+# is announced only once. The receiving thread therefore processes tokens itself if no other thread does.
 _MOST_PENDING: Final = 10_000
-# Tokens in Zenoh's queue, which drops the oldest. A queue that blocks would stop a process that joins a graph with more
-# tokens, because Zenoh delivers all of them before it returns the queue. More than `token_limits.MAX_TOKENS`.
+# Tokens in Zenoh's queue, which drops the oldest. A blocking queue would deadlock a process that joins a graph with
+# more tokens, because Zenoh delivers all of them before it returns the queue. Larger than `token_limits.MAX_TOKENS`.
 _MOST_QUEUED: Final = 200_000
 
 
@@ -55,7 +55,7 @@ class ZenohGraph(Graph):
     Args:
         session: The session.
         domain: The domain ID.
-        changed: Set whenever tokens arrive.
+        changed: Set when tokens arrive.
     """
 
     qos_must_match = False
@@ -84,19 +84,19 @@ class ZenohGraph(Graph):
             thread.start()
 
     def close(self) -> None:
-        """Stop discovery. The state stays available."""
+        """Stop discovery. The state remains available."""
         for subscriber in self._subscribers:
             subscriber.undeclare()
         for thread in self._threads:
             thread.join()
 
     def add_own(self, token: str, *, declared: bool) -> None:
-        """Process a token of this process at once; it also arrives from Zenoh, a little later."""
+        """Process a token of this process immediately; it also arrives from Zenoh, slightly later."""
         self._limits.add_own(token, declared=declared)
         self._pending.append((declared, token))
 
     def matching(self, endpoint: Endpoint, type_hash: str, *, writers: bool) -> dict[int, DiscoveredEndpoint]:
-        """Return the writers or readers that an endpoint exchanges messages with, by their handles.
+        """Return the writers or readers with which an endpoint exchanges messages, by their handles.
 
         Args:
             endpoint: The endpoint.
@@ -158,7 +158,7 @@ class ZenohGraph(Graph):
         return bool(touched)
 
     def _apply(self, text: str, token: Token, *, declared: bool) -> set[bytes]:
-        """Process one token, and return the identifier of its node; nothing if it is not stored."""
+        """Process one token and return the identifier of its node; None if it is not stored."""
         if declared and not self._limits.add(text):
             return set()
         participant = f"{token.session}/{token.node}".encode()
@@ -202,7 +202,7 @@ class ZenohGraph(Graph):
 
 
 def _endpoints_of(token: Token) -> Iterator[tuple[bool, DiscoveredEndpoint]]:
-    """Yield the endpoints that a token stands for, each with whether it is a writer."""
+    """Yield the endpoints that a token represents, each with whether it is a writer."""
     participant = f"{token.session}/{token.node}".encode()
     ros_type = names.ros_type(token.type)
     if token.kind in (tokens.PUBLISHER, tokens.SUBSCRIPTION):

@@ -17,10 +17,10 @@ if TYPE_CHECKING:
 
 
 class Identity:
-    """An endpoint of this process as other processes know it.
+    """The identity of an endpoint of this process on the graph.
 
-    Several nodes of this process can share an endpoint (`LocalEndpoint.share`). Each of them announces it by a token of
-    its own; messages carry the identifier of the first.
+    Several nodes of this process can share an endpoint (`LocalEndpoint.share`). Each node announces it by its own
+    token; messages contain the identifier of the first one.
 
     Args:
         node: The node that creates the endpoint.
@@ -29,8 +29,8 @@ class Identity:
         endpoint: The topic or service.
         type_hash: The hash of its type; `keys.ANY_HASH` if it is unknown.
         qos: Its quality of service.
-        buffers: Whether it is a subscription that also receives messages at the key of buffers.
-        user_data: Pairs `key=value;` that coframe's processes read.
+        buffers: Whether it is a subscription that also receives messages at the buffer key.
+        user_data: Pairs `key=value;`, which only coframe reads.
     """
 
     def __init__(
@@ -59,7 +59,7 @@ class Identity:
 
         Args:
             node: The node.
-            numbers: The numbers of the session, of which a further node of the endpoint takes one.
+            numbers: The counter of the session, from which each additional node of the endpoint takes a number.
         """
         if self.type_hash == keys.ANY_HASH:
             return []

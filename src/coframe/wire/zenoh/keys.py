@@ -13,17 +13,17 @@ if TYPE_CHECKING:
     from coframe.wire.names import Endpoint
 
 ANY_HASH: Final = "*"  # matches every definition of a type; for subscriptions only
-BUFFER_SUFFIX: Final = "_buf_cpu"  # where Lyrical and later send large types to subscriptions that ask for it
+BUFFER_SUFFIX: Final = "_buf_cpu"  # at which Lyrical and later send large types to subscriptions that request it
 
 _ATTACHMENT: Final = struct.Struct("<qqB16s")
 _GID_SIZE: Final = 16
 
 
 class Attachment(NamedTuple):
-    """What accompanies each message, request and reply.
+    """The metadata of each message, request and reply.
 
     Attributes:
-        sequence: The number of the message or request at its sender, from 1.
+        sequence: The sequence number of the message or request, from 1.
         sent: The time of sending, in nanoseconds since 1970 on the sender's clock.
         gid: The identifier of the publisher or client.
     """
@@ -38,7 +38,7 @@ class Attachment(NamedTuple):
 
 
 def attachment(sequence: int, gid: bytes) -> bytes:
-    """Return the attachment of a message that is sent now."""
+    """Return the attachment for a message sent now."""
     return _ATTACHMENT.pack(sequence, time.time_ns(), _GID_SIZE, gid)
 
 
@@ -62,7 +62,7 @@ def data_key(domain: int, endpoint: Endpoint, type_hash: str) -> str:
 
 
 def interface(endpoint: Endpoint) -> str:
-    """Return the ROS type of a topic, or of the whole service."""
+    """Return the ROS type of a topic or service."""
     if endpoint.kind == "topic":
         return endpoint.ros_type
     return endpoint.ros_type.removesuffix("_Request").removesuffix("_Response")
@@ -79,7 +79,7 @@ def mangle(name: str) -> str:
 
 
 def demangle(chunk: str) -> str:
-    """Return the name in a chunk of a token."""
+    """Return the name encoded in a chunk of a token."""
     return chunk.replace("%", "/")
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The types whose messages newer releases of rmw_zenoh_cpp send at a further key: those with a sequence of bytes."""
+"""The types that newer releases of rmw_zenoh_cpp send at an additional key: those with a byte sequence."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The package `eclipse-zenoh`, which is the module `zenoh`."""
+"""The package `eclipse-zenoh`, which provides the module `zenoh`."""
 
 from __future__ import annotations
 
@@ -16,10 +16,10 @@ _MODULES: Final = ("zenoh", "xxhash")
 
 
 def is_installed() -> bool:
-    """Return whether the packages that Zenoh needs are installed. Nothing is imported."""
+    """Return whether the packages that Zenoh needs are installed, without importing them."""
     try:
         return all(importlib.util.find_spec(name) is not None for name in _MODULES)
-    except (ImportError, ValueError):  # blocked, as in tests of a program
+    except (ImportError, ValueError):  # blocked, for example by tests
         return False
 
 

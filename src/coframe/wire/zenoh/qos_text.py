@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The quality of service in the liveliness tokens of rmw_zenoh_cpp, such as "2::,5:,:,:,,".
 
-Reliability, durability, history and depth, deadline, lifespan, liveliness and lease. A value that equals the default is
-left empty.
+Reliability, durability, history and depth, deadline, lifespan, liveliness and lease. Default values are left empty.
 """
 
 from __future__ import annotations

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Subscriptions over Zenoh: they queue messages, record them with arrival times, or store transforms."""
+"""Subscriptions over Zenoh, which queue messages, record them with arrival times, or store transforms."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 
 class _Subscription(ZenohEndpoint):
-    """A subscription whose subclass consumes the messages."""
+    """Base class of subscriptions; subclasses consume the messages."""
 
     _receiver: Receiver | None = None
 
@@ -33,7 +33,7 @@ class _Subscription(ZenohEndpoint):
             self._receiver.close()
 
     def end_burst(self) -> None:
-        """Do nothing after messages that arrived together."""
+        """Do nothing at the end of a burst of messages."""
 
     def add(self, message: Received) -> None:
         """Process a message."""
@@ -47,7 +47,7 @@ class ZenohReader(_Subscription):
     """A subscription that queues messages. Implements `coframe.wire.backend.BackendReader`.
 
     Attributes:
-        dropped: How many messages were dropped because the queue was full.
+        dropped: The number of messages dropped because the queue was full.
     """
 
     def __init__(self, place: Place, qos: QoS, on_data: _core.Event | None) -> None:
@@ -92,7 +92,7 @@ class ZenohTap(_Subscription):
     """A subscription that records messages. Implements `coframe.wire.backend.BackendTap`.
 
     Attributes:
-        missed: How many messages were dropped because a limit was reached.
+        missed: The number of messages dropped because a limit was reached.
     """
 
     def __init__(self, place: Place, qos: QoS, limits: QueueLimits) -> None:
@@ -175,7 +175,7 @@ class ZenohTfReader(_Subscription):
 
     @property
     def stored_at(self) -> int:
-        """When the newest message's transforms were stored, in nanoseconds of the steady clock; 0: never."""
+        """When the transforms of the newest message were stored, in nanoseconds of the steady clock; 0 if never."""
         return self._store.stored_at
 
     @property

@@ -17,19 +17,19 @@ if TYPE_CHECKING:
     import zenoh
     from coframe.wire.qos import QoS
 
-KEEP_ALL: Final = 10_000  # messages that wait if all are kept; the memory must have a limit
+KEEP_ALL: Final = 10_000  # queue length for KEEP_ALL; memory must be bounded
 # Zenoh's network thread must not wait for Python, which may be busy for a few milliseconds. The oldest messages are
 # dropped when the thread of the subscription does not keep up.
 _LEAST_RING: Final = 10
-_MOST_PUBLISHERS: Final = 1024  # whose last message numbers are stored
+_MOST_PUBLISHERS: Final = 1024  # limit of the publishers whose last sequence numbers are stored
 _BURST: Final = 64  # messages after which `end_burst` is called
-_REPEATS: Final = 1000  # messages that are compared to find those that arrived at two keys
+_REPEATS: Final = 1000  # messages that are compared to detect duplicates at two keys
 
 _logger = logging.getLogger("coframe.wire")
 
 
 class Received(NamedTuple):
-    """A message that arrived."""
+    """A received message."""
 
     data: bytes
     sent: int
@@ -37,23 +37,23 @@ class Received(NamedTuple):
 
 
 class Consumer(Protocol):
-    """What processes the messages of a receiver, on its threads and one at a time."""
+    """Processes the messages of a receiver, on its threads, one at a time."""
 
     def add(self, message: Received) -> None:
         """Process one message."""
 
     def end_burst(self) -> None:
-        """Finish a group of messages that had arrived together."""
+        """Finish a burst of messages that arrived together."""
 
 
 class Receiver:
-    """Passes the messages at some keys to a consumer.
+    """Passes the messages at given keys to a consumer.
 
     Args:
         session: The session.
         key_list: The keys. A message that arrives at several of them is passed on once.
         qos: The requested quality of service.
-        consumer: What processes the messages.
+        consumer: Processes the messages.
         on_lost: Called with the number of messages that were lost.
         name: The name of the topic, for threads and warnings.
     """
@@ -87,7 +87,7 @@ class Receiver:
             thread.start()
 
     def close(self) -> None:
-        """Stop; the consumer is not called afterwards, unless the caller is the consumer."""
+        """Stop. The consumer is not called afterwards, unless it is the caller."""
         for subscriber in self._subscribers:
             subscriber.undeclare()
         for thread in self._threads:
@@ -117,13 +117,13 @@ class Receiver:
             elif self._is_new(header):
                 self._consumer.add(Received(sample.payload.to_bytes(), header.sent, keys.handle_of(header.gid)))
         except Exception as error:
-            # The thread must survive an error of one message, because nothing starts it again.
+            # The thread must survive an error in one message, because nothing would restart it.
             _logger.debug("A message on %s could not be processed.", self._name, exc_info=True)
             reason = f"{type(error).__name__}: {error}"
             self._warn_of_failure(f"A message on {self._name} could not be processed: {reason}.")
 
     def _is_new(self, header: keys.Attachment) -> bool:
-        """Record the number of a message. Return False if the message has arrived at another key before."""
+        """Record a message's sequence number. Return False if the message already arrived at another key."""
         if self._recent is not None:
             key = header.gid, header.sequence
             if key in self._recent:
@@ -151,12 +151,12 @@ class Receiver:
 
 
 def queue_length(qos: QoS) -> int:
-    """Return how many messages of a subscription may wait until they are taken."""
+    """Return the maximum number of queued messages of a subscription."""
     return KEEP_ALL if qos.keep_all else qos.depth
 
 
 def ring_length(qos: QoS) -> int:
-    """Return how many messages of a subscription may wait for its thread. Zenoh allocates this memory at once."""
+    """Return how many messages may wait for the thread of a subscription. Zenoh allocates this memory immediately."""
     return min(max(queue_length(qos), _LEAST_RING), KEEP_ALL)
 
 

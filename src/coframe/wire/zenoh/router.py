@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A Zenoh router: a session in router mode, and a report of who connects to it."""
+"""A Zenoh router: a session in router mode that reports connections."""
 
 from __future__ import annotations
 
@@ -37,8 +37,8 @@ class Router:
     Args:
         file: The configuration file, which replaces the defaults; "" for the file in ZENOH_ROUTER_CONFIG_URI, or the
             defaults of ROS 2.
-        listen: The endpoints to listen on. If empty, those of the configuration; without one, port 7447 of the
-            loopback interface.
+        listen: The endpoints to listen on. If empty, those of the configuration, or port 7447 of the loopback interface
+            without a configuration.
         connect: The endpoints of other routers to connect to. If empty, those of the configuration.
         environment: The environment variables.
 
@@ -67,7 +67,7 @@ class Router:
         self._connections: _Connections | None = None
 
     def report_connections(self, report: Callable[[str], None]) -> None:
-        """Report each process that connects or disconnects from now on, and those that are connected.
+        """Report the connected processes, and from now on each one that connects or disconnects.
 
         Args:
             report: Called with a line of text, on a thread of Zenoh. If there are too many lines, some are omitted.
@@ -76,7 +76,7 @@ class Router:
         self._session.info.declare_link_events_listener(self._connections.note, history=True)
 
     def report_omitted(self) -> None:
-        """Report how many lines were omitted, if it is time for that. To be called every second."""
+        """Report how many lines were omitted, if that is due. Call this every second."""
         if self._connections:
             self._connections.end_window()
 
@@ -94,7 +94,7 @@ class Router:
 
 
 def how_to_reach(endpoint: str) -> str:
-    """Return a sentence that says how nodes reach a router that listens on this endpoint."""
+    """Return a description of how nodes reach a router that listens on this endpoint."""
     if endpoint in {LOOPBACK, configuration.DEFAULT_ROUTER}:
         return "Nodes on this machine find it without settings."
     protocol, _, address = endpoint.partition("/")
@@ -108,7 +108,7 @@ def how_to_reach(endpoint: str) -> str:
 
 
 class _Connections:
-    """Reports connections, at most `_MOST_LINES` of them in a time of `_WINDOW`; the others are counted."""
+    """Reports at most `_MOST_LINES` connections per `_WINDOW`, and counts the others."""
 
     def __init__(self, report: Callable[[str], None]) -> None:
         self._report = report
@@ -136,7 +136,7 @@ class _Connections:
         self._report(f"{'Connected' if is_new else 'Disconnected'}: {link.dst}, session {link.zid}{certificate}")
 
     def end_window(self) -> None:
-        """Begin a new window if the time of the last one is over, and report what was left out in it."""
+        """Begin a new window if the last one has ended, and report how many lines were omitted in it."""
         with self._lock:
             if time.monotonic() - self._window < _WINDOW:
                 return
@@ -147,7 +147,7 @@ class _Connections:
 
 
 def _chooses_endpoints(file: str, environment: Mapping[str, str]) -> bool:
-    """Return whether the user chooses the endpoints to listen on, by a file or by a variable."""
+    """Return whether the user configures the endpoints to listen on, in a file or a variable."""
     if file or environment.get(configuration.ROUTER_FILE, "").strip():
         return True
     pairs = configuration.override_pairs(environment.get(configuration.OVERRIDE, ""))
@@ -165,7 +165,8 @@ def _open(config: zenoh.Config, endpoints: Sequence[str]) -> zenoh.Session:
         if "in use" in reason:
             hint = "Another router is probably running. Choose another port, for example --listen tcp/127.0.0.1:7448."
         raise WireError(f"The router cannot listen on {', '.join(endpoints)}: {reason}.", hint=hint) from error
-    # Zenoh's own log, which RUST_LOG configures, reports refused connections. Before opening, it would report the error
-    # above a second time. A participant that leaves withdraws what access control had refused, which is not an error.
+    # Zenoh's own log, which RUST_LOG configures, reports refused connections. If it were enabled before opening, it
+    # would repeat the error above. A participant that leaves undeclares entities that access control had denied, which
+    # is not an error.
     module.init_log_from_env_or("warn,zenoh::net::routing::hat=off")
     return session  # type: ignore[no-any-return]

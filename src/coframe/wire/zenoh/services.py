@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Services over Zenoh: requests are queries, and replies are their answers.
+"""Services over Zenoh: requests are queries, and replies are query replies.
 
-`coframe.wire` knows a client as a publisher of requests and a subscription to replies, and a service as a subscription
-to requests and a publisher of replies. Requests and replies carry a header with a client and a number, as in
+In `coframe.wire`, a client is a publisher of requests and a subscription to replies, and a service is a subscription to
+requests and a publisher of replies. Requests and replies have a header with a client ID and a sequence number, as in
 rmw_cyclonedds (`coframe.wire.request_header`). The classes here convert it to the attachments of rmw_zenoh_cpp.
 """
 
@@ -31,14 +31,14 @@ if TYPE_CHECKING:
 _UNLIMITED: Final = "/_action/get_result"
 _FOREVER: Final = 10 * 365 * 86_400.0  # seconds; Zenoh has no value for "no limit"
 
-# Requests that wait for the thread of their service, which ignores invalid ones: they must not displace the others.
+# Requests that wait for the thread of their service. Invalid ones, which it ignores, must not displace others.
 _MIN_RING: Final = 256
 
 _logger = logging.getLogger("coframe.wire")
 
 
 class _Request(NamedTuple):
-    """A request that was received and not answered yet."""
+    """A received request that is not answered yet."""
 
     query: Any
     sequence: int
@@ -46,7 +46,7 @@ class _Request(NamedTuple):
 
 
 class ServiceTable:
-    """What connects the two halves of the services and clients of a session. All methods are thread-safe."""
+    """Connects the two halves of the services and clients of a session. All methods are thread-safe."""
 
     def __init__(self) -> None:
         self._lock = threading.Lock()
@@ -54,12 +54,12 @@ class ServiceTable:
         self._requests: dict[str, dict[RequestHeader, _Request]] = {}  # by the same key; oldest first
 
     def add_reader(self, reader: ReplyReader) -> None:
-        """Pass the replies of a service to a reader as well."""
+        """Also pass the replies of a service to a reader."""
         with self._lock:
             self._replies.setdefault(reader.key, []).append(reader)
 
     def remove_reader(self, reader: ReplyReader) -> None:
-        """Pass no further replies to a reader."""
+        """Stop passing replies to a reader."""
         with self._lock:
             readers = self._replies.get(reader.key, [])
             if reader in readers:
@@ -77,8 +77,8 @@ class ServiceTable:
     def store_request(self, key: str, header: RequestHeader, request: _Request) -> _Request | None:
         """Store a request until it is answered.
 
-        Return the request that will not be answered: this one if it is pending already, the oldest one of the service
-        if too many are, else None.
+        Return the request that will not be answered: this one if it is already pending, the oldest one of the service
+        if too many are pending, else None.
         """
         with self._lock:
             pending = self._requests.setdefault(key, {})
@@ -93,7 +93,7 @@ class ServiceTable:
             return self._requests.get(key, {}).pop(header, None)
 
     def forget_service(self, key: str) -> None:
-        """End the requests of a service that is closed."""
+        """Drop the requests of a closed service."""
         with self._lock:
             left = self._requests.pop(key, {})
         for request in left.values():
@@ -129,7 +129,7 @@ class _Queue(ZenohEndpoint):
         """Return up to `limit` messages, oldest first."""
         with self._queue_lock:
             taken = [self._queue.popleft() for _ in range(min(limit, len(self._queue)))]
-            self._lengths -= Counter(writer for _, _, writer in taken)  # forgets writers without messages
+            self._lengths -= Counter(writer for _, _, writer in taken)  # removes writers without messages
             return taken
 
     def take_decoded(self, limit: int, codec: _core.MessageCodec) -> list[tuple[Any, int, int]]:
@@ -173,7 +173,7 @@ class RequestReader(_Queue):
     """The subscription to requests of a service: a queryable.
 
     Attributes:
-        dropped: How many requests were dropped because too many waited.
+        dropped: The number of requests dropped because too many were waiting.
     """
 
     def __init__(self, place: Place, qos: QoS, on_data: _core.Event | None, table: ServiceTable) -> None:
@@ -223,19 +223,19 @@ class RequestReader(_Queue):
             query.drop()
 
     def reject(self, header: RequestHeader) -> None:
-        """Forget a request that will not be answered; its client does not wait any longer."""
+        """Drop a request that will not be answered, so that its client stops waiting."""
         request = self._table.take_request(self.key, header)
         if request is not None:
             request.query.drop()
 
     def _removed_by(self, message: bytes, sent: int, writer: int) -> _Request | None:
-        """Queue a request, and return the one that is removed for it, if any."""
+        """Queue a request, and return the one that is displaced, if any."""
         removed = self.push(message, sent, writer)
         parts = None if removed is None else request_header.split(removed)
         return None if parts is None else self._table.take_request(self.key, parts[0])
 
     def _drop(self, request: _Request | None) -> None:
-        """End a request without an answer."""
+        """Drop a request without answering it."""
         if request is None:
             return
         request.query.drop()
@@ -277,7 +277,7 @@ class _Sender(BytesWriter):
         """Do nothing: an endpoint is alive as long as its session."""
 
     def wait_for_acks(self, timeout_ns: int) -> bool:
-        """Return True: Zenoh has no acknowledgements of messages, so that there is nothing to wait for."""
+        """Return True, because Zenoh has no message acknowledgements to wait for."""
         del timeout_ns
         return True
 
@@ -312,7 +312,7 @@ class RequestWriter(_Sender):
         answered = header.sequence, self.guid
 
         def receive(reply: Any) -> None:
-            # This runs on Zenoh's network thread and only queues the reply, so that no thread per request is needed.
+            # This runs on Zenoh's network thread and only queues the reply, so no thread per request is needed.
             if reply.ok is None:
                 return
             data, attachment = reply.ok.payload.to_bytes(), reply.ok.attachment
@@ -333,8 +333,7 @@ class RequestWriter(_Sender):
         self.ignored += 1
         if self.ignored == 1:
             _logger.warning(
-                "A reply of %s is ignored: it is not a reply of rmw_zenoh_cpp to this client. Further ones are only "
-                "counted.",
+                "A reply of %s is ignored: it is not a reply of rmw_zenoh_cpp to this client. More are only counted.",
                 self.endpoint.name,
             )
 

@@ -48,7 +48,7 @@ class ZenohSession:
 
     Args:
         domain: The domain ID.
-        changed: Set whenever the graph may have changed.
+        changed: Set when the graph may have changed.
 
     Raises:
         WireError: Zenoh is not installed, its configuration is not valid, or a client finds no router.
@@ -60,7 +60,7 @@ class ZenohSession:
         descriptors.check(_DESCRIPTORS, "Zenoh", domain)
         self._session: Any = connecting.open_session()
         self._zid = str(self._session.info.zid())
-        self._counter = itertools.count()  # numbers nodes and endpoints alike
+        self._counter = itertools.count()  # counter for nodes and endpoints
         self._lock = threading.RLock()
         self._nodes: dict[GraphNode, NodeToken] = {}
         self._identities: dict[bytes, Identity] = {}  # by the identifier of the endpoint
@@ -140,7 +140,7 @@ class ZenohSession:
         )
 
     def announce(self, nodes: Sequence[GraphNode]) -> None:
-        """Declare the tokens of the nodes of this process and of their endpoints, and remove the other tokens."""
+        """Declare the tokens of the nodes of this process and their endpoints, and undeclare outdated ones."""
         with self._lock:
             self._nodes = {node: self._node_token(node) for node in nodes}
             wanted = dict.fromkeys(token.text for token in self._nodes.values())
@@ -159,7 +159,7 @@ class ZenohSession:
             self._forget_closed(open_endpoints)
 
     def repeat_announcement(self) -> int:
-        """Do nothing: Zenoh sends what the network has lost again."""
+        """Do nothing: Zenoh retransmits lost data."""
         return SECOND
 
     def adapt(self) -> str:
@@ -181,7 +181,7 @@ class ZenohSession:
         self._session.close()
 
     def _subscription_place(self, node: GraphNode, endpoint: Endpoint, qos: QoS) -> Place:
-        """Return the place of a subscription, which receives every definition of a type that is unknown."""
+        """Return the context of a subscription; if its type is unknown, it receives every definition of the type."""
         _check_names(endpoint)
         type_hash = self._hash_of(endpoint)
         if not type_hash:
@@ -251,7 +251,7 @@ class ZenohSession:
         return opened
 
     def _forget_closed(self, open_endpoints: set[bytes]) -> None:
-        """Forget the identities of endpoints that were announced and are closed."""
+        """Remove the identities of announced endpoints that are closed."""
         closed = self._announced - open_endpoints
         for guid in closed:
             self._identities.pop(guid, None)
@@ -264,6 +264,6 @@ def _check_names(endpoint: Endpoint) -> None:
         check_name(name)
         if found := _NOT_IN_KEYS.intersection(name):
             raise WireError(
-                f"The name {shown(name)!r} contains {min(found)!r}, which has a meaning of its own in Zenoh.",
+                f"The name {shown(name)!r} contains {min(found)!r}, which has a special meaning in Zenoh.",
                 hint="Choose another name.",
             )

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Limits of the graph, which any process of the network can fill with tokens."""
+"""Limits for the graph, which any process on the network can fill with tokens."""
 
 from __future__ import annotations
 
@@ -9,13 +9,13 @@ from typing import Final
 from coframe.escaping import shown
 
 MAX_TOKENS: Final = 100_000  # nodes, endpoints and their user data, of other processes
-MAX_TOKEN_BYTES: Final = 64 << 20  # of their texts; the names of a token are parts of its text
+MAX_TOKEN_BYTES: Final = 64 << 20  # of tokens, which include the names
 
 _logger = logging.getLogger("coframe.wire")
 
 
 class TokenLimits:
-    """The tokens that are stored, within limits of number and bytes. Those of this process do not count."""
+    """Limits the number and bytes of stored tokens. Those of this process do not count."""
 
     def __init__(self) -> None:
         self._own: set[str] = set()
@@ -24,7 +24,7 @@ class TokenLimits:
         self._warned: set[str] = set()
 
     def add_own(self, text: str, *, declared: bool) -> None:
-        """Note that this process declares a token, or no longer."""
+        """Record that this process declares or undeclares a token."""
         if declared:
             self._own.add(text)
         else:
@@ -38,7 +38,7 @@ class TokenLimits:
             self._warn(
                 "full",
                 f"More than {MAX_TOKENS} nodes and endpoints, or {MAX_TOKEN_BYTES >> 20} MiB of their names, are on "
-                f"the graph. Further ones are not listed. Find out which process creates them.",
+                f"the graph. More are not listed. Find out which process creates them.",
             )
             return False
         self._stored.add(text)
@@ -52,11 +52,11 @@ class TokenLimits:
             self._bytes -= len(text)
 
     def warn_of_invalid_token(self, text: str) -> None:
-        """Warn, the first time only, that a token is ignored."""
+        """Warn once that a token is ignored."""
         self._warn(
             "invalid",
             f"A node or an endpoint is not listed, because its liveliness token is not valid or contains too long a "
-            f"name: {shown(text)}. Further ones like it are not reported.",
+            f"name: {shown(text)}. More tokens like it are not reported.",
         )
 
     def _warn(self, key: str, text: str) -> None:

@@ -31,7 +31,7 @@ _KINDS: Final = {PUBLISHER, SUBSCRIPTION, SERVICE, CLIENT}
 _NODE_CHUNKS: Final = 9
 _ENDPOINT_CHUNKS: Final = 13
 _BACKENDS: Final = "backends:cpu:"
-MAX_BYTES: Final = 4096  # of a token; the longest of ROS have a fifth of this
+MAX_BYTES: Final = 4096  # of a token; the longest ROS tokens have a fifth of this
 
 
 class NodeToken(NamedTuple):
@@ -49,7 +49,7 @@ class NodeToken(NamedTuple):
         return self.entity(self.id, NODE)
 
     def entity(self, number: int, kind: str) -> str:
-        """Return the beginning of the token of an entity of this node."""
+        """Return the common beginning of the tokens of this node's entities."""
         return (
             f"{_SPACE}/{self.domain}/{self.session}/{self.id}/{number}/{kind}/"
             f"{keys.mangle(_ENCLAVE)}/{keys.mangle(self.namespace)}/{keys.mangle(self.name)}"
@@ -66,7 +66,7 @@ class NodeToken(NamedTuple):
             endpoint: Its topic or service.
             type_hash: The hash of its type.
             qos: Its quality of service.
-            buffers: Whether it is a subscription that also receives messages at the key of buffers.
+            buffers: Whether it is a subscription that also receives messages at the buffer key.
         """
         token = (
             f"{self.entity(number, kind)}/{keys.mangle(endpoint.name)}/{keys.type_name(endpoint)}/{type_hash}/"
@@ -76,7 +76,7 @@ class NodeToken(NamedTuple):
 
 
 class Token(NamedTuple):
-    """A token that was received.
+    """A received token.
 
     Attributes:
         session: The identifier of the session.
@@ -119,7 +119,7 @@ def user_data_token(domain: int, token: str, user_data: str) -> str:
 
 
 def decode_user_data(text: str) -> tuple[bytes, bytes] | None:
-    """Return the identifier and the user data of an endpoint; None if the token has another form."""
+    """Return the identifier and the user data of an endpoint; None if the token is of another kind."""
     chunks = text.split("/")
     if len(chunks) != 4 or chunks[0] != _USER_DATA_SPACE or len(text) > MAX_BYTES:
         return None

@@ -50,7 +50,7 @@ class ZenohWriter(BytesWriter):
         self._error = library.load().ZError
         self._checked = checked
         self._sequence = Sequence(place.guid)
-        self._lock = threading.Lock()  # numbers are sent in their order
+        self._lock = threading.Lock()  # so that sequence numbers are sent in order
         self._publisher = _declare(place.session, place.key_list[0], qos)
 
     def write(self, message: bytes) -> None:
@@ -60,7 +60,7 @@ class ZenohWriter(BytesWriter):
         self.forward(message)
 
     def forward(self, message: bytes) -> None:
-        """Send a message without a check of its bytes."""
+        """Send a message without checking its bytes."""
         if len(message) < ENCAPSULATION_SIZE:
             raise ValueError(TOO_SHORT)
         self._check_open()
@@ -74,12 +74,12 @@ class ZenohWriter(BytesWriter):
         """Do nothing: a publisher is alive as long as its session."""
 
     def wait_for_acks(self, timeout_ns: int) -> bool:
-        """Return True: Zenoh has no acknowledgements of messages, so that there is nothing to wait for."""
+        """Return True, because Zenoh has no message acknowledgements to wait for."""
         del timeout_ns
         return True
 
     def _undeclare(self) -> None:
-        with self._lock:  # waits for a message that is being sent
+        with self._lock:  # waits for a message in progress
             self._publisher.undeclare()
 
 
