@@ -173,7 +173,7 @@ def test_what_a_source_does_not_contain_is_explained(view, open_tab, recording, 
     tab = open_tab(view(buffer))
     tab.send("curves", curves=request("map:base.z", "/scan.rate", "map:base.delay", "base:base.distance"))
     for number in (1, 2):
-        assert tab.until_status(number, "a buffer contains transforms only") == "error"
+        assert tab.until_status(number, "a buffer contains only transforms") == "error"
     assert tab.until_curve(0)[1].tolist() == [3.0]
     assert tab.until_curve(3)[1].tolist() == [0.0], "a frame relative to itself"
     assert "no nodes and topics" in tab.ask("graph", "graph", shown=True)["text"]

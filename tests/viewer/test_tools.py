@@ -99,9 +99,9 @@ def test_a_static_transform_is_replaced_for_everyone(graph, view, open_tab):
 
 INVALID = [
     ("publish_point", POINT, {"frame": "base"}, "the fixed frame is 'map', and no longer 'base'"),
-    ("publish_point", POINT, {"topic": "no slash"}, "'no slash' is not a valid name of a topic"),
-    ("publish_point", POINT, {"topic": "/a//b"}, "'/a//b' is not a valid name of a topic"),
-    ("publish_point", POINT, {"topic": "/" + "a" * 300}, "is not a valid name of a topic"),
+    ("publish_point", POINT, {"topic": "no slash"}, "'no slash' is not a valid topic name"),
+    ("publish_point", POINT, {"topic": "/a//b"}, "'/a//b' is not a valid topic name"),
+    ("publish_point", POINT, {"topic": "/" + "a" * 300}, "is not a valid topic name"),
     ("publish_point", POINT, {"point": [1.0, 2.0]}, "must be an array of 3 values"),
     ("publish_point", POINT, {"point": [1.0, 2.0, 1e300]}, "must be a number from -1e+09"),
     ("publish_point", POINT, {"point": [1.0, 2.0, float("nan")]}, "not valid JSON"),

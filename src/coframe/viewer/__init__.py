@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """The viewer: RViz's displays in a browser tab, with time travel.
 
-`coframe.show(buffer)` and the command `coframe view` start it. The server looks up all poses and the page draws them.
+`coframe.show(buffer)` and the command `coframe view` start it. The server looks up all poses, and the page draws them.
 
-Subpackages, from the ground up; imports point down only:
+Subpackages; each imports only those above it in this list:
     protocol: The messages between server and page.
     sources: The ROS graph, a recording or a buffer.
     scene: Poses, statistics, the timeline and relations of a buffer's frames.

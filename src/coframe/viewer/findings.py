@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The findings of the doctor on the displayed source, computed in a thread while a page is open.
+"""The doctor's findings on the displayed source, computed in a thread while a page is open.
 
-A recording is examined once, the ROS graph repeatedly on its last seconds, as by `coframe doctor`.
+A recording is examined once; of the ROS graph, the last few seconds are examined repeatedly, as in `coframe doctor
+--watch`.
 """
 
 from __future__ import annotations
@@ -30,7 +31,7 @@ _logger = logging.getLogger("coframe.viewer")
 # steps of an examination; and the time without a request after which it ends.
 _DELAY, _STEP, _IDLE_TIMEOUT = 1.0, 0.5, 5.0
 _END_TIMEOUT = 2.0
-# Limits on what a page has to show, because the data on the graph has none.
+# Limits on what is sent to a page, because the data on the graph is unlimited.
 _MAX_FINDINGS, _MAX_FRAMES, _MAX_TEXT = 200, 50, 2000
 
 
@@ -39,7 +40,7 @@ class FindingsReport(NamedTuple):
 
     Attributes:
         state: "none" if nothing is examined, "waiting" before the first report.
-        text: The reason of a failure, or "".
+        text: The reason for a failure, or "".
         findings: The findings as in the output of `coframe doctor --json`, causes first, each with its namespace.
     """
 
@@ -57,7 +58,7 @@ class FindingsWatcher:
         self._source: Source | None = None
 
     def watch(self, source: Source) -> None:
-        """Examine a source as long as this is called every few seconds, and update the report."""
+        """Examine a source and update the report, as long as this is called every few seconds."""
         if source is not self._source:
             if self._examination is not None:
                 self._examination.end()
@@ -69,7 +70,7 @@ class FindingsWatcher:
         self.report = self._examination.report
 
     def close(self) -> None:
-        """End the examination and wait until it has ended."""
+        """End the examination and wait for its thread."""
         if self._examination is not None:
             self._examination.end()
             self._examination.join()
@@ -93,7 +94,7 @@ class _Examination:
             self._thread.start()
 
     def end(self) -> None:
-        """End the examination soon; its own thread releases what it holds."""
+        """End the examination soon; its thread releases its resources."""
         self._end.set()
 
     def join(self) -> None:
@@ -120,7 +121,7 @@ class _Examination:
             self.report = FindingsReport("failed", "The doctor failed. The server's log contains the error.")
 
     def _update(self, reports: dict[str, Report] | None) -> None:
-        # A method of its own, because a variable of the loop would keep the last report until the next one is complete.
+        # A separate method, because a loop variable would keep the last report alive until the next one is complete.
         if reports is not None:
             self.report = FindingsReport("ready", findings=_findings(reports))
 
@@ -131,7 +132,7 @@ def finding_rows(report: FindingsReport, origin: int) -> list[Finding]:
 
 
 def _findings(reports: dict[str, Report]) -> tuple[dict[str, Any], ...]:
-    # Imported here because the viewer starts without the doctor.
+    # Imported here so that the viewer starts without loading the doctor.
     from coframe.doctor.rendering.plain import as_data  # noqa: PLC0415
 
     named = ((name, as_data(report)["findings"]) for name, report in reports.items())

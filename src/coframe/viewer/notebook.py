@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The viewer below a notebook's cell: the running viewer in a frame, or a replay that the notebook contains."""
+"""The viewer below a notebook cell: the running viewer in a frame, or a replay embedded in the notebook."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ Inline = Literal["viewer", "replay"]
 
 MAX_INLINE_BYTES = 20 << 20
 _STYLE = 'width="100%" height="600" style="border:0"'
-# Each is set where the browser runs on another machine, or where pages of loopback servers are refused (VS Code).
+# Any of these is set if the browser runs on another machine, or if pages of loopback servers are blocked (VS Code).
 _REMOTE_VARIABLES = (
     "CODESPACES",
     "COLAB_RELEASE_TAG",
@@ -33,7 +33,7 @@ _REMOTE_VARIABLES = (
     "VSCODE_PID",
 )
 _CONTAINER_FILES = (Path("/.dockerenv"), Path("/run/.containerenv"))
-# The frame expands the replay by itself: a script in the cell's output would not run in notebooks that are not trusted.
+# The frame unpacks the replay itself, because scripts in the cell's output do not run in untrusted notebooks.
 _LOADER = """<!doctype html><meta charset="utf-8"><script id="packed" type="text/plain">{data}</script><script>
 const packed = Uint8Array.from(atob(document.getElementById("packed").textContent), (c) => c.charCodeAt(0));
 const text = new Response(new Blob([packed]).stream().pipeThrough(new DecompressionStream("deflate"))).text();
@@ -42,7 +42,7 @@ text.then((page) => {{ document.open(); document.write(page); document.close(); 
 
 
 def suitable_inline(environment: Mapping[str, str] = os.environ) -> Inline:
-    """Return what a notebook can show: the running viewer only if its user is there, with a browser on this machine.
+    """Return what a notebook can show: the running viewer only if its user has a browser on this machine.
 
     Args:
         environment: The environment variables.
@@ -52,7 +52,7 @@ def suitable_inline(environment: Mapping[str, str] = os.environ) -> Inline:
 
 
 def _has_user() -> bool:
-    """Return False if a program executes the notebook, as nbconvert and papermill do: `input()` gets no answer."""
+    """Return False if a program such as nbconvert or papermill executes the notebook: `input()` then fails."""
     ipython = sys.modules.get("IPython")
     kernel = getattr(ipython.get_ipython() if ipython is not None else None, "kernel", None)
     if kernel is None:

@@ -45,11 +45,11 @@ class Viewer:
     It may be used by one thread at a time; its scene and its widgets by any number of threads.
 
     Args:
-        state: What is shown.
+        state: The state to show.
         export: Returns the HTML file of a replay of a source.
         host: The address to listen on.
         port: The port; see :func:`show`.
-        inline: What notebooks display; see :func:`show`.
+        inline: What a notebook displays; see :func:`show`.
     """
 
     def __init__(
@@ -97,7 +97,7 @@ class Viewer:
         return self._gui
 
     def set_source(self, source: Source) -> None:
-        """Show another source, which the viewer closes at the end."""
+        """Show another source; the viewer closes it when it stops."""
         self._sources.append(source)
         self._server.call(self._state.set_source, source)
 
@@ -170,12 +170,12 @@ def show(
         robot: A robot, or its URDF or xacro file, shown in addition to those on ``/robot_description``.
         mesh_roots: Folders below which meshes may be fetched, in addition to those of ROS packages.
         host: The address to listen on. If other machines can reach it, ``url`` contains a token that they need.
-        port: The port; None selects 7676, or any free port if that is in use; 0 selects any free port.
+        port: The port; None selects 7676, or any free port if it is in use; 0 selects any free port.
         joint_states: The topic on which the sliders of a robot's joints publish.
         inline: What a notebook displays: the running ``"viewer"``, or a ``"replay"``, which needs no connection to this
-            process and stays in the saved notebook. By default the running viewer, and a replay where the browser
-            cannot reach it: in Colab, Kaggle, VS Code, JupyterHub, containers, over SSH, and where a program such as
-            nbconvert executes the notebook.
+            process and is saved with the notebook. By default the running viewer, and a replay where the browser cannot
+            reach it: in Colab, Kaggle, VS Code, JupyterHub, containers, over SSH, and where a program such as nbconvert
+            executes the notebook.
 
     Returns:
         The running viewer. Close it, or use it as a context manager.
@@ -261,7 +261,7 @@ def _source_of(source: Any) -> Source:
     if isinstance(source, Transform):
         return BufferSource(buffer_of_transform(source))
     if isinstance(source, Connection):
-        # Imported here because each kind of source needs packages that the others do not need.
+        # Imported here because each kind of source needs different packages.
         from coframe.viewer.sources.live import LiveSource  # noqa: PLC0415
 
         return LiveSource(source)

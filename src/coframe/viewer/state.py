@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What all clients share: the source with its scene, the topics, and the origin of times."""
+"""The state that all clients share: the source with its scene, the topics, and the origin of times."""
 
 from __future__ import annotations
 
@@ -34,8 +34,8 @@ if TYPE_CHECKING:
 
 __all__ = ["FRAME_TIMEOUT", "ViewerState"]
 
-# Seconds between refreshes of the tree structure and of the topics. A large tree is refreshed less often, so that this
-# takes at most the given share of the time.
+# Seconds between refreshes of the tree structure and of the topics. Large trees are refreshed less often, so that
+# refreshing takes at most the given share of the time.
 STRUCTURE_PERIOD, TOPICS_PERIOD = 0.2, 1.0
 STRUCTURE_SHARE = 0.005
 # A float64 is exact up to 2**53 nanoseconds, which is 104 days.
@@ -111,7 +111,7 @@ class ViewerState:
         return self.source.connection is not None
 
     def refresh(self) -> None:
-        """Follow changes of the source, as often as is useful."""
+        """Update from the source, rate-limited."""
         now = time.monotonic()
         if now >= self._structure_due:
             self.scene.refresh()
@@ -199,7 +199,7 @@ class ViewerState:
         return "" if self.source.connection is None else self.source.connection.config.tf_static_topic
 
     def tool_publisher(self) -> ToolPublisher:
-        """Return the publisher of what the pages' tools define.
+        """Return the publisher for the pages' tools.
 
         Raises:
             ViewerError: The source is not the ROS graph.
@@ -220,7 +220,7 @@ class ViewerState:
         return token
 
     def replay_request(self, query: Mapping[str, str]) -> ReplayRequest:
-        """Return the request for a replay in a URL query; by default everything is replayed.
+        """Return the request for a replay in a URL query; by default, everything is included.
 
         Raises:
             ViewerError: The query is invalid.
@@ -248,7 +248,7 @@ class ViewerState:
 
 
 def _description_topics(rviz: RvizConfig | None) -> list[str]:
-    """Return the usual topic and those that a configuration names."""
+    """Return the default topic and those in a configuration."""
     named = [] if rviz is None else rviz.description_topics
     return list(dict.fromkeys([ROBOT_DESCRIPTION, *named]))
 

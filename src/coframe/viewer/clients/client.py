@@ -2,9 +2,8 @@
 """One connected browser tab.
 
 Updates are sent only when the client has drawn the last frame update and the connection has accepted it, so a client
-that is slow or stuck skips updates. Requests are answered in order; a client that sends requests without reading the
-answers is not read any more. Updates are made by plain calls without tasks and locks, which would cost more than most
-updates.
+that is slow or stuck skips updates. Requests are answered in order; the server stops reading from a client that does
+not read the answers. Updates use direct calls without tasks and locks, which would cost more than most updates.
 """
 
 from __future__ import annotations
@@ -34,13 +33,13 @@ __all__ = ["Client", "Socket"]
 
 _logger = logging.getLogger("coframe.viewer")
 
-# A client with this many unanswered requests is not read until half of them are answered.
+# The server reads no more requests from a client with this many unanswered ones until half of them are answered.
 MAX_REQUESTS = 64
 _NEVER_SENT = object()
 
 
 class Socket(Protocol):
-    """What a client needs of its connection."""
+    """The interface that a client requires of its connection."""
 
     @property
     def is_clear(self) -> bool:
@@ -67,7 +66,7 @@ class Client:
 
     Args:
         socket: Its connection.
-        viewer: What all clients share.
+        viewer: The state that all clients share.
 
     Attributes:
         state: What the client shows.
@@ -101,7 +100,7 @@ class Client:
             self._answering = asyncio.get_running_loop().create_task(self._answer_all())
 
     def disconnected(self) -> None:
-        """Release everything after the connection has ended."""
+        """Clean up after the connection has ended."""
         if self._answering is not None:
             self._answering.cancel()
         self.state.close()
@@ -138,14 +137,14 @@ class Client:
                 self._socket.send(encode_update())
 
     def _restart(self) -> None:
-        """Forget what was sent: after another `hello` the page starts from scratch, apart from reported problems."""
+        """Forget what was sent: after another `hello`, the page starts from scratch, except for reported problems."""
         self.state.restart()
         problems = {
             key: version for key, version in self._sent.items() if isinstance(key, tuple) and key[0] == "problem"
         }
         self._sent.clear()
         self._sent.update(problems)
-        self._sent[TOPICS] = self._viewer.topics  # They are part of `hello`.
+        self._sent[TOPICS] = self._viewer.topics  # Already part of `hello`.
         for feed in self._feeds:
             feed.due = 0.0
 

@@ -3,7 +3,7 @@
 
 A feed yields updates. An update has a key, which names its subject, and a version. The client encodes and sends an
 update only if its version differs from the last one with the same key, and only when it can receive more: a slow client
-skips versions instead of queueing them. All that a client remembers about what it has sent is one version per key.
+skips versions instead of queueing them. The only state about sent messages is one version per key.
 """
 
 from __future__ import annotations
@@ -44,12 +44,12 @@ if TYPE_CHECKING:
 
 __all__ = ["FRAMES", "HELLO", "TOPICS", "make_feeds"]
 
-# The keys that the client treats specially.
+# Keys with special handling in the client.
 HELLO, TOPICS, FRAMES = "hello", "topics", "frames"
 # Seconds between checks for new robots, findings and topics of displays.
 SLOW_PERIOD = 0.25
-# Seconds between statistics. Those of a large tree are sent less often, so that they take at most the given share of
-# the time.
+# Seconds between statistics. For large trees they are sent less often, so that they take at most the given share of the
+# time.
 STATISTICS_PERIOD, STATISTICS_SHARE = 1.0, 0.003
 # Seconds between frame updates while nothing changes.
 IDLE_PERIOD = 1.0

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The feeds of the panels next to the scene; a panel that is closed costs nothing."""
+"""The feeds of the panels next to the scene; closed panels cost nothing."""
 
 from __future__ import annotations
 
@@ -31,8 +31,8 @@ _logger = logging.getLogger("coframe.viewer")
 _CURVES_PERIOD, _INSPECTION_PERIOD, _LOG_PERIOD, _GRAPH_PERIOD, _CLOSED_PERIOD = 0.1, 0.2, 0.2, 0.5, 0.25
 _READING_PERIOD = 0.03
 _LATE_PERIOD = 1.0  # seconds between attempts to open a topic that does not exist
-_MAX_LINES = 1000  # log messages of one update
-_RATE_MESSAGES = 200  # messages whose times determine the rate
+_MAX_LINES = 1000  # maximum number of log messages per update
+_RATE_MESSAGES = 200  # number of messages from which the rate is computed
 
 
 class _PanelFeed:
@@ -85,7 +85,7 @@ class CurvesFeed(_PanelFeed):
 
 
 class _Inspected(NamedTuple):
-    """An inspected message, or why there is none; `key` changes with it and begins with the serial of the topic."""
+    """An inspected message, or why there is none; `key` identifies it and begins with the serial of the topic."""
 
     key: tuple[int, object]
     state: DisplayState
@@ -126,7 +126,7 @@ class InspectionFeed(_PanelFeed):
             yield Update("inspection", (self._shown.key, publishers), partial(self._encode, publishers))
 
     def _read(self, messages: TopicMessages | None) -> None:
-        """Start to read the message at the displayed time, unless it is shown."""
+        """Start to read the message at the displayed time, unless it is already shown."""
         panels, at = self._panels, self._client.at
         if messages is None:
             why = self._why_missing(panels.topic)
@@ -177,7 +177,7 @@ class InspectionFeed(_PanelFeed):
 def _read_message(
     key: tuple[int, object], topic: str, messages: TopicMessages, message: StampedMessage, at: int
 ) -> _Inspected:
-    """Return the content of a message; any error becomes a text, because a message may contain anything."""
+    """Return the content of a message, or an error message, because a message may contain anything."""
     from coframe.viewer.panels.message_fields import message_rows  # noqa: PLC0415 - needs the message classes
 
     failed = _Inspected(key, "error", "", messages.type, message.time, _rate(messages, at))

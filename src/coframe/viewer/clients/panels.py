@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the panels of one client show: curves, an inspected topic, the log, and the graph of nodes and topics."""
+"""The panels of one client: curves, an inspected topic, the log, and the graph of nodes and topics."""
 
 from __future__ import annotations
 
@@ -40,10 +40,10 @@ class ShownCurve:
 
 
 class ClientPanels:
-    """What the panels of one client show.
+    """The state of one client's panels.
 
     Args:
-        viewer: What all clients share.
+        viewer: The state that all clients share.
 
     Attributes:
         curves: The curves by the client's id.
@@ -70,7 +70,7 @@ class ClientPanels:
         self._panels = viewer.panels  # Those of the source that is shown.
 
     def set_curves(self, requests: list[CurveRequest], span: CurveSpan) -> None:
-        """Show these curves and no others.
+        """Show exactly these curves.
 
         Raises:
             BadRequestError: There are too many curves, or an expression is too long.
@@ -97,7 +97,7 @@ class ClientPanels:
         self.open_inspected()
 
     def open_inspected(self) -> None:
-        """Open the inspected topic if it did not exist before."""
+        """Open the inspected topic if it now exists."""
         if self.topic and self.inspected is None:
             try:
                 self.inspected = self._viewer.open(self.topic)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The time that a client shows."""
+"""The displayed time of a client."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ Span = tuple[int, int]
 
 @dataclass
 class PlaybackClock:
-    """Shows the newest data, or a time that stands still or advances. Times are nanoseconds.
+    """The displayed time: that of the newest data, or a fixed or advancing time. Times are nanoseconds.
 
     Attributes:
         live: Whether the newest data is shown.

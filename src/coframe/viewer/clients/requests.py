@@ -157,7 +157,7 @@ async def _publish_static(client: ClientState, request: client_messages.PublishS
 def _check_fixed_frame(client: ClientState, frame: str) -> None:
     if frame != client.fixed:
         raise BadRequestError(
-            f"nothing was published: the fixed frame is {shorten(client.fixed)}, and no longer {shorten(frame)}",
+            f"nothing was published: the fixed frame is {shorten(client.fixed)}, not {shorten(frame)} any longer",
             "Use the tool again.",
         )
 
@@ -228,7 +228,7 @@ async def _use_widget(client: ClientState, request: client_messages.UseWidget) -
 
 
 async def _in_background(client: ClientState, function: Callable[..., T], *args: Any) -> T:
-    """Run a function that takes long in another thread."""
+    """Run a slow function in another thread."""
     return await asyncio.get_running_loop().run_in_executor(client.viewer.executor, function, *args)
 
 

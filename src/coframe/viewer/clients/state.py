@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What one client shows: fixed frame, time, displays and joints."""
+"""The state of one client: fixed frame, time, displays and joints."""
 
 from __future__ import annotations
 
@@ -49,10 +49,10 @@ class Subscription:
 
 
 class ClientState:
-    """What one client shows.
+    """The state of one client.
 
     Args:
-        viewer: What all clients share.
+        viewer: The state that all clients share.
 
     Attributes:
         clock: The displayed time.
@@ -100,7 +100,7 @@ class ClientState:
         return [one.display for one in self.subscriptions.values() if one.display is not None]
 
     def subscribe(self, number: int, topic: str, options: Options) -> None:
-        """Display a topic, instead of the display with the same id.
+        """Display a topic, replacing any display with the same id.
 
         Raises:
             BadRequestError: There are too many displays.
@@ -118,13 +118,13 @@ class ClientState:
             self._close(subscription)
 
     def open_late_displays(self) -> None:
-        """Open the displays whose topics did not exist before."""
+        """Open the displays whose topics did not exist until now."""
         for number, subscription in self.subscriptions.items():
             if subscription.display is None:
                 self._open(number, subscription)
 
     def restart(self) -> None:
-        """Start again after a change of the source or the origin: close all displays, to be opened again later."""
+        """Restart after a change of the source or the origin: close all displays, to be reopened later."""
         self.origin = self.viewer.origin
         self.panels.close()
         self.nodes, self.widgets = SentRecords(), SentRecords()
@@ -158,7 +158,7 @@ class ClientState:
     def publish_joints(self) -> None:
         """Publish all joint positions that are due."""
         for publisher in self._joints.values():
-            with contextlib.suppress(WireError):  # A subscriber that does not respond must not stop the client.
+            with contextlib.suppress(WireError):  # An unresponsive subscriber must not stop the client.
                 publisher.publish_if_due()
 
     def close(self) -> None:

@@ -39,7 +39,7 @@ _logger = logging.getLogger("coframe.viewer")
 # How long a message waits for its transform, in seconds.
 TRANSFORM_TIMEOUT = 1.0
 _HOLD = "15s"
-MAX_DRAWINGS = 1000  # of one message
+MAX_DRAWINGS = 1000  # maximum per message
 MAX_LAYERS = 200
 _IDENTITY = np.array([0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0])
 
@@ -71,7 +71,7 @@ class _Entry:
         self._fixed: str | None = None  # The fixed frame of the pose.
 
     def place(self, buffer: Buffer, fixed: str, at: int) -> bool:
-        """Look up the pose unless it is known; return whether it is known now."""
+        """Look up the pose unless it is already known; return whether it is known."""
         drawing = self.drawing
         if self._fixed == fixed and self.pose is not None and not drawing.locked:
             return True
@@ -116,14 +116,14 @@ class _Layer(NamedTuple):
 
 
 class Display:
-    """A subscribed display; used by the server's thread.
+    """A subscribed display. Use only on the server's thread.
 
     Args:
         number: The id that the page chose.
         messages: The messages of the topic.
         options: How the display draws.
-        mesh_url: Return the URL of a mesh that a marker names, or the reason why there is none.
-        executor: Where drawings are made, so that large messages do not block the server.
+        mesh_url: Returns the URL of a marker's mesh, or the reason why there is none.
+        executor: Runs the rendering, so that large messages do not block the server.
     """
 
     def __init__(
@@ -140,11 +140,11 @@ class Display:
         self._work: Future[_Rendered | None] | None = None
         self._incoming: _Layer | None = None
         self._incoming_since = 0.0
-        self._left_out = 0  # drawings of the incoming layer
+        self._left_out = 0  # drawings of the pending layer
         self._layers: deque[_Layer] = deque(maxlen=MAX_LAYERS)
 
     def update(self, buffer: Buffer, fixed: str, at: int, now: int) -> None:
-        """Continue to draw what is visible at a time.
+        """Update the drawing to what is visible at a time.
 
         Args:
             buffer: The transforms.
@@ -176,7 +176,7 @@ class Display:
         return [EntryPose(self.number, entry.sequence, entry.pose, entry.frame) for entry in self._entries()]
 
     def stamps(self) -> list[int | None]:
-        """Return the stamps of these poses in nanoseconds; None for drawings without a stamp or that move on."""
+        """Return the stamps of these poses in nanoseconds; None for drawings without a stamp or locked to a frame."""
         drawings = [entry.drawing for entry in self._entries()]
         return [None if drawing.locked or drawing.stamp == 0 else drawing.stamp for drawing in drawings]
 
@@ -199,7 +199,7 @@ class Display:
             self._work = self._executor.submit(_render, self._renderer, message, now)
 
     def _find_and_render(self, at: int, now: int) -> _Rendered | None:
-        """Find the message outside the server's thread, because that takes a while; return None if nothing changed."""
+        """Find the message outside the server's thread, because this is slow; return None if nothing changed."""
         message = self.messages.at(at)
         if message is None or not self._has_changed(message, now):
             return None
@@ -223,7 +223,7 @@ class Display:
         if isinstance(rendered.drawings, str):
             self.status = Status("error", rendered.drawings)
             return
-        # Groups of markers that have not changed return the same drawing, which the client already has.
+        # Unchanged groups of markers return the same drawing, which the client already has.
         known = {id(entry.drawing): entry for entry in self._entries()}
         entries = [
             known.get(id(drawing)) or _Entry(drawing, next(self._sequences), self.messages.frame(drawing.frame))
@@ -264,12 +264,12 @@ class Display:
 
 
 def _render(renderer: Renderer, message: StampedMessage, now: int) -> _Rendered:
-    """Return the drawings, or the reason why there are none: a message may contain anything."""
+    """Return the drawings, or the reason why there are none, because a message may contain anything."""
     try:
         return _Rendered(message, renderer.draw(message, now))
     except ValueError as error:
         return _Rendered(message, f"the message cannot be drawn: {error}")
-    except Exception as error:  # An unexpected error of one message must not stop the viewer.
+    except Exception as error:  # An unexpected error in one message must not stop the viewer.
         _logger.exception("a message could not be drawn")
         return _Rendered(message, f"the message cannot be drawn: {type(error).__name__}: {error}")
 

@@ -43,12 +43,12 @@ NO_NUMBERS = np.zeros(0, np.float32)
 
 
 class CannotDrawError(CoframeError, ValueError):
-    """A message that cannot be drawn; the text gives the reason."""
+    """A message cannot be drawn; the error message gives the reason."""
 
 
 @dataclass(eq=False)
 class Drawing:
-    """What the page needs to draw a message.
+    """The data that the page needs to draw a message.
 
     Attributes:
         frame: The frame in which the drawing is expressed.
@@ -75,11 +75,11 @@ class Options:
     """How a display draws.
 
     Attributes:
-        color_by: The value that a point's colour shows; None selects the best one that the message contains.
+        color_by: The value shown by a point's colour; None selects the best available one.
         axis: 0, 1 or 2: the coordinate for ``color_by="axis"``.
         decay: How long messages stay visible, in seconds.
         keep: How many poses the trail of an Odometry display has.
-        most_points: The largest number of points of a cloud; larger clouds are thinned.
+        most_points: The maximum number of points of a cloud; larger clouds are thinned.
         origin: The origin of the times that the page receives, in nanoseconds.
     """
 
@@ -104,7 +104,7 @@ class Options:
 
 
 def finite(value: Any) -> float | None:
-    """Return a number, or None for NaN and infinity, which JSON does not have."""
+    """Return a number, or None for NaN and infinity, which JSON does not support."""
     return float(value) if math.isfinite(value) else None
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the page's panels show next to the scene: curves, one message, the log, and the graph of nodes and topics."""
+"""The panels next to the scene: curves, one message, the log, and the graph of nodes and topics."""
 
 from coframe.viewer.panels.panels import Panels
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The arriving messages of one topic, with their receive times, for all curves that use the topic."""
+"""Incoming messages of one topic with receive times, for all curves that use the topic."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ __all__ = ["Arrivals", "ArrivedMessages"]
 
 _ANY_PUBLISHER = QoS(depth=100, reliable=False)  # matches every publisher
 _MAX_BYTES = 16 << 20  # of a message
-_CAPACITY = 1000  # messages between two polls
+_CAPACITY = 1000  # maximum number of messages between two polls
 _PERIOD = 0.05  # seconds between two polls
 _RETRY_PERIOD = 1.0  # seconds between searches for a publisher
 
@@ -64,7 +64,7 @@ class ArrivedMessages:
 
 
 class Arrivals:
-    """Subscribes to a topic as long as something uses its messages.
+    """Subscribes to a topic as long as any curve uses its messages.
 
     Args:
         connection: The connection to the graph.
@@ -88,14 +88,14 @@ class Arrivals:
         self._receivers.append(receiver)
 
     def remove(self, receiver: Callable[[ArrivedMessages], None]) -> None:
-        """Stop calling a function; unsubscribe if there is no other one."""
+        """Stop calling a function; unsubscribe if it was the last one."""
         self._receivers.remove(receiver)
         if not self._receivers and self._subscription is not None:
             self._subscription.close()
             self._subscription = None
 
     def poll(self) -> None:
-        """Pass on the messages that have arrived, unless this was called very recently."""
+        """Pass on new messages, unless this was called very recently."""
         now = time.monotonic()
         if now < self._due:
             return

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Texts with which an expression, or the name of a topic, can continue."""
+"""Completions for expressions and topic names."""
 
 from __future__ import annotations
 
@@ -19,14 +19,14 @@ if TYPE_CHECKING:
 __all__ = ["MAX_TEXT", "complete_expression", "complete_topic", "topic_types"]
 
 MAX_TEXT = 1000
-"""The most characters of an expression, or of the name of a topic, in a panel."""
+"""The maximum length of an expression or topic name in a panel, in characters."""
 
 _MAX_ITEMS = 60
 _SEPARATOR = re.compile(r"->|→|:")
 
 
 def complete_expression(source: Source, text: str) -> list[str]:
-    """Return texts that begin with a text, or contain it, and are expressions or their beginnings."""
+    """Return completions of an expression: complete or partial expressions that begin with the text, or contain it."""
     if text.startswith("/"):
         return _complete_topic_expression(source, text)
     separator = _SEPARATOR.search(text)
@@ -75,7 +75,7 @@ def _example(source: Source, topic: str, ros_type: str) -> Any:
 
 
 def _matching(candidates: Iterable[str], text: str) -> list[str]:
-    """Return the candidates that begin with the text, then those that contain it; not those that are too long."""
+    """Return the candidates that begin with the text, then those that contain it, except those that are too long."""
     wanted = text.lower()
     names = sorted({name for name in candidates if len(name) <= MAX_TEXT})
     first = [name for name in names if name.lower().startswith(wanted)]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The interface of curves, and the curves of a recording, which are evaluated completely in another thread."""
+"""The interface of curves, and the curves of a recording, which are evaluated in another thread."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ class CurveSpan(NamedTuple):
     Attributes:
         first: The first time in nanoseconds; None for all.
         last: The last time in nanoseconds; None for all.
-        points: How many points the page shows at most.
+        points: The maximum number of points that the page shows.
     """
 
     first: int | None
@@ -58,7 +58,7 @@ class CurveSpan(NamedTuple):
 
 
 class Curve(Protocol):
-    """A curve, which all clients share; used by the server's thread.
+    """A curve, shared by all clients. Use only on the server's thread.
 
     Attributes:
         axis: The title of its axis.
@@ -82,7 +82,7 @@ class Curve(Protocol):
         """The number of points since the last change of the version."""
 
     def poll(self) -> None:
-        """Process what has arrived."""
+        """Process new data."""
 
     def points(self, seen: int, shown: CurveSpan) -> Points:
         """Return the points after the first `seen` ones; those of a recording are thinned."""
@@ -91,7 +91,7 @@ class Curve(Protocol):
         """Return all points, without thinning."""
 
     def close(self) -> None:
-        """Release what the curve uses."""
+        """Release the resources of the curve."""
 
 
 class FailedCurve:
@@ -128,9 +128,9 @@ class RecordedCurve:
     """A curve of a recording.
 
     Args:
-        expression: What is shown.
+        expression: The expression to plot.
         recording: The recording.
-        executor: Where the curve is evaluated.
+        executor: Runs the evaluation.
     """
 
     def __init__(self, expression: Expression, recording: Recording, executor: Executor) -> None:
@@ -150,7 +150,7 @@ class RecordedCurve:
             (self._series,) = future.result()
         except CoframeError as error:
             self.status = failure(error)
-        except Exception as error:  # An unexpected error of one curve must not stop the viewer.
+        except Exception as error:  # An unexpected error in one curve must not stop the viewer.
             _logger.exception("a curve failed")
             self.status = CurveStatus("error", f"the curve cannot be evaluated: {type(error).__name__}: {error}")
         else:
@@ -160,7 +160,7 @@ class RecordedCurve:
         self.version += 1
 
     def points(self, seen: int, shown: CurveSpan) -> Points:
-        """Return the points of the shown part, with one more on each side so that lines reach the edges."""
+        """Return the points of the displayed part, plus one on each side so that lines reach the edges."""
         del seen
         if self._series is None:
             return self.all_points()
@@ -193,7 +193,7 @@ class RecordedCurve:
 
 
 class _ClosedError(CoframeError):
-    """The curve is not shown any more."""
+    """The curve is no longer shown."""
 
 
 def failure(error: Exception) -> CurveStatus:

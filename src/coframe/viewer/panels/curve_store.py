@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The curves that clients show, by their expressions: each is evaluated once for all clients."""
+"""The displayed curves by expression: each is evaluated once for all clients."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ class CurveStore:
             curve.close()
 
     def poll(self) -> None:
-        """Process what has arrived, unless this was done very recently."""
+        """Process new data, unless this was done very recently."""
         now = time.monotonic()
         if now < self._due:
             return
@@ -103,7 +103,7 @@ class CurveStore:
         return self._live(expression)
 
     def _live(self, expression: Expression) -> Curve:
-        # Imported here because recordings and pages without curves do not need them.
+        # Imported here because pages without curves do not need them.
         from coframe.viewer.panels.live_curves import (  # noqa: PLC0415
             EdgeDelayCurve,
             EdgeRateCurve,
@@ -122,7 +122,7 @@ class CurveStore:
                 return EdgeDelayCurve(expression, connection, self._arrivals_of(connection, connection.config.tf_topic))
         if connection is None:
             return FailedCurve(
-                PlotError(f"{expression.text} has no values: a buffer contains transforms only, no messages")
+                PlotError(f"{expression.text} has no values: a buffer contains only transforms, no messages")
             )
         if isinstance(expression, FieldExpression):
             return FieldCurve(expression, self._arrivals_of(connection, expression.topic))

@@ -18,7 +18,7 @@ __all__ = ["CurveTable"]
 
 
 class CurveTable:
-    """All points of some curves.
+    """All points of several curves.
 
     Args:
         curves: The points by expression.

@@ -28,15 +28,15 @@ if TYPE_CHECKING:
 
 __all__ = ["EdgeDelayCurve", "EdgeRateCurve", "FieldCurve", "LiveCurve", "PoseCurve", "TopicTimingCurve"]
 
-# Points of static edges per second: the curve is a horizontal line, which must reach the newest time.
+# Points per second for static edges, whose horizontal line must reach the newest time.
 _STATIC_PERIOD = SECOND
 
 
 class LiveCurve:
-    """The base of all live curves.
+    """Base class of all live curves.
 
     Args:
-        expression: What is shown.
+        expression: The expression to plot.
     """
 
     def __init__(self, expression: Expression) -> None:
@@ -53,7 +53,7 @@ class LiveCurve:
 
     @property
     def version(self) -> int:
-        """A number that changes if the times began again."""
+        """A number that changes when time restarts."""
         return self.ring.restarts
 
     @property
@@ -62,7 +62,7 @@ class LiveCurve:
         return self.ring.total
 
     def poll(self) -> None:
-        """Process what has arrived."""
+        """Process new data."""
         raise NotImplementedError
 
     def points(self, seen: int, shown: CurveSpan) -> Points:
@@ -75,7 +75,7 @@ class LiveCurve:
         return self.ring.since(0)
 
     def close(self) -> None:
-        """Release what the curve uses."""
+        """Release the resources of the curve."""
 
 
 class PoseCurve(LiveCurve):
@@ -104,7 +104,7 @@ class PoseCurve(LiveCurve):
     def _add(self, first: int, last: int, *, is_first: bool) -> None:
         poses = self._buffer.trajectory(self._expression.target, self._expression.source, first, last)
         stamps, values = np.asarray(poses.stamps, dtype=np.int64), coordinate(poses, self._expression.quantity)
-        # The pose at the last known time was already added.
+        # The pose at the last known time has already been added.
         new = slice(None) if is_first or stamps[0] != first else slice(1, None)
         self.ring.add(stamps[new], values[new])
 
@@ -142,7 +142,7 @@ class EdgeRateCurve(LiveCurve):
 
 
 class TopicCurve(LiveCurve):
-    """The base of the curves of the messages on a topic."""
+    """Base class of curves of the messages on a topic."""
 
     def __init__(self, expression: Expression, arrivals: Arrivals) -> None:
         super().__init__(expression)
@@ -157,7 +157,7 @@ class TopicCurve(LiveCurve):
         return self._error or super().status
 
     def poll(self) -> None:
-        """Process the messages that have arrived, also for the other curves of the topic."""
+        """Process new messages, also for the other curves of the topic."""
         self._problem = None if self._arrivals.problem is None else CurveStatus("waiting", self._arrivals.problem)
         self._arrivals.poll()
 
@@ -225,7 +225,7 @@ class EdgeDelayCurve(TopicCurve):
         self._connection = connection
 
     def poll(self) -> None:
-        """Process the messages that have arrived, also for the other curves of the topic."""
+        """Process new messages, also for the other curves of the topic."""
         super().poll()
         try:
             check_edge(self._expression, self._connection.buffer)
@@ -245,7 +245,7 @@ class EdgeDelayCurve(TopicCurve):
 
 
 class _RateMeter:
-    """The mean rate in the second before each of many times that arrive in parts."""
+    """Computes the mean rate over the previous second for times that arrive in batches."""
 
     def __init__(self) -> None:
         self._recent: NDArray[np.int64] = np.empty(0, dtype=np.int64)

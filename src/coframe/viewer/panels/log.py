@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The log messages on /rosout and those of the viewer itself, bounded, for all clients."""
+"""Log messages on /rosout and those of the viewer itself, with a limit, for all clients."""
 
 from __future__ import annotations
 
@@ -32,23 +32,23 @@ _TYPE = "rcl_interfaces/msg/Log"
 _DEPTH = 1000  # the depth that nodes offer
 _MAX_RECORDED = 20_000
 _PERIOD, _FOLLOW_PERIOD = 0.2, 1.0  # seconds
-_MAX_TAKEN = 2_000  # messages of one poll
+_MAX_TAKEN = 2_000  # maximum number of messages per poll
 _ROS1_LEVELS: dict[int, LogLevel] = {1: "debug", 2: "info", 4: "warning", 8: "error", 16: "fatal"}
 
 
 class Log:
-    """The log messages of one source; used by the server's thread.
+    """The log messages of one source. Use only on the server's thread.
 
     Messages on /rosout are received while a page shows the log, those of the viewer itself always.
 
     Args:
         source: The source.
-        own: The messages of the viewer.
+        own: The viewer's own messages.
 
     Attributes:
         lines: The last messages, in receive order.
         total: The number of messages since the start.
-        text: What is missing, or "".
+        text: A note about missing messages, or "".
     """
 
     def __init__(self, source: Source, own: OwnMessages) -> None:
@@ -82,7 +82,7 @@ class Log:
             self._subscription = None
 
     def poll(self) -> None:
-        """Process what has arrived since the last call."""
+        """Process new data since the last call."""
         now = time.monotonic()
         if not self._users or now < self._due:
             return
@@ -175,7 +175,7 @@ def _received(data: bytes) -> LogLine | None:
 
 
 def _line(message: Any, received: int) -> LogLine:
-    """Return the line of a message of ROS 2 or ROS 1."""
+    """Return the line of a ROS 2 or ROS 1 message."""
     stamp = getattr(message, "stamp", None) or message.header.stamp
     level = int(message.level) if not isinstance(message.level, bytes) else message.level[0]
     nanoseconds = stamp.sec * SECOND + stamp.nanosec

@@ -20,7 +20,7 @@ __all__ = ["field_paths", "message_rows"]
 _MAX_ROWS = 400
 _MAX_DEPTH = 12
 _MAX_TEXT = 300
-_MAX_ELEMENTS = 16  # of a sequence that have rows of their own
+_MAX_ELEMENTS = 16  # elements of a sequence that have separate rows
 _EDGE = 3  # elements at each end of a shortened array
 _MAX_NAMES = 200
 
@@ -44,7 +44,7 @@ def field_paths(message: Any, path: str) -> list[str]:
 
     Args:
         message: A message of the type.
-        path: What is typed so far; the last part may be incomplete.
+        path: The text typed so far; the last part may be incomplete.
     """
     *steps, begin = path.split(".")
     value = message

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The graph of nodes and topics, with the publishers and subscriptions that do not match each other."""
+"""The graph of nodes and topics, including publishers and subscriptions that do not match."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ __all__ = ["NodeGraphWatcher"]
 
 _PERIOD = 1.0  # seconds between two updates
 MAX_LINKS = 5_000
-# Every node has these topics, so that they would hide the structure of the graph.
+# Every node has these topics; they would obscure the structure of the graph.
 _INFRASTRUCTURE = {"/rosout", "/parameter_events"}
 _OWN_NODES = ("/coframe_view", "/coframe_view_doctor")
 _NO_GRAPH = {
@@ -39,7 +39,7 @@ _NO_GRAPH = {
 
 
 class NodeGraphWatcher:
-    """Describes the graph of one source while a page shows it; used by the server's thread.
+    """Describes the graph of one source while a page shows it. Use only on the server's thread.
 
     Args:
         source: The source.
@@ -130,7 +130,7 @@ def describe_graph(connection: Connection) -> NodeGraph:
 
 
 def _problem(endpoint: DiscoveredEndpoint, others: Endpoints, *, publishes: bool, qos_must_match: bool) -> str:
-    """Return why an endpoint does not match some on the other side; "" if it matches all."""
+    """Return why an endpoint does not match one on the other side; "" if it matches all."""
     for other, info in others:
         writer, reader = (endpoint, other) if publishes else (other, endpoint)
         reasons = mismatch_reasons(writer, reader, qos_must_match=qos_must_match)
@@ -165,12 +165,12 @@ def _name(info: EndpointInfo) -> str:
 
 
 def _is_infrastructure(topic: str) -> bool:
-    """Return whether a topic belongs to ROS itself: names with a part that begins with an underscore are hidden."""
+    """Return whether a topic belongs to ROS itself or is hidden: a part of its name begins with an underscore."""
     return topic in _INFRASTRUCTURE or "/_" in topic
 
 
 def _without_copies(links: Iterable[GraphLink]) -> list[GraphLink]:
-    """Return one link for several equal ones of a node, such as those of several listeners."""
+    """Merge equal links of a node, such as those of several listeners."""
     return list({tuple(link.values()): link for link in links}.values())
 
 

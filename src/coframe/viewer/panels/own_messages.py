@@ -32,7 +32,7 @@ class LogLine(NamedTuple):
 
 
 class OwnMessages(logging.Filter):
-    """Collects what the viewer itself logs, without changing where it is logged."""
+    """Collects the viewer's own log messages without changing how they are logged."""
 
     def __init__(self) -> None:
         super().__init__()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the panels of all clients share for one source; each part is created when a page needs it."""
+"""Panel data for one source that all clients share; each part is created on demand."""
 
 from __future__ import annotations
 
@@ -17,13 +17,13 @@ __all__ = ["Panels"]
 
 
 class Panels:
-    """The curves, the log and the graph of one source; used by the server's thread.
+    """The curves, the log and the graph of one source. Use only on the server's thread.
 
     Args:
         source: The source.
     """
 
-    # The modules are imported when they are needed, because the first frame update does not need them.
+    # The modules are imported on demand, because the first frame update does not need them.
 
     def __init__(self, source: Source) -> None:
         self._source = source
@@ -60,7 +60,7 @@ class Panels:
         return self._graph
 
     def poll(self) -> None:
-        """Process what has arrived; called for each update of a client, also if the client cannot receive it."""
+        """Process new data; called for each update of a client, even if the client cannot receive it."""
         for part in (self._curves, self._log, self._graph):
             if part is not None:
                 part.poll()

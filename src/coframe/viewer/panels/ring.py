@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Points", "Ring"]
 
-# Times may be a little out of order. A larger step back is a restart, for example of a simulation.
+# Times may be slightly out of order. A larger step back is a restart, for example of a simulation.
 _LARGEST_STEP_BACK = SECOND
 
 
@@ -34,11 +34,11 @@ class Ring:
     """The last points of a curve, in order.
 
     Args:
-        capacity: How many points are kept.
+        capacity: The number of points to keep.
 
     Attributes:
         total: The number of points that were added since the last restart.
-        restarts: How often the times began again.
+        restarts: How often time restarted.
     """
 
     def __init__(self, capacity: int = 20_000) -> None:
@@ -63,7 +63,7 @@ class Ring:
         self.restarts += 1
 
     def add(self, times: NDArray[np.int64], values: NDArray[np.float64]) -> None:
-        """Add points. Times that are a little too early are set to the last time."""
+        """Add points. Times that are slightly too early are set to the last time."""
         if not len(times):
             return
         if self.last is not None and times[-1] < self.last - _LARGEST_STEP_BACK:
@@ -82,7 +82,7 @@ class Ring:
         self.total += len(times)
 
     def since(self, seen: int) -> Points:
-        """Return copies of the points after the first ``seen`` ones, as far as they are kept."""
+        """Return copies of the points after the first ``seen`` ones, if they are still stored."""
         count = min(max(self.total - seen, 0), len(self))
         part = slice(self._end - count, self._end)
         return Points(self._times[part].copy(), self._values[part].copy())

@@ -14,9 +14,9 @@ Modules:
     server_messages, binary_messages: What the server sends; the rows of `coframe.viewer.displays` have its shapes.
     client_messages: What the page sends.
     replay_block: What a replay file contains.
-    common: The types of fields that several of them use.
-    requests: Checks of what clients send.
-    encoding: Encoders of what the server sends.
+    common: Field types that several of them use.
+    requests: Checks of client messages.
+    encoding: Encoders of server messages.
     schema, limits, layout: The types of fields that the other modules derive from the messages.
     version: The generated version, which the page compares with its own.
 """

@@ -63,8 +63,8 @@ class FramesHeader(NamedTuple):
     """A frame update: the poses of all frames and displayed messages at one time.
 
     Followed by float32[7] per frame, uint8 `FrameState` per frame, padding to four bytes, and one `EntryRecord` per
-    displayed message. Positions are relative to ``origin``, which is in metres in the fixed frame. Entries that are not
-    listed any more are removed. ``time`` is NaN while there is no data.
+    displayed message. Positions are relative to ``origin``, which is in metres in the fixed frame. Entries that are no
+    longer listed are removed. ``time`` is NaN while there is no data.
     """
 
     kind: UInt32

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Messages from the page to the server: frozen dataclasses; fields with a default may be omitted.
 
-A field whose name is a Python keyword has a trailing underscore here and none in the message.
+A field named like a Python keyword has a trailing underscore here, but not in the message.
 """
 
 from __future__ import annotations
@@ -36,14 +36,14 @@ MAX_CURVE_POINTS = 20_000
 
 @dataclass(frozen=True)
 class DisplayOptions:
-    """How the server prepares a display; numbers beyond the limits are set to the limit.
+    """How the server prepares a display; numbers beyond a limit are clamped.
 
     Attributes:
-        color_by: The value that a point's colour shows; None selects the best one that the message contains.
+        color_by: The value shown by a point's colour; None selects the best available one.
         axis: The coordinate for ``color_by="axis"``.
         decay: How long messages stay visible, in seconds.
         keep: How many poses the trail of an Odometry display has.
-        most_points: The largest number of points of a cloud; larger clouds are thinned.
+        most_points: The maximum number of points of a cloud; larger clouds are thinned.
     """
 
     color_by: ColorBy | None = None
@@ -240,12 +240,12 @@ class CurveRequest:
 
 @dataclass(frozen=True)
 class SetCurves:
-    """Sets the curves that the page shows; curves that are not listed any more are removed.
+    """Sets the curves that the page shows; curves that are no longer listed are removed.
 
     Attributes:
         curves: The curves.
         span: The part of a recording that the page shows; None for all of it.
-        points: The largest number of points of a curve; the smallest and largest values of longer curves are kept.
+        points: The maximum number of points of a curve; thinning preserves minima and maxima.
     """
 
     type: ClassVar[str] = "curves"
@@ -256,7 +256,7 @@ class SetCurves:
 
 @dataclass(frozen=True)
 class Inspect:
-    """Inspects the messages of a topic instead of those of the previous one; "" ends it."""
+    """Inspects the messages of a topic instead of the previous one; "" stops the inspection."""
 
     type: ClassVar[str] = "inspect"
     topic: str
@@ -264,7 +264,7 @@ class Inspect:
 
 @dataclass(frozen=True)
 class ShowLog:
-    """Requests the log messages and all further ones, or ends this."""
+    """Starts or stops sending log messages."""
 
     type: ClassVar[str] = "log"
     shown: bool
@@ -272,7 +272,7 @@ class ShowLog:
 
 @dataclass(frozen=True)
 class ShowGraph:
-    """Requests the graph of nodes and topics and its changes, or ends this."""
+    """Starts or stops sending the graph of nodes and topics and its changes."""
 
     type: ClassVar[str] = "graph"
     shown: bool
@@ -280,7 +280,7 @@ class ShowGraph:
 
 @dataclass(frozen=True)
 class Complete:
-    """Requests texts with which the beginning of an expression or of a topic's name can continue."""
+    """Requests completions for the beginning of an expression or topic name."""
 
     type: ClassVar[str] = "complete"
     id: Id
@@ -321,7 +321,7 @@ class UseWidget:
 
 @dataclass(frozen=True)
 class Ready:
-    """Confirms that the last frame update was drawn, so that the next one may follow; ``drawn`` is its time."""
+    """Confirms that the last frame update was drawn, so that the next one can be sent; ``drawn`` is its time."""
 
     type: ClassVar[str] = "ready"
     drawn: Nanoseconds | None = None

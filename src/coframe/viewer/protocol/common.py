@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Types of the fields that several messages have."""
+"""Field types shared by several messages."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Encoders of the messages that the server sends."""
+"""Encode the messages that the server sends."""
 
 from __future__ import annotations
 

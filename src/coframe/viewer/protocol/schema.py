@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The types of the protocol's fields, derived from the annotations in `messages`.
+"""Field types of the protocol, derived from the annotations in `messages`.
 
-The same types check what clients send (`FieldType.check`) and are written as TypeScript by
+The same types check client messages (`FieldType.check`) and are written as TypeScript by
 ``scripts/generate_protocol.py``.
 """
 
@@ -64,10 +64,10 @@ class FieldType(Protocol):
     """A type of values in JSON."""
 
     def check(self, value: object, path: str) -> Any:
-        """Return the value as the server uses it.
+        """Check a value and return it as the server uses it.
 
         Raises:
-            InvalidFieldError: It has another type or is out of range.
+            InvalidFieldError: The value has another type or is out of range.
         """
 
 
@@ -77,7 +77,7 @@ class Text:
 
     def check(self, value: object, path: str) -> str:
         """Return the string."""
-        if not isinstance(value, str) or _SURROGATE.search(value):  # Half of a surrogate pair is not a character.
+        if not isinstance(value, str) or _SURROGATE.search(value):  # A lone surrogate is not a character.
             raise InvalidFieldError(path, "text", value)
         return value
 
@@ -106,7 +106,7 @@ class Json:
 
 @dataclass(frozen=True)
 class Number:
-    """A finite number, which may be whole and limited."""
+    """A finite number, optionally an integer and within limits."""
 
     whole: bool = False
     limits: Range | Clamp | None = None
@@ -118,7 +118,7 @@ class Number:
         limits = self.limits
         if isinstance(limits, Clamp) and value == value:  # noqa: PLR0124 - NaN differs from itself
             value = min(max(value, limits.smallest), limits.largest)
-        # A huge int cannot be converted to a float, and the limits of a whole number must be compared exactly.
+        # A huge int cannot be converted to a float, and the limits of an integer must be compared exactly.
         in_range = limits is None or limits.smallest <= value <= limits.largest
         if not in_range or not _is_finite(value) or (self.whole and value != int(value)):
             raise InvalidFieldError(path, self._expected(), value)
@@ -227,7 +227,7 @@ class Record:
 
     @property
     def fields(self) -> tuple[Field, ...]:
-        """The fields; resolved late, because a record may contain itself."""
+        """The fields; resolved lazily, because a record may contain itself."""
         if self._fields is None:
             self._fields = _dataclass_fields(self.python_type) if self.is_dataclass else _dict_fields(self.python_type)
         return self._fields
@@ -296,7 +296,7 @@ _PLAIN: dict[Any, FieldType] = {str: Text(), bool: Flag(), int: Number(whole=Tru
 
 
 def shorten(value: object) -> str:
-    """Return the repr of a value, cut to 60 characters."""
+    """Return the repr of a value, truncated to 60 characters."""
     text = repr(value)
     return text if len(text) <= 60 else f"{text[:57]}..."
 

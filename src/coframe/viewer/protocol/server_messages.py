@@ -55,11 +55,11 @@ RvizConfiguration = TypedDict(
         "unknown": list[UnknownRvizPart],
     },
 )
-"""What the viewer understands of an RViz configuration."""
+"""The supported parts of an RViz configuration."""
 
 
 class Hello(TypedDict):
-    """The first message. Sent again when the source or the origin changes: the page then starts from scratch.
+    """The first message. Sent again when the source or the origin changes; the page then starts from scratch.
 
     The page compares ``version`` with its own. ``mode`` is "replay" only inside replay files. ``fixed_is_given`` is
     true if an option or the .rviz file names the fixed frame, so that the page does not use that of its last session.
@@ -303,7 +303,7 @@ class Finding(TypedDict):
 
 
 class Findings(TypedDict):
-    """The findings of the doctor; sent when they change. ``text`` gives the reason if there can be none."""
+    """The findings of the doctor; sent when they change. ``text`` gives the reason if findings are not available."""
 
     type: Literal["findings"]
     state: FindingsState
@@ -423,7 +423,7 @@ class NodeGraph(TypedDict):
 
 
 class Completions(TypedDict):
-    """The answer to ``complete``: texts with which the text can continue."""
+    """The answer to ``complete``: possible completions of the text."""
 
     type: Literal["completions"]
     id: int

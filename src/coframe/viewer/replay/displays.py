@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The displays of a replay: what a client would have received of each, at every time of the replay."""
+"""The displays of a replay: what a client would have received for each, at every time of the replay."""
 
 from __future__ import annotations
 
@@ -43,9 +43,9 @@ __all__ = [
 
 T = TypeVar("T")
 Progress: TypeAlias = "Callable[[str, int, int], object]"
-"""Called with a task, the amount done and the total."""
+"""Called with a task, the completed amount and the total."""
 
-MAX_BYTES = 48 << 20  # Of all displays together, and a third more as text.
+MAX_BYTES = 48 << 20  # For all displays together; base64 adds a third.
 MAX_CLOUD_POINTS = 10_000
 
 
@@ -76,7 +76,7 @@ class _TooLargeError(Exception):
     """The drawings do not fit.
 
     Attributes:
-        share: The part of them that fits, above 0 and below 1.
+        share: The fraction that fits, above 0 and below 1.
     """
 
     def __init__(self, share: float) -> None:
@@ -99,7 +99,7 @@ def record_displays(
     replay_times: ReplayTimes,
     progress: Progress = no_progress,
 ) -> list[ReplayDisplayBlock]:
-    """Return what the page needs of each display, in order; topics that cannot be displayed are skipped.
+    """Return the recorded data of each display, in order; topics that cannot be displayed are skipped.
 
     Large displays are thinned: clouds to `MAX_CLOUD_POINTS`, and a display whose drawings take more than half of the
     remaining `MAX_BYTES` to every n-th time. The last display, which is a cloud or an image if there is one, may use
@@ -231,7 +231,7 @@ class _Listing(NamedTuple):
 
     @classmethod
     def of(cls, display: Display, local: NDArray[np.float64], origin: int) -> _Listing:
-        """Return what a display shows now."""
+        """Return what a display currently shows."""
         entries = display.poses()
         no_pose = np.full(7, np.nan)
         poses = [no_pose if entry.pose is None else relative_to(local, entry.pose) for entry in entries]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Replays without a browser: what the page would show of a source, as one HTML file."""
+"""Create replays without a browser: what the page would show of a source, as one HTML file."""
 
 from __future__ import annotations
 
@@ -55,19 +55,19 @@ def export_replay(
     rate: float | None = None,
     progress: Progress | None = None,
 ) -> bytes:
-    """Return the HTML file of a replay of a recording, or of what a buffer or a connection contains now.
+    """Return the HTML file of a replay of a recording, or of the current contents of a buffer or a connection.
 
     Args:
         source: The recording, the buffer or the connection.
         meshes: The meshes that may be included.
-        rviz: The displays and the view; None for those that the page chooses by itself.
+        rviz: The displays and the view; None for the page's own choice.
         robot: A robot that is shown in addition to recorded ones.
         fixed: The fixed frame; "" for that of `rviz` or the root of the largest tree.
         nodes: Return what a program has added to the scene.
         first: The first time in nanoseconds; None for the start of the source.
         last: The last time in nanoseconds; None for the end of the source.
         rate: Frames per second; None for 30, or fewer if a long span has too many poses.
-        progress: Called with a task, the amount done and the total.
+        progress: Called with a task, the completed amount and the total.
 
     Raises:
         ViewerError: The span is empty or too large.
@@ -120,7 +120,7 @@ def _await_messages(subscriptions: Collection[TopicMessages]) -> None:
 
 
 def _displays(rviz: RvizConfig | None, topics: Sequence[Topic]) -> list[RvizDisplay]:
-    """Return the displays of a configuration, or those that the page chooses by itself."""
+    """Return the displays of a configuration, or those that the page would choose."""
     if rviz is not None:
         return rviz.description()["displays"]
     chosen = [topic for topic in topics if DISPLAYS[topic["display"]].automatic][:MAX_AUTOMATIC_DISPLAYS]

@@ -54,14 +54,14 @@ FRAME_TIMEOUT = 15.0
 """How many seconds a frame stays visible after its last sample, as in RViz."""
 MAX_RATE = 100.0
 """Frames per second."""
-MAX_POSES = 3_000_000  # 84 MB, and a third more as text.
+MAX_POSES = 3_000_000  # 84 MB; base64 adds a third.
 MAX_DISPLAYS = 100
 MAX_MESH_BYTES = 20 << 20
 TIMELINE_BINS = 240
 
 
 class ReplaySettings(NamedTuple):
-    """What a replay shows when it is opened.
+    """The initial state of a replay.
 
     Attributes:
         displays: The displays to record.
@@ -127,14 +127,14 @@ def replay_page(
         static: The folder of the built page.
         content: The data.
         request: The part of the data.
-        progress: Called with a task, the amount done and the total.
+        progress: Called with a task, the completed amount and the total.
 
     Raises:
         ViewerError: The span is empty or too large, or the built page does not exist.
     """
     before, after = replay_template(static)
     block = json.dumps(_block(content, request, progress or no_progress), separators=(",", ":"), allow_nan=False)
-    # Inside a script element only its end tag has a meaning in HTML.
+    # Inside a script element, only its end tag is special in HTML.
     safe = block.replace("<", "\\u003c")
     return f"{before}{safe}{after}".encode()
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The page that plays a replay: the script and the style sheet of the live page, in one file that opens from disk."""
+"""The page that plays a replay: the script and the style sheet of the live page in one local file."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ def replay_template(static: Path) -> tuple[str, str]:
         )
     except OSError:
         raise ViewerError("the page for replays is missing from this installation: build it in viewer/") from None
-    # The page allows only the script with this hash to run.
+    # The page's policy allows only the script with this hash.
     digest = base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()
     before, recording, after = page.partition(_RECORDING)
     for word, content in (("%SCRIPT_HASH%", digest), ("%STYLE%", style)):

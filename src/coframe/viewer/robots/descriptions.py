@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The robots that the viewer shows: one from a file, and those whose descriptions are published."""
+"""The robots in the viewer: one from a file, and those whose descriptions are published."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ class RobotDescriptions:
     """All known robots; used by one thread.
 
     Args:
-        robot: A robot that is known from the start.
+        robot: A robot to show from the start.
         topics: Topics with descriptions as std_msgs/msg/String.
         meshes: The meshes that may be fetched.
     """

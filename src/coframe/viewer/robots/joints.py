@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Publication of the joint positions that are set by a page's sliders, as joint_state_publisher_gui does."""
+"""Publish the joint positions set by a page's sliders, like joint_state_publisher_gui."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Meshes and textures that robots and markers name, served only from declared folders."""
+"""Meshes and textures of robots and markers, served only from declared folders."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ _PACKAGE = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]*")
 
 
 class MeshError(CoframeError, ValueError):
-    """A mesh that is not served; the text gives the reason."""
+    """A mesh is not served; the message gives the reason."""
 
 
 class _Root(NamedTuple):
@@ -52,7 +52,7 @@ class _Root(NamedTuple):
 
 
 class MeshTable:
-    """The files that may be fetched, under URLs that cannot be guessed; may be used by any thread.
+    """The files that may be fetched, under unguessable URLs. Thread-safe.
 
     Args:
         find_package: Return the folder of a ROS package; None if it does not exist.
@@ -98,7 +98,7 @@ class MeshTable:
     def file(self, path: str) -> Path:
         """Return the file for the part of a request's path after ``/mesh/``: a token, then a path below its folder.
 
-        A name after that of a file is looked up in the folder of that file, because meshes name their textures so.
+        A name after a file name is resolved in the folder of that file, because meshes refer to textures in this way.
 
         Raises:
             MeshError: The file does not exist or must not be fetched.
@@ -119,7 +119,7 @@ class MeshTable:
     def _file_of(self, reference: str, folder: Path | None) -> Path:
         try:
             parts = urlsplit(reference) if "://" in reference else None
-        except ValueError:  # such as a host that begins with a bracket
+        except ValueError:  # for example a host that begins with a bracket
             raise MeshError(f"{_shown(reference)} is not a valid address") from None
         if parts is None:
             if folder is None:

@@ -76,7 +76,7 @@ def _shortened(sentences: list[str]) -> list[str]:
 
 
 def _files_of(robot: Robot) -> Iterator[str]:
-    """Yield the meshes and textures that a robot names."""
+    """Yield the meshes and textures of a robot."""
     for link in robot.links.values():
         geometries = [visual.geometry for visual in link.visuals]
         geometries += [collision.geometry for collision in link.collisions]

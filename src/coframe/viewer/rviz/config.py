@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Configuration files of RViz 2 and RViz 1, read and written so that unknown parts are preserved."""
+"""Read and write configuration files of RViz 2 and RViz 1, preserving unknown parts."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ class _Found(NamedTuple):
 
 
 class RvizConfig:
-    """A configuration: what the page understands of it, and everything else.
+    """A configuration, with the parts that the page supports and all others.
 
     Args:
         document: The content of the YAML file; None for an empty configuration.
@@ -120,7 +120,7 @@ class RvizConfig:
         return [topic for robot in robots if (topic := topic_of(robot.display)) is not None]
 
     def description(self) -> RvizConfiguration:
-        """Return what the page understands, and a list of what it does not."""
+        """Return the supported parts, and a list of the unsupported ones."""
         known: list[RvizDisplay] = []
         unknown: list[UnknownRvizPart] = []
         for found in _displays(self._manager, ""):
@@ -174,7 +174,7 @@ class RvizConfig:
         view: Mapping[str, Any],
         tools: Sequence[RvizTool] = (),
     ) -> RvizConfig:
-        """Return a copy with what the page shows now; everything that the page does not understand is preserved.
+        """Return a copy updated with what the page shows; unsupported parts are preserved.
 
         Args:
             displays: The displays, as in `description`.
@@ -233,7 +233,7 @@ class RvizConfig:
                 _merge_display(display, shown)
                 set_topic(display, shown["topic"], package)
                 new.append(display)
-        for found in left:  # The user has removed it from the page.
+        for found in left:  # The user removed it from the page.
             found.siblings[:] = [one for one in found.siblings if one is not found.display]
         self._manager["Displays"] = [*_sequence(self._manager, "Displays"), *new]
 

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 __all__ = ["TOOL_CLASSES", "merge_tools", "read_tools"]
 
 TOOL_CLASSES = frozenset({"PublishPoint", "SetGoal", "SetInitialPose"})
-"""The tools of RViz that the page has and that publish, by class name without the package."""
+"""The publishing RViz tools that the page supports, by class name without the package."""
 
 _OWN_KEYS = ("Class", "Topic")
 

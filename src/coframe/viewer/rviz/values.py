@@ -34,7 +34,7 @@ def topic_of(display: Mapping[str, Any]) -> str | None:
 
 
 def set_topic(display: dict[str, Any], topic: str | None, package: str) -> None:
-    """Add a topic to a display or tool that has none, as RViz 2 or, for the package "rviz", RViz 1 writes it."""
+    """Add a topic to a display or tool that has none, in the format of RViz 2 or, for the package "rviz", RViz 1."""
     if not topic or topic_of(display) is not None:
         return
     if package == "rviz":
@@ -61,7 +61,7 @@ def plain(value: Any) -> Any:
 
 
 def update(target: dict[str, Any], options: Any) -> None:
-    """Set the given options; others stay."""
+    """Set the given options and keep the others."""
     if not isinstance(options, dict):
         return
     for key, value in options.items():

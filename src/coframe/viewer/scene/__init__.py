@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the page draws and lists of a buffer: poses, statistics, the timeline and relations between frames."""
+"""Data of a buffer that the page draws and lists: poses, statistics, the timeline and relations between frames."""

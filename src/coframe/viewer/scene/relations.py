@@ -67,7 +67,7 @@ def relate(buffer: Buffer, target: str, source: str, stamp: int, origin: int, nu
 def _chain(buffer: Buffer, target: str, source: str, stamp: int) -> list[str]:
     try:
         return buffer.chain(target, stamp, source, stamp, target)
-    except TransformException:  # The data has just been dropped.
+    except TransformException:  # The data has just been dropped from the buffer.
         return []
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the page draws of a buffer: its trees, the liveness of each frame, and the poses of all frames at a time."""
+"""The scene of a buffer: its trees, the liveness of each frame, and the poses of all frames at a time."""
 
 from __future__ import annotations
 
@@ -81,7 +81,7 @@ class Scene:
         self._tables: dict[str, _core.PoseTable] = {}
 
     def refresh(self) -> None:
-        """Follow changes of the buffer; the cost is proportional to the number of frames."""
+        """Update from the buffer; the cost is proportional to the number of frames."""
         changes = self.buffer._changes
         if changes == self._changes:
             return
@@ -169,11 +169,11 @@ def _structure_of(infos: list[FrameInfo]) -> Structure:
 class LocalOrigin:
     """The point relative to which positions are sent as float32, which would lose millimetres far from the origin."""
 
-    # Multiples of this step are exact in float32 within any map, so that positions of zero stay exact, too.
+    # Multiples of this step are exact in float32 within any map, so that positions of zero also stay exact.
     STEP = 64.0
     # Positions within this distance, in metres, are near.
     NEAR = 96.0
-    # Seconds between searches for a better origin while some frames are far from every possible one.
+    # Seconds between searches for a better origin while some frames are far from all candidates.
     PERIOD = 1.0
 
     def __init__(self) -> None:
@@ -198,7 +198,7 @@ class LocalOrigin:
         return local
 
     def follow(self, placed: PlacedFrames, fixed: int | None) -> NDArray[np.float64]:
-        """Return an origin for these poses; it stays the same while most of them are near it."""
+        """Return an origin for these poses; it is unchanged while most of them are near it."""
         shown = placed.states <= FrameState.STALE
         if fixed is not None:
             shown[fixed] = False  # The fixed frame is always at zero.

@@ -27,7 +27,7 @@ def frame_rows(scene: Scene, origin: int, timeout: float) -> list[FrameStats]:
         origin: The origin of times, in nanoseconds.
         timeout: How many seconds a frame stays visible after its last sample.
     """
-    # The raw tuples: building the objects of edges() would take longer than everything else here.
+    # Raw tuples, because building the objects of edges() would take longer than everything else here.
     intervals = {frame[0]: times for frame, times, _ in scene.buffer._edge_tuples()}
     states = scene.states_now(timeout)
     ages = scene.ages_now()

@@ -85,7 +85,7 @@ def next_stamp(
 
 
 def _next_on_edge(buffer: Buffer, info: FrameInfo, at: int, direction: int) -> int | None:
-    """Search an interval that grows step by step, so that few samples are fetched."""
+    """Search in a growing interval, so that few samples are fetched."""
     length = max(1, round(2.0 * SECOND / info.rate)) if info.rate > 0.0 else SECOND
     while True:
         if direction > 0:

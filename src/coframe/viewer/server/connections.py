@@ -21,7 +21,7 @@ _logger = logging.getLogger("coframe.viewer")
 MAX_CONNECTIONS = 512  # a tab has one for its data and, for a moment, some for its files
 # File descriptors that are left for everything else: the middleware, the files of the page and of modules, a recording.
 _RESERVED = 32
-_BACKLOG = 100  # connections that wait until they are accepted, unless there are few file descriptors
+_BACKLOG = 100  # listen backlog, unless file descriptors are scarce
 # asyncio accepts up to a whole backlog in each cycle of its loop, and closes a refused connection 3 cycles later.
 _BACKLOGS_IN_FLIGHT = 4
 _REPEAT_AFTER = 60.0  # seconds between warnings
@@ -66,7 +66,7 @@ class Connections:
 
 
 def _descriptors() -> int:
-    """Return how many file descriptors this process may open."""
+    """Return the file descriptor limit of this process."""
     if sys.platform == "win32":
         return sys.maxsize
     limit, _ = resource.getrlimit(resource.RLIMIT_NOFILE)

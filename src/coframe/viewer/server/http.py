@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""HTTP responses: the page and its files, with checks of who may request them."""
+"""HTTP responses: the page and its files, with access checks."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ _LOOPBACK = ("127.0.0.1", "localhost", "[::1]")
 
 
 class AccessPolicy:
-    """Which requests are answered: otherwise pages of other sites could reach the server through the user's browser.
+    """Decides which requests are answered; otherwise pages of other sites could reach the server through the browser.
 
     Args:
         host: The address on which the server listens.
@@ -73,7 +73,7 @@ class AccessPolicy:
         self.content_security = _CONTENT_SECURITY_POLICY.format(sockets=" ".join(sockets))
 
     def allows_host(self, host: str | None) -> bool:
-        """Return whether a Host header names this server; names that others have pointed at it are rejected."""
+        """Return whether a Host header names this server; other names that resolve to it are rejected."""
         if host is None:
             return False
         return host.lower() in self._hosts or (self._all_addresses and self._is_address(host))
@@ -83,7 +83,7 @@ class AccessPolicy:
         return origin is None or (origin.startswith("http://") and self.allows_host(origin.removeprefix("http://")))
 
     def is_token(self, given: str) -> bool:
-        """Return whether a text is the token; the time that this takes does not depend on the text."""
+        """Return whether a text is the token, in constant time."""
         return hmac.compare_digest(given.encode(errors="replace"), self.token.encode())
 
     def has_cookie(self, cookies: Iterable[str]) -> bool:
@@ -130,14 +130,14 @@ def _is_loopback(host: str) -> bool:
 def response(
     status: HTTPStatus, body: bytes, content_type: str, policy: str, extra: Mapping[str, str] | None = None
 ) -> Response:
-    """Return a response with headers that restrict what a browser does with it.
+    """Return a response with security headers.
 
     Args:
         status: The status.
         body: The body.
         content_type: Its type.
         policy: The Content-Security-Policy.
-        extra: More headers.
+        extra: Additional headers.
     """
     headers = Headers(
         {

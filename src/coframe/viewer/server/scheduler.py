@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""One timer for all clients: each wake-up of the thread costs more than an update of a client with few frames."""
+"""One timer for all clients, because waking the thread costs more than updating a client with few frames."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ class ClientScheduler:
 
     Args:
         loop: The server's event loop.
-        state: What all clients share.
+        state: The state that all clients share.
     """
 
     def __init__(self, loop: asyncio.AbstractEventLoop, state: ViewerState) -> None:

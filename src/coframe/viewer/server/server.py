@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The viewer's server: the page over HTTP and its data over a WebSocket, in a thread of its own."""
+"""The viewer's server: the page over HTTP and its data over a WebSocket, in a separate thread."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ __all__ = ["DEFAULT_PORT", "ViewerServer"]
 
 _logger = logging.getLogger("coframe.viewer")
 
-# Browsers store the layout of a page by its address, so the port stays the same if possible.
+# Browsers store the layout of a page by its address, so the port is kept if possible.
 DEFAULT_PORT = 7676
 _TOKEN = "token"  # noqa: S105 - its name in addresses
 _END_TIMEOUT = 5.0
@@ -53,7 +53,7 @@ class ViewerServer:
     """Serves the viewer to browsers until it is closed.
 
     Args:
-        state: What all clients share. Only the server's thread may use it from now on.
+        state: The state that all clients share. From now on, only the server's thread may use it.
         host: The address to listen on. If other machines can reach it, their requests need a token; see :attr:`url`.
         port: The port; None selects the default port, or any free port if that is in use; 0 selects any free port.
         static: The folder of the page.
@@ -132,7 +132,7 @@ class ViewerServer:
     async def _serve(self, port: int | None) -> None:
         try:
             server = await self._listen(port)
-        except (OSError, OverflowError, UnicodeError) as error:  # also for ports above 65535 and impossible host names
+        except (OSError, OverflowError, UnicodeError) as error:  # ports above 65535, invalid host names
             self._failure = error
             return
         self.port = next(iter(server.sockets)).getsockname()[1]
@@ -219,7 +219,7 @@ class ViewerServer:
             return self._access.redirection("/" + parts.path.lstrip("/\\") + (f"?{rest}" if rest else ""))
         if self._access.has_cookie(request.headers.get_all("Cookie")):
             return None
-        text = "This viewer needs the token in its address. Open the complete address that coframe has printed."
+        text = "This viewer needs the token in its address. Open the complete address that coframe printed."
         return text_response(HTTPStatus.FORBIDDEN, text, self._access.content_security)
 
     async def _in_thread(self, make_response: Callable[..., Response], *args: Any) -> Response:
@@ -286,7 +286,7 @@ class ViewerServer:
 
 
 def _cannot_listen(host: str, port: int, reason: Exception) -> ViewerError:
-    # The text of the exception itself would repeat the address.
+    # The exception's own message would repeat the address.
     code = getattr(reason, "errno", None)
     if code == errno.EADDRNOTAVAIL or isinstance(reason, socket.gaierror | UnicodeError):
         return ViewerError(

@@ -35,9 +35,9 @@ __all__ = ["LARGEST_REQUEST", "Listener", "WebSocket"]
 _logger = logging.getLogger("coframe.viewer")
 
 LARGEST_REQUEST = 1 << 20
-# Long messages are sent in parts, so that they neither block other connections nor are copied as a whole.
+# Long messages are sent in parts, so that they do not block other connections and are not copied completely.
 _PART = 1 << 18
-# A connection is closed if nothing is sent or received for this many seconds; a WebSocket is pinged once before.
+# A connection is closed if nothing is sent or received for this many seconds; a WebSocket is pinged once first.
 _IDLE_TIMEOUT = 20.0
 _CLOSE_TIMEOUT = 2.0
 
@@ -78,7 +78,7 @@ class WebSocket(asyncio.Protocol):
         self._clear = asyncio.Event()
         self._clear.set()
         self._accepts_more = True
-        self._pauses: set[str] = set()  # Why nothing is received at the moment.
+        self._pauses: set[str] = set()  # The reasons why reading is paused.
 
     @property
     def has_ended(self) -> bool:
@@ -95,7 +95,7 @@ class WebSocket(asyncio.Protocol):
         await self._clear.wait()
 
     def send(self, message: str | bytes | bytearray) -> None:
-        """Send a message as soon as there is room; do nothing if the connection has ended."""
+        """Send a message as soon as possible; do nothing if the connection has ended."""
         opcode = Opcode.TEXT if isinstance(message, str) else Opcode.BINARY
         data = message.encode() if isinstance(message, str) else message
         if len(data) <= _PART:
@@ -156,7 +156,7 @@ class WebSocket(asyncio.Protocol):
         self._protocol.receive_data(data)
         for event in self._protocol.events_received():
             if isinstance(event, Request):
-                self._pause("response")  # A client must not send more before the response.
+                self._pause("response")  # A client must not send more before it receives the response.
                 self._answering = asyncio.get_running_loop().create_task(self._respond(event))
             else:
                 self._is_alive = True
@@ -174,7 +174,7 @@ class WebSocket(asyncio.Protocol):
         """Stop sending; see asyncio.Protocol."""
         self._accepts_more = False
         self._clear.clear()
-        self._pause("unwritten")  # A client that only sends pings would fill the memory with answers.
+        self._pause("unwritten")  # A client that only sends pings would fill the memory with pongs.
 
     def resume_writing(self) -> None:
         """Send again; see asyncio.Protocol."""
@@ -269,7 +269,7 @@ def _parts(opcode: int, data: memoryview) -> Iterator[_Part]:
 
 
 def _frame(opcode: int, data: bytes | bytearray | memoryview, is_last: bool) -> bytes:
-    """Return a frame as in RFC 6455, 5.2; the library needs as much time for it as the rest of a small update takes."""
+    """Return a frame as in RFC 6455, 5.2; with the library, this would double the time of a small update."""
     first, length = opcode | (0x80 if is_last else 0), len(data)
     if length < 126:
         head = struct.pack("!BB", first, length)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A subscription that receives from every publisher of a topic, regardless of the QoS that each of them offers.
+"""A subscription that receives from every publisher of a topic, regardless of the offered QoS.
 
 A subscription is not matched if it requests more than a publisher offers, so reliable delivery is requested only if
 all publishers offer it. Durability needs more than that: a subscription that requests less does not receive what was
@@ -27,10 +27,10 @@ _DEPTH = 10
 
 
 class AdaptiveSubscription:
-    """A subscription to all publishers of a topic; may be used by any thread.
+    """A subscription to all publishers of a topic. Thread-safe.
 
     Args:
-        offers: Return what the publishers of the topic offer now.
+        offers: Returns what the publishers of the topic currently offer.
         subscribe: Subscribe to the topic with a quality of service.
         depth: How many messages are kept until they are taken.
 
@@ -44,8 +44,8 @@ class AdaptiveSubscription:
         self._depth = depth
         self._offers = offers
         self._subscribe = subscribe
-        self._open: dict[bool, Subscription] = {}  # By whether it requests what was published before.
-        self._left: list[Sample] = []  # Samples of a subscription that was replaced.
+        self._open: dict[bool, Subscription] = {}  # Keyed by whether it requests earlier messages.
+        self._left: list[Sample] = []  # Samples of a replaced subscription.
         self._lock = threading.Lock()
         self._closed = False
         self._follow()
@@ -58,7 +58,7 @@ class AdaptiveSubscription:
                 self._follow()
 
     def pending(self) -> bool:
-        """Return whether messages may be waiting; sometimes True although `take` returns none."""
+        """Return whether messages may be waiting; may be True although `take` returns none."""
         return bool(self._left) or any(subscription.pending() for subscription in list(self._open.values()))
 
     def take(self) -> list[Sample]:

@@ -23,12 +23,12 @@ if TYPE_CHECKING:
 
 __all__ = ["LiveSource"]
 
-# The doctor examines the last ten seconds. The first report takes a while, because half a window may look like a fault.
+# The doctor examines the last ten seconds. The first report is delayed, because half a window may look like a fault.
 _WINDOW = 10 * SECOND
 _FIRST_REPORT, _REPORT_PERIOD = 5.0, 2.0
-# The largest share of a processor that the doctor's reports may take, not counting its subscriptions.
+# The maximum share of a processor for the doctor's reports, not counting its subscriptions.
 _SHARE = 0.01
-# How long messages are kept if the buffer keeps transforms without limit.
+# How long messages are kept if the buffer has no cache length.
 _KEEP_IF_UNLIMITED = MINUTE
 
 
@@ -37,7 +37,7 @@ class LiveSource:
 
     Args:
         connection: The connection whose buffer is shown and whose node subscribes.
-        own: Whether the connection is closed with the source.
+        own: Whether closing the source also closes the connection.
     """
 
     mode: Mode = "live"
@@ -79,7 +79,7 @@ class LiveSource:
         return LiveMessages(subscription, ros_type, keep, self._connection.frame)
 
     def refresh(self) -> None:
-        """Adapt all subscriptions to publishers that have appeared since the last call."""
+        """Adapt all subscriptions to new publishers."""
         for subscription in list(self._subscriptions):
             subscription.follow()
 
@@ -114,7 +114,7 @@ class LiveSource:
 
 def _message_class(ros_type: str) -> Any:
     """Return the class of a type; None if it is unknown."""
-    # Imported here because only the displays of messages need the message classes.
+    # Imported here because only message displays need the message classes.
     from coframe.messages import find  # noqa: PLC0415
 
     try:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A recording as a source: all of its frames and messages, at any time."""
+"""A recording as a source, with all frames and messages at any time."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ class RecordedSource:
 
     Args:
         recording: The recording.
-        own: Whether the recording is closed with the source.
+        own: Whether closing the source also closes the recording.
     """
 
     mode: Mode = "recording"
@@ -103,7 +103,7 @@ class RecordedMessages:
         self._reading = threading.Lock()
 
     def frame(self, name: str) -> str:
-        """Return the name in the buffer of a frame that a message names."""
+        """Return the buffer's name for a frame in a message."""
         return self._recording.frame(name)
 
     def pending(self) -> bool:
@@ -125,7 +125,7 @@ class RecordedMessages:
         return self._times
 
     def close(self) -> None:
-        """Do nothing: the recording stays open."""
+        """Do nothing; the recording stays open."""
 
     def _index_after(self, time: int) -> int:
         return len(self._times) if time == 0 else int(np.searchsorted(self._times, time, side="right"))

@@ -50,12 +50,12 @@ class Source(Protocol):
     def examine(self) -> Generator[dict[str, Report] | None, None, None] | None:
         """Return a generator of doctor reports by namespace, or None if there is nothing to examine.
 
-        The generator is advanced every half second in a thread of its own, where it may block, and yields None while
+        The generator is advanced every half second in a separate thread, where it may block, and yields None while
         there is no new report. The caller closes it.
         """
 
     def close(self) -> None:
-        """Release what the source itself has opened."""
+        """Release the resources that the source opened itself."""
 
 
 class BufferSource:

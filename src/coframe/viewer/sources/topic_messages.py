@@ -37,12 +37,12 @@ class StampedMessage(NamedTuple):
 
 
 class TopicMessages(Protocol):
-    """The messages of one topic; may be used by any thread."""
+    """The messages of one topic. Thread-safe."""
 
     type: str
 
     def frame(self, name: str) -> str:
-        """Return the name in the buffer of a frame that a message names."""
+        """Return the buffer's name for a frame in a message."""
 
     def pending(self) -> bool:
         """Return whether the next lookup has to read new messages first, which may take a while."""
@@ -57,7 +57,7 @@ class TopicMessages(Protocol):
         """Return the positions of all messages on the timeline, in order."""
 
     def close(self) -> None:
-        """Release what was opened for the topic."""
+        """Release the resources of the topic."""
 
 
 class _Stored(NamedTuple):
@@ -72,8 +72,8 @@ class LiveMessages:
     Args:
         subscription: The subscription to the topic.
         ros_type: The type of the messages.
-        keep: How many nanoseconds of messages are kept; the newest message is always kept.
-        frame: Return the name in the buffer of a frame that a message names.
+        keep: How long messages are kept, in nanoseconds; the newest message is always kept.
+        frame: Return the buffer's name for a frame in a message.
     """
 
     MAX_BYTES = 64 << 20
@@ -82,7 +82,7 @@ class LiveMessages:
     def __init__(
         self, subscription: AdaptiveSubscription, ros_type: str, keep: int, frame: Callable[[str], str]
     ) -> None:
-        # Imported here because only the displays of messages need the message classes.
+        # Imported here because only message displays need the message classes.
         from coframe.messages import deserialize, find  # noqa: PLC0415
         from coframe.messages.header_peek import stamp_reader  # noqa: PLC0415
 
@@ -96,11 +96,11 @@ class LiveMessages:
         self._stored: deque[_Stored] = deque()
         self._bytes = 0
         self._keys = itertools.count(1)
-        self._taking = threading.Lock()  # Held for longer than the other lock, because messages may be large.
+        self._taking = threading.Lock()  # Held longer than the other lock, because messages may be large.
         self._lock = threading.Lock()
 
     def frame(self, name: str) -> str:
-        """Return the name in the buffer of a frame that a message names."""
+        """Return the buffer's name for a frame in a message."""
         return self._frame(name)
 
     def pending(self) -> bool:

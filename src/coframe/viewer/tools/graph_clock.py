@@ -18,7 +18,7 @@ _FIRST_TIMEOUT = "2s"
 
 
 class GraphClock:
-    """The clock of a graph; used by one thread at a time.
+    """The clock of a graph. Not thread-safe.
 
     Args:
         connection: The connection, which subscribes to /clock once a node publishes it.
@@ -42,7 +42,7 @@ class GraphClock:
             from coframe.messages import find  # noqa: PLC0415
             from coframe.wire.qos import QoS  # noqa: PLC0415
 
-            # Simulators may offer best effort only. With a depth of 1, the last message is the newest one.
+            # Simulators may offer only best effort. With a depth of 1, the last message is the newest one.
             qos = QoS(depth=1, reliable=False)
             self._subscription = self._connection.subscribe(CLOCK, find("rosgraph_msgs/msg/Clock"), qos=qos)
         message = self._subscription.receive(_FIRST_TIMEOUT if self._last is None else 0.0)

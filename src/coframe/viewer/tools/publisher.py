@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Publication of points, poses and static transforms from the viewer's node, as RViz's tools do."""
+"""Publish points, poses and static transforms from the viewer's node, like RViz's tools."""
 
 from __future__ import annotations
 
@@ -24,15 +24,15 @@ __all__ = ["ToolPublisher"]
 
 _TOPIC = re.compile(r"(/[A-Za-z_][A-Za-z0-9_]*)+")
 _MAX_TOPIC_LENGTH = 200
-# Each pair of topic and type has a publisher, which stays open for the next message.
+# Each pair of topic and type has a publisher, which is kept for the next message.
 _MAX_PUBLISHERS = 16
-# How long a new publisher waits for the subscriptions that discovery knows, in seconds.
+# How long a new publisher waits for discovered subscriptions to match, in seconds.
 _MATCH_TIMEOUT, _MATCH_STEP = 1.0, 0.01
 _NORM_TOLERANCE = 1e-3
 
 
 class ToolPublisher:
-    """Publishes what the tools of all pages define; may be used by any thread.
+    """Publishes the messages of all pages' tools. Thread-safe.
 
     Args:
         connection: The connection whose node publishes.
@@ -103,7 +103,7 @@ class ToolPublisher:
             return self._publish(topic, message)
 
     def publish_static(self, parent: str, child: str, translation: Sequence[float], quaternion: Sequence[float]) -> int:
-        """Publish a static transform; it stays available to later subscribers while the viewer runs.
+        """Publish a static transform, which remains available to later subscribers while the viewer runs.
 
         Args:
             parent: The parent frame.
@@ -160,7 +160,7 @@ class ToolPublisher:
     def _publish(self, topic: str, message: Any) -> int:
         if len(topic) > _MAX_TOPIC_LENGTH or not _TOPIC.fullmatch(topic):
             raise ViewerError(
-                f"{topic[:60]!r} is not a valid name of a topic",
+                f"{topic[:60]!r} is not a valid topic name",
                 hint="Write it as /name or /namespace/name with letters, digits and underscores.",
             )
         key = (topic, type(message).__name__)
@@ -175,7 +175,7 @@ class ToolPublisher:
         return publisher.matched
 
     def _wait_for_subscriptions(self, topic: str, publisher: MessagePublisher[Any]) -> None:
-        """Wait until the known subscriptions are matched: a new publisher does not reach them before."""
+        """Wait until the known subscriptions have matched: a new publisher cannot reach them earlier."""
         deadline = time.monotonic() + _MATCH_TIMEOUT
         expected = len(self._connection.participant.subscribers(topic))
         while publisher.matched < expected and time.monotonic() < deadline:

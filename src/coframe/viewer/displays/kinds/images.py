@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Camera images: raw images as grey or RGB pixels, compressed images as they are."""
+"""Camera images: raw images as grey or RGB pixels, compressed images unchanged."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ __all__ = ["CAMERA", "IMAGE", "MAX_PIXELS", "draw_compressed_image", "draw_image
 
 MAX_PIXELS = 640 * 480
 """Raw images with more pixels are thinned to every n-th row and column."""
-MAX_COMPRESSED_PIXELS = 1 << 25  # A small file may need much memory in the browser.
+MAX_COMPRESSED_PIXELS = 1 << 25  # A small file may need a lot of memory in the browser.
 MAX_COMPRESSED_BYTES = 16 << 20
 # For each encoding: bytes per pixel, and the indices of red, green and blue, or of grey.
 _CHANNELS = {

@@ -73,7 +73,7 @@ class MarkerSet:
     """The markers that are visible after a sequence of messages.
 
     Args:
-        mesh_url: Return the URL of a mesh that a marker names, or the reason why there is none.
+        mesh_url: Returns the URL of a marker's mesh, or the reason why there is none.
     """
 
     def __init__(self, mesh_url: MeshUrl) -> None:
@@ -104,17 +104,17 @@ class MarkerSet:
                 self._shown[key] = _shown(marker, time)
 
     def has_expired(self, time: int) -> bool:
-        """Return whether the lifetime of a marker is over."""
+        """Return whether the lifetime of a marker has ended."""
         return any(shown.ends is not None and shown.ends < time for shown in list(self._shown.values()))
 
     def expire(self, time: int) -> None:
-        """Remove markers whose lifetime is over."""
+        """Remove markers whose lifetime has ended."""
         over = [key for key, shown in self._shown.items() if shown.ends is not None and shown.ends < time]
         for key in over:
             del self._shown[key]
 
     def draw(self, options: Options) -> list[Drawing]:
-        """Return one drawing per group; groups that have not changed return the same drawing as before."""
+        """Return one drawing per group; unchanged groups return the same drawing as before."""
         groups: dict[_Group, list[Any]] = {}
         for shown in self._shown.values():
             groups.setdefault(shown.group, []).append(shown.marker)
@@ -185,7 +185,7 @@ def _shown(marker: Any, time: int) -> _Shown:
 
 
 def _item(marker: Any, points: Sequence[Any], colors: Sequence[Any], offset: int) -> tuple[MarkerItem, int]:
-    """Return the description of a marker whose numbers begin at `offset`, and where its numbers end."""
+    """Return the description of a marker whose numbers begin at `offset`, and the end of its numbers."""
     colors_offset = offset + 3 * len(points)
     scale = marker.scale
     item = MarkerItem(
@@ -206,7 +206,7 @@ def _item(marker: Any, points: Sequence[Any], colors: Sequence[Any], offset: int
 
 
 def _size(marker: Any) -> int:
-    """Return how many numbers and characters of a marker are stored."""
+    """Return the stored size of a marker in numbers and characters."""
     return 3 * len(marker.points) + 4 * len(marker.colors) + len(marker.text) + len(marker.ns)
 
 

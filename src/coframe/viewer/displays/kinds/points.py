@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Laser scans and point clouds: points with one number or one colour each."""
+"""Laser scans and point clouds: points with one scalar or one colour each."""
 
 from __future__ import annotations
 
@@ -79,7 +79,7 @@ def _intensities(cloud: Any, names: set[str], step: int) -> NDArray[np.float32] 
 def _scalars(
     points: NDArray[np.float32], options: Options, intensities: NDArray[np.float32] | None
 ) -> NDArray[np.float32] | None:
-    """Return the number that determines each point's colour: as requested, or else the intensity or the distance."""
+    """Return the scalar that determines each point's colour: the requested one, or the intensity or distance."""
     if options.color_by == "flat":
         return None
     if options.color_by == "axis":
