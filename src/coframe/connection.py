@@ -178,7 +178,7 @@ class Connection:
 
     @property
     def participant(self) -> Participant:
-        """The participant of this process. A connection with shared transforms joins the graph at its first use."""
+        """The participant of this process; with shared transforms, it is created on first use."""
         return self._join()[0]
 
     @property
@@ -240,7 +240,7 @@ class Connection:
         return subscription
 
     def frame(self, name: str) -> str:
-        """Return the name in the buffer of a frame in a message: with the prefix, if there is one."""
+        """Return the buffer's name for a frame in a message, which includes the prefix if there is one."""
         return self.config.frame(name)
 
     def publishers(self) -> list[TfPublisher]:
@@ -338,7 +338,7 @@ class Connection:
             raise
 
     def _share(self) -> SharedTransforms | None:
-        """Let the buffer read the transforms that one process receives for all; return None if that is not possible."""
+        """Let the buffer read the transforms that one process receives for all; return None if that is impossible."""
         try:
             shared = SharedTransforms.join(self.config)
         except _core.SegmentError as error:
@@ -430,7 +430,7 @@ def connect(
         namespace: The namespace of the topics of transforms: "/robot1" for /robot1/tf and /robot1/tf_static.
         tf_topic: The topic of dynamic transforms. If None, it is /tf in the namespace.
         tf_static_topic: The topic of static transforms. If None, it is /tf_static in the namespace.
-        cache: The length of the buffer's cache: a text such as "10s", nanoseconds or a timedelta. If None, the buffer
+        cache: The cache length of the buffer: a string such as "10s", nanoseconds or a timedelta. If None, the buffer
             keeps everything.
         prefix: The prefix of the frames in the buffer, used as given: "robot1/" turns "base_link" into
             "robot1/base_link".

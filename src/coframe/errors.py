@@ -22,7 +22,7 @@
         ├── PlotError(ValueError)               something that cannot be plotted
         ├── CourseError(ValueError)             a folder of the lab that cannot be created or graded
         ├── PluginError(RuntimeError)           a plug-in of another package that cannot be loaded
-        └── UnsuitableFileError(OSError)        a pipe, a device or a too large file in place of a file (regular_files)
+        └── UnsuitableFileError(OSError)        a pipe, a device, or a file that is too large (regular_files)
 
 Wrong arguments of Python calls (a wrong type, shape or unit) raise TypeError and ValueError as usual.
 

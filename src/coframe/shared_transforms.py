@@ -115,7 +115,7 @@ class SharedTransforms:
 
     @classmethod
     def _open(cls, config: ListenerConfig, generation: int, on_mismatch: Mismatches) -> SharedTransforms | None:
-        """Return shared transforms that this process has not joined before; None if they are outdated."""
+        """Open shared transforms that this process has not joined before; return None if they are outdated."""
         segment = open_segment(config, generation)
         if segment.outdated:
             segment.close()

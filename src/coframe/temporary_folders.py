@@ -16,7 +16,7 @@ if sys.platform != "win32":
 __all__ = ["temporary_folder"]
 
 _LOCK = ".lock"
-_NEW_LOCK = ".lock-new"  # prefix of prefix of its name until it is locked
+_NEW_LOCK = ".lock-new"  # prefix of its name until it is locked
 
 
 def temporary_folder(prefix: str) -> tempfile.TemporaryDirectory[str]:

@@ -88,7 +88,7 @@ def document(rng: random.Random) -> str:
     ]
     joints = [
         f"<joint name='j{i}' type='{rng.choices(TYPES, WEIGHTS)[0]}'>"
-         f"<parent link='l{rng.randrange(i) if rng.random() > fault / 5 else rng.randrange(9)}'/><child link='l{i}'/>"
+        f"<parent link='l{rng.randrange(i) if rng.random() > fault / 5 else rng.randrange(9)}'/><child link='l{i}'/>"
         + several(some(ORIGINS, 4), some(AXES, 3), some(LIMITS, 1))
         + (some(MIMICS, 3) if rng.random() < 0.2 else "")
         + "</joint>"

@@ -36,7 +36,7 @@ __all__ = ["OpenedFiles", "open_files"]
 _ZSTD = b"\x28\xb5\x2f\xfd"
 _UNPACKED_PIECE = 1 << 20  # bytes
 _LARGEST_METADATA = 16 << 20
-_MAX_EXPANSION = 16 << 20  # bytes; data that cannot be compressed grows by less than that
+_MAX_EXPANSION = 16 << 20  # bytes; incompressible data grows by less than this
 
 
 class OpenedFiles(NamedTuple):

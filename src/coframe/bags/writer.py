@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Writer"]
 
-_MAX_TOPICS = 65_000  # channels have numbers of 16 bits
+_MAX_TOPICS = 65_000  # channel numbers have 16 bits
 _MAX_TIME = 1 << 63
 _LARGEST_CHUNK = 4 << 20  # bytes before compression
 T = TypeVar("T")

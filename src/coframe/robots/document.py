@@ -25,7 +25,7 @@ MAX_BYTES = 64 << 20  # a hundred times the largest known robot description
 MAX_DEPTH = 500  # as in TinyXML-2, the parser of ROS
 _DECLARATION = re.compile(r"""\A(\s*<\?xml\s[^>]*?)\sencoding\s*=\s*["']([\w.:-]+)["']""", re.ASCII)
 _LONGEST_DECLARATION = 200  # bytes
-# The supported encodings by their Python names. Some other codecs of Python do not give text or are very slow.
+# The supported encodings by Python name. Some other Python codecs do not produce text or are very slow.
 _ENCODINGS = {
     *(
         "big5",
@@ -42,7 +42,7 @@ _ENCODINGS = {
     ),
 }
 _FALLBACK = "iso8859-1"  # every byte is a character
-# float() would also accept nan, 1_000 and the digits of all scripts.
+# float() would also accept nan, 1_000 and non-ASCII digits.
 _NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?", re.ASCII)
 
 
@@ -217,7 +217,7 @@ def read(data: str | bytes) -> Document:
 
 
 def _decoded(data: bytes, warnings: list[str]) -> str:
-    """Return the text of a document. The declaration of an encoding other than UTF-8 is removed."""
+    """Return the text of a document. An encoding declaration other than UTF-8 is removed."""
     encoding = _encoding(data, warnings)
     try:
         text = data.decode(encoding)

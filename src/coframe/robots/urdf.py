@@ -42,7 +42,7 @@ def parse_urdf(text: str | bytes) -> Robot:
     Raises:
         RobotDescriptionError: The document is not valid URDF, for example because of loops, links with two parents,
             duplicate names, origins that are not numbers, missing or swapped limits, or because it has no links. The
-            text contains the line.
+            message contains the line number.
 
     Example:
         >>> from coframe.robots import parse_urdf

@@ -164,7 +164,7 @@ class ViewerState:
                 self.release(topic)
 
     def close(self) -> None:
-        """Stop all work and release what is still open for disconnected clients."""
+        """Stop all work and release the resources of disconnected clients."""
         self.callbacks.close()
         for topic in list(self._open):
             self._open.pop(topic).messages.close()

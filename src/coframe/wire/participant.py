@@ -39,7 +39,7 @@ _logger = logging.getLogger("coframe.wire")
 class Participant(EndpointFactory, GraphQueries):
     """The participant of this process in a ROS domain over a middleware. All methods are thread-safe.
 
-    The participant is shared by reference counting: each call of `get` needs one call of `close`.
+    The participant is reference-counted: each call of `get` must be matched by a call of `close`.
 
     Attributes:
         domain_id: The domain ID.

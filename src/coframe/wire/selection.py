@@ -62,7 +62,7 @@ DEFAULT: Final = MIDDLEWARES[0]
 WIRES: Final = tuple(row.wire for row in MIDDLEWARES)
 
 _chosen: dict[str, str] = {}  # the wire that the command line has chosen for this process
-_logged: set[str] = set()  # the wires whose automatic choice is in the log
+_logged: set[str] = set()  # the middlewares whose automatic selection was logged
 
 
 class Selection(NamedTuple):
@@ -160,7 +160,7 @@ def check(wire: str | None = None) -> None:
 
 
 def network(wire: str, environment: Mapping[str, str] = os.environ) -> str:
-    """Return a text that is equal for processes that join the same network: the middleware with its configuration.
+    """Return a string that identifies the network: the middleware with its configuration.
 
     Raises:
         WireError: An environment variable has an invalid value.

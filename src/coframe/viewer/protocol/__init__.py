@@ -12,7 +12,7 @@ Conventions:
 
 Modules:
     server_messages, binary_messages: What the server sends; the rows of `coframe.viewer.displays` have its shapes.
-    client_messages: What the page sends.
+    client_messages: Messages that the page sends.
     replay_block: What a replay file contains.
     common: Field types that several of them use.
     requests: Checks of client messages.

@@ -154,7 +154,7 @@ class ToolPublisher:
         return message
 
     def _name_on_graph(self, frame: str) -> str:
-        """Return the name of a frame without the prefix that it has only in the buffer."""
+        """Return the name of a frame on the graph, without the prefix used in the buffer."""
         return frame.removeprefix(self._connection.config.prefix)
 
     def _publish(self, topic: str, message: Any) -> int:
