@@ -98,7 +98,7 @@ def test_a_static_transform_is_replaced_for_everyone(graph, view, open_tab):
 
 
 INVALID = [
-    ("publish_point", POINT, {"frame": "base"}, "the fixed frame is 'map', and no longer 'base'"),
+    ("publish_point", POINT, {"frame": "base"}, "the fixed frame is 'map', no longer 'base'"),
     ("publish_point", POINT, {"topic": "no slash"}, "'no slash' is not a valid topic name"),
     ("publish_point", POINT, {"topic": "/a//b"}, "'/a//b' is not a valid topic name"),
     ("publish_point", POINT, {"topic": "/" + "a" * 300}, "is not a valid topic name"),

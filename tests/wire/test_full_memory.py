@@ -98,7 +98,7 @@ def test_memory_that_becomes_full_is_reported_and_known_frames_are_stored():
     assert output == "[1.0, 2.0, 0.0] True\n"
     full, rejected = sorted(logged.splitlines(), reverse=True)
     assert full.startswith("The memory of the shared transforms is full: /dev/shm/coframe-")
-    assert "No space left on device. New frames are refused" in full
+    assert "No space left on device. New frames are rejected" in full
     assert rejected.startswith("Rejected ")
     assert rejected.endswith("their frames are new, and the buffer cannot store more frames of other nodes.")
 

@@ -157,7 +157,7 @@ async def _publish_static(client: ClientState, request: client_messages.PublishS
 def _check_fixed_frame(client: ClientState, frame: str) -> None:
     if frame != client.fixed:
         raise BadRequestError(
-            f"nothing was published: the fixed frame is {shorten(client.fixed)}, not {shorten(frame)} any longer",
+            f"nothing was published: the fixed frame is {shorten(client.fixed)}, no longer {shorten(frame)}",
             "Use the tool again.",
         )
 
