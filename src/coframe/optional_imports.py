@@ -53,11 +53,11 @@ def extra_of(module: str, preferred: Container[str] = ()) -> str | None:
 
 
 def import_optional(module: str, purpose: str, extra: str) -> Any:
-    """Return a module that coframe does not require.
+    """Import an optional module.
 
     Args:
         module: Name of the module.
-        purpose: What needs the module: the subject of the error's sentence.
+        purpose: What needs the module: the subject of the error message.
         extra: The extra that installs it.
 
     Raises:

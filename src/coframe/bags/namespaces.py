@@ -122,7 +122,7 @@ class TransformCollector:
     Args:
         problems: Receives the problems found.
         choice: Selects the topics, and renames the frames.
-        on_transforms: Called with all messages that contain transforms, in batches; None: not called.
+        on_transforms: Called with all messages that contain transforms, in batches; may be None.
     """
 
     def __init__(

@@ -55,7 +55,7 @@ def open_bag(
         tf_topic: Read only the transforms on this topic and on ``tf_static_topic``. None: all, or ``/tf`` if only the
             other topic is given.
         tf_static_topic: Read only the transforms on this topic and on ``tf_topic``. None: all, or ``/tf_static``.
-        prefix: A prefix for the frame names in the buffers: ``robot1/`` makes ``robot1/base_link``.
+        prefix: A prefix for the frame names in the buffers: ``robot1/`` gives ``robot1/base_link``.
         keep: Frames without the prefix because they are shared: ``["map"]``.
         transforms: Whether to read transforms. If False, the buffers are empty.
         progress: Called regularly with the number of bytes read and the total number of bytes.

@@ -39,7 +39,7 @@ class TrajectoryQuery:
         stamps_of: A topic. One pose at the stamp of each of its messages, instead of a rate.
         start: The first stamp: nanoseconds, or a string that :func:`coframe.bags.parse_time_point` parses for each
             recording.
-        stop: The last stamp, as nanoseconds or text.
+        stop: The last stamp, as nanoseconds or a string.
         transforms: Which transforms of a recording are read, and how their frames are named.
 
     Raises:

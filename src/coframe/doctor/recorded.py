@@ -64,7 +64,7 @@ def observe_recording(
         tf_topic: Only the transforms of this topic and of ``tf_static_topic``, as those of one robot in the namespace
             of this topic. None: all, or ``/tf`` if only the other topic is given.
         tf_static_topic: Only the transforms of this topic and of ``tf_topic``. None: all, or ``/tf_static``.
-        prefix: A prefix for all frame names, used unchanged; also for the frames of sensors.
+        prefix: A prefix for all frame names, including those of sensors, used as given.
         keep: The frames without the prefix, because they are shared.
         cache: The cache length of the buffers of listeners, in nanoseconds.
         progress: Called repeatedly with the number of bytes read and the total number.

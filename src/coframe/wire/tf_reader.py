@@ -111,12 +111,12 @@ class TfReader(LocalEndpoint):
             self._reader.settle_statics()
 
     def graph_changed(self, graph: Graph) -> None:
-        """Set the names of the publishing nodes in the buffer, as far as they are known from the graph."""
+        """Set the names of the publishing nodes in the buffer, as far as the graph contains them."""
         if self._node_names is None or self._closed:
             return
         with self._naming:
             received = [known.writer for known in self.writer_statistics()] if self.static else []
-            writers = graph.writers(self.topic)  # after that, so that it contains all of these that still exist
+            writers = graph.writers(self.topic)  # read afterwards, so that it contains all of these that still exist
             for handle in set(received) - writers.keys():
                 self._reader.writer_left(handle)
             for handle in self._node_names.keys() - writers.keys():

@@ -202,7 +202,7 @@ def _times(request: ReplayRequest, frames: int) -> NDArray[np.int64]:
 
 
 def _robots(content: ReplayContent) -> list[RobotModel]:
-    """Return the robots with their meshes, as long as all meshes together are small enough."""
+    """Return the robots with their meshes, as long as the total size of the meshes is within the limit."""
     left = MAX_MESH_BYTES
     robots = []
     for description in content.robots:

@@ -18,7 +18,7 @@ __all__ = ["MAX_CONNECTIONS", "Connections"]
 
 _logger = logging.getLogger("coframe.viewer")
 
-MAX_CONNECTIONS = 512  # a tab has one for its data and, for a moment, some for its files
+MAX_CONNECTIONS = 512  # a tab has one for its data and, briefly, a few for its files
 # File descriptors that are left for everything else: the middleware, the files of the page and of modules, a recording.
 _RESERVED = 32
 _BACKLOG = 100  # listen backlog, unless file descriptors are scarce

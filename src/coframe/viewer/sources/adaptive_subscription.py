@@ -2,9 +2,9 @@
 """A subscription that receives from every publisher of a topic, regardless of the offered QoS.
 
 A subscription is not matched if it requests more than a publisher offers, so reliable delivery is requested only if
-all publishers offer it. Durability needs more than that: a subscription that requests less does not receive what was
-published before. Publishers that keep their last messages (only reliable ones do) therefore get a subscription of their
-own, and the other subscription ignores their messages.
+all publishers offer it. For durability, this is not enough: a subscription that requests less does not receive earlier
+messages. Publishers that keep their last messages (only reliable ones do) therefore get a subscription of their own,
+and the other subscription ignores their messages.
 """
 
 from __future__ import annotations
