@@ -28,14 +28,15 @@ _COMMANDS = (
     "topic",
 )
 _ALIASES = {"wtf": "doctor"}
+_EXTENSIONS = "Packages extend coframe by entry points, such as those of the group coframe.commands."
 # Commands of ros2 that coframe does not have, with what to do instead.
 _ABSENT = {
     "component": "C++ components cannot be loaded. Start the node as a process: ros2 run PACKAGE EXECUTABLE.",
     "multicast": "coframe doctor shows whether nodes are discovered.",
     "security": "SECURITY.md of coframe describes what protects the ROS graph.",
     "test": "Run tests with pytest.",
-    "extension_points": "coframe has no extension points.",
-    "extensions": "coframe has no extensions.",
+    "extension_points": _EXTENSIONS,
+    "extensions": _EXTENSIONS,
 }
 # Options of `ros2 bag play` that have another form in coframe.
 _PLAY_OPTIONS = {"-l": "--loop", "-p": "--start-paused", "-d": "--delay"}
