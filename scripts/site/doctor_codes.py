@@ -5,10 +5,11 @@ from __future__ import annotations
 
 import re
 
-from coframe.doctor import codes, page
+from coframe.doctor import page
+from coframe.doctor.codes import built_in_codes
 
 PAGE = "reference/doctor-codes.md"
-CODES = codes()
+CODES = built_in_codes()
 
 _HEAD = """# Doctor codes
 

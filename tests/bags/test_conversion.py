@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """Bags of ROS 1 with types that ROS 2 does not have, or has with other fields, as recordings of ROS 2."""
 
+import os
 import struct
+import subprocess
+import sys
 
 import pytest
 import recordings
@@ -165,3 +168,59 @@ def test_sqlite_recordings_contain_definitions(tmp_path):
         }
     assert decoded["/one"].joint_names == ["elbow"]
     assert decoded["/own"].speed == 2.5
+
+
+IDL = {
+    "Pump.idl": """
+#include "pumps/msg/Rotor.idl"
+#include "std_msgs/msg/Header.idl"
+module pumps { module msg {
+  typedef double Curve[3];
+  module Pump_Constants { const uint8 idle = 2; const string maker = "a \\"b\\""; };
+  @verbatim (language="comment", text="A pump.")
+  struct Pump {
+    std_msgs::msg::Header header;
+    Curve curve;
+    sequence<pumps::msg::Rotor, 4> rotors;
+    octet raw;
+    @default (value=7) long Speed;
+    string<9> name;
+  };
+}; };
+""",
+    "Rotor.idl": "module pumps { module msg { struct Rotor { boolean turns; unsigned long long ticks; }; }; };",
+}
+
+
+@pytest.mark.parametrize("storage", ["mcap", "sqlite3"])
+def test_a_recording_of_idl_types_is_read_without_the_files(tmp_path, storage):
+    folder = tmp_path / "pumps" / "msg"
+    folder.mkdir(parents=True)
+    for name, definition in IDL.items():
+        (folder / name).write_text(definition)
+    program = """
+import sys
+from coframe.bags import Writer
+from coframe.messages import find, serialize
+Pump, Rotor = find("pumps/msg/Pump"), find("pumps/msg/Rotor")
+message = Pump(curve=[1.0, 2.0, 3.0], rotors=[Rotor(turns=True, ticks=1 << 40)], name="p1", raw=b"\\x05")
+with Writer(sys.argv[1], storage=sys.argv[2]) as writer:
+    writer.write(writer.add_topic("/pump", "pumps/msg/Pump"), serialize(message), 5)
+assert writer.undescribed == []
+"""
+    environment = {**os.environ, "COFRAME_INTERFACES": str(tmp_path)}
+    subprocess.run([sys.executable, "-c", program, tmp_path / "run", storage], env=environment, check=True)
+    with coframe.open_bag(tmp_path / "run") as recording:
+        message = next(recording.messages("/pump")).message
+        assert recording.problems == []
+    assert (list(message.curve), message.Speed, message.name, message.raw) == ([1, 2, 3], 7, "p1", b"\x05")
+    assert (message.rotors[0].turns, message.rotors[0].ticks, message.IDLE, message.MAKER) == (
+        True,
+        1 << 40,
+        2,
+        'a "b"',
+    )
+    with AnyReader([tmp_path / "run"]) as reader:
+        ((connection, _, data),) = reader.messages()
+        other = reader.deserialize(data, connection.msgtype)
+    assert (list(other.curve), other.Speed, other.rotors[0].ticks, other.name) == ([1, 2, 3], 7, 1 << 40, "p1")

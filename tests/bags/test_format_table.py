@@ -11,7 +11,7 @@ import recordings
 
 import coframe
 import rosbag2_py
-from coframe.bags.formats import formats, is_recording, recording_name, storage_formats, suffixes
+from coframe.bags.formats import BUILT_IN, formats, is_recording, recording_name, storage_formats, suffixes
 
 WRITERS = {
     "MCAP": (".mcap", recordings.write_mcap),
@@ -50,6 +50,17 @@ def test_the_format_is_read_and_has_its_suffix_everywhere(tmp_path, monkeypatch,
 
     monkeypatch.chdir(tmp_path)
     assert f"run{suffix}" in complete_recordings(None, None, "run")
+
+
+def test_every_format_is_tested_here():
+    assert {each.name for each in BUILT_IN} == set(WRITERS)
+
+
+@pytest.mark.parametrize("name", WRITERS)
+def test_the_format_has_a_row_in_the_documentation(name):
+    page = (Path(__file__).parents[2] / "docs" / "how-to" / "recordings.md").read_text("utf-8")
+    table = page.partition("## Supported formats")[2].partition("\n\n")[2].partition("\n\n")[0]
+    assert all(f"`{suffix}`" in table for suffix in named(name).suffixes)
 
 
 @pytest.mark.parametrize("name", WRITERS)

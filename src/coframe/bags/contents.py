@@ -10,20 +10,20 @@ from typing import TYPE_CHECKING
 
 from coframe import time
 from coframe.bags.file_discovery import open_files
-from coframe.bags.formats import recording_name
+from coframe.bags.formats import BUILT_IN, recording_name
 from coframe.bags.message_index import MessageIndex, largest_track, reread
 from coframe.bags.namespaces import TransformCollector, report_mixed_clocks
 from coframe.bags.problems import Problems
 from coframe.bags.recorded_message import Topic
 from coframe.bags.recorded_types import RecordedTypes
 from coframe.bags.transforms import ingest_for
-from coframe.errors import RecordingError
+from coframe.errors import CoframeError, RecordingError
 from coframe.formatting import listed
 from coframe.frame_names import TF_STATIC_TOPIC, TF_TOPIC, absolute
 from coframe.freed_memory import collection_paused
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterator
     from pathlib import Path
 
     import numpy as np
@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from coframe.bags.message_index import Track
     from coframe.bags.namespaces import TransformChoice
     from coframe.bags.recording_format import RecordingFormat
-    from coframe.bags.storage import Channel, Storage
+    from coframe.bags.storage import Batch, Channel, Storage
     from coframe.buffer import Buffer
     from coframe.messages.slices import Slices
 
@@ -143,7 +143,7 @@ class _Reading:
 
     def _read_file(self, storage: Storage, progress: Callable[[int], object]) -> None:
         tracks: dict[Channel, tuple[Track, Callable[[NDArray[np.int64], Slices], None] | None]] = {}
-        for batch in storage.batches(_has_transforms, progress):
+        for batch in self._batches(storage, progress):
             channel = batch.channel
             if channel not in tracks:
                 tracks[channel] = self._index.add_track(storage, channel), self._collected.ingest(channel)
@@ -154,6 +154,17 @@ class _Reading:
         for channel in storage.channels():
             if channel not in tracks:
                 self._index.add_track(storage, channel)
+
+    def _batches(self, storage: Storage, progress: Callable[[int], object]) -> Iterator[Batch]:
+        """Yield the batches of a file; an error in the format of another distribution ends this file."""
+        try:
+            yield from storage.batches(_has_transforms, progress)
+        except (OSError, CoframeError):
+            raise
+        except Exception as error:
+            if storage.format in BUILT_IN:
+                raise
+            storage.add_problem(f"the format {storage.format.name} failed: {type(error).__name__}: {error}")
 
     def _check_related(self, storages: list[Storage]) -> None:
         """Raise an error if the folder contains files of several recordings that were made at different times."""

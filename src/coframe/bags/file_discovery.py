@@ -15,10 +15,19 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO, NamedTuple
 
 from coframe.bags.compressed_messages import UnpackedMessages
-from coframe.bags.formats import COMPRESSED, METADATA, file_kinds, formats, has_known_suffix, is_recording, matches
+from coframe.bags.formats import (
+    BUILT_IN,
+    COMPRESSED,
+    METADATA,
+    file_kinds,
+    formats,
+    has_known_suffix,
+    is_recording,
+    matches,
+)
 from coframe.bags.storage import Channel, unpacked_budget
 from coframe.bounded_yaml import read_yaml
-from coframe.errors import RecordingError
+from coframe.errors import CoframeError, RecordingError
 from coframe.formatting import listed
 from coframe.optional_imports import pip_install
 from coframe.regular_files import UnsuitableFileError, open_regular, read_regular, reading_hint
@@ -29,6 +38,7 @@ if TYPE_CHECKING:
     from contextlib import ExitStack
 
     from coframe.bags.problems import Problems
+    from coframe.bags.recording_format import RecordingFormat
     from coframe.bags.storage import Storage
 
 __all__ = ["OpenedFiles", "open_files"]
@@ -155,14 +165,26 @@ def _open(file: Path, problems: Problems, closing: ExitStack) -> Storage | None:
         file, start = _unpacked(file, problems, closing)
     for each in formats():
         if matches(each, file, start):
-            storage = each.open(file, problems)
-            closing.callback(storage.close)
-            return storage
+            return _opened(each, file, problems, closing)
     names = [each.name for each in formats()]
     reason = next(filter(None, (each.refusal(start) for each in formats())), "")
     unknown = f"the file is in none of these formats: {', '.join(names)}" if start else "the file is empty"
     problems.add(f"{file.name}: {reason or unknown}")
     return None
+
+
+def _opened(format_: RecordingFormat, file: Path, problems: Problems, closing: ExitStack) -> Storage | None:
+    try:
+        storage = format_.open(file, problems)
+    except (OSError, CoframeError):
+        raise
+    except Exception as error:
+        if format_ in BUILT_IN:
+            raise
+        problems.add(f"{file.name} cannot be opened ({format_.name}): {type(error).__name__}: {error}")
+        return None
+    closing.callback(storage.close)
+    return storage
 
 
 def _unpacked(file: Path, problems: Problems, closing: ExitStack) -> tuple[Path, bytes]:

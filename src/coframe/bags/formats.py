@@ -10,10 +10,12 @@ from __future__ import annotations
 import functools
 import re
 from pathlib import PurePath
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Any, Final
 
+from coframe._plugins import load_plugins
 from coframe.bags.recording_format import RecordingFormat, bare_name
 from coframe.existence import is_file
+from coframe.interfaces.problems import report
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -23,7 +25,9 @@ if TYPE_CHECKING:
     from coframe.bags.storage import Storage
 
 __all__ = [
+    "BUILT_IN",
     "COMPRESSED",
+    "GROUP",
     "MCAP",
     "METADATA",
     "ROS1",
@@ -116,13 +120,36 @@ class Ros1(RecordingFormat):
 MCAP: Final = Mcap()
 SQLITE: Final = Sqlite()
 ROS1: Final = Ros1()
-_BUILT_IN: Final = (MCAP, SQLITE, ROS1)
+BUILT_IN: Final = (MCAP, SQLITE, ROS1)
+GROUP: Final = "coframe.recordings"  # of entry points
+_SUFFIX: Final = re.compile(r"\.[a-z0-9_-]+")
 
 
 @functools.cache
 def formats() -> tuple[RecordingFormat, ...]:
-    """Return all formats in the order in which they are tried."""
-    return _BUILT_IN
+    """Return all formats in the order in which they are tried: those of coframe, then those of other distributions."""
+    found = list(BUILT_IN)
+    for plugin, loaded in load_plugins(GROUP, report):
+        problem = _problem(loaded, found)
+        if problem:
+            report(str(plugin.error(problem)))
+        else:
+            found.append(loaded())
+    return tuple(found)
+
+
+def _problem(loaded: Any, others: list[RecordingFormat]) -> str:
+    """Return why an object is not the class of a new format, as the rest of a sentence; "" if it is one."""
+    if not (isinstance(loaded, type) and issubclass(loaded, RecordingFormat)):
+        return "is not a subclass of coframe.bags.RecordingFormat"
+    name, endings = getattr(loaded, "name", None), getattr(loaded, "suffixes", None)
+    if not (isinstance(name, str) and name.isprintable() and name):
+        return "has no name such as 'MCAP'"
+    if not (isinstance(endings, tuple) and endings and all(_SUFFIX.fullmatch(str(ending)) for ending in endings)):
+        return "has no suffixes such as ('.log',), in small letters"
+    if any(each.name == name for each in others):
+        return f"has the name {name!r}, which another format has as well"
+    return ""
 
 
 def suffixes() -> tuple[str, ...]:
@@ -146,8 +173,14 @@ def file_kinds() -> str:
 
 
 def matches(format_: RecordingFormat, path: Path, beginning: bytes) -> bool:
-    """Return whether a file with these first bytes is in a format."""
-    return format_.matches(path, beginning)
+    """Return whether a file with these first bytes is in a format; False if the class of another distribution fails."""
+    if format_ in BUILT_IN:
+        return format_.matches(path, beginning)
+    try:
+        return bool(format_.matches(path, beginning))
+    except Exception as error:  # noqa: BLE001 - the code is not ours
+        report(f"The format {format_.name} cannot recognize files: {type(error).__name__}: {error}")
+        return False
 
 
 def has_known_suffix(path: Path) -> bool:

@@ -40,7 +40,7 @@ __all__ = ["batch"]
     type=PATH,
     nargs=-1,
     required=True,
-    help=f"Recordings: {file_kinds()}s, or rosbag2 folders.",
+    help=lambda: f"Recordings: {file_kinds()}s, or rosbag2 folders.",
 )
 @click.option("--output", "-o", metavar="FOLDER", type=PATH, required=True, help="Dataset: a folder of Parquet files.")
 @click.option("--rate", "-r", metavar="HZ", type=float, help="Poses per second. [default: one per recorded transform]")

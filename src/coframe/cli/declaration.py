@@ -29,11 +29,11 @@ PASS_WORDS_ON: Final = {"ignore_unknown_options": True, "allow_extra_args": True
 
 
 class Argument(click.Argument):
-    """An argument with a text for the help."""
+    """An argument with a text for the help, or a function that returns the text."""
 
-    def __init__(self, names: list[str], *, help: str = "", **attributes: Any) -> None:  # noqa: A002 - click's name
+    def __init__(self, names: list[str], *, help: str | Callable[[], str] = "", **attributes: Any) -> None:  # noqa: A002 - click's name
         super().__init__(names, **attributes)
-        self.help = help  # click before 8.5 has none.
+        self.help: Any = help  # click before 8.5 has none.
 
 
 def argument(name: str, **attributes: Any) -> Callable[[Declared], Declared]:

@@ -27,6 +27,7 @@ from coframe.cli.options import (
 from coframe.cli.output import fail, one_line, printable
 from coframe.cli.progress import reading_progress
 from coframe.doctor import codes, diagnose, page
+from coframe.doctor.codes import built_in_codes
 from coframe.doctor.recorded import observe_chosen
 from coframe.doctor.rendering.plain import as_data
 from coframe.doctor.rendering.sarif import as_sarif
@@ -201,7 +202,8 @@ def _similar_codes(code: str) -> str:
     by_title = [known for known in codes() if len(words) > 2 and words in page(known).title.lower()]
     near = by_title or difflib.get_close_matches(code.upper(), codes(), n=3, cutoff=0.8)
     if not near:
-        return f"The codes are {codes()[0]} to {codes()[-1]}."
+        own, others = built_in_codes(), codes()[len(built_in_codes()) :]
+        return f"The codes are {own[0]} to {own[-1]}{''.join(f', {other}' for other in others)}."
     return f"Did you mean {' or '.join(f'{known} ({page(known).title})' for known in near)}?"
 
 

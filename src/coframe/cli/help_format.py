@@ -34,7 +34,7 @@ def write_description(command: click.Command, formatter: click.HelpFormatter) ->
 
 def write_arguments(command: click.Command, ctx: click.Context, formatter: click.HelpFormatter) -> None:
     """Write the arguments of a command with their texts."""
-    rows = [(_whole_name(each), getattr(each, "help", None) or "") for each in _arguments(command, ctx)]
+    rows = [(_whole_name(each), _text(each)) for each in _arguments(command, ctx)]
     write_section(formatter, "Arguments", rows)
 
 
@@ -61,6 +61,12 @@ def write_section(formatter: click.HelpFormatter, title: str, rows: list[tuple[s
 
 def _arguments(command: click.Command, ctx: click.Context) -> Iterator[click.Argument]:
     return (each for each in command.get_params(ctx) if isinstance(each, click.Argument))
+
+
+def _text(argument: click.Argument) -> str:
+    """Return the text of an argument, which a function computes if it depends on what is installed."""
+    text = getattr(argument, "help", None) or ""
+    return str(text() if callable(text) else text)
 
 
 def _whole_name(argument: click.Argument) -> str:

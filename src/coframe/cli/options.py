@@ -135,7 +135,7 @@ bag_argument = argument(
     metavar="BAG",
     type=PATH,
     shell_complete=complete_recordings,
-    help=f"Recording: a {file_kinds()}, or a rosbag2 folder.",
+    help=lambda: f"Recording: a {file_kinds()}, or a rosbag2 folder.",
 )
 optional_bag_argument = argument(
     "bag",

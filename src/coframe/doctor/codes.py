@@ -2,7 +2,7 @@
 """The page of each code, printed by `coframe doctor --explain` and linked from the documentation.
 
 A page is Markdown: a title ``# TF001: ...``, then sections. The first paragraph of "Why it matters" is printed below
-every finding of the code.
+every finding of the code. The checks of other distributions bring their own pages.
 """
 
 from __future__ import annotations
@@ -12,7 +12,9 @@ import re
 from pathlib import Path
 from typing import NamedTuple
 
-__all__ = ["Page", "codes", "page"]
+from coframe.doctor.plugin_checks import plugin_checks
+
+__all__ = ["Page", "built_in_codes", "codes", "page"]
 
 _PAGES = Path(__file__).with_name("code_pages")
 _CODE = re.compile(r"TF\d{3}")
@@ -35,13 +37,20 @@ class Page(NamedTuple):
 
     @property
     def location(self) -> str:
-        """The page and section of the documentation site that describe the code."""
+        """The page and section of the documentation site that describe the code; "" for one of another distribution."""
+        if self.code not in built_in_codes():
+            return ""
         return f"reference/doctor-codes.html#{self.code.lower()}"
 
 
-@functools.cache
 def codes() -> tuple[str, ...]:
-    """Return all codes that have a page, in order."""
+    """Return all codes in order: those of coframe, then those of other distributions."""
+    return (*built_in_codes(), *plugin_checks())
+
+
+@functools.cache
+def built_in_codes() -> tuple[str, ...]:
+    """Return the codes of coframe's own checks, in order."""
     names = (file.name.removesuffix(".md") for file in _PAGES.iterdir())
     return tuple(sorted(name for name in names if _CODE.fullmatch(name)))
 
@@ -54,9 +63,10 @@ def page(code: str) -> Page:
         KeyError: There is no such code.
     """
     name = code.upper()
-    if name not in codes():
-        raise KeyError(code)
-    text = (_PAGES / f"{name}.md").read_text(encoding="utf-8")
+    if name in built_in_codes():
+        text = (_PAGES / f"{name}.md").read_text(encoding="utf-8")
+    else:
+        text = plugin_checks()[name].page
     title = text.partition("\n")[0].removeprefix(f"# {name}: ").strip()
     why = text.partition("## Why it matters\n\n")[2].partition("\n\n")[0]
     return Page(name, title, " ".join(why.split()), text)

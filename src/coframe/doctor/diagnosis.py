@@ -5,28 +5,30 @@ from __future__ import annotations
 
 import importlib
 import pkgutil
-from functools import cache
-from typing import TYPE_CHECKING, NamedTuple
+from functools import cache, partial
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from coframe import html_tables
 from coframe.doctor import checks
 from coframe.doctor.causes import joined
-from coframe.doctor.finding import Severity, findings_table
+from coframe.doctor.finding import Finding, Severity, findings_table
 from coframe.doctor.observation import NEVER
+from coframe.doctor.plugin_checks import plugin_checks
+from coframe.escaping import one_line
 from coframe.formatting import count
 from coframe.time import MILLISECOND
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Collection, Iterator
 
-    from coframe.doctor.finding import Finding
     from coframe.doctor.observation import Observation, Sensor
+    from coframe.doctor.plugin_checks import PluginCheck
 
     Check = Callable[[Observation], Iterator[Finding]]
 
-__all__ = ["Report", "SensorFacts", "all_checks", "diagnose"]
+__all__ = ["Report", "SensorFacts", "all_checks", "built_in_checks", "diagnose"]
 
 # Typical timeouts with which a consumer waits for a transform.
 TIMEOUTS = (0, 50 * MILLISECOND, 100 * MILLISECOND, 200 * MILLISECOND)
@@ -83,9 +85,14 @@ class Report(NamedTuple):
         return html_tables.section(count(len(findings), "finding"), findings_table(findings))
 
 
-@cache
 def all_checks() -> dict[str, Check]:
-    """Return the checks by code: one per module of `coframe.doctor.checks`."""
+    """Return the checks by code: those of coframe, then those of other distributions."""
+    return built_in_checks() | {code: partial(_guarded, check) for code, check in plugin_checks().items()}
+
+
+@cache
+def built_in_checks() -> dict[str, Check]:
+    """Return coframe's own checks by code: one per module of `coframe.doctor.checks`."""
     modules = [
         importlib.import_module(f"{checks.__name__}.{module.name}") for module in pkgutil.iter_modules(checks.__path__)
     ]
@@ -107,6 +114,30 @@ def diagnose(observation: Observation, *, ignore: Collection[str] = ()) -> Repor
         ]
     sensors = [_facts(observation, sensor) for sensor in observation.sensors if len(sensor.stamp)]
     return Report(joined(findings), sensors, observation)
+
+
+def _guarded(check: PluginCheck, observation: Observation) -> Iterator[Finding]:
+    """Yield the findings of a check of another distribution; an error in it becomes a note and ends only this check."""
+    try:
+        for finding in check.find(observation):
+            _require_finding(finding, check.code)
+            yield finding
+    except (Exception, SystemExit) as error:  # noqa: BLE001 - the code is not ours
+        yield Finding(
+            code=check.code,
+            severity=Severity.NOTE,
+            text=one_line(f"the check failed, and may have missed problems: {type(error).__name__}: {error}"),
+            fix=f"Update the package {check.plugin.package}, or skip the check: coframe doctor --ignore {check.code}",
+            harm=f"The check of the package {check.plugin.package} did not examine everything.",
+        )
+
+
+def _require_finding(found: Any, code: str) -> None:
+    if not isinstance(found, Finding) or found.code != code:
+        raise TypeError(f"find() yielded {found!r:.100}, which is not a Finding with the code {code}")
+    values: tuple[Any, ...] = (found.severity, found.text, found.fix)
+    if not all(map(isinstance, values, (Severity, str, str))):
+        raise TypeError(f"find() yielded {found!r:.100}, whose severity is not a Severity or whose text is not a str")
 
 
 def _facts(observation: Observation, sensor: Sensor) -> SensorFacts:

@@ -14,11 +14,20 @@ from coframe.regular_files import read_regular
 if TYPE_CHECKING:
     from pathlib import Path
 
-__all__ = ["KINDS", "Definition", "definitions_in", "has_definitions", "is_own_package", "package_name", "read"]
+__all__ = [
+    "KINDS",
+    "PACKAGE_NAME",
+    "Definition",
+    "definitions_in",
+    "has_definitions",
+    "is_own_package",
+    "package_name",
+    "read",
+]
 
 KINDS = ("msg", "srv", "action")
 MAX_BYTES = 1 << 18  # of one file; the largest of public packages have 20 000
-_PACKAGE_NAME = re.compile(r"[a-z](?:_?[a-z0-9])*")
+PACKAGE_NAME = re.compile(r"[a-z](?:_?[a-z0-9])*")
 _NAME_ELEMENT = re.compile(r"<name>\s*([\w-]+)\s*</name>")
 
 
@@ -75,7 +84,7 @@ def package_name(folder: Path) -> str | None:
             report(f"{manifest} is skipped in the search for interface packages: {error.strerror}")
             return None
         name = match[1] if match else name
-    return name if _PACKAGE_NAME.fullmatch(name) else None
+    return name if PACKAGE_NAME.fullmatch(name) else None
 
 
 def is_own_package(folder: Path) -> bool:

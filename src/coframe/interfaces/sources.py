@@ -2,8 +2,9 @@
 """Where users' interface packages are found.
 
 In this order: the paths in ``COFRAME_INTERFACES``, the paths added with ``coframe interface add``, the folder of the
-program and its workspace, the source folders of ``coframe run`` and ``coframe launch`` (``COFRAME_PACKAGE_PATH``), and
-the prefixes of a sourced ROS workspace (``AMENT_PREFIX_PATH``). With -I, -P or PYTHONSAFEPATH, nowhere.
+program and its workspace, the source folders of ``coframe run`` and ``coframe launch`` (``COFRAME_PACKAGE_PATH``),
+the prefixes of a sourced ROS workspace (``AMENT_PREFIX_PATH``), and installed distributions with an entry point in the
+group ``coframe.messages``. With -I, -P or PYTHONSAFEPATH, only in the last ones.
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 from coframe.interfaces.definition_files import has_definitions, is_own_package, package_name
+from coframe.interfaces.installed import installed_packages
 from coframe.interfaces.user_folders import added_paths
 from coframe.interfaces.workspace import is_search_off, start_folders, workspace_root
 
@@ -41,20 +43,29 @@ class Source(NamedTuple):
         folder: The folder.
         depth: How many levels below the folder packages can be.
         named: Whether the user has named it: then it may belong to another user.
+        package: The name of the package in the folder; "": the folder contains packages.
     """
 
     origin: str
     folder: Path
     depth: int
     named: bool = True
+    package: str = ""
 
 
 def sources() -> list[Source]:
     """Return all folders in which packages are searched, in order."""
     if is_search_off():
-        return []
+        return _installed()
     variables = tuple(os.environ.get(name, "") for name in (ENVIRONMENT, _PACKAGE_PATH, _PREFIXES))
-    return _sources(tuple(start_folders()), *variables)
+    return [*_sources(tuple(start_folders()), *variables), *_installed()]
+
+
+def _installed() -> list[Source]:
+    return [
+        Source(f"installed package {each.distribution}", each.folder, 0, package=each.name)
+        for each in installed_packages()
+    ]
 
 
 @functools.lru_cache(maxsize=16)
@@ -77,6 +88,10 @@ def _sources(starts: tuple[Path, ...], given: str, package_path: str, prefixes: 
 def find_folder(package: str) -> Path | None:
     """Return the folder of a user's interface package; None if there is none."""
     for source in sources():
+        if source.package:
+            if source.package == package:
+                return source.folder
+            continue
         if source.origin == _PREFIXES:
             folder = source.folder / package  # An installation names folders after packages, and can have thousands.
             if has_definitions(folder):
@@ -104,6 +119,8 @@ def _paths(text: str) -> list[Path]:
 
 
 def _index(source: Source) -> dict[str, Path]:
+    if source.package:
+        return {source.package: source.folder}
     key = (source.folder, source.depth)
     if key not in _indexes:
         index: dict[str, Path] = {}
