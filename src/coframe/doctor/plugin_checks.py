@@ -46,7 +46,8 @@ def plugin_checks() -> dict[str, PluginCheck]:
     """Return the checks of other distributions by code; those that cannot be used are reported once."""
     found: dict[str, PluginCheck] = {}
     for plugin, module in load_plugins(GROUP, report):
-        code, find, page = (getattr(module, name, None) for name in ("CODE", "find", "PAGE"))
+        values: list[Any] = [getattr(module, name, None) for name in ("CODE", "find", "PAGE")]
+        code, find, page = values
         problem = _problem(code, find, page)
         if not problem and code in found:
             problem = f"has the code {code}, which {found[code].plugin.package} has as well"

@@ -63,8 +63,8 @@ def _folder(plugin: Plugin) -> Path | None:
     top, *inner = plugin.target.partition(":")[0].split(".")
     folders = [Path(folder, top) for folder in filter(None, sys.path)]
     if inner and not any((folder / Path(*inner)).is_dir() for folder in folders):
-        # An editable installation has a finder for its package. It is not asked for the ROS package itself, during
-        # whose import this search runs.
+        # An editable installation has a finder for its package. The ROS package itself is excluded, because during
+        # its import this search runs.
         spec = None if top == plugin.name else PathFinder.find_spec(top)
         folders = [Path(folder) for folder in (spec.submodule_search_locations or ())] if spec else []
     return next((path for folder in folders if has_definitions(path := folder.joinpath(*inner))), None)
