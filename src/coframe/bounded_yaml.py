@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-__all__ = ["MAX_BYTES", "compose_yaml", "error_position", "read_yaml"]
+__all__ = ["MAX_BYTES", "compose_yaml", "error_position", "read_yaml", "yaml_events"]
 
 MAX_BYTES = 16 << 20  # of a parameter or launch file, and of the metadata of a recording
 MAX_DEPTH = 100
@@ -46,6 +46,14 @@ def compose_yaml(text: str | bytes, max_bytes: int = MAX_BYTES) -> Any:
     The arguments and errors are those of :func:`read_yaml`. A node with aliases occurs several times in the tree.
     """
     return _within_limits(text, max_bytes, lambda yaml, base: yaml.compose(text, base))
+
+
+def yaml_events(text: str | bytes, max_bytes: int = MAX_BYTES) -> list[Any]:
+    """Return the events of a YAML stream, for callers with rules of their own for its structure.
+
+    The arguments and errors are those of :func:`read_yaml`.
+    """
+    return _within_limits(text, max_bytes, lambda yaml, base: list(yaml.parse(text, Loader=base)))
 
 
 def error_position(error: ValueError) -> tuple[int, int] | None:

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Parameters of nodes."""
 
+import copy
 import enum
 
 import numpy as np
@@ -245,3 +246,46 @@ def test_set_descriptor(node):
         node.set_descriptor("a", limits)
     assert node.set_descriptor("a", limits, Parameter("a", value=3).get_parameter_value()).integer_value == 3
     assert node.get_parameter("a").value == 3
+
+
+STRINGS = ParameterDescriptor(type=Parameter.Type.STRING_ARRAY.value)
+
+
+@pytest.mark.parametrize(
+    ("value", "descriptor", "override", "expected", "kind"),
+    [
+        ([], None, None, [], Parameter.Type.BYTE_ARRAY),
+        ([], None, ["a"], ["a"], Parameter.Type.STRING_ARRAY),
+        ([], None, [1.5], [1.5], Parameter.Type.DOUBLE_ARRAY),
+        ([], STRINGS, None, [], Parameter.Type.STRING_ARRAY),
+        ([], STRINGS, ["a"], ["a"], Parameter.Type.STRING_ARRAY),
+        (["a"], None, [], [], Parameter.Type.STRING_ARRAY),
+        (Parameter.Type.STRING_ARRAY, None, [], [], Parameter.Type.STRING_ARRAY),
+        (Parameter.Type.INTEGER_ARRAY, None, [], [], Parameter.Type.INTEGER_ARRAY),
+    ],
+)
+def test_an_empty_list_has_the_element_type_of_the_others(make_node, value, descriptor, override, expected, kind):
+    words = [] if override is None else ["--ros-args", "-p", f"names:={override}".replace("'", '"')]
+    node = make_node("lists", cli_args=words, use_global_arguments=False)
+    node.declare_parameter("names", value, *([] if descriptor is None else [copy.deepcopy(descriptor)]))
+    parameter = node.get_parameter("names")
+    assert (list(parameter.value), parameter.type_) == (expected, kind)
+    assert node.describe_parameter("names").type == kind.value
+
+
+def test_the_first_list_that_is_set_gives_an_empty_list_its_element_type(node):
+    node.declare_parameter("names", [])
+    assert [result.successful for result in node.set_parameters([Parameter("names", value=["a", "b"])])] == [True]
+    assert node.get_parameter("names").value == ["a", "b"]
+    assert node.describe_parameter("names").type == Parameter.Type.STRING_ARRAY.value
+    (result,) = node.set_parameters([Parameter("names", value=[1])])
+    assert (result.successful, "expected 'Type.STRING_ARRAY'" in result.reason) == (False, True)
+    assert [result.successful for result in node.set_parameters([Parameter("names", value=[])])] == [True]
+    assert node.get_parameter("names") == Parameter("names", Parameter.Type.STRING_ARRAY, [])
+
+
+def test_an_empty_list_does_not_override_a_single_value(make_node):
+    node = make_node("lists", cli_args=["--ros-args", "-p", "gain:=[]"], use_global_arguments=False)
+    node.declare_parameter("gain", 1.5)
+    with pytest.raises(ParameterUninitializedException):
+        node.get_parameter("gain")

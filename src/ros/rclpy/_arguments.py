@@ -19,7 +19,12 @@ if TYPE_CHECKING:
 _START: Final = "--ros-args"
 _END: Final = "--"
 _DEPRECATED_REMAP: Final = re.compile(r"(?!\d)(?:\w+:)?[~/]?[\w{}]+(?:/[\w{}]+)*:=[~/]?[\w{}/]+")
+_NAME: Final = r"(?!__)[A-Za-z_][A-Za-z0-9_]*"
+_PARAMETER: Final = re.compile(rf"(?:(?P<node>{_NAME}):)?(?P<name>{_NAME}(?:[./]{_NAME})*/?)")
 _SWITCHES: Final = ("stdout-logs", "rosout-logs", "external-lib-logs")
+
+
+Parameters = dict[str, dict[str, Any]]  # values by pattern of node names and name of the parameter
 
 
 @dataclass(frozen=True)
@@ -38,7 +43,10 @@ class Remap:
 
 @dataclass(frozen=True)
 class ParameterOverride:
-    """A parameter value for the nodes whose fully qualified name matches a pattern (`/**` matches all nodes)."""
+    """A parameter value for the nodes whose fully qualified name matches a pattern.
+
+    `*` in the pattern is one name, `**` any number of names: `/**` matches all nodes.
+    """
 
     node_pattern: str
     name: str
@@ -46,8 +54,7 @@ class ParameterOverride:
 
     def matches(self, fully_qualified_name: str) -> bool:
         """Return whether the override applies to the node with this name."""
-        pattern = re.escape(self.node_pattern).replace(r"/\*\*", "(/[^/]+)*").replace(r"\*", "[^/]+")
-        return re.fullmatch(pattern, fully_qualified_name) is not None
+        return _yaml.is_match(self.node_pattern, fully_qualified_name)
 
 
 @dataclass
@@ -82,16 +89,20 @@ def parse(args: list[str]) -> Arguments:
         UnknownROSArgsError: An argument is not a ROS argument.
     """
     result = Arguments()
+    parameters: Parameters = {}
     unknown: list[str] = []
     for section in _sections(args):
         words = iter(section)
-        unknown.extend(word for word in words if not _parse_word(word, words, result))
+        unknown.extend(word for word in words if not _parse_word(word, words, result, parameters))
     if unknown:
         raise _with_hint(
             UnknownROSArgsError(str(unknown)),
             "These arguments after --ros-args are unknown. Write the program's own arguments before --ros-args.",
         )
     result.deprecated_remaps = [word for word in remove(args) if _parse_deprecated_remap(word, result)]
+    result.parameters = [
+        ParameterOverride(node, *item) for node, values in parameters.items() for item in values.items()
+    ]
     return result
 
 
@@ -123,13 +134,13 @@ def _sections(args: list[str]) -> Iterator[list[str]]:
         yield section
 
 
-def _parse_word(word: str, rest: Iterator[str], result: Arguments) -> bool:
+def _parse_word(word: str, rest: Iterator[str], result: Arguments, parameters: Parameters) -> bool:
     if word in {"-r", "--remap"}:
         result.remaps.append(_parse_remap(_argument_of(word, "remap rule", rest), word))
     elif word in {"-p", "--param"}:
-        result.parameters.append(_parse_parameter(_argument_of(word, "parameter override rule", rest), word))
+        _merge(parameters, _parse_parameter(_argument_of(word, "parameter override rule", rest), word))
     elif word == "--params-file":
-        result.parameters.extend(_parse_parameter_file(_argument_of(word, "file path", rest)))
+        _merge(parameters, _parse_parameter_file(_argument_of(word, "file path", rest)))
     elif word == "--log-level":
         _parse_log_level(_argument_of(word, "log level", rest), result.logging)
     elif word == "--log-config-file":
@@ -208,7 +219,13 @@ def _parse_deprecated_remap(word: str, result: Arguments) -> bool:
     return True
 
 
-def _parse_parameter(rule: str, flag: str) -> ParameterOverride:
+def _merge(parameters: Parameters, values: Parameters) -> None:
+    """Add values. As in rcl, all values of a node have the place of the first one: later nodes override them."""
+    for node, of_node in values.items():
+        parameters.setdefault(node, {}).update(of_node)
+
+
+def _parse_parameter(rule: str, flag: str) -> Parameters:
     try:
         return _parameter_of(rule)
     except ValueError as error:
@@ -216,18 +233,24 @@ def _parse_parameter(rule: str, flag: str) -> ParameterOverride:
         raise RCLInvalidROSArgsError(text) from None
 
 
-def _parameter_of(rule: str) -> ParameterOverride:
-    node, name, text = _split_rule(rule)
+def _parameter_of(rule: str) -> Parameters:
+    left, separator, text = rule.partition(":=")
+    if not separator or not left:
+        raise ValueError("it does not have the form name:=value")
     if not text:
         raise ValueError("it has no value after :=. An empty string is written as x:=\"''\"")
-    if re.match(r"[\d./]", name) or name.endswith("."):
-        raise ValueError("the name of a parameter starts with a letter, and its parts are separated by dots")
-    return ParameterOverride(f"/**/{node}" if node else "/**", name, _yaml.parse_value(text))
+    found = _PARAMETER.fullmatch(left)
+    if found is None:
+        raise ValueError(
+            "the name of a parameter consists of letters, digits and '_', starts with a letter or one '_', and its "
+            "parts are separated by dots. The name of a node and a colon can precede it"
+        )
+    return {found["node"] or "/**": {found["name"]: _yaml.parse_value(text)}}
 
 
-def _parse_parameter_file(path: str) -> list[ParameterOverride]:
+def _parse_parameter_file(path: str) -> Parameters:
     try:
-        return [ParameterOverride(*value) for value in _yaml.load_parameters(path)]
+        return _yaml.load_parameters(path)
     except (OSError, ValueError) as error:
         text = "Error opening YAML file" if isinstance(error, OSError) else str(error)
         hint = f"{error.strerror}: {path}" if isinstance(error, OSError) else "The format is that of `ros2 param dump`."

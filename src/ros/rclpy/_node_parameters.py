@@ -11,7 +11,14 @@ from typing import Any
 
 from coframe.formatting import did_you_mean
 from rcl_interfaces.msg import ListParametersResult, ParameterDescriptor, ParameterEvent, SetParametersResult
-from rclpy._parameter_ranges import RELATIVE_TOLERANCE, change_fault, range_fault
+from rclpy._parameter_ranges import (
+    RELATIVE_TOLERANCE,
+    change_fault,
+    is_array_type,
+    is_empty,
+    range_fault,
+    with_type,
+)
 from rclpy.exceptions import (
     InvalidParameterTypeException,
     InvalidParameterValueException,
@@ -49,6 +56,7 @@ class NodeParameters:
         self.__lock = threading.RLock()
         self.__parameters: dict[str, Parameter[Any]] = {}
         self.__descriptors: dict[str, ParameterDescriptor] = {}
+        self.__without_element_type: set[str] = set()  # declared with an empty list
         self.__pre_set_callbacks: list[PreSetCallback] = []
         self.__callbacks: list[SetCallback] = []
         self.__post_set_callbacks: list[PostSetCallback] = []
@@ -69,7 +77,8 @@ class NodeParameters:
 
         Args:
             name: Name of the parameter.
-            value: Default value, or a Parameter.Type if there is no default. None: a dynamically typed parameter.
+            value: Default value, or a Parameter.Type if there is no default. None: a dynamically typed parameter. An
+                empty list has the array type of the descriptor, of the override, or of the first list that is set.
             descriptor: Description, range, and whether the parameter is read-only or dynamically typed.
             ignore_override: Whether to use the default even if there is an override.
 
@@ -90,8 +99,9 @@ class NodeParameters:
         with self.__lock:
             if self.has_parameter(name):
                 raise ParameterAlreadyDeclaredException([name])
-            parameter, expected = self.__initial(name, value, ignore_override=ignore_override)
+            parameter, expected = self.__initial(name, value, descriptor.type, ignore_override=ignore_override)
             if not descriptor.dynamic_typing:
+                parameter = with_type(parameter, expected)
                 if expected is Parameter.Type.NOT_SET:
                     raise ValueError(f"Cannot declare parameter {name} as statically typed of type NOT_SET")
                 if parameter.type_ not in {expected, Parameter.Type.NOT_SET}:
@@ -103,6 +113,8 @@ class NodeParameters:
             if not result.successful:
                 del self.__descriptors[name]
                 raise InvalidParameterValueException(name, parameter.value, result.reason)
+            if not descriptor.dynamic_typing and expected is Parameter.Type.BYTE_ARRAY and is_empty(parameter):
+                self.__without_element_type.add(name)
             return self.__parameters[name]
 
     def declare_parameters(
@@ -327,16 +339,33 @@ class NodeParameters:
             self.__parameters[name] = parameter
             return parameter.get_parameter_value()
 
-    def __initial(self, name: str, value: Any, *, ignore_override: bool) -> tuple[Parameter[Any], Parameter.Type]:
+    def __initial(
+        self, name: str, value: Any, described_type: int, *, ignore_override: bool
+    ) -> tuple[Parameter[Any], Parameter.Type]:
         """Return the parameter with its initial value, and its declared type."""
         if isinstance(value, Parameter.Type):
             default, expected = Parameter[Any](name), value
         else:
-            default = Parameter(name, value=value)
+            default = with_type(Parameter(name, value=value), described_type)
             expected = default.type_
         if ignore_override or name not in self.__overrides:
             return default, expected
-        return Parameter(name, value=self.__overrides[name].value), expected
+        parameter = Parameter(name, value=self.__overrides[name].value)
+        if parameter.type_ is Parameter.Type.NOT_SET and is_array_type(expected):
+            return Parameter(name, expected, []), expected
+        if default.type_ is Parameter.Type.BYTE_ARRAY and is_empty(default) and is_array_type(parameter.type_):
+            expected = parameter.type_
+        return parameter, expected
+
+    def __typed(self, parameter: Parameter[Any]) -> Parameter[Any]:
+        """Return a parameter to be set with the type of its declaration, if either is an empty list without a type."""
+        descriptor = self.__descriptors.get(parameter.name)
+        if descriptor is None or descriptor.dynamic_typing:
+            return parameter
+        if parameter.name in self.__without_element_type and is_array_type(parameter.type_) and len(parameter.value):
+            self.__without_element_type.discard(parameter.name)
+            descriptor.type = parameter.type_.value
+        return with_type(parameter, descriptor.type)
 
     def __check_declared(self, parameters: list[Parameter[Any]]) -> None:
         for parameter in parameters:
@@ -360,6 +389,7 @@ class NodeParameters:
         return f"Call declare_parameter('{name}', ...) first. {declared}"
 
     def __set(self, parameters: list[Parameter[Any]]) -> SetParametersResult:
+        parameters = [self.__typed(parameter) for parameter in parameters]
         for pre_set in list(self.__pre_set_callbacks):
             parameters = pre_set(parameters)
         if self.__pre_set_callbacks:

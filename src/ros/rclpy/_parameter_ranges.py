@@ -12,6 +12,24 @@ if TYPE_CHECKING:
     from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescriptor
 
 RELATIVE_TOLERANCE: Final = 1e-6
+_ARRAY_TYPES: Final = frozenset(kind for kind in Parameter.Type if kind.name.endswith("_ARRAY"))
+
+
+def is_array_type(kind: int) -> bool:
+    """Return whether a number of a parameter type is that of an array."""
+    return kind in _ARRAY_TYPES
+
+
+def is_empty(parameter: Parameter[Any]) -> bool:
+    """Return whether a value is an empty array, which has no elements that have a type."""
+    return parameter.type_ in _ARRAY_TYPES and not len(parameter.value)
+
+
+def with_type(parameter: Parameter[Any], kind: int) -> Parameter[Any]:
+    """Return an empty array as one of another array type, any other parameter itself."""
+    if kind != parameter.type_ and is_array_type(kind) and is_empty(parameter):
+        return Parameter(parameter.name, Parameter.Type(kind), [])
+    return parameter
 
 
 def change_fault(parameter: Parameter[Any], descriptor: ParameterDescriptor) -> str:

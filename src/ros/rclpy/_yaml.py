@@ -1,147 +1,257 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Parser of parameter values on the command line and in parameter files, with ROS's typing rules."""
+"""Parser of parameter values on the command line and of parameter files, which accepts what rcl's parser accepts."""
 
 from __future__ import annotations
 
-import math
 import re
 from typing import TYPE_CHECKING, Any, Final
 
-from coframe.bounded_yaml import MAX_BYTES, compose_yaml
+from coframe.bounded_yaml import MAX_BYTES, yaml_events
 from coframe.optional_imports import pip_install
 from coframe.regular_files import read_regular
+from rclpy._parameter_words import parse_scalar
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterable
 
-_TRUE: Final = {"y", "yes", "true", "on"}
-_FALSE: Final = {"n", "no", "false", "off"}
-_SPECIAL_FLOATS: Final = {".nan": "nan", ".inf": "inf", "+.inf": "inf", "-.inf": "-inf"}
-_NOT_FINITE: Final = {"nan", "inf", "infinity"}
-_INTEGER: Final = re.compile(r"[-+]?(0[xX][0-9a-fA-F]+|0[0-7]*|[1-9]\d*)")
-_FLOAT: Final = re.compile(r"[-+]?((\d+\.?\d*|\.\d+)([eE][-+]?\d+)?|nan|inf|infinity)", re.IGNORECASE)
-_MAX_DIGITS: Final = 30  # of an integer with 64 bits, in any form
-_ITEM: Final = re.compile(r"""\s*("(?:[^"\\]|\\.)*"|'(?:[^']|'')*'|[^,\]]*?)\s*(,|$)""")
+_STRING_TAG: Final = "tag:yaml.org,2002:str"
+_KEY: Final = "ros__parameters"
+_TOKEN: Final = re.compile(r"[A-Za-z_][A-Za-z0-9_]*|\*\*?")
+_TYPE_NAMES: Final = {bool: "bool", int: "integer", float: "double", str: "string"}
 
-
-def parse_scalar(text: str) -> bool | int | float | str:
-    """Return the typed value of an unquoted word."""
-    lower = text.lower()
-    if lower in _TRUE | _FALSE:
-        return lower in _TRUE
-    if lower in _SPECIAL_FLOATS:
-        return float(_SPECIAL_FLOATS[lower])
-    if _INTEGER.fullmatch(text) and (number := _integer(lower)) is not None:
-        return number
-    if _FLOAT.fullmatch(text):
-        value = float(text)
-        is_in_range = math.isfinite(value) or lower.lstrip("+-") in _NOT_FINITE
-        return value if is_in_range else text
-    return text
-
-
-def _integer(text: str) -> int | None:
-    """Return an integer as C's strtol reads it, also in hexadecimal or octal form; None above 64 bits."""
-    digits = text.lstrip("+-")
-    base = 16 if digits.startswith("0x") else 8 if digits.startswith("0") else 10
-    number = int(text, base) if len(text) <= _MAX_DIGITS else 2**63
-    return number if -(2**63) <= number < 2**63 else None
+# Values without any special rule of YAML, which are read without PyYAML.
+_PART: Final = r"[A-Za-z0-9_./+~$^;=\xa1-\u1fff-][A-Za-z0-9_./+~$^;=:@%#!*()<>\xa1-\u1fff-]*(?<!:)"
+_WORD: Final = rf"(?![-.]*(?: |$|,))(?!---|\.\.\.)(?!- )(?:{_PART}(?: +{_PART})*)"
+_QUOTED: Final = r"""'(?:[^'\n\r]|'')*'|"[^"\\\n\r]*\""""
+_ITEM: Final = rf"(?:{_QUOTED}|{_WORD})"
+_SIMPLE: Final = re.compile(rf" *(?:{_ITEM}|\[ *(?:{_ITEM} *(?:, *{_ITEM} *)*,? *)?\]) *")
+_ITEMS: Final = re.compile(_ITEM)
 
 
 def parse_value(text: str) -> Any:
-    """Return the typed value of the text after `name:=`: a word, a quoted string, or a list in square brackets."""
-    text = text.strip()
-    if text.startswith("[") and text.endswith("]"):
-        return _checked_list(list(_parse_items(text[1:-1])))
-    return _parse_word(text)
-
-
-def _checked_list(values: list[Any]) -> list[Any]:
-    """Return the list if its values have one type.
+    """Return the typed value of the text after `name:=`: a scalar, or a list of scalars of one type.
 
     Raises:
-        ValueError: They have several types.
+        ValueError: The text is not valid YAML, is a mapping, or is a list with several types.
     """
-    for value in values:
-        if type(value) is not type(values[0]):
-            kind = {bool: "bool", int: "integer", float: "double", str: "string"}[type(value)]
-            raise ValueError(f"Sequence should be of same type. Value type '{kind}' do not belong at line_num 1")
-    return values
+    if _SIMPLE.fullmatch(text):
+        words = [_simple_scalar(word) for word in _ITEMS.findall(text)]
+        return _of_one_type(words, 1) if text.lstrip(" ").startswith("[") else words[0]
+    value = _Value()
+    for event in _events(text):
+        kind = type(event).__name__
+        if kind == "ScalarEvent":
+            value.add(event)
+        elif kind == "SequenceStartEvent":
+            value.begin_list()
+        elif kind == "SequenceEndEvent":
+            value.end_list()
+        elif kind in {"MappingStartEvent", "AliasEvent"}:
+            raise ValueError(f"{text!r} is a mapping or an alias of YAML. Expected one value, or a list in brackets")
+    return value.value
 
 
-def _parse_items(text: str) -> Iterator[Any]:
-    position = 0
-    while position < len(text):
-        item = _ITEM.match(text, position)
-        if item is None or item.end() == position:
-            raise ValueError(f"[{text}] is not a list of values")
-        if item[1]:
-            yield _parse_word(item[1])
-        position = item.end()
-
-
-def _parse_word(text: str) -> bool | int | float | str:
-    if len(text) >= 2 and text[0] == text[-1] == "'":
-        return text[1:-1].replace("''", "'")
-    if len(text) >= 2 and text[0] == text[-1] == '"':
-        return re.sub(r"\\(.)", r"\1", text[1:-1])
-    return parse_scalar(text)
-
-
-def load_parameters(path: str) -> Iterator[tuple[str, str, Any]]:
+def load_parameters(path: str) -> dict[str, dict[str, Any]]:
     """Read a parameter file.
 
-    Yields:
-        Tuples (pattern of node names, name of the parameter, value).
+    Returns:
+        Values by pattern of node names and name of the parameter. Blocks of the same node are merged in their order.
 
     Raises:
         OSError: The file cannot be read.
         ValueError: It is not a parameter file, exceeds a limit, or PyYAML is not installed.
     """
+    reader = _FileReader()
+    for event in _events(read_regular(path, MAX_BYTES)):
+        getattr(reader, f"on_{type(event).__name__}", _ignore)(event)
+    return reader.nodes
+
+
+def is_match(pattern: str, node: str) -> bool:
+    """Return whether a fully qualified name matches a pattern: `*` is one name in it, `**` any number of names."""
+    parts = re.escape(f"/{pattern.removeprefix('/')}").replace(r"/\*\*", "(/[^/]+)*").replace(r"\*", "[^/]+")
+    return re.fullmatch(parts, f"/{node.removeprefix('/')}") is not None
+
+
+def _events(text: str | bytes) -> Iterable[Any]:
     try:
-        root = compose_yaml(read_regular(path, MAX_BYTES))
+        return yaml_events(text)
     except ImportError:
         raise ValueError(f"reading it needs the package PyYAML: {pip_install('params')}") from None
-    yield from _nodes(_python_of(root), "")
 
 
-class _Mapping(list[tuple[str, Any]]):
-    """The names and values of a YAML mapping. A name may occur several times: ROS 2 reads all blocks of a node."""
+def _ignore(_event: Any) -> None:
+    """Streams and documents have no meaning of their own: rcl reads all documents of a file."""
 
 
-def _python_of(node: Any) -> Any:
-    """Return a YAML node as Python values. PyYAML's own typing differs from ROS's (1e5, .5, ...)."""
-    if node is None:
-        return _Mapping()
-    if node.id == "mapping":
-        return _Mapping((_name(key), _python_of(value)) for key, value in node.value)
-    if node.id == "sequence":
-        return [_python_of(value) for value in node.value]
-    return node.value if node.style else parse_scalar(node.value)
+def _simple_scalar(word: str) -> bool | int | float | str:
+    if word[0] == "'":
+        return word[1:-1].replace("''", "'")
+    return word[1:-1] if word[0] == '"' else parse_scalar(word)
 
 
-def _name(node: Any) -> str:
-    if not isinstance(node.value, str):
-        raise ValueError(f"expected a name on line {node.start_mark.line + 1}, found a list or a mapping")  # noqa: TRY004
-    return node.value
+def _scalar(event: Any) -> bool | int | float | str:
+    is_quoted = event.style in {"'", '"'}
+    if not event.value and not is_quoted:
+        raise ValueError(f"No value at line {_line(event)}")
+    text: str = event.value.partition("\0")[0]  # as in C
+    return text if is_quoted or event.tag == _STRING_TAG else parse_scalar(text)
 
 
-def _nodes(tree: Any, prefix: str) -> Iterator[tuple[str, str, Any]]:
-    if not isinstance(tree, _Mapping):
-        raise ValueError(f"expected node names with `ros__parameters:` below them, found {tree!r}")  # noqa: TRY004
-    for key, value in tree:
-        if key == "ros__parameters":
-            for name, parameter in _flatten(value, ""):
-                yield prefix or "/**", name, parameter
+def _line(event: Any) -> int:
+    line: int = event.start_mark.line
+    return line + 1
+
+
+def _of_one_type(values: list[Any], line: int) -> list[Any]:
+    for value in values:
+        if type(value) is not type(values[0]):
+            kind = _TYPE_NAMES[type(value)]
+            raise ValueError(f"Sequence should be of same type. Value type '{kind}' do not belong at line_num {line}")
+    return values
+
+
+class _Value:
+    """The value of a parameter from the events of YAML. Lists in lists are no part of ROS: the last one counts."""
+
+    def __init__(self) -> None:
+        self.value: Any = None
+        self.is_list = False
+        self._items: list[Any] = []
+
+    def begin_list(self) -> None:
+        self.is_list = True
+        self._items = []
+        if self.value is None:
+            self.value = self._items
+
+    def end_list(self) -> None:
+        self.is_list = False
+
+    def add(self, event: Any) -> None:
+        scalar = _scalar(event)
+        if not self.is_list:
+            self.value = scalar
+            return
+        self._items.append(scalar)
+        _of_one_type([self._items[0], scalar], _line(event))
+        self.value = self._items
+
+
+class _Namespace:
+    """Names joined by a separator. The last part is removed, which is what rcl does for names with separators."""
+
+    def __init__(self, separator: str) -> None:
+        self.text = ""
+        self.depth = 0
+        self._separator = separator
+
+    def add(self, name: str) -> None:
+        self.text += name if not self.depth or self.text.endswith(self._separator) else self._separator + name
+        self.depth += 1
+
+    def replace(self, text: str) -> None:
+        self.text = text
+        self.depth += 1
+
+    def remove_last(self) -> None:
+        if self.depth == 1:
+            self.text = ""
+        elif self._separator in self.text:
+            self.text = self.text.rpartition(self._separator)[0]
+        self.depth = max(self.depth - 1, 0)
+
+
+class _FileReader:
+    """Collects the parameters of a file from the events of YAML. The methods are named after the classes of events."""
+
+    def __init__(self) -> None:
+        self.nodes: dict[str, dict[str, Any]] = {}
+        self._names = _Namespace("/")
+        self._prefix = _Namespace(".")
+        self._parameters: dict[str, Any] = {}  # of the node of the block
+        self._parameter: str | None = None
+        self._value = _Value()
+        self._depth = 0
+        self._is_key = True
+        self._is_in_block = False  # below `ros__parameters:`
+        self._is_new_mapping = False
+
+    def on_ScalarEvent(self, event: Any) -> None:
+        if self._is_key:
+            self._on_key(event.value.partition("\0")[0], _line(event))
+            self._is_key = False
+            return
+        self._check_value(event)
+        self._value.add(event)
+        self._store()
+        self._is_key = not self._value.is_list
+
+    def on_SequenceStartEvent(self, event: Any) -> None:
+        if self._is_key:
+            raise ValueError(f"Sequences cannot be key at line {_line(event)}")
+        self._check_value(event)
+        self._value.begin_list()
+        self._store()
+
+    def on_SequenceEndEvent(self, _event: Any) -> None:
+        self._value.end_list()
+        self._is_key = True
+
+    def on_MappingStartEvent(self, event: Any) -> None:
+        if self._value.is_list:
+            raise ValueError(f"Mappings cannot be in lists at line {_line(event)}")
+        self._depth += 1
+        self._is_key = True
+        # The mapping of a block is not that of a parameter.
+        self._is_new_mapping = not (self._is_in_block and self._depth - self._names.depth == 2)
+
+    def on_MappingEndEvent(self, _event: Any) -> None:
+        if self._is_in_block:
+            if self._prefix.depth:
+                self._prefix.remove_last()
+            else:
+                self._is_in_block = False
+        elif self._depth == self._names.depth + 1:
+            self._names.remove_last()
+        self._depth -= 1
+
+    def on_AliasEvent(self, event: Any) -> None:
+        raise ValueError(f"Will not support aliasing at line {_line(event)}")
+
+    def _check_value(self, event: Any) -> None:
+        if not self._is_in_block or self._parameter is None:
+            raise ValueError(f"Cannot have a value before {_KEY} at line {_line(event)}")
+
+    def _store(self) -> None:
+        assert self._parameter is not None
+        self._parameters[self._parameter] = self._value.value
+
+    def _on_key(self, name: str, line: int) -> None:
+        if not name:
+            raise ValueError(f"No key at line {line}")
+        if self._is_in_block:
+            if self._is_new_mapping:
+                self._prefix.replace(self._parameter or name)
+                self._is_new_mapping = False
+            self._parameter = f"{self._prefix.text}.{name}" if self._prefix.depth else name
+            self._value = _Value()
+        elif name.startswith(_KEY):
+            if not self._names.depth:
+                raise ValueError(f"There are no node names before {_KEY} at line {line}")
+            _check_node_name(self._names.text, line)
+            self._parameters = self.nodes.setdefault(self._names.text, {})
+            self._parameter = None
+            self._is_in_block = True
         else:
-            yield from _nodes(value, f"{prefix}/{key.strip('/')}")
+            self._names.add(name)
 
 
-def _flatten(tree: Any, prefix: str) -> Iterator[tuple[str, Any]]:
-    if not isinstance(tree, _Mapping) and tree not in (None, ""):
-        raise ValueError(f"expected names and values below `ros__parameters:`, found {tree!r}")
-    for key, value in tree or ():
-        if isinstance(value, _Mapping):
-            yield from _flatten(value, f"{prefix}{key}.")
-        else:
-            yield f"{prefix}{key}", value
+def _check_node_name(name: str, line: int) -> None:
+    """Raise ValueError if a name is neither that of a node nor a pattern with `*` and `**` as parts."""
+    for part in name.removeprefix("/").split("/"):
+        if not _TOKEN.fullmatch(part):
+            raise ValueError(
+                f"{name!r} above line {line} is not the name of a node. The parts between slashes must be '*', '**', "
+                "or letters, digits and '_' without a digit in front"
+            )

@@ -99,7 +99,8 @@ class Node(_node_endpoints.Node):
         self.__clock = ROSClock()
 
         overrides = {
-            override.name: Parameter(override.name, value=override.value)
+            # As in rcl, an empty list has no type yet: that of the declaration applies.
+            override.name: Parameter(override.name, value=None if override.value == [] else override.value)
             for override in arguments.parameters
             if override.matches(self.get_fully_qualified_name())
         }

@@ -213,26 +213,32 @@ def parameter_dict_from_yaml_file(
 
     Args:
         parameter_file: Path of the file, which has the format of `--params-file`.
-        use_wildcard: Whether to include the parameters of all nodes (`/**`).
+        use_wildcard: Whether to include the parameters below `/**` and other patterns. Those of nodes override them.
         target_nodes: Fully qualified names of the nodes whose parameters are read. None for all nodes of the file.
         namespace: Prefix of the returned names, without the dot.
 
     Raises:
         RuntimeError: The file does not exist, is not a parameter file, or has no parameters of the nodes.
     """
-    found: dict[str, ParameterMsg] = {}
-    nodes = {pattern: name for name in target_nodes or [] for pattern in (name, name.lstrip("/"), f"/{name}")}
     try:
-        entries = list(_yaml.load_parameters(parameter_file))
+        nodes = _yaml.load_parameters(parameter_file)
     except (OSError, ValueError) as error:
         raise RuntimeError(f"cannot read the parameters of {parameter_file}: {error}") from error
-    for pattern, name, value in entries:
-        is_wildcard = pattern == "/**"
-        if (is_wildcard and use_wildcard) or (not is_wildcard and (target_nodes is None or pattern in nodes)):
+    wildcards = [pattern for pattern in nodes if "*" in pattern]
+    named = [pattern for pattern in nodes if "*" not in pattern]
+    if target_nodes:
+        wildcards = [each for each in wildcards if any(_yaml.is_match(each, node) for node in target_nodes)]
+        named = [each for each in named if any(_yaml.is_match(each, node) for node in target_nodes)]
+    found: dict[str, ParameterMsg] = {}
+    for pattern in [*(wildcards if use_wildcard else ()), *named]:
+        for name, value in nodes[pattern].items():
             full = f"{namespace}{PARAMETER_SEPARATOR_STRING}{name}" if namespace else name
             found[full] = Parameter(full, value=value).to_parameter_msg()
     if not found:
-        raise RuntimeError(f"Param file does not contain any valid parameters for {target_nodes or 'any node'}")
+        wanted = ", ".join(target_nodes or ["any node"])
+        raise RuntimeError(
+            f"Param file does not contain any valid parameters for {wanted}. It contains parameters for: {list(nodes)}"
+        )
     return found
 
 

@@ -5,10 +5,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from coframe.bounded_yaml import MAX_BYTES
 from coframe.cli.output import fail
-from coframe.cli.ros2.values import yaml_value
-from coframe.regular_files import read_regular_text
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -99,28 +96,10 @@ def parameters_of_file(file: Path, node_name: str, *, use_wildcard: bool) -> dic
         node_name: Full name of the node.
         use_wildcard: Whether parameters below /** count.
     """
+    from rclpy.parameter import parameter_dict_from_yaml_file  # noqa: PLC0415 - slow import
+
     try:
-        content = yaml_value(read_regular_text(file, MAX_BYTES), str(file))
-    except OSError as error:
-        fail(f"cannot read {file}: {error.strerror}")
-    except UnicodeDecodeError:
-        fail(f"{file} is not a text file")
-    sections = content if isinstance(content, dict) else {}
-    keys = [*(("/**",) if use_wildcard else ()), node_name, node_name.lstrip("/")]
-    values: dict[str, Any] = {}
-    for key in keys:
-        section = sections.get(key)
-        if isinstance(section, dict) and isinstance(section.get("ros__parameters"), dict):
-            values.update(_flat(section["ros__parameters"]))
-    if not values:
-        found = ", ".join(map(str, sections)) or "nothing"
-        fail(f"Param file does not contain parameters for {node_name}", f"It contains parameters for: {found}.")
-    return values
-
-
-def _flat(tree: Mapping[Any, Any], prefix: str = "") -> Iterator[tuple[str, Any]]:
-    for key, value in tree.items():
-        if isinstance(value, dict):
-            yield from _flat(value, f"{prefix}{key}.")
-        else:
-            yield f"{prefix}{key}", value
+        messages = parameter_dict_from_yaml_file(str(file), use_wildcard, target_nodes=[node_name])
+    except RuntimeError as error:
+        fail(str(error))
+    return {name: message.value for name, message in messages.items()}

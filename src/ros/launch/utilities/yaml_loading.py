@@ -32,7 +32,10 @@ def dump_yaml(value: Any) -> str:
     Raises:
         RuntimeError: PyYAML is not installed.
     """
-    text: str = _yaml().safe_dump(value, default_flow_style=False)
+    yaml = _yaml()
+    # Parameter files must not contain aliases, which a list that is used twice would become.
+    dumper = type("DumperWithoutAliases", (yaml.SafeDumper,), {"ignore_aliases": lambda *_: True})
+    text: str = yaml.dump(value, Dumper=dumper, default_flow_style=False)
     return text
 
 
