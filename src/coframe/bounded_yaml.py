@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-__all__ = ["MAX_BYTES", "compose_yaml", "error_position", "read_yaml", "yaml_events"]
+__all__ = ["MAX_BYTES", "error_position", "read_yaml", "yaml_events"]
 
 MAX_BYTES = 16 << 20  # of a parameter or launch file, and of the metadata of a recording
 MAX_DEPTH = 100
@@ -40,20 +40,13 @@ def read_yaml(text: str | bytes, max_bytes: int = MAX_BYTES) -> Any:
     return _within_limits(text, max_bytes, load)
 
 
-def compose_yaml(text: str | bytes, max_bytes: int = MAX_BYTES) -> Any:
-    """Return the root node of a YAML document, for callers that apply their own typing rules; None if it is empty.
-
-    The arguments and errors are those of :func:`read_yaml`. A node with aliases occurs several times in the tree.
-    """
-    return _within_limits(text, max_bytes, lambda yaml, base: yaml.compose(text, base))
-
-
 def yaml_events(text: str | bytes, max_bytes: int = MAX_BYTES) -> list[Any]:
-    """Return the events of a YAML stream, for callers with rules of their own for its structure.
+    """Return the events of a YAML stream, for callers that apply their own rules to its structure.
 
     The arguments and errors are those of :func:`read_yaml`.
     """
-    return _within_limits(text, max_bytes, lambda yaml, base: list(yaml.parse(text, Loader=base)))
+    events: list[Any] = _within_limits(text, max_bytes, lambda yaml, base: list(yaml.parse(text, Loader=base)))
+    return events
 
 
 def error_position(error: ValueError) -> tuple[int, int] | None:

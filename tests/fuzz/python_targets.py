@@ -501,7 +501,7 @@ def parameters() -> Callable[[bytes], object]:
         path = _scratch() / "parameters.yaml"
         path.write_bytes(data)
         with contextlib.suppress(ValueError):
-            list(load_parameters(str(path)))
+            load_parameters(str(path))
         with contextlib.suppress(ValueError):
             parse_value(data.decode("utf-8", "replace"))
 

@@ -33,7 +33,7 @@ def parse_scalar(text: str) -> bool | int | float | str:
     """Return the typed value of an unquoted word."""
     if text in _TRUE or text in _FALSE:
         return text in _TRUE
-    number = _integer(text)
+    number: float | None = _integer(text)
     if number is None:
         number = _SPECIAL_FLOATS[text] if text in _SPECIAL_FLOATS else _double(text)
     return text if number is None else number
