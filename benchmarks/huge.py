@@ -36,8 +36,8 @@ IMAGE = 4 << 20
 BRANCHES = 50
 """Children of each frame of the tree."""
 
-MOST_MEMORY = 1 << 30
-MOST_SECONDS_TO_END = 1.0
+MAX_MEMORY = 1 << 30
+MAX_SECONDS_TO_END = 1.0
 STATUS_INTERVAL = 0.02
 FIRST_SECONDS = 2.0
 """The interpreter may still be starting before; Ctrl-C then ends it by the signal."""
@@ -214,9 +214,9 @@ def measure(arguments: list[str], scratch: Path, limit: float) -> Row:
         if second.process.poll() is None:  # It can be faster than the first one.
             end_seconds = second.interrupt()
             problems += ended_badly(second, scratch)
-    if command.memory > MOST_MEMORY:
+    if command.memory > MAX_MEMORY:
         problems.append("more than 1 GB of memory")
-    if end_seconds > MOST_SECONDS_TO_END:
+    if end_seconds > MAX_SECONDS_TO_END:
         problems.append(f"ended {end_seconds:.1f} s after Ctrl-C")
     shows_progress = "\u2501" in command.text()
     return Row(" ".join(arguments), seconds, processor_seconds, command.memory, shows_progress, end_seconds, problems)

@@ -22,7 +22,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import coframe
-from coframe.shared_transforms import Source
+from coframe.connection.shared_transforms import Source
 from coframe.time import SECOND
 
 if TYPE_CHECKING:

@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 
 import coframe
+from coframe._files.complete_files import complete_or_absent, write_complete
 from coframe.bags import Writer
-from coframe.complete_files import complete_or_absent, write_complete
 from coframe.messages import find, serialize
 
 # A limit on the size of files has the same effect as a full disk, and needs no mounted file system.

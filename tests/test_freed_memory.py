@@ -11,7 +11,7 @@ MEMORY = """
 import os, sys
 from pathlib import Path
 import numpy as np
-from coframe.freed_memory import return_freed_arrays, return_freed_blocks
+from coframe._process.freed_memory import return_freed_arrays, return_freed_blocks
 
 def memory():
     return int(Path("/proc/self/statm").read_text().split()[1]) * os.sysconf("SC_PAGE_SIZE")

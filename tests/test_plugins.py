@@ -7,7 +7,7 @@ import sys
 import pytest
 
 from coframe import CoframeError
-from coframe._plugins import PluginError, load_plugins, plugins
+from coframe._process.plugins import PluginError, load_plugins, plugins
 
 GROUP = "coframe.commands"
 

@@ -12,7 +12,7 @@ pytestmark = pytest.mark.skipif(not hasattr(os, "fork"), reason="the system has 
 
 START = """
     import os, signal, sys, threading, time
-    from coframe.signal_handlers import SignalHandlers
+    from coframe._process.signal_handlers import SignalHandlers
 
     def ended_by(number, prepare=lambda: None):
         ready, write = os.pipe()
@@ -82,7 +82,7 @@ INTERRUPTED = """
 """
 
 
-@pytest.mark.parametrize("module", ["coframe.entry_point", "command"])
+@pytest.mark.parametrize("module", ["coframe.workspace.entry_point", "command"])
 def test_an_interrupt_that_was_handled_in_generated_code_is_not_the_end(module, tmp_path):
     (tmp_path / "program.py").write_text(textwrap.dedent(INTERRUPTED))
     (tmp_path / "command.py").write_text(

@@ -109,7 +109,9 @@ def test_uninstalling_leaves_nothing(wheel, tmp_path):
     before = files_below(packages), files_below(scripts)
     pip(python, "install", "--no-deps", wheel)
     assert (packages / "coframe_ros.pth").is_file()
-    run(python, "-c", "import coframe, coframe.frame_names, coframe.ros_side")  # leaves compiled modules behind
+    run(
+        python, "-c", "import coframe, coframe.frame_names, coframe.workspace.ros_side"
+    )  # leaves compiled modules behind
     pip(python, "uninstall", "--yes", "coframe")
     assert (files_below(packages), files_below(scripts)) == before
     assert run(python, "-c", "import sys; print([f for f in sys.meta_path if 'Coframe' in repr(f)])") == "[]\n"

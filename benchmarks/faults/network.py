@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 _TUNSETIFF = 0x400454CA
 _TAP, _NO_PACKET_INFORMATION = 0x0002, 0x1000
-_LARGEST_FRAME = 65536
+_MAX_FRAME_BYTES = 65536
 _ARP = bytes.fromhex("0806")  # the type of a frame, after two addresses of 6 bytes
 _IPV4_MULTICAST = bytes.fromhex("01005e")  # begin of the destination address
 _UP = "ip link set lo up && ip link set lo multicast on && echo up && exec cat"
@@ -135,7 +135,7 @@ class Lan:
     def _receive(self, tap: int, others: list[int]) -> None:
         with contextlib.suppress(BlockingIOError):
             while True:
-                frame = os.read(tap, _LARGEST_FRAME)
+                frame = os.read(tap, _MAX_FRAME_BYTES)
                 for other in others:
                     deliveries = list(self.impairment.deliveries(frame, self._chance))
                     self.frames += 1

@@ -13,7 +13,7 @@ FEW, MANY = 10, 100
 FRAMES, HERTZ, SECONDS = "20", "50", "5"
 SAMPLES = 2
 # rmw_zenoh_cpp drops messages of /tf if a connection is congested, which happens if other programs use the processors.
-MOST_LOST = 0.01
+MAX_LOST = 0.01
 
 
 class Runs:
@@ -30,7 +30,7 @@ class Runs:
             raise MissingPeerError("pip install 'coframe[zenoh]'")
         while len(self._outcomes) <= number:
             outcome = Outcome._make(self._program.samples())
-            if outcome.lost > MOST_LOST * self._robots * int(HERTZ) * int(SECONDS):
+            if outcome.lost > MAX_LOST * self._robots * int(HERTZ) * int(SECONDS):
                 raise RuntimeError(f"{outcome.lost:.0f} messages were lost")
             self._outcomes.append(outcome)
         return self._outcomes[number]

@@ -14,7 +14,7 @@ from benchmarks.rows.single import AT_A_TIME, NEWEST, TIME
 from benchmarks.statement import Statement
 from coframe import _core
 
-MOST = 1.3
+MAX_RATIO = 1.3
 DEPTH = 5
 
 
@@ -41,7 +41,10 @@ def contenders(code: str) -> Generator[Contender]:
 
 def row(name: str, code: str) -> Row:
     return Row(
-        f"{name} in shared transforms, D={DEPTH}", "coframe, own memory", lambda: contenders(code), GrowsAtMost(MOST)
+        f"{name} in shared transforms, D={DEPTH}",
+        "coframe, own memory",
+        lambda: contenders(code),
+        GrowsAtMost(MAX_RATIO),
     )
 
 

@@ -20,7 +20,7 @@ class Output {
   Output& operator=(const Output&) = delete;
   ~Output() {
     for (Array& array : arrays_) PyBuffer_Release(&array.view);
-    if (bytes_.capacity() > kMostKept) std::vector<char>().swap(bytes_);
+    if (bytes_.capacity() > kMaxKept) std::vector<char>().swap(bytes_);
   }
 
   void append(const void* data, std::size_t size) {
@@ -82,7 +82,7 @@ class Output {
   static constexpr std::size_t kHeaderSize = 4;
   static constexpr char kLittleEndianHeader[kHeaderSize] = {0, 1, 0, 0};
   // Memory of up to this size is kept for the next message of the thread.
-  static constexpr std::size_t kMostKept = 1 << 20;
+  static constexpr std::size_t kMaxKept = 1 << 20;
   // Arrays of this size and more are copied only once, to where the message is needed.
   static constexpr std::size_t kLarge = 1 << 14;
 

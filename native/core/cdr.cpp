@@ -13,7 +13,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "the fast path copies little-endian bytes as they are");
 
 constexpr std::size_t kHeader = 4;          // encapsulation header: 00, 01 (little endian) or 00 (big endian), options
-constexpr std::size_t kLargestPadding = 3;  // some writers pad the last 4 bytes
+constexpr std::size_t kMaxPadding = 3;  // some writers pad the last 4 bytes
 constexpr std::int64_t kNanosecondsPerSecond = 1'000'000'000;
 
 // Reads primitives. Positions are relative to the end of the header, because CDR aligns relative to it.
@@ -127,7 +127,7 @@ DecodeFailure read_message(const std::uint8_t* data, std::size_t size, std::uint
   bool complete = reader.number(count);
   for (std::uint32_t i = 0; complete && i < count; ++i) complete = read(reader, i);
   if (!complete) return {kHeader + reader.position(), reader.reason()};
-  if (reader.left() > kLargestPadding) {
+  if (reader.left() > kMaxPadding) {
     return {kHeader + reader.position(), "bytes are left over after the last transform"};
   }
   return {};

@@ -13,7 +13,7 @@ namespace coframe {
 
 namespace {
 
-constexpr std::int64_t kLongestWait = 1'000'000'000;
+constexpr std::int64_t kMaxPause = 1'000'000'000;
 
 std::int64_t current_process() {
 #ifdef __unix__
@@ -50,7 +50,7 @@ void ChangeFollower::ensure_running() {
 void ChangeFollower::run() {
   for (;;) {
     try {
-      tree_.access()->wait_for_change(changes_, kLongestWait);
+      tree_.access()->wait_for_change(changes_, kMaxPause);
       if (!stopped_) {
         const ForkSafeScope scope;
         notify();

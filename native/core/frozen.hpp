@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A tree as the parts of a file: a table of its contents, which is read when the file is opened, and the samples, which
-// are used in place. coframe/frozen.py writes the file around them.
+// are used in place. coframe/buffer/frozen.py writes the file around them.
 #pragma once
 
 #include <cstddef>

@@ -20,13 +20,13 @@ bool same(const Sample& a, const Sample& b) {
 
 // A publisher may send any number of different transforms with one stamp; comparing each with all others would take
 // quadratic time.
-constexpr std::size_t kMostCompared = 64;
+constexpr std::size_t kMaxCompared = 64;
 
 constexpr std::uint64_t kFirstDirectory = 2;
 
 // Returns whether one of the last samples at `stamp`, which end before index `end`, equals `sample`.
 bool repeats(const History::View& samples, std::size_t end, Stamp stamp, const Sample& sample) {
-  const std::size_t begin = end < kMostCompared ? 0 : end - kMostCompared;
+  const std::size_t begin = end < kMaxCompared ? 0 : end - kMaxCompared;
   for (std::size_t i = end; i > begin && samples.time(i - 1) == stamp; --i) {
     if (same(samples.sample(i - 1), sample)) return true;
   }

@@ -21,8 +21,8 @@ inline double dot(const double* a, const double* b) { return a[0] * b[0] + a[1] 
 // one whose squared length underflows or overflows, becomes NaN.
 inline void canonicalise(double* q) {
   const double length2 = dot(q, q);
-  constexpr double kLeast = 2.0 / std::numeric_limits<double>::max();  // tf2 divides 2 by the squared length
-  if (!(length2 > kLeast) || !std::isfinite(length2)) {
+  constexpr double kMin = 2.0 / std::numeric_limits<double>::max();  // tf2 divides 2 by the squared length
+  if (!(length2 > kMin) || !std::isfinite(length2)) {
     for (int i = 0; i < 4; ++i) q[i] = std::numeric_limits<double>::quiet_NaN();
     return;
   }

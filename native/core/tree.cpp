@@ -172,9 +172,9 @@ bool Tree::become_private() {
 // The writer is another process, which cannot be locked out, and which may change the tree faster than all samples of a
 // frame can be copied. Then the oldest ones are left out, and finally all.
 void Tree::copy_shared(History& history, const Tree& other, FrameId id) {
-  constexpr int kComplete = 20, kMost = 10'000;  // attempts
+  constexpr int kComplete = 20, kMaxAttempts = 10'000;  // attempts
   std::size_t most = SIZE_MAX;
-  for (int attempt = 0; attempt < kMost; ++attempt) {
+  for (int attempt = 0; attempt < kMaxAttempts; ++attempt) {
     const std::uint64_t revision = other.start_reading();
     if (attempt >= kComplete) most = std::max<std::size_t>(std::min(most, other.history(id).size()) / 2, 1);
     history.copy(context(), other.frame(id).history, most);

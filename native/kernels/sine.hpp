@@ -20,8 +20,8 @@ COFRAME_INLINE void sine_and_cosine(double angle, double& sine, double& cosine) 
 // The series of fdlibm (k_sin.c, k_cos.c) around the nearest multiple of a quarter turn. The multiple is subtracted in
 // three parts; the first two have 33 bits, so that their products with numbers up to 2^20 are exact.
 COFRAME_INLINE void sine_and_cosine(const Lanes& angle, Lanes& sine, Lanes& cosine) {
-  constexpr double kLargest = 1e5;
-  if (!all_above(kLargest - with_sign(angle, sign_of(angle)), 0.0)) {
+  constexpr double kMax = 1e5;
+  if (!all_above(kMax - with_sign(angle, sign_of(angle)), 0.0)) {
     for (std::size_t i = 0; i < kLanes; ++i) {
       double s, c;
       sine_and_cosine(angle[i], s, c);

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from coframe.bags import open_bag
     from coframe.buffer import Buffer, CallbackHandle, EdgeInfo, FrameInfo
-    from coframe.connection import Connection, connect
+    from coframe.buffer.frozen import load
+    from coframe.connection.connection import Connection, connect
     from coframe.errors import (
         CoframeError,
         ConnectivityException,
@@ -30,10 +31,9 @@ if TYPE_CHECKING:
         ViewerError,
         WireError,
     )
-    from coframe.frozen import load
     from coframe.recorder import play, record
     from coframe.tf_relay import relay
-    from coframe.transform import Transform
+    from coframe.transform.transform import Transform
     from coframe.viewer.show import show
 
     __version__: str
@@ -77,7 +77,7 @@ __all__ = [
 
 # Functions in modules that are slow to import are imported on first use.
 _LAZY = {
-    "load": "coframe.frozen",
+    "load": "coframe.buffer.frozen",
     "open_bag": "coframe.bags",
     "play": "coframe.recorder",
     "record": "coframe.recorder",

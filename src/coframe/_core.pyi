@@ -6,7 +6,7 @@ from types import ModuleType
 from typing import Any
 
 from coframe.time import DurationLike, StampLike
-from coframe.transform import Transform as PublicTransform
+from coframe.transform.transform import Transform as PublicTransform
 
 class Transform:
     """One pose with its frames and stamp, or a batch of them."""

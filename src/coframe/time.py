@@ -19,8 +19,8 @@ __all__ = [
     "MICROSECOND",
     "MILLISECOND",
     "MINUTE",
+    "MIN_INT_NANOSECONDS",
     "SECOND",
-    "SHORTEST_INT",
     "DurationLike",
     "StampLike",
     "duration_ns",
@@ -37,7 +37,7 @@ DAY = 86_400 * SECOND
 
 # Smaller ints are rejected as durations: a day has 86 400 seconds, and no timeout or cache is below 100 us.
 # The native core has the same limit (is_meant_as_seconds).
-SHORTEST_INT = 100 * MICROSECOND
+MIN_INT_NANOSECONDS = 100 * MICROSECOND
 
 _UNITS = {"ns": 1, "us": MICROSECOND, "ms": MILLISECOND, "s": SECOND, "min": MINUTE, "h": HOUR}
 _DURATION = re.compile(r"\s*(\d+)(?:\.(\d+))?\s*([a-z]+)\s*", re.ASCII)
@@ -116,7 +116,11 @@ def duration_ns(duration: DurationLike) -> int:
         return int(duration.astype("timedelta64[ns]").astype(np.int64))
     accepted = 'a string such as "100ms", int nanoseconds, timedelta or a Duration'
     nanoseconds = _in_range(_number_ns(duration, "a duration", accepted))
-    if 0 < nanoseconds < SHORTEST_INT and isinstance(duration, SupportsIndex) and not hasattr(duration, "nanoseconds"):
+    if (
+        0 < nanoseconds < MIN_INT_NANOSECONDS
+        and isinstance(duration, SupportsIndex)
+        and not hasattr(duration, "nanoseconds")
+    ):
         raise ValueError(
             f"the duration {nanoseconds} has no unit: an int is in nanoseconds. For seconds, write "
             f'"{nanoseconds}s" or {nanoseconds * SECOND:_}; for nanoseconds, write "{nanoseconds}ns".'

@@ -11,9 +11,9 @@ import coframe
 from coframe.analysis.liveness import LivenessTracker, is_stale
 from coframe.cli.monitor import _data, _tables
 from coframe.cli.tree_table import tree_table
+from coframe.connection.tf_publishers import TfPublisher
 from coframe.doctor import Observation, diagnose
 from coframe.doctor.transforms import Transforms
-from coframe.tf_publishers import TfPublisher
 from coframe.tree_drawing import grow
 from coframe.tree_drawing.labels import alarms
 from coframe.viewer.scene.scene import Scene

@@ -10,7 +10,7 @@ import coframe
 from coframe.bags import from_yaml
 from coframe.doctor import diagnose, observe_recording
 
-_MOST_MEMORY = 2 << 30  # bytes of addresses; the libraries take about half of it
+_MAX_MEMORY = 2 << 30  # bytes of addresses; the libraries take about half of it
 
 
 def examine(path):
@@ -32,7 +32,7 @@ if __name__ == "__main__":
     with contextlib.suppress(ModuleNotFoundError):  # on Windows
         import resource
 
-        resource.setrlimit(resource.RLIMIT_AS, (_MOST_MEMORY, _MOST_MEMORY))
+        resource.setrlimit(resource.RLIMIT_AS, (_MAX_MEMORY, _MAX_MEMORY))
     for path in sys.argv[1:]:
         started = time.monotonic()
         try:

@@ -120,7 +120,7 @@ def test_the_executables_of_ros2(execute, tmp_path):
 
 
 def test_an_empty_element_of_pythonpath_is_not_the_current_folder(shadow, proof, monkeypatch):
-    from coframe.python_children import python_command, python_environment
+    from coframe._process.python_children import python_command, python_environment
 
     monkeypatch.setenv("PYTHONPATH", f"/nowhere:{Path('relative')}:")
     environment = python_environment()

@@ -7,7 +7,7 @@ import sys
 
 import pytest
 
-from coframe.bounded_lines import MAX_LINES, LineLimit
+from coframe._files.bounded_lines import MAX_LINES, LineLimit
 from coframe.wire.warn_once import LAST_WARNING, MAX_WARNINGS, WarnOnce
 
 REPORT = "... {} more lines not shown, because more than 2000 arrived in a second"

@@ -13,10 +13,10 @@ import pytest
 from click.testing import CliRunner
 
 import coframe.cli
+from coframe._process.optional_imports import EXTRAS, extra_of, pip_install
 from coframe.cli.app import app
 from coframe.cli.command_line import CommandLine
 from coframe.cli.commands import COMMANDS, joins_graph
-from coframe.optional_imports import EXTRAS, extra_of, pip_install
 
 try:
     import tomllib

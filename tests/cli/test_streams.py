@@ -10,8 +10,8 @@ import pytest
 import recordings
 
 from coframe.course.view import view_of
-from coframe.packages.folders import listed
 from coframe.wire.dds.library import places
+from coframe.workspace.packages.folders import listed
 
 FULL_DISK = Path("/dev/full")
 UNREADABLE = "/" + 300 * "x"  # Looking it up is an error, as with a folder that the user may not read.

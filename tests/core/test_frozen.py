@@ -16,7 +16,7 @@ import numpy as np
 import pytest
 
 import coframe
-from coframe import frozen_file
+from coframe.buffer import frozen_file
 
 SECOND = 1_000_000_000
 SPAN = (SECOND, 20 * SECOND)
@@ -247,7 +247,7 @@ TRUNCATED = """
     import os, sys
     import numpy as np
     import coframe
-    from coframe import frozen
+    from coframe.buffer import frozen
     path, act, size = sys.argv[1], sys.argv[2], int(sys.argv[3])
     stamps = np.arange(1, 30_001) * 1_000_000
     source = coframe.Buffer(None)

@@ -17,7 +17,7 @@ from coframe.tf_relay import MaxError
 MS = 1_000_000
 PERIOD, HEARTBEAT = 100 * MS, 500 * MS
 START = 1_700_000_000_000_000_000
-MOST = MaxError.of("1mm,0.1deg")
+MAX_ERROR = MaxError.of("1mm,0.1deg")
 
 
 def stamped(stamp, position=(0.0, 0.0, 0.0), rotation=(0.0, 0.0, 0.0, 1.0), *, parent="odom", child="base"):
@@ -41,7 +41,7 @@ def cdr(*transforms):
 class Link:
     """A relay and its subscriber; times are nanoseconds since the start, for stamps and arrivals alike."""
 
-    def __init__(self, most=MOST, period=PERIOD):
+    def __init__(self, most=MAX_ERROR, period=PERIOD):
         self.native = _core.Relay(False, period, most)
         self.native.add_source(_core.Renaming("", []), False)
         self.sent = []  # (time of sending, stamp, parent, child, x)

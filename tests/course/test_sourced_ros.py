@@ -15,7 +15,7 @@ import pytest
 import ros_stand_in
 from grades import lost  # of this folder
 
-from coframe import ros_folders
+from coframe.workspace import ros_folders
 
 # The first lines of each program: they end it unless rclpy and the messages are those of the sourced ROS 2.
 GUARD = """

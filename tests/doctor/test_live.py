@@ -15,9 +15,9 @@ import pytest
 from nodes import ROBOT
 
 import coframe
+from coframe.connection.listener_config import ListenerConfig
 from coframe.doctor import diagnose
 from coframe.doctor.live import LiveObserver
-from coframe.listener_config import ListenerConfig
 from coframe.messages import find
 
 # Replaces the function by which a process reads the clock.

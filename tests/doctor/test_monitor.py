@@ -12,10 +12,10 @@ from runs import MS, SECOND, Run
 
 from coframe.cli.app import app
 from coframe.cli.monitor import _print_classic, _printer
+from coframe.connection.listener_config import ListenerConfig
 from coframe.doctor import observe_recording
 from coframe.doctor.figures import chain_figures, edge_figures, publisher_figures
 from coframe.doctor.live import LiveObserver
-from coframe.listener_config import ListenerConfig
 
 
 @pytest.fixture

@@ -93,7 +93,6 @@ def readers() -> dict[str, Reader]:
     from coframe.bags import repair
     from coframe.errors import CoframeError, InterfaceError, PackageError, RobotDescriptionError, ViewerError, WireError
     from coframe.interfaces.definition_files import read as read_definition
-    from coframe.packages import console_scripts, folders
     from coframe.robots import Packages
     from coframe.robots import load as load_robot
     from coframe.trajectories import read_trajectory
@@ -101,6 +100,7 @@ def readers() -> dict[str, Reader]:
     from coframe.viewer.rviz.config import RvizConfig
     from coframe.wire.dds.config import cyclone_config
     from coframe.wire.zenoh.config import session_config
+    from coframe.workspace.packages import console_scripts, folders
     from launch import LaunchContext
     from launch.invalid_launch_file_error import InvalidLaunchFileError
     from launch.launch_description_sources import get_launch_description_from_any_launch_file

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Files from outside are opened by `coframe.regular_files`: no other module opens files by itself without a reason."""
+"""No module opens files from outside by itself without a reason: `coframe._files.regular_files` does it."""
 
 import ast
 from pathlib import Path
@@ -34,7 +34,7 @@ OWN_DATA = "files of the package itself"
 OWN_FILES = "files that this process or its children have just written"
 PROC = "files of the kernel with a fixed name"
 ALLOWED = {
-    "coframe.regular_files": "the owner of the rule",
+    "coframe._files.regular_files": "the owner of the rule",
     "coframe.bags.cloud_files": OWN_FILES,
     "coframe.bags.sqlite_database": "checks the file and its journals before SQLite opens them by name",
     "coframe.bags.sqlite_writer": "writes a new file",
@@ -52,15 +52,15 @@ ALLOWED = {
     "coframe.course.sandbox.users": PROC,
     "coframe.course.view": PROC,
     "coframe.doctor.codes": OWN_DATA,
-    "coframe.entry_point": "runs the program that the user names, as Python does",
-    "coframe.frozen": "maps a file that `coframe.frozen_file` has opened",
+    "coframe.workspace.entry_point": "runs the program that the user names, as Python does",
+    "coframe.buffer.frozen": "maps a file that `coframe.buffer.frozen_file` has opened",
     "coframe.lab.launcher": OWN_FILES,
     "coframe.messages.packages": OWN_DATA,
     "coframe.plotting.html_page": OWN_DATA,
     "coframe.ros2.__main__": "runs the program that the user names, as Python does",
-    "coframe.shared_transforms": "files in a folder that only this user can write",
+    "coframe.connection.shared_transforms": "files in a folder that only this user can write",
     "coframe.system.network": PROC,
-    "coframe.temporary_folders": "locks, opened without following links and without waiting",
+    "coframe._files.temporary_folders": "locks, opened without following links and without waiting",
     "coframe.trajectories.reading": "gives NumPy and zipfile a file that is open",
     "coframe.viewer.clients.panels": "opens panels",
     "coframe.viewer.page_files": OWN_DATA,
@@ -110,7 +110,7 @@ def test_modules_open_files_through_the_owner_of_the_rule():
         module = ".".join(parts).removesuffix(".py").removesuffix(".__init__")
         if module not in ALLOWED:
             found += [f"src/{relative}:{line}" for line in readings(path.read_text(encoding="utf-8"))]
-    assert not found, "use coframe.regular_files, or add the module to ALLOWED with a reason"
+    assert not found, "use coframe._files.regular_files, or add the module to ALLOWED with a reason"
 
 
 @pytest.mark.parametrize(

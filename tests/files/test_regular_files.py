@@ -12,7 +12,7 @@ from recordings import COUNT
 from special_files import KINDS
 
 import coframe
-from coframe.regular_files import (
+from coframe._files.regular_files import (
     UnsuitableFileError,
     check_regular,
     open_regular,
@@ -85,7 +85,7 @@ def test_a_file_that_becomes_a_pipe_is_refused(tmp_path, monkeypatch):
     before = path.stat()
     path.unlink()
     os.mkfifo(path)
-    monkeypatch.setattr("coframe.regular_files.os.stat", lambda _: before)
+    monkeypatch.setattr("coframe._files.regular_files.os.stat", lambda _: before)
     with pytest.raises(UnsuitableFileError, match="it is a named pipe"):
         open_regular(path)
 

@@ -27,9 +27,8 @@ ADVISING = [
     *sorted((SOURCES / "doctor").rglob("*.py")),
     *sorted((SOURCES / "analysis").rglob("*.py")),
     *sorted((SOURCES / "robots").rglob("*.py")),
-    *sorted((SOURCES / "explanation").rglob("*.py")),
-    SOURCES / "lookup_hints.py",
-    SOURCES / "errors.py",
+    *sorted((SOURCES / "buffer" / "explanation").rglob("*.py")),
+    *sorted((SOURCES / "errors").rglob("*.py")),
 ]
 NEEDS_ROS = re.compile(
     r"\bros2 (?:bag|run|launch|topic|node|param|service|interface|doctor|pkg)\b|\bros(?:run|launch|topic|node|bag) "

@@ -36,7 +36,7 @@ MESSAGE_TYPES = (
     "diagnostic_msgs/msg/DiagnosticArray",
 )
 SENSOR_TYPES = ("sensor_msgs/msg/Image", "sensor_msgs/msg/LaserScan", "sensor_msgs/msg/PointCloud2")
-_LONGEST = 20_000  # most messages of a recording that a target reads
+_MAX_MESSAGES = 20_000  # most messages of a recording that a target reads
 
 
 def target(make: Callable[[], Callable[[bytes], object]]) -> Callable[[], Callable[[bytes], object]]:
@@ -221,7 +221,7 @@ def _recording(suffix: str) -> Callable[[bytes], object]:
                 for number, message in enumerate(recording.messages(topic)):
                     with contextlib.suppress(coframe.DecodeError):
                         _ = message.message
-                    if number > _LONGEST:
+                    if number > _MAX_MESSAGES:
                         break
         for observation in observe_recording(path).values():
             diagnose(observation)

@@ -30,12 +30,12 @@ UNGUIDED = ["special_files"]  # scripts that need neither coverage nor a corpus
 PYTHON = re.findall(r"^@target\ndef (\w+)", (HERE / "python_targets.py").read_text(), re.MULTILINE)
 ALL = [*NATIVE, *PYTHON, *UNGUIDED]
 
-MOST_MEMORY = 1024  # MB
-MOST_SECONDS = 5  # per input
+MAX_MEMORY = 1024  # MB
+MAX_SECONDS = 5  # per input
 # A xacro file is expanded in a process of its own, which coframe ends after 20 s.
 SLOW = {"xacro": 25}
-LONGEST = {"frozen": 60_000, "frozen_file": 60_000, "sqlite": 30_000}  # bytes of an input; 8000 for others
-MOST_KEPT = 90_000  # bytes of a corpus in the repository
+MAX_INPUT_BYTES = {"frozen": 60_000, "frozen_file": 60_000, "sqlite": 30_000}  # bytes of an input; 8000 for others
+MAX_CORPUS_BYTES = 90_000  # bytes of a corpus in the repository
 
 _STATUS = re.compile(r"^#\d+\t.*?cov: (\d+).*?corp: (\d+)", re.MULTILINE)
 _STATISTIC = re.compile(r"^stat::(\w+): +(\d+)", re.MULTILINE)
@@ -95,14 +95,14 @@ def fuzz(name: str, seconds: int, seed: int, extra: list[Path]) -> Outcome:
     """Run a target for a few seconds; a seed of 0 is a random one."""
     if name in UNGUIDED:
         return run_unguided(name, seconds, seed)
-    folder, seconds_per_input = corpus_of(name), SLOW.get(name, MOST_SECONDS)
+    folder, seconds_per_input = corpus_of(name), SLOW.get(name, MAX_SECONDS)
     log = BUILD / f"{name}.log"
     options = [
         f"-max_total_time={seconds}",
         f"-seed={seed}",
         f"-timeout={seconds_per_input}",
-        f"-rss_limit_mb={MOST_MEMORY}",
-        f"-max_len={LONGEST.get(name, 8000)}",
+        f"-rss_limit_mb={MAX_MEMORY}",
+        f"-max_len={MAX_INPUT_BYTES.get(name, 8000)}",
         f"-artifact_prefix={BUILD}/{name}-",
         "-print_final_stats=1",
         "-reload=0",
@@ -165,7 +165,7 @@ def keep(name: str) -> str:
     with scratch_folder() as scratch:
         merged = Path(scratch) / "merged"
         merged.mkdir()
-        options = [f"-timeout={SLOW.get(name, MOST_SECONDS)}", f"-max_len={LONGEST.get(name, 8000)}", "-merge=1"]
+        options = [f"-timeout={SLOW.get(name, MAX_SECONDS)}", f"-max_len={MAX_INPUT_BYTES.get(name, 8000)}", "-merge=1"]
         subprocess.run(
             [*command(name), *options, str(merged), str(folder)],
             capture_output=True,
@@ -179,7 +179,7 @@ def keep(name: str) -> str:
         with zipfile.ZipFile(packed, "w", zipfile.ZIP_DEFLATED) as archive:
             for count, file in enumerate(files):
                 before = packed.stat().st_size
-                if before > MOST_KEPT:
+                if before > MAX_CORPUS_BYTES:
                     return f"{name}: {count} of {len(files)} inputs, {before} bytes"
                 archive.writestr(zipfile.ZipInfo(file.name), file.read_bytes(), zipfile.ZIP_DEFLATED)
                 size += 1

@@ -16,7 +16,7 @@ NAMES = [
     "'; rm -rf $(x) `y`",
     "m" * 1_000_000,
 ]
-LONGEST_LINE = 4000  # characters
+MAX_LINE_LENGTH = 4000  # characters
 
 # What no command prints by itself; its own sequences for colours and the cursor are allowed in a terminal.
 _FORBIDDEN = ("\x1b[2J", "\x1b]", "\x07", "\u202e", "\x9b")
@@ -33,7 +33,7 @@ def problems(output, *, is_data=False, is_text=False):
             found.append(f"{control[:5]} in {line[:300]!r}")
         if "forged line" in line and "two" not in line and not is_text:
             found.append(f"a line of its own: {line[:300]!r}")
-        if len(line) > LONGEST_LINE and not is_data:
+        if len(line) > MAX_LINE_LENGTH and not is_data:
             found.append(f"a line of {len(line)} characters: {line[:300]!r}")
     return found
 

@@ -21,7 +21,7 @@ from tf2_msgs.action import LookupTransform
 from tf2_msgs.msg import TFMessage
 
 PERIOD = 0.2  # seconds
-LONGEST_NODE_NAME = 200
+MAX_NODE_NAME_LENGTH = 200
 
 
 def main():
@@ -39,9 +39,9 @@ def main():
     ActionServer(node, LookupTransform, "/act", execute)
     other = coframe.connect("hostile")
     for number, name in enumerate(NAMES):
-        own = other.participant.add_node("/", name[:LONGEST_NODE_NAME])
+        own = other.participant.add_node("/", name[:MAX_NODE_NAME_LENGTH])
         # DDS accepts any name of a type, but only letters and digits in the name of a topic.
-        other.participant.raw_publisher(own, f"/strange{number}", f"std_msgs/msg/{name[:LONGEST_NODE_NAME]}", QoS())
+        other.participant.raw_publisher(own, f"/strange{number}", f"std_msgs/msg/{name[:MAX_NODE_NAME_LENGTH]}", QoS())
     other.participant.raw_publisher(own, f"/{'m' * 240}", "std_msgs/msg/String", QoS())
 
     def publish():

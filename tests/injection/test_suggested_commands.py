@@ -6,15 +6,15 @@ import subprocess
 
 import pytest
 
+from coframe._output.escaping import MAX_LINE_LENGTH, one_line
 from coframe.analysis.static_command import static_command
-from coframe.escaping import LONGEST_LINE, one_line
 
 
 @pytest.mark.parametrize("after", range(950, 980))
 def test_a_shortened_command_is_still_quoted(tmp_path, after):
     name = f"{'A' * 1400}'{'B' * after};touch hacked;#"
     line = one_line(static_command("base", name))
-    assert len(line) == LONGEST_LINE
+    assert len(line) == MAX_LINE_LENGTH
     # The shell gets another program with the same arguments.
     subprocess.run(["sh", "-c", line.replace("coframe", "true", 1)], cwd=tmp_path, capture_output=True, check=False)
     assert list(tmp_path.iterdir()) == []

@@ -17,7 +17,7 @@ import numpy as np
 import pytest
 
 import coframe
-from coframe.ros_folders import ros_folder
+from coframe.workspace.ros_folders import ros_folder
 
 ROS = ros_folder()
 SECOND = 1_000_000_000

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from coframe.python_children import python_command
+from coframe._process.python_children import python_command
 from launch import LaunchContext
 from launch.actions import IncludeLaunchDescription, OpaqueFunction
 from launch.frontend import Entity, expose_action
@@ -110,7 +110,7 @@ def test_all_elements(parse, tmp_path, capfd, monkeypatch, text):
     assert node.node_name == "/rover/inner/n"
     command = node.cmd
     module = command.index("demo_nodes_py.talker:main")
-    assert command[:module] == python_command("coframe.entry_point")
+    assert command[:module] == python_command("coframe.workspace.entry_point")
     assert command[module + 1 : module + 5] == ["--x", "a b", "6", "--ros-args"]
     assert "common:=1.5" in command
     assert "use_sim_time:=False" in command

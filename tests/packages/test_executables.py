@@ -10,9 +10,9 @@ import time
 import pytest
 
 from coframe.errors import PackageError
-from coframe.packages import console_scripts
-from coframe.packages.executables import executables, find_executable
-from coframe.packages.finding import find_package, source_folders, use_sources_near
+from coframe.workspace.packages import console_scripts
+from coframe.workspace.packages.executables import executables, find_executable
+from coframe.workspace.packages.finding import find_package, source_folders, use_sources_near
 from std_msgs.msg import String
 
 PROGRAM = """
@@ -110,7 +110,7 @@ def test_sources_near_a_file_are_found_from_anywhere(workspace, monkeypatch, tmp
 
 def test_built_in_executables():
     found = executables("tf2_ros")
-    assert found["tf2_echo"].command[2:] == ("coframe.entry_point", "coframe.cli:main", "echo")
+    assert found["tf2_echo"].command[2:] == ("coframe.workspace.entry_point", "coframe.cli:main", "echo")
     result = run("robot_state_publisher", "robot_state_publisher", "/no/such.urdf")
     assert "robot_state_publisher: /no/such.urdf: cannot be read: No such file or directory" in result.stderr
     assert find_executable("rviz2", "rviz2").command[-2:] == ("coframe.cli:main", "view")

@@ -14,8 +14,8 @@ from runs import MS, SECOND, START, Run
 import coframe
 from coframe.cli.app import app
 from coframe.plotting import Figure, PlotError, Series, evaluate
-from coframe.plotting.figure import COLOURS, LARGEST_DRAWN
-from coframe.plotting.html_page import MOST_POINTS, as_html
+from coframe.plotting.figure import COLOURS, MAX_DRAWN_VALUE
+from coframe.plotting.html_page import MAX_POINTS, as_html
 from coframe.plotting.values import coordinate
 
 LATENCY = 20 * MS
@@ -195,7 +195,7 @@ def test_long_curves_keep_their_peaks():
     page = as_html(Figure("long", [Series("a", np.arange(1_000_000), values, "b")]))
     data = json.loads(re.search(r"^const data = (.*);$", page, re.MULTILINE)[1])["panels"][0]["curves"][0]
     assert max(data["y"]) == 7
-    assert (len(data["y"]) <= MOST_POINTS + 2, data["of"]) == (True, 1_000_000)
+    assert (len(data["y"]) <= MAX_POINTS + 2, data["of"]) == (True, 1_000_000)
 
 
 def luminance(colour):
@@ -235,4 +235,4 @@ def test_a_browser_shows_the_page_without_a_network(bag, tmp_path):
 
 def test_the_page_draws_the_same_values():
     page = (Path(__file__).parents[2] / "viewer" / "src" / "plots" / "curve.ts").read_text(encoding="utf-8")
-    assert float(re.search(r"const LARGEST_DRAWN = (\S+);", page)[1]) == LARGEST_DRAWN
+    assert float(re.search(r"const MAX_DRAWN_VALUE = (\S+);", page)[1]) == MAX_DRAWN_VALUE

@@ -14,7 +14,7 @@ import re
 import shutil
 from pathlib import Path
 
-from coframe import ros_folders
+from coframe.workspace import ros_folders
 
 THEIRS = "theirs"  # the package with the copies of coframe.messages and coframe.wire
 _OTHER = ("tf2_geometry_msgs", "sensor_msgs_py")

@@ -12,7 +12,7 @@ import ros_stand_in
 from inside_ros2 import verify
 from zenoh_router import Router
 
-from coframe import ros_folders
+from coframe.workspace import ros_folders
 
 
 @pytest.fixture(scope="module")

@@ -11,8 +11,8 @@ from pathlib import Path
 import pytest
 import ros_stand_in
 
-from coframe import ros_folders
 from coframe.cli.commands import COMMANDS
+from coframe.workspace import ros_folders
 
 ARM = Path(ros_folders.__file__).parent / "lab" / "two_link_arm.urdf.xacro"
 

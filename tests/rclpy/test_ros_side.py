@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from coframe import ros_folders, ros_side
+from coframe.workspace import ros_folders, ros_side
 
 
 def test_only_coframes_packages():

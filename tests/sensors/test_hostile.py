@@ -13,7 +13,7 @@ from coframe.messages import find
 from coframe.sensors import deskew, transform_cloud
 
 TRANSFORM = coframe.Transform.from_rpy([1, 2, 3], [0.1, 0.2, 0.3])
-LARGEST = 2**32 - 1
+MAX_UINT32 = 2**32 - 1
 
 
 class UncheckedCloud:
@@ -47,16 +47,16 @@ def test_a_cloud_without_wrong_sizes_is_accepted():
     [
         ({"width": 4}, "4 points of 16 bytes .* do not fit a row_step of 48"),
         ({"height": 3}, r"data has 96 bytes, but 3 rows of 3 points \(height, width\) need 132"),
-        ({"height": LARGEST}, "data has 96 bytes, but"),
-        ({"width": LARGEST}, "do not fit a row_step of 48"),
-        ({"width": LARGEST, "row_step": 0}, "data has 96 bytes"),
-        ({"height": 1, "width": LARGEST, "row_step": 7}, "data has 96 bytes"),
-        ({"row_step": LARGEST}, "data has 96 bytes"),
+        ({"height": MAX_UINT32}, "data has 96 bytes, but"),
+        ({"width": MAX_UINT32}, "do not fit a row_step of 48"),
+        ({"width": MAX_UINT32, "row_step": 0}, "data has 96 bytes"),
+        ({"height": 1, "width": MAX_UINT32, "row_step": 7}, "data has 96 bytes"),
+        ({"row_step": MAX_UINT32}, "data has 96 bytes"),
         ({"row_step": 47}, "do not fit a row_step of 47"),
         ({"point_step": 11}, "'z' ends at byte 12 of a point, but point_step is 11"),
         ({"point_step": 0}, "'x' ends at byte 4 of a point, but point_step is 0"),
-        ({"point_step": LARGEST, "height": 1}, "data has 96 bytes"),
-        ({"point_step": LARGEST, "height": LARGEST, "width": LARGEST, "row_step": LARGEST}, "do not fit"),
+        ({"point_step": MAX_UINT32, "height": 1}, "data has 96 bytes"),
+        ({"point_step": MAX_UINT32, "height": MAX_UINT32, "width": MAX_UINT32, "row_step": MAX_UINT32}, "do not fit"),
         ({"data": array("B")}, "data has 0 bytes"),
         ({"data": array("B", bytes(91))}, "data has 91 bytes"),
         ({"height": -1}, "must not be negative"),
@@ -65,7 +65,7 @@ def test_a_cloud_without_wrong_sizes_is_accepted():
         ({"point_step": -16, "row_step": -48}, "point_step is -16"),
         ({"row_step": -48}, "do not fit a row_step of -48"),
         ({"height": 2**70}, "data has 96 bytes"),
-        ({"fields": [UncheckedField(name, LARGEST, 7, 1) for name in "xyz"]}, "'x' ends at byte"),
+        ({"fields": [UncheckedField(name, MAX_UINT32, 7, 1) for name in "xyz"]}, "'x' ends at byte"),
         ({"fields": [UncheckedField(name, -4, 7, 1) for name in "xyz"]}, "must not be negative"),
         ({"fields": [UncheckedField(name, 0, 9, 1) for name in "xyz"]}, "datatype 9"),
         ({"fields": [UncheckedField(name, 0, 7, 3) for name in "xyz"]}, "'x' must have one number per point, not 3"),
@@ -89,7 +89,7 @@ def test_overlapping_fields_are_safe():
     assert len(result.data) == 96
 
 
-SIZES = st.one_of(st.integers(-2, 40), st.sampled_from([2**16, 2**31 - 1, 2**31, LARGEST, 2**62, 2**63, 2**64]))
+SIZES = st.one_of(st.integers(-2, 40), st.sampled_from([2**16, 2**31 - 1, 2**31, MAX_UINT32, 2**62, 2**63, 2**64]))
 
 
 @settings(max_examples=500, deadline=None)

@@ -225,7 +225,7 @@ def test_declared_folders_and_the_size_limit(tmp_path, monkeypatch):
     assert table.file(url.removeprefix("/mesh/")) == (tmp_path / "a.stl").resolve()
     assert table.url_or_problem("package://[/a.stl") == (None, "'package://[/a.stl' is not a valid address")
     assert table.url_or_problem("relative.stl") == (None, "'relative.stl' is neither package:// nor file://")
-    monkeypatch.setattr("coframe.viewer.robots.meshes.LARGEST_FILE", 1000)
+    monkeypatch.setattr("coframe.viewer.robots.meshes.MAX_MESH_BYTES", 1000)
     with pytest.raises(MeshError, match="MB are served"):
         table.url(f"file://{tmp_path}/a.stl")
 

@@ -16,7 +16,7 @@ pytestmark = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="tr
 PUBLISH = """
     import logging, textwrap, threading, time
     import coframe
-    from coframe import shared_transforms
+    from coframe.connection import shared_transforms
     from coframe.messages import find
     logging.basicConfig(format="%(message)s")
     logged = []

@@ -7,7 +7,7 @@ from datetime import timedelta
 import pytest
 
 import coframe
-from coframe.listener_config import ListenerConfig
+from coframe.connection.listener_config import ListenerConfig
 from coframe.messages import find
 
 TRANSFORM = find("geometry_msgs/msg/TransformStamped")

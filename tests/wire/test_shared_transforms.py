@@ -15,10 +15,11 @@ import numpy as np
 import pytest
 
 import coframe
-from coframe import _core, shared_transforms
+from coframe import _core
+from coframe.connection import shared_transforms
+from coframe.connection.shared_transforms import SharedTransforms
 from coframe.messages import find
 from coframe.messages.codec import serialize
-from coframe.shared_transforms import SharedTransforms
 
 pytestmark = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="transforms are shared on Linux only")
 

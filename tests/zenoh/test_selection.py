@@ -11,10 +11,10 @@ import pytest
 from click.testing import CliRunner
 from zenoh_router import Router
 
-from coframe import python_children
+from coframe._process import python_children
+from coframe._process.python_children import child_environment, python_environment
 from coframe.cli.app import app
 from coframe.errors import WireError
-from coframe.python_children import child_environment, python_environment
 from coframe.wire import selection
 from coframe.wire.dds.library import Place
 

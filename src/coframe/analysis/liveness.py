@@ -39,7 +39,7 @@ STALE_AFTER = SECOND
 STALE_PERIODS = 5
 """An edge is stale only if no transform was received for more than this many of its usual periods."""
 
-_SHORTEST_GAP = 500 * MILLISECOND
+_MIN_GAP = 500 * MILLISECOND
 _GAP_PERIODS = 10
 
 
@@ -87,7 +87,7 @@ def usual_gap(period: float) -> int:
         >>> usual_gap(20e6), usual_gap(100e6)
         (500000000, 1000000000)
     """
-    return max(_SHORTEST_GAP, round(_GAP_PERIODS * period))
+    return max(_MIN_GAP, round(_GAP_PERIODS * period))
 
 
 @overload

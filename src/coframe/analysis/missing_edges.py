@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 __all__ = ["BASE_FRAMES", "MissingEdge", "estimator_advice", "is_sensor_frame", "missing_edge", "unknown_mount"]
 
 _SIMILARITY = 0.8
-_MOST_COMPARED = 1_000  # limit on the names compared; one takes microseconds
+_MAX_COMPARED_NAMES = 1_000  # limit on the names compared; one takes microseconds
 # Usual pairs of parent and child, from REP-105 and common robots.
 _USUAL = (
     ("base_footprint", "base_link"),
@@ -155,7 +155,7 @@ def missing_edge(first: Sequence[str], second: Sequence[str]) -> MissingEdge | N
     for root, frames in sides:
         similar = [
             frame
-            for frame in difflib.get_close_matches(root, frames[:_MOST_COMPARED], n=3, cutoff=_SIMILARITY)
+            for frame in difflib.get_close_matches(root, frames[:_MAX_COMPARED_NAMES], n=3, cutoff=_SIMILARITY)
             if _is_misspelling(root, frame)
         ]
         if similar:

@@ -10,6 +10,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
+from coframe._output.formatting import count
 from coframe.bags.cdr_conversion import cdr_conversion, copied_definition, decode_transforms
 from coframe.bags.message_frames import FrameNames
 from coframe.bags.namespaces import namespace_of
@@ -21,7 +22,6 @@ from coframe.bags.transforms import is_static
 from coframe.bags.writer import Writer
 from coframe.buffer import Buffer
 from coframe.errors import RecordingError
-from coframe.formatting import count
 from coframe.frame_names import absolute, belongs, renaming
 from coframe.messages import deserialize, find, serialize
 from coframe.messages.conversions import to_transform_stamped

@@ -12,7 +12,7 @@ import threading
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from typing import TYPE_CHECKING, Any
 
-from coframe.python_children import python_command, python_environment
+from coframe._process.python_children import python_command, python_environment
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence

@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING, Any, BinaryIO, Protocol
 import numpy as np
 
 from coframe import time
+from coframe._files.complete_files import complete_or_absent
 from coframe.bags.mcap_writer import McapWriter
-from coframe.complete_files import complete_or_absent
 from coframe.errors import RecordingError
 from coframe.messages import find, serialize
 from coframe.messages.definition_texts import definition_of

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from coframe.bags.compression import LARGEST_MESSAGE, DamagedError, unpack_beginning, unpack_message
+from coframe.bags.compression import MAX_UNPACKED_MESSAGE, DamagedError, unpack_beginning, unpack_message
 from coframe.bags.storage import MAX_RATIO, Batch, Storage, unpacked_budget
 from coframe.messages.slices import Slices
 
@@ -67,7 +67,7 @@ class UnpackedMessages(Storage):
         usual = MAX_RATIO * len(message)
         if position in self._counted:
             return unpack_message(self._compression, message)
-        data = unpack_message(self._compression, message, min(LARGEST_MESSAGE, max(usual, self._budget)))
+        data = unpack_message(self._compression, message, min(MAX_UNPACKED_MESSAGE, max(usual, self._budget)))
         if len(data) > usual:
             self._counted.add(position)
             self._budget -= len(data)

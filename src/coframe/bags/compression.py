@@ -9,20 +9,20 @@ import importlib
 import io
 from typing import TYPE_CHECKING, Any
 
+from coframe._process.optional_imports import pip_install
 from coframe.errors import CoframeError, RecordingError
-from coframe.optional_imports import pip_install
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-__all__ = ["LARGEST", "LARGEST_MESSAGE", "DamagedError", "unpack", "unpack_beginning", "unpack_message"]
+__all__ = ["MAX_UNPACKED_BYTES", "MAX_UNPACKED_MESSAGE", "DamagedError", "unpack", "unpack_beginning", "unpack_message"]
 
-LARGEST = 512 << 20  # bytes of a record or an unpacked chunk: real ones are smaller
-LARGEST_MESSAGE = 128 << 20  # bytes of an unpacked message
+MAX_UNPACKED_BYTES = 512 << 20  # bytes of a record or an unpacked chunk: real ones are smaller
+MAX_UNPACKED_MESSAGE = 128 << 20  # bytes of an unpacked message
 # Recorders finish a chunk at about 1 MB, so only a chunk with one huge message is larger than this, and such a message
 # does not consist only of zeros.
 _PLAUSIBLE = 64 << 20
-_HIGHEST_RATIO = 1000  # unpacked to packed size, above _PLAUSIBLE
+_MAX_RATIO = 1000  # unpacked to packed size, above _PLAUSIBLE
 
 
 class DamagedError(CoframeError):
@@ -38,19 +38,19 @@ def unpack(compression: str, data: bytes | memoryview, size: int) -> bytes:
         size: The unpacked size in bytes, as stated by the file.
 
     Raises:
-        DamagedError: No data can be unpacked, the stated size is above :data:`LARGEST` or implausible for the packed
-            size, or the compression is unknown.
+        DamagedError: No data can be unpacked, the stated size is above :data:`MAX_UNPACKED_BYTES` or implausible for
+            the packed size, or the compression is unknown.
         RecordingError: The package for this compression is not installed.
     """
     if compression in {"", "none"}:
         return bytes(data)
     if compression not in _OPENERS:
         raise DamagedError(f"unknown compression {compression[:20]!r}; known: {', '.join(_OPENERS)}")
-    if size > LARGEST:
-        raise DamagedError(f"a chunk claims to have {size} bytes, more than the limit of {LARGEST}")
-    if size > max(_PLAUSIBLE, _HIGHEST_RATIO * len(data)) + 1:
+    if size > MAX_UNPACKED_BYTES:
+        raise DamagedError(f"a chunk claims to have {size} bytes, more than the limit of {MAX_UNPACKED_BYTES}")
+    if size > max(_PLAUSIBLE, _MAX_RATIO * len(data)) + 1:
         raise DamagedError(
-            f"a chunk of {len(data)} bytes claims to unpack to {size} bytes, more than {_HIGHEST_RATIO} times as many"
+            f"a chunk of {len(data)} bytes claims to unpack to {size} bytes, more than {_MAX_RATIO} times as many"
         )
     open_ = _OPENERS[compression]()
     try:
@@ -70,7 +70,7 @@ def unpack_beginning(compression: str, data: bytes | memoryview, size: int) -> b
     return unpack(compression, data, size)[:size]
 
 
-def unpack_message(compression: str, data: bytes | memoryview, largest: int = LARGEST_MESSAGE) -> bytes:
+def unpack_message(compression: str, data: bytes | memoryview, largest: int = MAX_UNPACKED_MESSAGE) -> bytes:
     """Unpack an individually compressed message, or the part before the first damage.
 
     Args:
@@ -83,7 +83,7 @@ def unpack_message(compression: str, data: bytes | memoryview, largest: int = LA
             size, or the compression is unknown.
         RecordingError: The package for this compression is not installed.
     """
-    limit = min(largest, max(_PLAUSIBLE, _HIGHEST_RATIO * len(data)))
+    limit = min(largest, max(_PLAUSIBLE, _MAX_RATIO * len(data)))
     # One byte more than the limit shows that the message is too large, even if the file states another size.
     if _stated_size(compression, data) > limit or len(unpacked := unpack(compression, data, limit + 1)) > limit:
         raise DamagedError(f"a message of {len(data)} bytes unpacks to more than {limit} bytes, the limit")

@@ -9,6 +9,8 @@ from itertools import pairwise
 from typing import TYPE_CHECKING
 
 from coframe import time
+from coframe._output.formatting import listed
+from coframe._process.freed_memory import collection_paused
 from coframe.bags.file_discovery import open_files
 from coframe.bags.formats import BUILT_IN, recording_name
 from coframe.bags.message_index import MessageIndex, largest_track, reread
@@ -18,9 +20,7 @@ from coframe.bags.recorded_message import Topic
 from coframe.bags.recorded_types import RecordedTypes
 from coframe.bags.transforms import ingest_for
 from coframe.errors import CoframeError, RecordingError
-from coframe.formatting import listed
 from coframe.frame_names import TF_STATIC_TOPIC, TF_TOPIC, absolute
-from coframe.freed_memory import collection_paused
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator

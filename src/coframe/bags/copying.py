@@ -10,13 +10,13 @@ from contextlib import ExitStack
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
+from coframe._output.formatting import count
 from coframe.bags.cdr_conversion import cdr_conversion, copied_definition
 from coframe.bags.offered_qos import from_yaml
 from coframe.bags.recorded_types import RecordedTypes
 from coframe.bags.recording import open_bag
 from coframe.bags.transforms import is_static
 from coframe.bags.writer import Writer
-from coframe.formatting import count
 
 if TYPE_CHECKING:
     import os

@@ -7,12 +7,12 @@ import functools
 import json
 from typing import TYPE_CHECKING, Any
 
+from coframe._process.optional_imports import pip_install
 from coframe.bags.recorded_types import UnknownTypeError
 from coframe.errors import DecodeError
 from coframe.messages import deserialize
 from coframe.messages.codec import deserialize_ros1
 from coframe.messages.limits import MAX_DEFINITION
-from coframe.optional_imports import pip_install
 
 if TYPE_CHECKING:
     from collections.abc import Callable

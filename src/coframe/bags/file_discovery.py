@@ -14,6 +14,11 @@ from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO, NamedTuple
 
+from coframe._files.bounded_yaml import read_yaml
+from coframe._files.regular_files import UnsuitableFileError, open_regular, read_regular, reading_hint
+from coframe._files.temporary_folders import temporary_folder
+from coframe._output.formatting import listed
+from coframe._process.optional_imports import pip_install
 from coframe.bags.compressed_messages import UnpackedMessages
 from coframe.bags.formats import (
     BUILT_IN,
@@ -26,12 +31,7 @@ from coframe.bags.formats import (
     matches,
 )
 from coframe.bags.storage import Channel, unpacked_budget
-from coframe.bounded_yaml import read_yaml
 from coframe.errors import CoframeError, RecordingError
-from coframe.formatting import listed
-from coframe.optional_imports import pip_install
-from coframe.regular_files import UnsuitableFileError, open_regular, read_regular, reading_hint
-from coframe.temporary_folders import temporary_folder
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -45,7 +45,7 @@ __all__ = ["OpenedFiles", "open_files"]
 
 _ZSTD = b"\x28\xb5\x2f\xfd"
 _UNPACKED_PIECE = 1 << 20  # bytes
-_LARGEST_METADATA = 16 << 20
+_MAX_METADATA_BYTES = 16 << 20
 _MAX_EXPANSION = 16 << 20  # bytes; incompressible data grows by less than this
 
 
@@ -231,8 +231,8 @@ def _metadata(file: Path, problems: Problems) -> dict[str, Any]:
     """Return the contents of metadata.yaml; empty if it is missing or damaged, because it is not required."""
     found: dict[str, Any] = {}
     try:
-        text = read_regular(file, _LARGEST_METADATA)
-        found = dict(read_yaml(text, _LARGEST_METADATA)["rosbag2_bagfile_information"])
+        text = read_regular(file, _MAX_METADATA_BYTES)
+        found = dict(read_yaml(text, _MAX_METADATA_BYTES)["rosbag2_bagfile_information"])
     except FileNotFoundError:
         pass
     except UnsuitableFileError as error:

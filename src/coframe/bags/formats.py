@@ -12,9 +12,9 @@ import re
 from pathlib import PurePath
 from typing import TYPE_CHECKING, Any, Final
 
-from coframe._plugins import load_plugins
+from coframe._files.existence import is_file
+from coframe._process.plugins import load_plugins
 from coframe.bags.recording_format import RecordingFormat, bare_name
-from coframe.existence import is_file
 from coframe.interfaces.problems import report
 
 if TYPE_CHECKING:

@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from coframe import _core
-from coframe.bags.compression import LARGEST, DamagedError, unpack
+from coframe.bags.compression import MAX_UNPACKED_BYTES, DamagedError, unpack
 from coframe.bags.formats import MCAP
-from coframe.bags.storage import MOST_DAMAGED, Batch, Channel, ChunkedStorage, next_chunk
+from coframe.bags.storage import MAX_DAMAGED_PLACES, Batch, Channel, ChunkedStorage, next_chunk
 from coframe.messages.schemas import ros_name
 from coframe.messages.slices import Slices
 
@@ -58,7 +58,7 @@ class McapStorage(ChunkedStorage):
                 yield from self._chunk_batches(offset)
                 progress(end)
             elif opcode in {_SCHEMA, _CHANNEL, _MESSAGE} and offset >= done:
-                if end - offset > LARGEST:
+                if end - offset > MAX_UNPACKED_BYTES:
                     self.add_problem(f"the record at byte {offset} claims to have {end - offset} bytes")
                     continue
                 data = self.bytes_at(offset, max(end - offset, _BLOCK))
@@ -77,7 +77,7 @@ class McapStorage(ChunkedStorage):
                 self._check_footer(offset if opcode == _FOOTER else end)
                 return
             damaged += not is_intact
-            later = None if is_intact or damaged > MOST_DAMAGED else next_chunk(chunks, offset)
+            later = None if is_intact or damaged > MAX_DAMAGED_PLACES else next_chunk(chunks, offset)
             if later is not None:
                 self.add_problem(f"bytes {offset} to {later} are damaged")
                 end = later
@@ -95,7 +95,7 @@ class McapStorage(ChunkedStorage):
         if len(tail) < _FOOTER_RECORD.size:
             return []
         opcode, _, start, _, crc = _FOOTER_RECORD.unpack(tail)
-        if opcode != _FOOTER or not 0 < start < self.size or self.size - start > LARGEST:
+        if opcode != _FOOTER or not 0 < start < self.size or self.size - start > MAX_UNPACKED_BYTES:
             return []
         summary = self.bytes_at(start, self.size - start)
         if crc and zlib.crc32(summary[:-_CRC_AND_MAGIC]) != crc:  # A recorder may have been killed while writing it.

@@ -16,9 +16,9 @@ from array import array
 from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
+from coframe._process.optional_imports import pip_install
 from coframe.bags.formats import MCAP
 from coframe.errors import RecordingError
-from coframe.optional_imports import pip_install
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -34,7 +34,7 @@ _RECORD = struct.Struct("<BQ")  # opcode, length
 _MESSAGE_RECORD = struct.Struct("<BQHIQQ")  # opcode, length, channel, sequence, log time, publish time
 _MESSAGE = 0x05
 _MESSAGE_HEAD = _MESSAGE_RECORD.size - _RECORD.size
-_LARGEST_INDEX = 1 << 20  # bytes to write with each chunk: enough for half an hour or more
+_MAX_INDEX_BYTES = 1 << 20  # bytes to write with each chunk: enough for half an hour or more
 _ZSTD_LEVEL = 1  # level 3 takes 50 percent longer, and the files are only a few percent smaller
 
 
@@ -194,7 +194,7 @@ class McapWriter:
         self._pending.clear()
 
     def _is_index_small(self) -> bool:
-        return len(self._chunk_index) + len(self._definitions) <= _LARGEST_INDEX
+        return len(self._chunk_index) + len(self._definitions) <= _MAX_INDEX_BYTES
 
     def _define(self, record: bytes) -> None:
         self._definitions += record

@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from coframe._output.formatting import did_you_mean
 from coframe.bags.compression import DamagedError
 from coframe.errors import RecordingError
-from coframe.formatting import did_you_mean
 from coframe.messages.header_peek import STAMP_BYTES
 from coframe.messages.slices import Slices
 

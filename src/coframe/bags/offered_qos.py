@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from coframe.bounded_yaml import read_yaml
+from coframe._files.bounded_yaml import read_yaml
 
 if TYPE_CHECKING:
     from collections.abc import Iterable

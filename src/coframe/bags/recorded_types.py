@@ -32,7 +32,7 @@ _ROS_ENCODINGS = {"cdr", "ros1"}
 _EVENT = "_Event"
 _KEPT_TEXT = 2 << 20  # bytes of the definitions that are kept parsed
 _SHORT_TEXT = 1 << 13  # bytes of definitions whose beginning is cached for the next recording
-_SMALLEST_TEXT = 1 << 12  # minimum bytes counted per definition
+_MIN_COUNTED_BYTES = 1 << 12  # minimum bytes counted per definition
 
 # The definition of a message that begins with a stamp contains one of these, or a sequence of messages that do.
 _MAY_BEGIN_WITH_STAMP = re.compile(rb"Header|[Tt]ime|\[|sequence").search
@@ -193,7 +193,7 @@ def _beginning_of_text(definition: bytes, name: str, format_: str) -> _Beginning
 
 
 def _weight(key: _Key) -> int:
-    return max(len(key[-1]), _SMALLEST_TEXT)
+    return max(len(key[-1]), _MIN_COUNTED_BYTES)
 
 
 def _key(channel: Channel) -> _Key:

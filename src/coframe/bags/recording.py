@@ -10,14 +10,15 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from coframe import html_tables, time
+from coframe import time
+from coframe._output import html_tables
+from coframe._output.formatting import count
 from coframe.bags.contents import read_contents
 from coframe.bags.decoding import decoder
 from coframe.bags.namespaces import TransformChoice, main_span
 from coframe.bags.recorded_message import RecordedMessage, Topic
 from coframe.bags.table import edge_table
 from coframe.errors import DecodeError
-from coframe.formatting import count
 
 if TYPE_CHECKING:
     import os
@@ -349,9 +350,9 @@ class Recording:
         Args:
             options: The options of :func:`coframe.show`, such as ``fixed="map"``.
         """
-        import coframe  # noqa: PLC0415 - the viewer is above this module
+        from coframe.viewer.show import show as show_in_browser  # noqa: PLC0415 - the viewer is above this module
 
-        return coframe.show(self, **options)
+        return show_in_browser(self, **options)
 
     def _repr_html_(self) -> str:
         rows = ((topic.name, topic.type, topic.messages, f"{topic.rate:.3g} Hz") for topic in self.topics.values())

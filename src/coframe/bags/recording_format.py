@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, ClassVar, Protocol
 
-from coframe.base_error import CoframeError
+from coframe._base_error import CoframeError
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping

@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from coframe import time
-from coframe.bags.compression import LARGEST, DamagedError, unpack
+from coframe.bags.compression import MAX_UNPACKED_BYTES, DamagedError, unpack
 from coframe.bags.formats import ROS1
 from coframe.bags.offered_qos import OfferedQos, to_yaml
-from coframe.bags.storage import MOST_DAMAGED, Batch, Channel, ChunkedStorage, next_chunk
+from coframe.bags.storage import MAX_DAMAGED_PLACES, Batch, Channel, ChunkedStorage, next_chunk
 from coframe.messages.slices import Slices
 
 if TYPE_CHECKING:
@@ -27,7 +27,7 @@ _MESSAGE, _CHUNK, _CHUNK_INFO, _CONNECTION = 0x02, 0x05, 0x06, 0x07
 _KNOWN = {0x02, 0x03, 0x04, 0x05, 0x06, 0x07}
 _LENGTH = struct.Struct("<I")
 _TIME = struct.Struct("<II")
-_LONGEST_HEADER = 1 << 16
+_MAX_HEADER_BYTES = 1 << 16
 
 
 class Ros1Storage(ChunkedStorage):
@@ -50,7 +50,7 @@ class Ros1Storage(ChunkedStorage):
             if opcode == _CHUNK:
                 yield from self._chunk_batches(offset)
                 progress(min(end, self.size))
-            elif end - offset > LARGEST:
+            elif end - offset > MAX_UNPACKED_BYTES:
                 self.add_problem(f"the record at byte {offset} claims to have {end - offset} bytes")
             elif opcode == _CONNECTION:
                 self._connect(header, self.bytes_at(start, end - start))
@@ -67,7 +67,7 @@ class Ros1Storage(ChunkedStorage):
                 header, start, end = self._record(offset, may_be_truncated=later is None)
             except DamagedError as error:
                 damaged += 1
-                if later is None or damaged > MOST_DAMAGED:
+                if later is None or damaged > MAX_DAMAGED_PLACES:
                     self.add_problem(f"truncated at byte {offset} of {self.size}: {error}")
                     return
                 self.add_problem(f"bytes {offset} to {later} are damaged")
@@ -96,7 +96,7 @@ class Ros1Storage(ChunkedStorage):
     def _record(self, offset: int, *, may_be_truncated: bool = True) -> tuple[dict[bytes, bytes], int, int]:
         """Return the header of a record of the file and the start and end of its data; a chunk may be truncated."""
         length = self._length(offset)
-        if length > _LONGEST_HEADER:
+        if length > _MAX_HEADER_BYTES:
             raise DamagedError("the header of the record is damaged")
         header = _fields(self.bytes_at(offset + 4, length))
         if _opcode(header) not in _KNOWN:

@@ -15,10 +15,10 @@ from contextlib import ExitStack, closing, contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
-from coframe.bags.compression import LARGEST
-from coframe.existence import is_file
-from coframe.regular_files import open_regular
-from coframe.temporary_folders import temporary_folder
+from coframe._files.existence import is_file
+from coframe._files.regular_files import open_regular
+from coframe._files.temporary_folders import temporary_folder
+from coframe.bags.compression import MAX_UNPACKED_BYTES
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -77,7 +77,7 @@ class Database:
             # Only the definitions matter: the names and types in the other columns can differ from them.
             if definition is not None and not _PLAIN_DEFINITION.match(str(definition)):
                 raise sqlite3.DatabaseError(f"{str(name)[:60]} is neither a table nor an index, unlike in recordings")
-        self._limit("SQL_LENGTH", LARGEST)
+        self._limit("SQL_LENGTH", MAX_UNPACKED_BYTES)
         return {str(name): str(definition) for name, definition in found if definition is not None}
 
     def rows(self, table: str, columns: str, condition: str = "") -> Iterator[tuple[Any, ...]]:
@@ -146,7 +146,7 @@ class Database:
     def _connect(self, path: Path, options: str) -> sqlite3.Connection:
         connection = sqlite3.connect(f"{path.as_uri()}?{options}", uri=True, check_same_thread=False)
         self._connection = connection
-        self._limit("LENGTH", min(LARGEST, max(self.size, MAX_SQL)))
+        self._limit("LENGTH", min(MAX_UNPACKED_BYTES, max(self.size, MAX_SQL)))
         self._limit("SQL_LENGTH", MAX_SQL)
         self._limit("COLUMN", MAX_COLUMNS)
         connection.set_progress_handler(self._count_steps, _STEPS_PER_CHECK)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from coframe.bags.compression import LARGEST, DamagedError
+from coframe.bags.compression import MAX_UNPACKED_BYTES, DamagedError
 from coframe.bags.formats import SQLITE
 from coframe.bags.sqlite_database import DAMAGE, Database
 from coframe.bags.storage import Batch, Channel, Storage
@@ -27,7 +27,7 @@ _BATCH_SIZE = 2000  # rows
 _BATCH_BYTES = 64 << 20
 # Querying type and size does not read the data. The value is NULL for data of a wrong type or size.
 _DATA, _SIZE = (
-    f"CASE WHEN typeof(data) = 'blob' AND length(data) <= {LARGEST} THEN {value} END"
+    f"CASE WHEN typeof(data) = 'blob' AND length(data) <= {MAX_UNPACKED_BYTES} THEN {value} END"
     for value in ("data", "length(data)")
 )
 
@@ -103,7 +103,7 @@ class SqliteStorage(Storage):
         _, topics, times, data = zip(*rows, strict=True)
         if set(map(type, times)) != {int} or None in data:
             good = [row for row in rows if isinstance(row[2], int) and row[3] is not None]
-            limit = f"{LARGEST >> 20} MiB"
+            limit = f"{MAX_UNPACKED_BYTES >> 20} MiB"
             problem = f"rows with a time or data of the wrong type, or with more than {limit}"
             self.add_problem(problem, len(rows) - len(good))
             rows = good

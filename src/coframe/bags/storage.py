@@ -10,8 +10,8 @@ from collections import OrderedDict
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, BinaryIO, NamedTuple
 
-from coframe.bags.compression import LARGEST, DamagedError
-from coframe.regular_files import open_regular
+from coframe._files.regular_files import open_regular
+from coframe.bags.compression import MAX_UNPACKED_BYTES, DamagedError
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -24,13 +24,13 @@ if TYPE_CHECKING:
     from coframe.bags.recording_format import RecordingFormat
     from coframe.messages.slices import Slices
 
-__all__ = ["MOST_DAMAGED", "Batch", "Channel", "ChunkedStorage", "Storage", "next_chunk"]
+__all__ = ["MAX_DAMAGED_PLACES", "Batch", "Channel", "ChunkedStorage", "Storage", "next_chunk"]
 
 # A chunk whose size is plausible for its packed bytes is read in full. The total of all chunks is limited as well,
 # because a small file could otherwise take hours.
 MAX_RATIO = 200  # ratio of the unpacked chunks to the file size
 MIN_BUDGET = 4 << 30  # bytes of unpacked chunks that every file may have
-MOST_DAMAGED = 1000  # damaged places after which a reader continues; an index can list any number of them
+MAX_DAMAGED_PLACES = 1000  # damaged places after which a reader continues; an index can list any number of them
 
 
 def unpacked_budget(size: int) -> int:
@@ -174,8 +174,8 @@ class ChunkedStorage(Storage):
         """Return bytes of the file; fewer at its end."""
         if not 0 <= offset < self.size:
             return b""
-        if size > LARGEST:
-            raise DamagedError(f"a record claims to have {size} bytes, more than the limit of {LARGEST}")
+        if size > MAX_UNPACKED_BYTES:
+            raise DamagedError(f"a record claims to have {size} bytes, more than the limit of {MAX_UNPACKED_BYTES}")
         with self._lock:
             self._file.seek(offset)
             return self._file.read(size)
@@ -191,7 +191,7 @@ class ChunkedStorage(Storage):
         Raises:
             DamagedError: The chunks up to this one are larger than a plausible recording of this size.
         """
-        if offset <= self._unpacked_end or size <= packed or size > LARGEST:
+        if offset <= self._unpacked_end or size <= packed or size > MAX_UNPACKED_BYTES:
             return  # `unpack` rejects a chunk that is too large.
         budget = unpacked_budget(self.size)
         if self._unpacked_bytes + size > budget:

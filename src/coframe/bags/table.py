@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from coframe import _core
+from coframe._process.optional_imports import pip_install
 from coframe.errors import RecordingError
-from coframe.optional_imports import pip_install
 from coframe.trajectories.formats import POSE_COLUMNS
 
 if TYPE_CHECKING:

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
     from coframe.bags.recording import Recording
     from coframe.buffer import Buffer
-    from coframe.transform import Transform
+    from coframe.transform.transform import Transform
 
 __all__ = ["BATCH", "MAX_RATE", "TrajectoryQuery"]
 

@@ -10,15 +10,15 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from coframe import time
+from coframe._files.complete_files import write_complete
+from coframe._process.optional_imports import pip_install
 from coframe.bags.formats import MCAP, METADATA, storage_formats
 from coframe.bags.latched_messages import LatchedMessages, LatchedSpace
 from coframe.bags.mcap_writer import compressor
 from coframe.bags.offered_qos import OfferedQos, to_yaml
 from coframe.bags.transforms import is_static
-from coframe.complete_files import write_complete
 from coframe.errors import RecordingError
 from coframe.messages.definition_texts import definition_of
-from coframe.optional_imports import pip_install
 
 if TYPE_CHECKING:
     import os
@@ -33,7 +33,7 @@ __all__ = ["Writer"]
 
 _MAX_TOPICS = 65_000  # channel numbers have 16 bits
 _MAX_TIME = 1 << 63
-_LARGEST_CHUNK = 4 << 20  # bytes before compression
+_MAX_CHUNK_BYTES = 4 << 20  # bytes before compression
 T = TypeVar("T")
 _VERSION = 5  # metadata version that Humble writes and later versions of rosbag2 read
 
@@ -216,7 +216,7 @@ class Writer:
         self._put(entry, data, received, published)
         if entry.latched is not None:
             entry.latched.add(data, published, publisher)
-        if self._file.pending >= _LARGEST_CHUNK:
+        if self._file.pending >= _MAX_CHUNK_BYTES:
             self.flush()
 
     def flush(self) -> None:

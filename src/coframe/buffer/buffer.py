@@ -6,12 +6,12 @@ from __future__ import annotations
 import sys
 from typing import TYPE_CHECKING, Any
 
-from coframe import _core, errors, frozen_file, time
-from coframe.buffer import many_lookups
+from coframe import _core, errors, time
+from coframe.buffer import frozen_file, many_lookups
+from coframe.buffer.dispatcher import Dispatcher
 from coframe.buffer.edge_info import FrameInfo, edge_infos, edge_table
 from coframe.buffer.storing import check_not_frozen, check_single, rejected, rows_of, stamp_of
 from coframe.buffer.waiting import CallbackHandle, timed_out, transform_or_timeout
-from coframe.dispatcher import Dispatcher
 from coframe.errors import TransformException
 
 if TYPE_CHECKING:
@@ -21,9 +21,9 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
     from coframe.buffer.edge_info import EdgeInfo
-    from coframe.explanation import Explanation
+    from coframe.buffer.explanation import Explanation
     from coframe.time import DurationLike, StampLike
-    from coframe.transform import Transform
+    from coframe.transform.transform import Transform
     from coframe.viewer import Viewer
 
 _KEEP_EVERYTHING = -1
@@ -214,7 +214,7 @@ class Buffer(many_lookups.Buffer):
         Returns:
             The explanation; ``print()`` draws it.
         """
-        from coframe.explanation import explain  # noqa: PLC0415 - most programs never need an explanation
+        from coframe.buffer.explanation import explain  # noqa: PLC0415 - most programs never need an explanation
 
         return explain(self, target, source, at, now=now)
 
@@ -288,9 +288,9 @@ class Buffer(many_lookups.Buffer):
         Args:
             options: The options of :func:`coframe.show`, such as ``fixed="map"``.
         """
-        import coframe  # noqa: PLC0415 - the viewer is above this module
+        from coframe.viewer.show import show as show_in_browser  # noqa: PLC0415 - the viewer is above this module
 
-        return coframe.show(self, **options)
+        return show_in_browser(self, **options)
 
     def _repr_html_(self) -> str:
         return edge_table(self)

@@ -6,10 +6,11 @@ from __future__ import annotations
 import time as system_time
 from typing import TYPE_CHECKING, NamedTuple
 
-from coframe import html_tables, time
+from coframe import time
+from coframe._output import html_tables
+from coframe._output.formatting import seconds
 from coframe.analysis.clocks import present_for
 from coframe.analysis.liveness import buffered_period, is_stale
-from coframe.formatting import seconds
 
 if TYPE_CHECKING:
     from coframe.buffer.buffer import Buffer
@@ -98,7 +99,7 @@ def edge_infos(buffer: Buffer, children: list[str] | None, now: int | None) -> l
 def edge_table(buffer: Buffer) -> str:
     """Return the edges of a buffer as an HTML table."""
     children = [frame.name for frame in buffer.frames() if frame.parent]
-    edges = buffer.edges(children[: html_tables.MOST_ROWS])
+    edges = buffer.edges(children[: html_tables.MAX_ROWS])
     rows = [
         (edge.parent, edge.child, edge.samples, "static", "", "", edge.authority)
         if edge.static

@@ -8,14 +8,14 @@ from typing import TYPE_CHECKING, Literal, TypeAlias, overload
 import numpy as np
 
 from coframe import _core, time
-from coframe.resampling import StepLimits
-from coframe.transform import batch_of, stamps_of
+from coframe.transform.resampling import StepLimits
+from coframe.transform.transform import batch_of, stamps_of
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
     from coframe.time import DurationLike, StampLike
-    from coframe.transform import Transform
+    from coframe.transform.transform import Transform
 
 OnError: TypeAlias = Literal["raise", "nan", "clip"]
 Array: TypeAlias = "NDArray[np.float64]"

@@ -9,13 +9,13 @@ import numpy as np
 
 from coframe import _core, time
 from coframe.errors import InvalidArgumentException
-from coframe.transform import stamps_of
+from coframe.transform.transform import stamps_of
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
     from coframe.time import StampLike
-    from coframe.transform import Transform
+    from coframe.transform.transform import Transform
 
 _REFUSED_HINT = "Frame names must differ and not be empty, values must be finite, and a quaternion must not be zero."
 

@@ -7,8 +7,8 @@ import contextlib
 from typing import TYPE_CHECKING
 
 from coframe import _core, time
+from coframe._output.formatting import duration
 from coframe.errors import TimeoutException, TransformException
-from coframe.formatting import duration
 
 if TYPE_CHECKING:
     import asyncio
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
     from coframe.buffer.buffer import Buffer
     from coframe.time import DurationLike, StampLike
-    from coframe.transform import Transform
+    from coframe.transform.transform import Transform
 
 
 class CallbackHandle:

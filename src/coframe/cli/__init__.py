@@ -6,6 +6,8 @@ from __future__ import annotations
 import sys
 from typing import TYPE_CHECKING
 
+from coframe._process.optional_imports import CLI_PACKAGES, extra_of, pip_install
+from coframe._process.signal_handlers import clear_handled_interrupt
 from coframe.cli.commands import COMMANDS
 from coframe.cli.streams import (
     accept_any_encoding,
@@ -15,8 +17,6 @@ from coframe.cli.streams import (
     undecodable,
 )
 from coframe.cli.system_errors import description
-from coframe.optional_imports import CLI_PACKAGES, extra_of, pip_install
-from coframe.signal_handlers import clear_handled_interrupt
 
 if TYPE_CHECKING:
     from collections.abc import Collection

@@ -13,6 +13,8 @@ import click
 from rich.table import Table
 from rich.text import Text
 
+from coframe._output.escaping import shown
+from coframe._output.formatting import count, listed, seconds
 from coframe.bags import COMPRESSIONS, parse_time_point, repair, summarize
 from coframe.bags.copying import copy_recordings
 from coframe.bags.namespaces import TransformChoice
@@ -30,8 +32,6 @@ from coframe.cli.play import play
 from coframe.cli.progress import task_progress
 from coframe.cli.record import record
 from coframe.cli.recordings import EARLIEST_WALL_TIME, grouped_by_topic, open_recording
-from coframe.escaping import shown
-from coframe.formatting import count, listed, seconds
 from coframe.time import MILLISECOND, SECOND
 
 if TYPE_CHECKING:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from coframe._output.formatting import count
 from coframe.bags import TrajectoryQuery, query_recordings
 from coframe.bags.batch import ENGINES
 from coframe.bags.formats import file_kinds
@@ -20,7 +21,6 @@ from coframe.cli.options import (
 )
 from coframe.cli.output import fail, printable, warn
 from coframe.cli.progress import item_progress
-from coframe.formatting import count
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, Literal, cast
 
 import click
 
+from coframe._output.formatting import count
 from coframe.bags import Clouds, write_clouds
 from coframe.bags.namespaces import TransformChoice
 from coframe.cli.completion import complete_frames
@@ -20,7 +21,6 @@ from coframe.cli.options import (
 from coframe.cli.output import fail, fail_to_write, printable, warn
 from coframe.cli.progress import item_progress
 from coframe.cli.recordings import open_recording, parse_time
-from coframe.formatting import count
 
 if TYPE_CHECKING:
     from pathlib import Path

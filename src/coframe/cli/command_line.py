@@ -12,8 +12,8 @@ import click
 from click.exceptions import Abort, Exit
 
 import coframe
-from coframe._plugins import Plugin, PluginError, plugins
-from coframe.base_error import CoframeError
+from coframe._base_error import CoframeError
+from coframe._process.plugins import Plugin, PluginError, plugins
 from coframe.cli.commands import COMMANDS
 from coframe.cli.declaration import CommandGroup
 

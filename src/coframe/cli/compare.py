@@ -13,6 +13,8 @@ from typing import TYPE_CHECKING, Literal
 import click
 import numpy as np
 
+from coframe._files.complete_files import write_complete
+from coframe._output.formatting import count
 from coframe.bags.formats import has_known_suffix
 from coframe.bags.namespaces import TransformChoice
 from coframe.cli.declaration import PATH, Command, argument
@@ -25,14 +27,12 @@ from coframe.cli.options import (
 from coframe.cli.output import fail, fail_to_write, printable
 from coframe.cli.plot import check_figure_package, save_figure
 from coframe.cli.recordings import open_recording
-from coframe.complete_files import write_complete
-from coframe.formatting import count
 from coframe.plotting import FIGURE_FORMATS, Figure, Series
 from coframe.trajectories import compare_trajectories, parse_delta, read_trajectory
 
 if TYPE_CHECKING:
-    from coframe import Transform
     from coframe.trajectories import Comparison, PoseErrors, Statistics
+    from coframe.transform.transform import Transform
 
 __all__ = ["compare"]
 

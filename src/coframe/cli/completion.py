@@ -32,7 +32,7 @@ _Names = TypeVar("_Names")
 _TF_TYPE = "tf2_msgs/msg/TFMessage"
 _DISCOVERY = 0.6  # seconds: the longest discovery of topics or frames
 _UNCHANGED = 0.2  # seconds without a new name, after which the known names are complete
-_LARGEST = 200 << 20  # bytes: reading more takes longer than typing the name
+_MAX_BYTES = 200 << 20  # bytes: reading more takes longer than typing the name
 
 
 def _silent(complete: Callable[..., _Names]) -> Callable[..., _Names | list[str]]:
@@ -89,7 +89,7 @@ def complete_frames(ctx: click.Context, parameter: click.Parameter, incomplete: 
     if not path.exists():
         return [] if bag else complete_live_frames(ctx, parameter, incomplete)
     files = path.iterdir() if path.is_dir() else [path]
-    if sum(file.stat().st_size for file in files if file.is_file()) > _LARGEST:
+    if sum(file.stat().st_size for file in files if file.is_file()) > _MAX_BYTES:
         return []
     from coframe.bags import open_bag  # noqa: PLC0415 - only if there is a recording
 
@@ -101,10 +101,10 @@ def complete_frames(ctx: click.Context, parameter: click.Parameter, incomplete: 
 @_silent
 def complete_live_frames(ctx: click.Context, _parameter: click.Parameter, incomplete: str) -> list[str]:
     """Return the frames of the ROS graph that begin with a text."""
-    import coframe  # noqa: PLC0415 - only for this completion
+    from coframe.connection.connection import connect  # noqa: PLC0415 - only for this completion
 
     options = {name: ctx.params[name] for name in ("domain", "tf_topic", "tf_static_topic") if ctx.params.get(name)}
-    with coframe.connect("completion", **options) as connection:
+    with connect("completion", **options) as connection:
         names = _settled(connection.buffer.frame_names)
     return sorted(name for name in names if name.startswith(incomplete))
 

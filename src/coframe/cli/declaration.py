@@ -79,7 +79,7 @@ class CommandGroup(click.Group):
         """Return the command that the first word names; suggest the correct name of a misspelled one."""
         name = args[0]
         if not (name.startswith("-") or ctx.resilient_parsing or self.get_command(ctx, name)):
-            from coframe.formatting import did_you_mean  # noqa: PLC0415 - the help does not need NumPy
+            from coframe._output.formatting import did_you_mean  # noqa: PLC0415 - the help does not need NumPy
 
             ctx.fail(f"No such command {name!r}. {did_you_mean(name, self.list_commands(ctx), most=2)}".rstrip())
         return super().resolve_command(ctx, args)

@@ -7,6 +7,7 @@ import threading
 import time
 from collections import Counter
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 from rich.console import Console, Group
@@ -15,6 +16,7 @@ from rich.text import Text
 
 import coframe
 import coframe.lab
+from coframe._base_error import CoframeError
 from coframe.analysis.liveness import LivenessTracker
 from coframe.cli.declaration import Command
 from coframe.cli.lifecycle import run_until_interrupted
@@ -28,11 +30,14 @@ from coframe.cli.output import fail
 from coframe.cli.robots_demo import show_robots
 from coframe.cli.tree_table import tree_table
 from coframe.cli.view import optional_viewer, port_option
-from coframe.connection import Connection
+from coframe.connection.connection import Connection
+from coframe.connection.listener_config import ListenerConfig
 from coframe.lab.launcher import COMPLETE_LAB, DESCRIBED_LAB, Launcher
-from coframe.listener_config import ListenerConfig
 from coframe.messages.generated.sensor_msgs.msg import PointCloud2
 from coframe.robots import Robot, load
+
+if TYPE_CHECKING:
+    from coframe.buffer.buffer import Buffer
 
 __all__ = ["demo"]
 
@@ -150,11 +155,11 @@ def _robot() -> Robot | None:
     """Return the robot whose meshes the viewer shows; None if xacro is not installed: the demo is complete without."""
     try:
         return load(ARM)
-    except coframe.CoframeError:
+    except CoframeError:
         return None
 
 
-def _duplicate_nodes(ros: coframe.Connection, nodes: Launcher) -> list[str]:
+def _duplicate_nodes(ros: Connection, nodes: Launcher) -> list[str]:
     """Return a warning if nodes of the same names run elsewhere: with two publishers, the arm flickers."""
     counts = Counter(name for _, name in ros.participant.nodes())
     duplicates = [name for name in nodes.names if counts[name] > 1]
@@ -163,7 +168,7 @@ def _duplicate_nodes(ros: coframe.Connection, nodes: Launcher) -> list[str]:
     return [f"already running in this domain: {', '.join(duplicates)}. Stop it, or choose another domain with --domain"]
 
 
-def _watch(buffer: coframe.Buffer, nodes: Launcher, start: float, duration: float | None, complete: list[str]) -> None:
+def _watch(buffer: Buffer, nodes: Launcher, start: float, duration: float | None, complete: list[str]) -> None:
     pause = threading.Event()
     while duration is None or time.monotonic() - start < duration:
         failed = nodes.failed()

@@ -14,6 +14,7 @@ from rich.console import Console, Group
 from rich.live import Live
 from rich.text import Text
 
+from coframe._process.freed_memory import return_freed_arrays
 from coframe.bags.namespaces import TransformChoice
 from coframe.cli.declaration import Command
 from coframe.cli.lifecycle import run_to_completion, run_until_interrupted
@@ -26,14 +27,13 @@ from coframe.cli.options import (
 )
 from coframe.cli.output import fail, one_line, printable
 from coframe.cli.progress import reading_progress
+from coframe.connection.listener_config import ListenerConfig
 from coframe.doctor import codes, diagnose, page
 from coframe.doctor.codes import built_in_codes
 from coframe.doctor.recorded import observe_chosen
 from coframe.doctor.rendering.plain import as_data
 from coframe.doctor.rendering.sarif import as_sarif
 from coframe.doctor.rendering.text import lines
-from coframe.freed_memory import return_freed_arrays
-from coframe.listener_config import ListenerConfig
 
 if TYPE_CHECKING:
     from collections.abc import Iterable

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 import click
 import numpy as np
 
-import coframe
+from coframe._output.escaping import shown
 from coframe.cli.completion import complete_live_frames
 from coframe.cli.declaration import argument
 from coframe.cli.lifecycle import run_until_interrupted
@@ -23,14 +23,16 @@ from coframe.cli.options import (
 )
 from coframe.cli.output import awaited_statics_text, fail, log, one_line, print_bounded, with_doctor_command
 from coframe.cli.ros_arguments import NodeCommand, node_identity
+from coframe.connection.connection import connect
 from coframe.errors import TransformException
-from coframe.escaping import shown
-from coframe.time import SECOND, SHORTEST_INT
+from coframe.time import MIN_INT_NANOSECONDS, SECOND
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from coframe import Buffer, Connection, Transform
+    from coframe.buffer.buffer import Buffer
+    from coframe.connection.connection import Connection
+    from coframe.transform.transform import Transform
 
 __all__ = ["echo"]
 
@@ -107,7 +109,7 @@ def echo(
             fail(f"{option} must be a number of seconds from {-MAX_SECONDS:.0e} to {MAX_SECONDS:.0e}, not {value}")
     with (
         run_until_interrupted(),
-        coframe.connect(
+        connect(
             **node_identity(NODE),
             domain=domain,
             tf_topic=tf_topic,
@@ -161,7 +163,7 @@ def _wait_until_possible(ros: Connection, source: str, target: str, period: int)
     logged_at = logged_hint = None
     while True:
         try:
-            buffer.lookup(source, target, timeout=min(max(period, SHORTEST_INT), SECOND))
+            buffer.lookup(source, target, timeout=min(max(period, MIN_INT_NANOSECONDS), SECOND))
         except TransformException as error:
             if logged_at is None or time.monotonic() - logged_at >= 1.0:
                 logged_at = time.monotonic()

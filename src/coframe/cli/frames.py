@@ -11,6 +11,8 @@ import click
 from rich.console import Console
 from rich.text import Text
 
+from coframe._files.complete_files import write_complete
+from coframe._process.optional_imports import importing_matplotlib, pip_install
 from coframe.bags.namespaces import TransformChoice
 from coframe.cli.declaration import PATH
 from coframe.cli.frames_screen import tree_in_parts, watch
@@ -28,14 +30,12 @@ from coframe.cli.options import (
 from coframe.cli.output import fail, fail_to_write, printable, report_console, warn
 from coframe.cli.progress import reading_progress
 from coframe.cli.ros_arguments import NodeCommand, node_identity
-from coframe.complete_files import write_complete
+from coframe.connection.listener_config import ListenerConfig
 from coframe.doctor.recorded import observe_chosen
-from coframe.listener_config import ListenerConfig
-from coframe.optional_imports import importing_matplotlib, pip_install
 from coframe.tree_drawing import grow
 from coframe.tree_drawing.graphviz import as_graphviz
 from coframe.tree_drawing.labels import summary
-from coframe.tree_drawing.mermaid import MOST_EDGES, as_markdown, as_mermaid
+from coframe.tree_drawing.mermaid import MAX_EDGES, as_markdown, as_mermaid
 from coframe.tree_drawing.plain import as_data
 from coframe.tree_drawing.svg import as_svg
 
@@ -203,8 +203,8 @@ def _write(path: Path, forest: Forest, title: str) -> None:
     except OSError as error:
         fail_to_write(path, error)
     click.echo(f"{path}: {summary(forest)}", err=True)
-    if path.suffix.lower() in {".mmd", ".md"} and len(forest.frames) > MOST_EDGES:
-        warn(f"Mermaid draws at most {MOST_EDGES} edges, unless its option maxEdges is increased")
+    if path.suffix.lower() in {".mmd", ".md"} and len(forest.frames) > MAX_EDGES:
+        warn(f"Mermaid draws at most {MAX_EDGES} edges, unless its option maxEdges is increased")
 
 
 def _print(forests: dict[str, Forest]) -> None:

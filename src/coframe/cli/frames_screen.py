@@ -13,8 +13,8 @@ from rich.live import Live
 from rich.table import Table
 from rich.text import Text
 
+from coframe._output.formatting import count
 from coframe.cli.output import print_bounded
-from coframe.formatting import count
 from coframe.tree_drawing import changes, grow
 from coframe.tree_drawing.labels import summary
 from coframe.tree_drawing.plain import as_data

@@ -18,8 +18,15 @@ from coframe.cli.options import (
     listener_options,
 )
 from coframe.cli.output import fail, log
-from coframe.listener_config import ListenerConfig
-from coframe.shared_transforms import GENERATIONS, SharedTransforms, full, is_suspended, open_segment, suspension
+from coframe.connection.listener_config import ListenerConfig
+from coframe.connection.shared_transforms import (
+    GENERATIONS,
+    SharedTransforms,
+    full,
+    is_suspended,
+    open_segment,
+    suspension,
+)
 
 if TYPE_CHECKING:
     from coframe.buffer.buffer import Buffer

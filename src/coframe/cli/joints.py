@@ -13,7 +13,7 @@ from rich.console import Console, Group
 from rich.live import Live
 from rich.text import Text
 
-import coframe
+from coframe._process.keys import keys
 from coframe.cli.declaration import PASS_WORDS_ON, PATH, Command, argument
 from coframe.cli.lifecycle import run_until_interrupted
 from coframe.cli.node_arguments import reported_node_errors, xacro_arguments
@@ -24,10 +24,10 @@ from coframe.cli.options import (
 from coframe.cli.output import fail
 from coframe.cli.sliders import HELP, Sliders
 from coframe.cli.view import announce, no_browser_option, port_option
-from coframe.connection import Connection
-from coframe.keys import keys
-from coframe.listener_config import ListenerConfig
+from coframe.connection.connection import Connection
+from coframe.connection.listener_config import ListenerConfig
 from coframe.robots import RobotDescriptionError, load
+from coframe.viewer.show import show as show_in_browser
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator
@@ -227,8 +227,8 @@ def _show_in_terminal(running: RunningNode) -> None:
 
 
 def _show_in_viewer(
-    running: RunningNode, robot: Robot | None, ros: coframe.Connection, port: int | None, *, browser: bool
+    running: RunningNode, robot: Robot | None, ros: Connection, port: int | None, *, browser: bool
 ) -> None:
-    with coframe.show(ros, robot=robot, port=port, joint_states=SLIDERS) as viewer:
+    with show_in_browser(ros, robot=robot, port=port, joint_states=SLIDERS) as viewer:
         announce(viewer, browser=browser)
         running.wait()

@@ -14,14 +14,15 @@ from typing import TYPE_CHECKING, Any, TextIO
 
 import click
 
-import coframe
+from coframe._files.complete_files import complete_or_absent, write_complete
+from coframe._output.escaping import csv_cell
 from coframe.cli.declaration import PATH, CommandGroup, argument
 from coframe.cli.lifecycle import run_to_completion, run_until_interrupted
 from coframe.cli.options import NonNegativeDuration, duration_option
 from coframe.cli.output import fail, print_bounded, printable, report_console, warn
 from coframe.cli.progress import item_progress
 from coframe.cli.view import open_browser, optional_viewer, port_option
-from coframe.complete_files import complete_or_absent, write_complete
+from coframe.connection.connection import connect
 from coframe.course import formats
 from coframe.course.assignment import FILE
 from coframe.course.checking import check_class, check_folder, submissions
@@ -34,7 +35,6 @@ from coframe.course.rubric import CRITERIA
 from coframe.course.running import COMPLETE_TREE, SIMULATION, STEPS, programs_of, running
 from coframe.course.submitted import check_outputs
 from coframe.errors import CourseError
-from coframe.escaping import csv_cell
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence
@@ -285,7 +285,7 @@ def _run(
         except BrokenPipeError:
             closed.set()
 
-    with coframe.connect("coframe_lab") as ros, optional_viewer(ros, port, browser=browser), running(programs, write):
+    with connect("coframe_lab") as ros, optional_viewer(ros, port, browser=browser), running(programs, write):
         if names_silent and (seconds is None or seconds > _FIRST_OUTPUT):
             first = FirstOutput(ros, programs)
             closed.wait(_FIRST_OUTPUT)

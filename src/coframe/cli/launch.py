@@ -10,13 +10,13 @@ from typing import TYPE_CHECKING
 import click
 from click.exceptions import Exit
 
+from coframe._files.existence import exists, is_dir
+from coframe._files.regular_files import check_regular, reading_hint
+from coframe._output.formatting import did_you_mean
 from coframe.cli.declaration import PASS_WORDS_ON, Command, argument
 from coframe.cli.output import fail
 from coframe.errors import PackageError
-from coframe.existence import exists, is_dir
-from coframe.formatting import did_you_mean
-from coframe.packages.finding import find_package, use_sources_near
-from coframe.regular_files import check_regular, reading_hint
+from coframe.workspace.packages.finding import find_package, use_sources_near
 
 if TYPE_CHECKING:
     from launch import LaunchDescription

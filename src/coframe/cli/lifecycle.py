@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING
 
 from click.exceptions import Exit
 
+from coframe._process.signal_handlers import SignalHandlers
 from coframe.cli.output import fail
 from coframe.errors import CoframeError
-from coframe.signal_handlers import SignalHandlers
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

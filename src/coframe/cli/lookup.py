@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from coframe._output.formatting import seconds
 from coframe.bags import parse_time_point
 from coframe.bags.namespaces import TransformChoice
 from coframe.cli.completion import complete_frames
@@ -24,17 +25,17 @@ from coframe.cli.options import (
 )
 from coframe.cli.output import awaited_statics_text, fail
 from coframe.cli.recordings import check_has_transforms, open_recording, parse_lookup_time
-from coframe.connection import Connection
+from coframe.connection.connection import Connection
+from coframe.connection.listener_config import ListenerConfig
 from coframe.errors import ExtrapolationException, TransformException
-from coframe.formatting import seconds
-from coframe.listener_config import ListenerConfig
 from coframe.time import SECOND
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from coframe import Buffer, Transform
     from coframe.bags import Recording
+    from coframe.buffer.buffer import Buffer
+    from coframe.transform.transform import Transform
 
 __all__ = ["lookup"]
 

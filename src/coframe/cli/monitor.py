@@ -13,6 +13,8 @@ from rich.live import Live
 from rich.table import Table
 from rich.text import Text
 
+from coframe._output.escaping import shown
+from coframe._output.formatting import count
 from coframe.cli.declaration import argument
 from coframe.cli.lifecycle import run_until_interrupted
 from coframe.cli.options import (
@@ -22,10 +24,8 @@ from coframe.cli.options import (
 )
 from coframe.cli.output import fail, report_console
 from coframe.cli.ros_arguments import NodeCommand, node_identity
+from coframe.connection.listener_config import ListenerConfig
 from coframe.doctor.figures import chain_figures, edge_figures, publisher_figures
-from coframe.escaping import shown
-from coframe.formatting import count
-from coframe.listener_config import ListenerConfig
 from coframe.time import MILLISECOND, SECOND
 
 if TYPE_CHECKING:
@@ -40,7 +40,7 @@ if TYPE_CHECKING:
 
 __all__ = ["monitor"]
 
-_LEAST_ROWS = 5
+_MIN_ROWS = 5
 _OTHER_LINES = 12  # of the screen: titles, a chain, and some publishers
 _BROADCASTERS = "\nAll Broadcasters:"
 
@@ -121,7 +121,7 @@ def _watch(observer: LiveObserver, pair: Pair) -> NoReturn:
     console = report_console()
     with Live(console=console, auto_refresh=False) as live:
         while True:
-            most = max(console.height - _OTHER_LINES, _LEAST_ROWS) if console.is_terminal else None
+            most = max(console.height - _OTHER_LINES, _MIN_ROWS) if console.is_terminal else None
             live.update(_tables(observer.observe(), pair, most), refresh=True)
             observer.listen(1.0)
 

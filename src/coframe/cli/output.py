@@ -11,9 +11,9 @@ from typing import IO, TYPE_CHECKING, Any, NoReturn, cast
 import click
 from click.exceptions import Exit
 
-from coframe.bounded_lines import print_bounded
+from coframe._files.bounded_lines import print_bounded
+from coframe._output.escaping import one_line, printable
 from coframe.cli.system_errors import advice_for_writing
-from coframe.escaping import one_line, printable
 from coframe.time import SECOND
 
 if TYPE_CHECKING:

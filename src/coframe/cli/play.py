@@ -12,7 +12,8 @@ from rich.console import Console
 from rich.live import Live
 from rich.text import Text
 
-import coframe
+from coframe._output.formatting import count
+from coframe._process.keys import keys
 from coframe.cli.declaration import Command
 from coframe.cli.lifecycle import run_until_interrupted
 from coframe.cli.options import (
@@ -24,9 +25,8 @@ from coframe.cli.options import (
     listener_options,
 )
 from coframe.cli.output import fail, warn
-from coframe.formatting import count
-from coframe.keys import keys
-from coframe.recorder import FASTEST
+from coframe.errors import RecordingError
+from coframe.recorder import MAX_RATE
 from coframe.recorder import play as start_playing
 from coframe.time import SECOND
 
@@ -134,7 +134,7 @@ def play(
                 prefix=prefix,
                 keep=keep,
             )
-        except coframe.RecordingError:
+        except RecordingError:
             raise
         except ValueError as error:
             fail(str(error), code=2)
@@ -176,7 +176,7 @@ def _handle_key(player: Player, key: str | None) -> None:
         player.step()
     elif key in {"up", "down"}:
         faster = player.clock.rate * (1.1 if key == "up" else 1 / 1.1)
-        player.set_rate(min(max(faster, 0.01), FASTEST))
+        player.set_rate(min(max(faster, 0.01), MAX_RATE))
 
 
 def _line(player: Player) -> Text:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from coframe._output.formatting import count
 from coframe.bags.namespaces import TransformChoice
 from coframe.cli.declaration import PATH, Command, argument
 from coframe.cli.lifecycle import run_to_completion
@@ -19,7 +20,6 @@ from coframe.cli.output import fail, fail_to_write, printable, warn
 from coframe.cli.progress import task_progress
 from coframe.cli.recordings import open_recording, parse_time
 from coframe.errors import PlotError
-from coframe.formatting import count
 from coframe.plotting import FIGURE_FORMATS, Figure, evaluate, figure_format, parse_expression
 
 if TYPE_CHECKING:

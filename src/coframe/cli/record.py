@@ -13,7 +13,8 @@ from rich.console import Console
 from rich.live import Live
 from rich.text import Text
 
-import coframe
+from coframe._output.formatting import count
+from coframe._process.freed_memory import return_freed_arrays
 from coframe.cli.completion import complete_live_topics
 from coframe.cli.declaration import PATH, Command, argument
 from coframe.cli.lifecycle import run_until_interrupted
@@ -27,8 +28,7 @@ from coframe.cli.options import (
     listener_options,
 )
 from coframe.cli.output import fail, one_line, print_bounded, warn
-from coframe.formatting import count
-from coframe.freed_memory import return_freed_arrays
+from coframe.errors import RecordingError
 from coframe.recorder import record as start_recording
 
 if TYPE_CHECKING:
@@ -41,7 +41,7 @@ __all__ = ["record"]
 _REFRESH = 0.2  # seconds
 _SIZE = re.compile(r"(\d+(?:\.\d+)?)\s*([kMG]?)B?", re.IGNORECASE)
 _UNITS = {"": 1, "k": 1000, "m": 1000**2, "g": 1000**3}
-_LARGEST = 1 << 63  # bytes
+_MAX_BYTES = 1 << 63  # bytes
 
 
 @click.command(cls=Command)
@@ -129,7 +129,7 @@ def record(
                 prefix=prefix,
                 keep=keep,
             )
-        except coframe.RecordingError:
+        except RecordingError:
             raise
         except ValueError as error:
             fail(str(error), code=2)
@@ -229,6 +229,6 @@ def _finish(recorder: Recorder) -> None:
 def _bytes(option: str, text: str) -> int:
     match = _SIZE.fullmatch(text.strip())
     size = 0.0 if match is None else float(match[1]) * _UNITS[match[2].lower()]
-    if not 1 <= size < _LARGEST:
+    if not 1 <= size < _MAX_BYTES:
         fail(f"{option}: {text[:60]!r} is not a size. Write, for example, 500MB or 2GB.", code=2)
     return int(size)

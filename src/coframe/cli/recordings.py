@@ -6,11 +6,11 @@ from __future__ import annotations
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
+from coframe._output.formatting import listed, seconds
 from coframe.bags.recording import open_chosen
 from coframe.bags.time_points import parse_time_point
 from coframe.cli.output import fail, warn
 from coframe.cli.progress import reading_progress
-from coframe.formatting import listed, seconds
 from coframe.time import DAY
 
 if TYPE_CHECKING:

@@ -14,13 +14,13 @@ from rich.live import Live
 from rich.table import Table
 from rich.text import Text
 
-import coframe
+from coframe._output.escaping import shown
+from coframe._output.formatting import count
 from coframe.cli.declaration import Command
 from coframe.cli.lifecycle import run_until_interrupted
 from coframe.cli.options import TF_TOPIC, checked_prefix, domain_option, keep_option, prefix_option, topic_name
 from coframe.cli.output import fail, log, one_line, report_console
-from coframe.escaping import shown
-from coframe.formatting import count
+from coframe.tf_relay.starting import relay as start_relay
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -113,7 +113,7 @@ def relay(
         prefixes = {}
     with run_until_interrupted(), contextlib.ExitStack() as stack:
         try:
-            running = coframe.relay(
+            running = start_relay(
                 robots,
                 sources=prefixes,
                 common=common,

@@ -14,23 +14,23 @@ from rich.live import Live
 from rich.table import Table
 from rich.text import Text
 
-import coframe
+from coframe._output.formatting import count
 from coframe.cli.lifecycle import run_until_interrupted
 from coframe.cli.output import fail, printable
 from coframe.cli.view import optional_viewer
-from coframe.connection import Connection
+from coframe.connection.connection import Connection
+from coframe.connection.tf_publishers import publisher_state
 from coframe.errors import TransformException
-from coframe.formatting import count
 from coframe.lab.launcher import Launcher, NodeCommand
-from coframe.tf_publishers import publisher_state
+from coframe.tf_relay.starting import relay as start_relay
 from coframe.time import MILLISECOND
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from coframe.connection.listener_config import ListenerConfig
+    from coframe.connection.tf_publishers import TfPublisher
     from coframe.lab.launcher import FailedNode
-    from coframe.listener_config import ListenerConfig
-    from coframe.tf_publishers import TfPublisher
     from coframe.tf_relay import Relay
 
 __all__ = ["show_robots"]
@@ -94,7 +94,7 @@ def _optional_relay(
     if not needed:
         return contextlib.nullcontext()
     try:
-        return coframe.relay(
+        return start_relay(
             names,
             common=config.tf_topic,
             common_static=config.tf_static_topic,
@@ -155,7 +155,7 @@ class _View:
     def __init__(
         self,
         names: list[str],
-        ros: coframe.Connection,
+        ros: Connection,
         relay: Relay | None,
         nodes: Launcher,
         shown: Callable[[str], str],

@@ -15,8 +15,8 @@ from click.exceptions import Exit
 from coframe.cli.declaration import PASS_WORDS_ON, Command, argument
 from coframe.cli.output import fail
 from coframe.errors import PackageError
-from coframe.packages.executables import executables, find_executable
-from coframe.packages.finding import find_package
+from coframe.workspace.packages.executables import executables, find_executable
+from coframe.workspace.packages.finding import find_package
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

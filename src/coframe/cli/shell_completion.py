@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING, Final
 
 from click.shell_completion import get_completion_class
 
+from coframe._files.regular_files import read_regular_text
 from coframe.cli.output import fail
-from coframe.regular_files import read_regular_text
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from rich.table import Table
 from rich.text import Text
 
-from coframe.escaping import shown
+from coframe._output.escaping import shown
 
 if TYPE_CHECKING:
     from coframe.robots.joint_states import FreeJoint, JointStates

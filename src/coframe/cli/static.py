@@ -11,13 +11,13 @@ import time
 import click
 from click.exceptions import Exit
 
+from coframe._output.escaping import shown
 from coframe.cli.declaration import PASS_WORDS_ON
 from coframe.cli.lifecycle import run_until_interrupted
 from coframe.cli.options import checked_prefix
 from coframe.cli.output import fail, log
 from coframe.cli.ros_arguments import NodeCommand, NodeIdentity, node_identity
 from coframe.cli.static_arguments import ArgumentError, StaticArguments, parse
-from coframe.escaping import shown
 from coframe.frame_names import renaming
 from coframe.messages.conversions import to_transform_stamped
 from coframe.wire.participant import Participant

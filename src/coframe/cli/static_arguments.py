@@ -8,7 +8,7 @@ import re
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from coframe import Transform
+from coframe.transform.transform import Transform
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from coframe._output.formatting import count, seconds
 from coframe.bags import TrajectoryQuery
 from coframe.bags.namespaces import TransformChoice
 from coframe.cli.completion import complete_frames
@@ -21,15 +22,14 @@ from coframe.cli.options import (
 from coframe.cli.output import fail, fail_to_write, warn
 from coframe.cli.progress import item_progress
 from coframe.cli.recordings import open_recording, parse_time
-from coframe.formatting import count, seconds
 from coframe.trajectories import FORMATS, format_of, write_trajectory
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
     from pathlib import Path
 
-    from coframe import Transform
     from coframe.bags import Recording
+    from coframe.transform.transform import Transform
 
 __all__ = ["trajectory"]
 

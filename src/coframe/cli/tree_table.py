@@ -11,15 +11,16 @@ from rich.console import Group
 from rich.table import Table
 from rich.text import Text
 
+from coframe._output.escaping import shown
+from coframe._output.formatting import count
 from coframe.analysis.tree import FrameTrees
 from coframe.errors import TransformException
-from coframe.escaping import shown
-from coframe.formatting import count
 from coframe.time import SECOND
 
 if TYPE_CHECKING:
-    from coframe import Buffer, FrameInfo
     from coframe.analysis.liveness import LivenessTracker
+    from coframe.buffer.buffer import Buffer
+    from coframe.buffer.edge_info import FrameInfo
 
 __all__ = ["tree_table"]
 

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-import coframe
+from coframe._process.freed_memory import return_freed_arrays
 from coframe.bags.namespaces import TransformChoice
 from coframe.bags.recording import open_chosen
 from coframe.cli.completion import complete_recordings
@@ -25,11 +25,12 @@ from coframe.cli.options import (
 )
 from coframe.cli.output import fail, warn
 from coframe.cli.ros_arguments import NodeCommand
-from coframe.connection import Connection
-from coframe.freed_memory import return_freed_arrays
-from coframe.listener_config import ListenerConfig
+from coframe.connection.connection import Connection
+from coframe.connection.listener_config import ListenerConfig
+from coframe.errors import ViewerError
 from coframe.viewer import start_viewer
 from coframe.viewer.replay.page import MAX_RATE
+from coframe.viewer.show import show as show_in_browser
 from coframe.wire import selection
 
 if TYPE_CHECKING:
@@ -211,13 +212,11 @@ def _read(bag: Path, choice: TransformChoice, progress: _ReadingProgress) -> Rec
 
 
 @contextlib.contextmanager
-def optional_viewer(
-    ros: coframe.Connection, port: int | None, *, browser: bool, robot: Robot | None = None
-) -> Iterator[None]:
+def optional_viewer(ros: Connection, port: int | None, *, browser: bool, robot: Robot | None = None) -> Iterator[None]:
     """Show the viewer; print a warning instead if a package that it needs is not installed."""
     try:
-        viewer = coframe.show(ros, port=port, robot=robot)
-    except coframe.ViewerError as error:
+        viewer = show_in_browser(ros, port=port, robot=robot)
+    except ViewerError as error:
         warn(f"The viewer is not available: {error}")
         yield
         return

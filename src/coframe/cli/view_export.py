@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING
 
 import click
 
+from coframe._files.complete_files import write_complete
 from coframe.bags.namespaces import TransformChoice
 from coframe.cli.lifecycle import run_to_completion
 from coframe.cli.output import fail_to_write
 from coframe.cli.progress import task_progress
 from coframe.cli.recordings import check_has_transforms, open_recording, parse_time
-from coframe.complete_files import write_complete
 from coframe.robots import load
 from coframe.viewer.replay.export import export_replay
 from coframe.viewer.robots.robot_message import make_mesh_table

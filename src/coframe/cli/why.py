@@ -21,6 +21,7 @@ from rich.text import Text
 
 from coframe.bags import parse_time_point
 from coframe.bags.namespaces import TransformChoice
+from coframe.buffer.explanation.drawing import remark, verdict
 from coframe.cli.completion import complete_frames
 from coframe.cli.declaration import Command, argument
 from coframe.cli.lifecycle import run_to_completion, run_until_interrupted
@@ -33,13 +34,12 @@ from coframe.cli.options import (
 )
 from coframe.cli.output import awaited_statics_text, fail, one_line, with_doctor_command
 from coframe.cli.recordings import check_has_transforms, open_recording, parse_lookup_time
-from coframe.connection import Connection
+from coframe.connection.connection import Connection
+from coframe.connection.listener_config import ListenerConfig
 from coframe.doctor import Observation, diagnose
 from coframe.doctor.recorded import collecting
 from coframe.doctor.rendering.plain import as_data
 from coframe.doctor.rendering.text import headline
-from coframe.explanation.drawing import remark, verdict
-from coframe.listener_config import ListenerConfig
 from coframe.messages import find
 from coframe.time import SECOND, stamp_ns
 
@@ -47,9 +47,9 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
     from coframe.bags import Recording
+    from coframe.buffer.explanation import ChainEdge, Explanation
     from coframe.doctor import Finding, Report
     from coframe.doctor.collector import Collector
-    from coframe.explanation import ChainEdge, Explanation
 
 __all__ = ["why"]
 

@@ -12,14 +12,14 @@ from concurrent.futures import ThreadPoolExecutor, as_completed
 from pathlib import Path
 from typing import IO, TYPE_CHECKING, Any
 
+from coframe._files.temporary_folders import temporary_folder
+from coframe._process.python_children import python_command
 from coframe.course.folders import file_names
 from coframe.course.isolation import isolated_command, isolated_environment, isolation_problem
 from coframe.course.rubric import CRITERIA, RUBRIC
 from coframe.course.sheet import Report, Sheet
 from coframe.course.view import private_folders
 from coframe.errors import CourseError
-from coframe.python_children import python_command
-from coframe.temporary_folders import temporary_folder
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Generator, Mapping, Sequence

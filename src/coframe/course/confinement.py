@@ -9,12 +9,12 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
+from coframe._process.graded_programs import GRADED, SOLUTIONS, refusal
+from coframe._process.python_children import python_environment
 from coframe.course.sandbox.landlock import landlock_version, scopes_signals
 from coframe.course.sandbox.seccomp import can_filter
 from coframe.course.solutions import Decoys, entry_files, solution_folders, solution_problem
 from coframe.course.view import view_of
-from coframe.graded_programs import GRADED, SOLUTIONS, refusal
-from coframe.python_children import python_environment
 
 if TYPE_CHECKING:
     from collections.abc import Iterable

@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator
     from typing import Any
 
-    import coframe
+    from coframe.connection.connection import Connection
     from coframe.course.running import Program
 
 __all__ = ["FirstOutput"]
@@ -37,7 +37,7 @@ _OUTPUTS = {
 class FirstOutput:
     """Subscriptions to what the programs of the lab publish."""
 
-    def __init__(self, ros: coframe.Connection, programs: Iterable[Program]) -> None:
+    def __init__(self, ros: Connection, programs: Iterable[Program]) -> None:
         self._ros = ros
         self._names = [program.name for program in programs if program.name in _OUTPUTS]
         self._received: set[str] = set()

@@ -8,7 +8,7 @@ from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from coframe.complete_files import write_complete
+from coframe._files.complete_files import write_complete
 from coframe.course.assignment import FILE, assignment_file, assignment_of
 from coframe.errors import CourseError
 

@@ -13,6 +13,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TextIO
 
+from coframe._process.python_children import python_command, python_environment
 from coframe.course.assignment import Assignment, assignment_of, read_assignment
 from coframe.course.confinement import DECOYS, Confinement
 from coframe.course.isolation import bring_loopback_up, is_isolated, limit_disk
@@ -21,7 +22,6 @@ from coframe.course.program import HOMES
 from coframe.course.rubric import RUBRIC
 from coframe.course.sandbox.privileges import forbid_tracing
 from coframe.errors import CourseError
-from coframe.python_children import python_command, python_environment
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence

@@ -14,10 +14,10 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
+from coframe._files.temporary_folders import temporary_folder
+from coframe._process.python_children import python_environment
 from coframe.course.confinement import Confinement, passed_variables, protection_problem
 from coframe.course.sandbox.kernel import c_function
-from coframe.python_children import python_environment
-from coframe.temporary_folders import temporary_folder
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -33,7 +33,7 @@ __all__ = [
 
 _VARIABLE: Final = "COFRAME_ISOLATED"  # set in processes that have a network of their own
 # Domains for grades without a network of their own. The ports of those above 101 may be in use by other sockets.
-_LOWEST_DOMAIN, _DOMAINS = 51, 50
+_MIN_DOMAIN, _DOMAINS = 51, 50
 _SIOCGIFFLAGS, _SIOCSIFFLAGS = 0x8913, 0x8914
 _UP_AND_MULTICAST = 0x1 | 0x1000
 _DISK = b"size=256m,nr_inodes=20k"
@@ -63,7 +63,7 @@ def isolated_environment(number: int, home: Path) -> dict[str, str]:
     if _unshare():
         environment[_VARIABLE] = "1"
     else:
-        environment["ROS_DOMAIN_ID"] = str(_LOWEST_DOMAIN + (os.getpid() + number) % _DOMAINS)
+        environment["ROS_DOMAIN_ID"] = str(_MIN_DOMAIN + (os.getpid() + number) % _DOMAINS)
     return python_environment(environment)
 
 

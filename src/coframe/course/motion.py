@@ -6,7 +6,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, NamedTuple
 
-from coframe.transform import Transform
+from coframe.transform.transform import Transform
 
 if TYPE_CHECKING:
     from coframe.course.assignment import Assignment

@@ -11,7 +11,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Patience"]
 
-_MOST = 4  # times the limit, after which it is over in any case
+_MAX_FACTOR = 4  # times the limit, after which it is over in any case
 
 
 class Patience:
@@ -34,4 +34,4 @@ class Patience:
         passed = time.monotonic() - self._start
         if passed < self._seconds:
             return False
-        return passed > _MOST * self._seconds or passed - (self._waiting_time() - self._waited) > self._seconds
+        return passed > _MAX_FACTOR * self._seconds or passed - (self._waiting_time() - self._waited) > self._seconds

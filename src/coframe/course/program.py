@@ -27,7 +27,7 @@ __all__ = ["HOMES", "MAX_FILES", "MAX_PROCESSES", "Program"]
 HOMES = "home"  # the folder for the home folders of all programs
 MAX_FILES = 100 << 20  # bytes of all files that it writes
 MAX_PROCESSES = 8
-_MOST_FILES = 10_000
+_MAX_FILES = 10_000
 _TOO_MUCH_OUTPUT = f"The program printed more than {MAX_OUTPUT >> 20} MB and was ended."
 _STOP_PATIENCE = 3.0  # seconds between SIGINT and SIGKILL
 _LAST_LINES = 8
@@ -229,7 +229,7 @@ class Program:
         if processes.own_memory() > MAX_MEMORY:
             return "The program published more data than the check can store and was ended."
         if _is_larger(self._home, MAX_FILES):
-            return f"The program wrote more than {MAX_FILES >> 20} MB or {_MOST_FILES} files and was ended."
+            return f"The program wrote more than {MAX_FILES >> 20} MB or {_MAX_FILES} files and was ended."
         return ""
 
     def _running(self) -> list[processes.Process]:
@@ -260,6 +260,6 @@ def _is_larger(folder: Path, size: int) -> bool:
             count += 1
             with contextlib.suppress(OSError):
                 total += Path(path, name).lstat().st_blocks * _BLOCK
-            if total > size or count > _MOST_FILES:
+            if total > size or count > _MAX_FILES:
                 return True
     return False

@@ -13,8 +13,8 @@ import time
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
+from coframe._process.python_children import python_command, python_environment
 from coframe.errors import CourseError
-from coframe.python_children import python_command, python_environment
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Fact", "Report", "Sheet"]
 
-_LONGEST = 500  # characters of an observation
+_MAX_OBSERVATION_LENGTH = 500  # characters of an observation
 
 
 @dataclass
@@ -158,7 +158,7 @@ class Sheet:
 
 def _shortened(text: str) -> str:
     """Return a text of a submission, such as the name of a frame, that may be too long to be read."""
-    return text if len(text) <= _LONGEST else f"{text[:_LONGEST]} ..."
+    return text if len(text) <= _MAX_OBSERVATION_LENGTH else f"{text[:_MAX_OBSERVATION_LENGTH]} ..."
 
 
 @dataclass

@@ -13,8 +13,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 import coframe
+from coframe._process.graded_programs import SOLUTIONS, refusal
 from coframe.course.sandbox.kernel import c_function
-from coframe.graded_programs import SOLUTIONS, refusal
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

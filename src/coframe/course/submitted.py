@@ -7,8 +7,8 @@ import os
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
+from coframe._files.regular_files import check_regular, read_regular
 from coframe.errors import CourseError
-from coframe.regular_files import check_regular, read_regular
 
 if TYPE_CHECKING:
     from collections.abc import Iterable

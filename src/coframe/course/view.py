@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Final, NamedTuple
 from urllib.parse import unquote, urlparse
 
-from coframe.existence import exists
+from coframe._files.existence import exists
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator

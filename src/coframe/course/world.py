@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from typing_extensions import Self
 
     from coframe.course.program import Program
-    from coframe.transform import Transform
+    from coframe.transform.transform import Transform
 
 __all__ = ["MAX_MESSAGES", "STEP", "Received", "World", "stamp_of"]
 
@@ -39,7 +39,7 @@ _CLOCK = "/clock"
 _START_PATIENCE = 15.0  # seconds until the node of a program must have joined the graph, see Patience
 _RESPONSE = 1.0  # seconds that a node may take for one callback, see Patience
 _MATCHING = 2.0  # seconds that a subscription may need to find a publisher, see Patience
-_MOST_MISSED = 5  # responses, after which the world does not wait for the node any more
+_MAX_MISSED = 5  # responses, after which the world does not wait for the node any more
 MAX_MESSAGES = 1000  # of a program in one step; with the highest rate of the lab, it publishes one
 _TOO_MANY = "The program publishes without a pause and was ended: it needs a timer."
 _GRAPH_PERIOD = 25 * STEP  # between two looks at the publishers of the world's topics
@@ -219,7 +219,7 @@ class World:
         # received the clock, the second one that the timers that became ready by it have run.
         for _ in range(2):
             self._await_responses()
-        if not self._probes or self._missed >= _MOST_MISSED:
+        if not self._probes or self._missed >= _MAX_MISSED:
             time.sleep(_WITHOUT_RESPONSES)
         first, count = self._messages, -1
         while count != self._messages:
@@ -230,7 +230,7 @@ class World:
                 break
 
     def _await_responses(self) -> None:
-        if self._missed >= _MOST_MISSED:
+        if self._missed >= _MAX_MISSED:
             return
         futures = [probe.call_async(GetParameters.Request(names=["use_sim_time"])) for probe in self._probes]
         patience = Patience(_RESPONSE, self._waiting_time)

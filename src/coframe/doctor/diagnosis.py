@@ -10,14 +10,14 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from coframe import html_tables
+from coframe._output import html_tables
+from coframe._output.escaping import one_line
+from coframe._output.formatting import count
 from coframe.doctor import checks
 from coframe.doctor.causes import joined
 from coframe.doctor.finding import Finding, Severity, findings_table
 from coframe.doctor.observation import NEVER
 from coframe.doctor.plugin_checks import plugin_checks
-from coframe.escaping import one_line
-from coframe.formatting import count
 from coframe.time import MILLISECOND
 
 if TYPE_CHECKING:

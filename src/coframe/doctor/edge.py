@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 __all__ = ["Edge", "angles_between", "publishers_of"]
 
 _LATE = SECOND
-_LEAST_UNSET = 5  # transforms with the stamp 0
+_MIN_UNSET_STAMPS = 5  # transforms with the stamp 0
 
 
 @dataclass(frozen=True, eq=False)
@@ -96,7 +96,7 @@ class Edge:
     @property
     def is_unset(self) -> bool:
         """Whether the stamps count as never set: more than 5 % are 0. A simulation may begin with a few."""
-        return self.unset == self.count or (self.unset >= _LEAST_UNSET and self.unset > 0.05 * self.count)
+        return self.unset == self.count or (self.unset >= _MIN_UNSET_STAMPS and self.unset > 0.05 * self.count)
 
     @cached_property
     def intervals(self) -> NDArray[np.int64]:

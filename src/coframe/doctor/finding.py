@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 from enum import IntEnum
 from typing import TYPE_CHECKING
 
-from coframe import html_tables
+from coframe._output import html_tables
 from coframe.doctor.codes import page
 
 if TYPE_CHECKING:

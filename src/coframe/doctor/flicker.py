@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Flicker", "flicker"]
 
-_LEAST = 6  # jumps away and back
+_MIN_JUMPS = 6  # jumps away and back
 _METRES = 1e-3
 _RADIANS = 1e-2
 # A jump must be larger than this multiple of the usual step.
@@ -26,7 +26,7 @@ _TURNS = 3
 _MOSTLY = 0.4
 _GOLDEN = 0.6180339887498949
 # The maximum distance between two rows of the slower publisher.
-_LONGEST_RUN = 12
+_MAX_RUN = 12
 
 
 class Flicker(NamedTuple):
@@ -40,26 +40,26 @@ class Flicker(NamedTuple):
 
 def flicker(edge: Edge) -> Flicker | None:
     """Return the flicker of an edge that repeatedly jumps away and back; None if it does not."""
-    if edge.count < _LEAST + 2:
+    if edge.count < _MIN_JUMPS + 2:
         return None
     # The usual step is computed only if there are enough large steps, because it takes most of the time.
-    if np.count_nonzero((edge.distances > _METRES) | (edge.turns > _RADIANS)) < _LEAST:
+    if np.count_nonzero((edge.distances > _METRES) | (edge.turns > _RADIANS)) < _MIN_JUMPS:
         return None
     typical_distance, typical_angle = _typical(edge)
     jumps = np.flatnonzero(
         (edge.distances > _CLEARLY * typical_distance + _METRES) | (edge.turns > _CLEARLY * typical_angle + _RADIANS)
     )
-    if len(jumps) < _LEAST:
+    if len(jumps) < _MIN_JUMPS:
         return None
-    back = jumps[1:][np.diff(jumps) <= _LONGEST_RUN]
-    away = jumps[:-1][np.diff(jumps) <= _LONGEST_RUN]
+    back = jumps[1:][np.diff(jumps) <= _MAX_RUN]
+    away = jumps[:-1][np.diff(jumps) <= _MAX_RUN]
     # The difference between the row before a jump and the row after the next one.
     left = np.linalg.norm(edge.values[away, :3] - edge.values[back + 1, :3], axis=1)
     turned = angles_between(edge.rotations[away], edge.rotations[back + 1])
     distance, angle = edge.distances[away], edge.turns[away]
     returned = (distance > 2.0 * left + _METRES) | (angle > 2.0 * turned + _RADIANS)
     # Most jumps must be reversed by the next one: a robot that is moved to a new pose a few times does not flicker.
-    if np.count_nonzero(returned) < max(_LEAST, len(jumps) // 2):
+    if np.count_nonzero(returned) < max(_MIN_JUMPS, len(jumps) // 2):
         return None
     rows = away[returned]
     return Flicker(len(rows), float(np.median(edge.distances[rows])), float(np.median(edge.turns[rows])), int(rows[0]))

@@ -11,6 +11,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from coframe._process.freed_memory import return_freed_blocks
+from coframe.connection.listener_config import ListenerConfig
 from coframe.doctor.collector import Collector
 from coframe.doctor.joints import joint_states
 from coframe.doctor.observation import (
@@ -23,8 +25,6 @@ from coframe.doctor.observation import (
     TopicFacts,
 )
 from coframe.errors import DecodeError
-from coframe.freed_memory import return_freed_blocks
-from coframe.listener_config import ListenerConfig
 from coframe.messages import deserialize, find
 from coframe.messages.header_peek import HEADER_BYTES, opens_with_header, peek_header
 from coframe.messages.slices import Slices

@@ -13,7 +13,7 @@ import functools
 import re
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from coframe._plugins import Plugin, load_plugins
+from coframe._process.plugins import Plugin, load_plugins
 from coframe.interfaces.problems import report
 
 if TYPE_CHECKING:

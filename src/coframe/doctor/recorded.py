@@ -40,8 +40,8 @@ if TYPE_CHECKING:
 
 __all__ = ["collecting", "observe_recording"]
 
-_MOST_DECODED = 2000  # limit of messages per topic
-_MOST_DESCRIPTIONS = 10
+_MAX_DECODED = 2000  # limit of messages per topic
+_MAX_DESCRIPTIONS = 10
 _LOGS = {"rcl_interfaces/msg/Log", "rosgraph_msgs/msg/Log"}
 
 
@@ -153,7 +153,7 @@ class _Facts:
             (name, str(message.data))
             for name in self._of_type({"std_msgs/msg/String"})
             if name.endswith("robot_description")
-            for message in self._decoded(name, _MOST_DESCRIPTIONS)
+            for message in self._decoded(name, _MAX_DESCRIPTIONS)
             if hasattr(message, "data")
         ]
         self.joints = [
@@ -206,7 +206,7 @@ class _Facts:
         """Return the joint states of a topic; None if its messages have other fields."""
         if not self._recording.may_have_header(topic):
             return None
-        messages = list(self._decoded(topic, _MOST_DECODED))
+        messages = list(self._decoded(topic, _MAX_DECODED))
         try:
             stamps = [int(message.header.stamp.sec) * SECOND + message.header.stamp.nanosec for message in messages]
             return joint_states(topic, stamps, messages)
@@ -215,6 +215,6 @@ class _Facts:
 
     def _lines(self, topic: str) -> Iterator[LogLine]:
         received = self._recording.received(topic)
-        for arrived, message in zip(received.tolist(), self._decoded(topic, _MOST_DECODED), strict=False):
+        for arrived, message in zip(received.tolist(), self._decoded(topic, _MAX_DECODED), strict=False):
             if hasattr(message, "name") and hasattr(message, "msg"):
                 yield LogLine(str(message.name), str(message.msg), arrived)

@@ -15,8 +15,8 @@ if TYPE_CHECKING:
 __all__ = ["TransformRows"]
 
 _GROWTH = 1.5  # growth factor of the arrays when they are almost full
-_LEAST_ROOM = 1.1  # with fewer, rows would be moved too often
-_MOST_PUBLISHERS = 1000  # with more, unused ones are removed
+_MIN_GROWTH = 1.1  # with fewer, rows would be moved too often
+_MAX_PUBLISHERS = 1000  # with more, unused ones are removed
 
 
 class TransformRows:
@@ -56,7 +56,7 @@ class TransformRows:
         if len(self) > most:
             self._begin = self._end - most
             self.forgotten_until = int(self._columns["arrived"][self._begin - 1])
-        if len(self._publishers) > _MOST_PUBLISHERS:
+        if len(self._publishers) > _MAX_PUBLISHERS:
             self._forget_publishers()
 
     def table(self) -> Transforms:
@@ -76,7 +76,7 @@ class TransformRows:
         if self._end + count <= capacity:
             return
         kept, length = slice(self._begin, self._end), len(self)
-        larger = int(_GROWTH * (length + count)) if _LEAST_ROOM * (length + count) > capacity else 0
+        larger = int(_GROWTH * (length + count)) if _MIN_GROWTH * (length + count) > capacity else 0
         for name, column in self._columns.items():
             target = np.empty((larger, *column.shape[1:]), column.dtype) if larger else column
             # One-dimensional, because NumPy copies all rows of other arrays if they overlap.

@@ -6,10 +6,10 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING, NamedTuple
 
-from coframe.existence import exists
+from coframe._files.existence import exists
+from coframe._files.regular_files import read_regular
 from coframe.interfaces.ownership import is_own
 from coframe.interfaces.problems import report
-from coframe.regular_files import read_regular
 
 if TYPE_CHECKING:
     from pathlib import Path

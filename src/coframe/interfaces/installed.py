@@ -17,12 +17,12 @@ from importlib.machinery import PathFinder
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
-from coframe._plugins import plugins
+from coframe._process.plugins import plugins
 from coframe.interfaces.definition_files import PACKAGE_NAME, has_definitions
 from coframe.interfaces.problems import report
 
 if TYPE_CHECKING:
-    from coframe._plugins import Plugin
+    from coframe._process.plugins import Plugin
 
 __all__ = ["GROUP", "InstalledPackage", "installed_packages"]
 

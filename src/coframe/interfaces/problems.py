@@ -9,7 +9,7 @@ from __future__ import annotations
 import sys
 from contextlib import suppress
 
-from coframe.escaping import one_line
+from coframe._output.escaping import one_line
 
 __all__ = ["report"]
 

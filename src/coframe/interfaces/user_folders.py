@@ -7,10 +7,10 @@ import os
 import sys
 from pathlib import Path
 
-from coframe.complete_files import write_complete
-from coframe.existence import exists
+from coframe._files.complete_files import write_complete
+from coframe._files.existence import exists
+from coframe._files.regular_files import read_regular
 from coframe.interfaces.problems import report
-from coframe.regular_files import read_regular
 
 MAX_BYTES = 1 << 20  # of the settings file
 

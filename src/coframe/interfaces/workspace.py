@@ -10,7 +10,7 @@ from itertools import islice
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from coframe.existence import exists, is_file
+from coframe._files.existence import exists, is_file
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

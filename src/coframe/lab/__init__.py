@@ -4,6 +4,6 @@
 They import only ROS packages, so each of these files also runs unchanged on a real ROS 2 installation.
 """
 
-from coframe.graded_programs import refuse_graded
+from coframe._process.graded_programs import refuse_graded
 
 refuse_graded(__name__)

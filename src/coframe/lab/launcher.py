@@ -8,8 +8,8 @@ import time
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
-from coframe.python_children import python_command, python_environment
-from coframe.temporary_folders import temporary_folder
+from coframe._files.temporary_folders import temporary_folder
+from coframe._process.python_children import python_command, python_environment
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

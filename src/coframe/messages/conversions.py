@@ -12,7 +12,7 @@ from coframe.messages.generated.std_msgs.msg import Header
 from coframe.time import SECOND
 
 if TYPE_CHECKING:
-    from coframe.transform import Transform
+    from coframe.transform.transform import Transform
 
 __all__ = ["to_time", "to_transform_stamped"]
 

@@ -8,7 +8,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from coframe import html_tables
+from coframe._output import html_tables
 from coframe.messages.definition import AbstractSequence, AbstractType, describe
 from coframe.messages.fields import CHECKED, Check, attribute, constructor_conversion, number_of
 from coframe.messages.registry import classes
@@ -79,7 +79,7 @@ class Message(metaclass=MessageType):
         return f"{type(self).__module__}.{type(self).__name__}({content})"
 
     def _repr_html_(self) -> str:
-        lines = to_yaml(self, max_items=html_tables.MOST_ROWS).splitlines()
+        lines = to_yaml(self, max_items=html_tables.MAX_ROWS).splitlines()
         return html_tables.section(self.ROS_TYPE, html_tables.preformatted(lines))
 
 

@@ -4,13 +4,13 @@
 from collections.abc import Sequence
 from typing import Any
 
-from coframe.escaping import one_line
+from coframe._output.escaping import one_line
 from coframe.frame_names import kept, prefix_advice
 from coframe.nodes.program import program, spin_until_shutdown
 from coframe.robots import Robot, RobotDescriptionError, load, parse_urdf
 from coframe.robots.publishing import StatePublisher
 from coframe.time import SECOND
-from coframe.transform import Transform
+from coframe.transform.transform import Transform
 from geometry_msgs.msg import TransformStamped
 from rcl_interfaces.msg import FloatingPointRange, ParameterDescriptor, SetParametersResult
 from rclpy.node import Node

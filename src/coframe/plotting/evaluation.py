@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from coframe import _core
+from coframe._output.formatting import did_you_mean
 from coframe.analysis.clocks import clock_of
 from coframe.bags.transforms import ingest_for
 from coframe.errors import DecodeError, PlotError
-from coframe.formatting import did_you_mean
 from coframe.messages.slices import Slices
 from coframe.plotting.expressions import (
     Expression,

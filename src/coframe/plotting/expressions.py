@@ -20,8 +20,8 @@ import re
 from dataclasses import dataclass
 from typing import TypeAlias
 
+from coframe._output.formatting import did_you_mean
 from coframe.errors import PlotError
-from coframe.formatting import did_you_mean
 
 __all__ = [
     "ANGLES",

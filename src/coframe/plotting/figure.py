@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from coframe.complete_files import write_complete
+from coframe._files.complete_files import write_complete
 from coframe.errors import PlotError
 from coframe.time import SECOND
 
@@ -24,7 +24,7 @@ __all__ = ["COLOURS", "FIGURE_FORMATS", "Figure", "Series", "figure_format"]
 FIGURE_FORMATS = ("svg", "png", "html")
 # Each has a contrast of at least 3.5 with a white and with a dark background.
 COLOURS = ("#2f7de1", "#d9542b", "#1f9a5b", "#a45ee0", "#a17a12", "#d6497f", "#128f9e", "#7b7f87")
-LARGEST_DRAWN = 1e300  # The programs that draw compute differences of values, which would be infinite.
+MAX_DRAWN_VALUE = 1e300  # The programs that draw compute differences of values, which would be infinite.
 _EARLIEST_DATE = 1_000_000_000 * SECOND  # Earlier stamps are those of simulations.
 
 
@@ -48,8 +48,8 @@ class Series:
 
     @property
     def drawn(self) -> NDArray[np.float64]:
-        """The values with those that cannot be drawn as gaps: infinite ones and those above `LARGEST_DRAWN`."""
-        return np.where(np.abs(self.values) <= LARGEST_DRAWN, self.values, np.nan)
+        """The values with those that cannot be drawn as gaps: infinite ones and those above `MAX_DRAWN_VALUE`."""
+        return np.where(np.abs(self.values) <= MAX_DRAWN_VALUE, self.values, np.nan)
 
 
 @dataclass(frozen=True, eq=False)

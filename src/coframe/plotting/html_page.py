@@ -19,9 +19,9 @@ if TYPE_CHECKING:
 
     from coframe.plotting.figure import Figure
 
-__all__ = ["MOST_POINTS", "as_html"]
+__all__ = ["MAX_POINTS", "as_html"]
 
-MOST_POINTS = 50_000  # per curve; a browser draws more too slowly
+MAX_POINTS = 50_000  # per curve; a browser draws more too slowly
 
 
 def as_html(figure: Figure) -> str:
@@ -53,7 +53,7 @@ def as_html(figure: Figure) -> str:
 
 
 def _points(x: NDArray[np.float64], values: NDArray[np.float64]) -> dict[str, Any]:
-    kept = extremes(values, MOST_POINTS)
+    kept = extremes(values, MAX_POINTS)
     thinned_x, thinned = x[kept], values[kept]
     return {
         "x": thinned_x.round(9).tolist(),

@@ -8,8 +8,8 @@ import io
 from itertools import cycle
 from typing import TYPE_CHECKING, Any
 
+from coframe._process.optional_imports import importing_matplotlib, pip_install
 from coframe.errors import PlotError
-from coframe.optional_imports import importing_matplotlib, pip_install
 from coframe.plotting.figure import COLOURS
 
 if TYPE_CHECKING:

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from coframe._output.formatting import did_you_mean, listed
 from coframe.errors import CoframeError, PlotError
-from coframe.formatting import did_you_mean, listed
 from coframe.plotting.expressions import (
     ANGLES,
     Expression,
@@ -20,7 +20,7 @@ from coframe.time import SECOND
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from coframe.transform import Transform
+    from coframe.transform.transform import Transform
 
 __all__ = ["NoElementError", "axis_title", "coordinate", "field_names", "field_value", "rates"]
 

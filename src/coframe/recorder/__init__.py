@@ -4,10 +4,10 @@
 It connects `bags`, which reads and writes files, with `wire`, which communicates with the graph.
 """
 
-from coframe.recorder.player import FASTEST, Player, play
+from coframe.recorder.player import MAX_RATE, Player, play
 from coframe.recorder.recorder import Recorder, RecorderStatistics, record
 
-__all__ = ["FASTEST", "Player", "Recorder", "RecorderStatistics", "play", "record"]
+__all__ = ["MAX_RATE", "Player", "Recorder", "RecorderStatistics", "play", "record"]
 
 
 def __dir__() -> list[str]:

@@ -10,7 +10,7 @@ from coframe.time import SECOND
 
 __all__ = ["PlaybackClock"]
 
-_LONGEST_WAIT = 3600.0  # seconds; the operating system rejects waits that are longer than a month
+_MAX_WAIT = 3600.0  # seconds; the operating system rejects waits that are longer than a month
 
 
 class PlaybackClock:
@@ -102,7 +102,7 @@ class PlaybackClock:
                 left = (moment - self._now()) / self._rate / SECOND
                 if left <= 0:
                     return True
-                self._changed.wait(min(left, _LONGEST_WAIT))
+                self._changed.wait(min(left, _MAX_WAIT))
             return False
 
     def sleep(self, seconds: float) -> bool:

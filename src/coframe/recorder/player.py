@@ -28,11 +28,11 @@ if TYPE_CHECKING:
     from coframe.bags import Recording
     from coframe.wire.endpoints import Publisher
 
-__all__ = ["FASTEST", "Player", "play"]
+__all__ = ["MAX_RATE", "Player", "play"]
 
-FASTEST = 1000.0  # times as fast as recorded
+MAX_RATE = 1000.0  # times as fast as recorded
 _CLOCK, _CLOCK_TYPE = "/clock", "rosgraph_msgs/msg/Clock"
-_FASTEST_CLOCK = 1000.0  # Hz
+_MAX_CLOCK_RATE = 1000.0  # Hz
 _LINGER = 0.3  # seconds to keep the publishers open so that the last messages are delivered
 
 
@@ -136,7 +136,7 @@ class Player:
         """Set the rate of the replay: recorded seconds per real second.
 
         Raises:
-            ValueError: The rate is not above 0 and at most `FASTEST`.
+            ValueError: The rate is not above 0 and at most `MAX_RATE`.
         """
         self.clock.set_rate(_checked_rate(rate))
 
@@ -199,8 +199,8 @@ class Player:
 
 
 def _checked_rate(rate: float) -> float:
-    if not 0.0 < rate <= FASTEST:
-        raise ValueError(f"the rate of a replay must be above 0 and at most {FASTEST:g}, not {rate:g}")
+    if not 0.0 < rate <= MAX_RATE:
+        raise ValueError(f"the rate of a replay must be above 0 and at most {MAX_RATE:g}, not {rate:g}")
     return rate
 
 
@@ -250,8 +250,8 @@ def play(
         ...     player.wait()
     """
     _checked_rate(rate)
-    if clock is not None and not 0.0 < clock <= _FASTEST_CLOCK:
-        raise ValueError(f"the rate of /clock must be above 0 Hz and at most {_FASTEST_CLOCK:g} Hz, not {clock:g}")
+    if clock is not None and not 0.0 < clock <= _MAX_CLOCK_RATE:
+        raise ValueError(f"the rate of /clock must be above 0 Hz and at most {_MAX_CLOCK_RATE:g} Hz, not {clock:g}")
     names = renaming(prefix, keep)
     recording = open_bag(Path(path))
     try:

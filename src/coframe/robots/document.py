@@ -24,7 +24,7 @@ T = TypeVar("T")
 MAX_BYTES = 64 << 20  # a hundred times the largest known robot description
 MAX_DEPTH = 500  # as in TinyXML-2, the parser of ROS
 _DECLARATION = re.compile(r"""\A(\s*<\?xml\s[^>]*?)\sencoding\s*=\s*["']([\w.:-]+)["']""", re.ASCII)
-_LONGEST_DECLARATION = 200  # bytes
+_MAX_DECLARATION_BYTES = 200  # bytes
 # The supported encodings by Python name. Some other Python codecs do not produce text or are very slow.
 _ENCODINGS = {
     *(
@@ -233,7 +233,7 @@ def _decoded(data: bytes, warnings: list[str]) -> str:
 def _encoding(data: bytes, warnings: list[str]) -> str:
     if data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
         return "utf-16"
-    declaration = _DECLARATION.match(data[:_LONGEST_DECLARATION].decode("ascii", "replace"))
+    declaration = _DECLARATION.match(data[:_MAX_DECLARATION_BYTES].decode("ascii", "replace"))
     if declaration is None:
         return "utf-8"
     with contextlib.suppress(LookupError):

@@ -13,9 +13,9 @@ import tempfile
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from coframe._files.regular_files import check_regular, read_regular, reading_hint
+from coframe._process.optional_imports import pip_install
 from coframe.errors import RobotDescriptionError
-from coframe.optional_imports import pip_install
-from coframe.regular_files import check_regular, read_regular, reading_hint
 from coframe.robots.document import MAX_BYTES
 from coframe.robots.urdf import parse_urdf
 from coframe.robots.xacro_process import MAX_OUTPUT, MAX_SECONDS

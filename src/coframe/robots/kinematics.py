@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
     from coframe.quaternion import Array
     from coframe.robots.parts import Joint
-    from coframe.transform import Transform
+    from coframe.transform.transform import Transform
 
 __all__ = ["KinematicTree"]
 

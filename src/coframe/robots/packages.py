@@ -7,10 +7,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 from urllib.parse import unquote
 
+from coframe._files.existence import is_dir, resolved
+from coframe._files.regular_files import UnsuitableFileError, check_regular
 from coframe.errors import PackageError
-from coframe.existence import is_dir, resolved
-from coframe.packages.folders import crawl, listed, named, package_around
-from coframe.regular_files import UnsuitableFileError, check_regular
+from coframe.workspace.packages.folders import crawl, listed, named, package_around
 
 if TYPE_CHECKING:
     import os

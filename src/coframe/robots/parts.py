@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal, TypeAlias
 
 if TYPE_CHECKING:
-    from coframe.transform import Transform
+    from coframe.transform.transform import Transform
 
 __all__ = [
     "Box",

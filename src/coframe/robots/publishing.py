@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from collections.abc import Collection, Sequence
 
     from coframe.robots.robot import Robot
-    from coframe.transform import Transform
+    from coframe.transform.transform import Transform
 
 __all__ = ["StatePublisher"]
 

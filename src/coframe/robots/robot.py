@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING, overload
 import numpy as np
 
 from coframe import quaternion
-from coframe.formatting import did_you_mean
+from coframe._output.formatting import did_you_mean
 from coframe.robots.kinematics import KinematicTree
-from coframe.transform import batch_of
+from coframe.transform.transform import batch_of
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
     from coframe.quaternion import Array
     from coframe.robots.parts import Joint, Limits, Link, Material, Mimic
-    from coframe.transform import Transform
+    from coframe.transform.transform import Transform
 
 __all__ = ["Robot"]
 

@@ -18,7 +18,7 @@ from coframe.robots.parts import (
     Sphere,
     Visual,
 )
-from coframe.transform import Transform
+from coframe.transform.transform import Transform
 
 if TYPE_CHECKING:
     from coframe.robots.document import Element

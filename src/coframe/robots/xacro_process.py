@@ -29,7 +29,7 @@ def _answer(request: Mapping[str, Any]) -> dict[str, Any]:
     import xacro  # noqa: PLC0415 - found in the folders of the request
     from xacro import substitution_args  # noqa: PLC0415
 
-    from coframe.regular_files import read_regular_text  # noqa: PLC0415
+    from coframe._files.regular_files import read_regular_text  # noqa: PLC0415
 
     def find(name: str) -> str:
         from coframe.robots.packages import Packages  # noqa: PLC0415

@@ -8,8 +8,8 @@ import runpy
 import sys
 from pathlib import Path
 
-from coframe import ros_side
 from coframe.ros2 import _replacement
+from coframe.workspace import ros_side
 
 
 def main() -> None:

@@ -7,9 +7,9 @@ import sys
 from importlib.machinery import PathFinder
 from typing import TYPE_CHECKING
 
-from coframe import ros_side
-from coframe.ros_folders import foreign_packages, is_coframes, ros_folder
 from coframe.wire.dds.config import reach_subnet_by_default
+from coframe.workspace import ros_side
+from coframe.workspace.ros_folders import foreign_packages, is_coframes, ros_folder
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

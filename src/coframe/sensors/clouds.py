@@ -10,7 +10,7 @@ from coframe import _core
 from coframe.errors import FrameMismatchException
 from coframe.sensors import layout
 from coframe.time import SECOND, stamp_ns
-from coframe.transform import Transform
+from coframe.transform.transform import Transform
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -13,7 +13,7 @@ from coframe.errors import TransformException
 from coframe.sensors import layout
 from coframe.sensors.clouds import IDENTITY, core_buffer, frame_of, move, set_stamp, stamp_of, thread_count
 from coframe.time import MICROSECOND, MILLISECOND, SECOND, stamp_ns
-from coframe.transform import stamps_of
+from coframe.transform.transform import stamps_of
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray

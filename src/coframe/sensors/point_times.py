@@ -24,8 +24,8 @@ TIME_FIELDS = ("t", "time", "timestamp", "offset_time")
 UNITS = {"s": SECOND, "ms": MILLISECOND, "us": MICROSECOND, "ns": 1}
 
 NO_TIME = np.iinfo(np.int64).min  # The integer of NumPy's NaT.
-_LONGEST_SWEEP = 10 * SECOND  # Values that differ more from the message's stamp are not times of its points.
-_LONGEST_OFFSET = 100_000_000  # Seconds, about three years: larger values are absolute times.
+_MAX_SWEEP = 10 * SECOND  # Values that differ more from the message's stamp are not times of its points.
+_MAX_OFFSET = 100_000_000  # Seconds, about three years: larger values are absolute times.
 _LATEST = 2.0**62  # Nanoseconds, in the year 2116.
 
 
@@ -67,11 +67,10 @@ def times_in(points: NDArray[Any], stamp: int, field: str | None = None, unit: s
         raise ValueError(f"the points have no field {name!r}. Their fields: {', '.join(names)}.")
     found = _read(points[name], stamp, name, unit)
     known = found.times[found.times != NO_TIME] if found is not None else np.zeros(0, dtype=np.int64)
-    is_sweep = known.size > 0 and np.abs(known - stamp).max() <= _LONGEST_SWEEP
+    is_sweep = known.size > 0 and np.abs(known - stamp).max() <= _MAX_SWEEP
     if not is_sweep and unit is not None:
         raise ValueError(
-            f"the times in field {name!r}, read in {unit}, differ from the stamp by more than "
-            f"{_LONGEST_SWEEP // SECOND} s"
+            f"the times in field {name!r}, read in {unit}, differ from the stamp by more than {_MAX_SWEEP // SECOND} s"
         )
     if found is None or not is_sweep or (known == known[0]).all():
         return None
@@ -87,12 +86,12 @@ def _read(values: NDArray[Any], stamp: int, field: str, unit: str | None) -> Poi
     if not known.any():
         return None
     largest = np.abs(values[known].astype(np.float64)).max()
-    unit = unit or ("s" if is_float and not largest > _LONGEST_OFFSET * 100 else "ns")
+    unit = unit or ("s" if is_float and not largest > _MAX_OFFSET * 100 else "ns")
     if not largest * UNITS[unit] < _LATEST:
         return None
     values = np.where(known, values, 0)
     # A float64 holds the current time in seconds with a resolution of a quarter of a microsecond.
     times = np.rint(values.astype(np.float64) * UNITS[unit]) if is_float else values.astype(np.int64) * UNITS[unit]
-    absolute = bool(largest * UNITS[unit] > _LONGEST_OFFSET * SECOND)
+    absolute = bool(largest * UNITS[unit] > _MAX_OFFSET * SECOND)
     stamps = (0 if absolute else stamp) + times.astype(np.int64)
     return PointTimes(np.where(known, stamps, NO_TIME), field, unit, absolute)

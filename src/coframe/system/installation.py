@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
-from coframe import ros_folders
+from coframe.workspace import ros_folders
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

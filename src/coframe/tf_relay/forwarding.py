@@ -9,9 +9,9 @@ import time
 from typing import TYPE_CHECKING, NamedTuple
 
 from coframe import _core
+from coframe.connection.tf_publishers import TfPublisher, publisher_state, tf_publisher
 from coframe.errors import WireError
 from coframe.frame_names import kept, renaming
-from coframe.tf_publishers import TfPublisher, publisher_state, tf_publisher
 from coframe.tf_relay.robots import Robot, topic_of_kind
 from coframe.tf_relay.status import NotRelayed, RelayedEdge, RelayedRobot
 from coframe.time import MILLISECOND, SECOND

@@ -12,7 +12,7 @@ __all__ = ["MaxError"]
 _NUMBER_AND_UNIT = re.compile(r"\s*(\d+(?:\.\d*)?|\.\d+)\s*([a-z]+)\s*", re.ASCII)
 _METRES = {"um": 1e-6, "mm": 1e-3, "cm": 1e-2, "m": 1.0}
 _RADIANS = {"deg": math.pi / 180, "mrad": 1e-3, "rad": 1.0}
-_LARGEST_ANGLE = math.pi / 4
+_MAX_ANGLE = math.pi / 4
 
 
 class MaxError(NamedTuple):
@@ -42,7 +42,7 @@ class MaxError(NamedTuple):
             MaxError(distance=0.005, angle=0.1)
         """
         distance, angle = _parse(value) if isinstance(value, str) else value
-        if not (0 <= distance < math.inf and 0 <= angle <= _LARGEST_ANGLE):
+        if not (0 <= distance < math.inf and 0 <= angle <= _MAX_ANGLE):
             raise ValueError(
                 f"the maximum error must not be negative, and its angle at most 45 degrees, not {value!r}: give for "
                 "example 1mm,0.1deg"

@@ -5,10 +5,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-from coframe.formatting import count
+from coframe._output.formatting import count
 
 if TYPE_CHECKING:
-    from coframe.tf_publishers import TfPublisher
+    from coframe.connection.tf_publishers import TfPublisher
 
 __all__ = ["NotRelayed", "RelayedEdge", "RelayedRobot"]
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from coframe import quaternion
 from coframe.errors import TrajectoryError
-from coframe.transform import Transform
+from coframe.transform.transform import Transform
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -7,15 +7,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from coframe._output.formatting import count, duration, seconds
 from coframe.errors import TrajectoryError
-from coframe.formatting import count, duration, seconds
 from coframe.time import MILLISECOND, duration_ns
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from coframe.time import DurationLike
-    from coframe.transform import Transform
+    from coframe.transform.transform import Transform
 
 __all__ = ["MAX_DIFFERENCE", "associate"]
 

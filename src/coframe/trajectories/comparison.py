@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 import numpy as np
 
 from coframe import quaternion
+from coframe._output.formatting import count
 from coframe.errors import TrajectoryError
-from coframe.formatting import count
 from coframe.time import SECOND, duration_ns
 from coframe.trajectories.alignment import ALIGNMENTS, Alignment, align, check_positions
 from coframe.trajectories.association import MAX_DIFFERENCE, associate
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from coframe.time import DurationLike
-    from coframe.transform import Transform
+    from coframe.transform.transform import Transform
 
 __all__ = ["Comparison", "Delta", "PoseErrors", "Statistics", "compare_trajectories", "parse_delta"]
 

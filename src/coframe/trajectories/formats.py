@@ -11,11 +11,11 @@ from typing import TYPE_CHECKING, Any, TextIO
 
 import numpy as np
 
-from coframe.complete_files import complete_or_absent
+from coframe._files.complete_files import complete_or_absent
+from coframe._output.formatting import seconds
+from coframe._process.optional_imports import pip_install
 from coframe.errors import RecordingError
-from coframe.formatting import seconds
-from coframe.optional_imports import pip_install
-from coframe.transform import Transform
+from coframe.transform.transform import Transform
 
 if TYPE_CHECKING:
     import os

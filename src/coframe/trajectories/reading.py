@@ -14,11 +14,11 @@ from typing import TYPE_CHECKING, BinaryIO
 
 import numpy as np
 
+from coframe._files.regular_files import open_regular
 from coframe.errors import InvalidArgumentException, TrajectoryError
-from coframe.regular_files import open_regular
 from coframe.time import SECOND
 from coframe.trajectories.formats import POSE_COLUMNS
-from coframe.transform import Transform
+from coframe.transform.transform import Transform
 
 if TYPE_CHECKING:
     import os

@@ -5,8 +5,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-from coframe.escaping import shown
-from coframe.formatting import duration
+from coframe._output.escaping import shown
+from coframe._output.formatting import duration
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from coframe.escaping import shown
+from coframe._output.escaping import shown
 from coframe.tree_drawing.labels import alarms, edge_figures, figures, summary
 
 if TYPE_CHECKING:
@@ -16,8 +16,8 @@ if TYPE_CHECKING:
 
 __all__ = ["as_graphviz"]
 
-_LONGEST = 200
-_MOST = 5
+_MAX_LABEL_LENGTH = 200
+_MAX_LISTED = 5
 
 
 def as_graphviz(forest: Forest, title: str) -> str:
@@ -47,7 +47,7 @@ def _edges(forest: Forest, ids: dict[str, str]) -> Iterator[str]:
             label = _quoted([*figures(frame), *alarms(frame)])
             yield f"  {_quoted([ids[frame.parent]])} -> {_quoted([ids[frame.name]])} [label={label}{style}];"
         for parent, edges in _by_parent(frame.other_edges).items():
-            lines = [line for edge in edges[:_MOST] for line in edge_figures(edge)]
+            lines = [line for edge in edges[:_MAX_LISTED] for line in edge_figures(edge)]
             ends = f"{_quoted([ids[parent]])} -> {_quoted([ids[frame.name]])}"
             yield f"  {ends} [label={_quoted(lines)}, color=red, constraint=false];"
 
@@ -69,7 +69,7 @@ def _by_parent(edges: Iterable[EdgeFigures]) -> dict[str, list[EdgeFigures]]:
 
 def _id(number: int, name: str) -> str:
     """Return the name as identifier if it is short and printable; else a number."""
-    plain = len(name) <= _LONGEST and name.isprintable() and not name.startswith("#")
+    plain = len(name) <= _MAX_LABEL_LENGTH and name.isprintable() and not name.startswith("#")
     return name if plain else f"#{number}"
 
 

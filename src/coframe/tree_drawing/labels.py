@@ -5,8 +5,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from coframe.escaping import shown
-from coframe.formatting import count, duration, listed
+from coframe._output.escaping import shown
+from coframe._output.formatting import count, duration, listed
 
 if TYPE_CHECKING:
     from coframe.doctor.figures import EdgeFigures
@@ -14,13 +14,13 @@ if TYPE_CHECKING:
 
 __all__ = ["alarms", "edge_figures", "figures", "summary"]
 
-_MOST_EDGES = 5
+_MAX_LISTED_EDGES = 5
 
 
 def figures(frame: Frame) -> list[str]:
     """Return the figures of the edge to the parent of a frame by publisher, for the first publishers of many."""
-    found = [line for edge in frame.edges[:_MOST_EDGES] for line in edge_figures(edge)]
-    more = len(frame.edges) - _MOST_EDGES
+    found = [line for edge in frame.edges[:_MAX_LISTED_EDGES] for line in edge_figures(edge)]
+    more = len(frame.edges) - _MAX_LISTED_EDGES
     return [*found, f"and {count(more, 'more publisher')}"] if more > 0 else found
 
 
@@ -29,8 +29,8 @@ def alarms(frame: Frame) -> list[str]:
     found = [f"in a loop: below {shown(frame.parent)}"] if frame.is_root and frame.parent else []
     if frame.silence is not None:
         found.append(f"stale: no transform for {duration(frame.silence)}")
-    found += [f"also below {shown(edge.parent)}{_by(edge)}" for edge in frame.other_edges[:_MOST_EDGES]]
-    more = len(frame.other_edges) - _MOST_EDGES
+    found += [f"also below {shown(edge.parent)}{_by(edge)}" for edge in frame.other_edges[:_MAX_LISTED_EDGES]]
+    more = len(frame.other_edges) - _MAX_LISTED_EDGES
     return [*found, f"and {more} more"] if more > 0 else found
 
 

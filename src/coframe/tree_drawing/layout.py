@@ -9,7 +9,7 @@ from __future__ import annotations
 import unicodedata
 from typing import TYPE_CHECKING, NamedTuple
 
-from coframe.escaping import shown
+from coframe._output.escaping import shown
 from coframe.tree_drawing.labels import alarms, figures, summary
 
 if TYPE_CHECKING:

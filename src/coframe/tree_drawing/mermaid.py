@@ -6,7 +6,7 @@ from __future__ import annotations
 import json
 from typing import TYPE_CHECKING
 
-from coframe.escaping import shown
+from coframe._output.escaping import shown
 from coframe.tree_drawing.labels import alarms, figures, summary
 
 if TYPE_CHECKING:
@@ -14,9 +14,9 @@ if TYPE_CHECKING:
 
     from coframe.tree_drawing.forest import Forest
 
-__all__ = ["MOST_EDGES", "as_markdown", "as_mermaid"]
+__all__ = ["MAX_EDGES", "as_markdown", "as_mermaid"]
 
-MOST_EDGES = 500
+MAX_EDGES = 500
 """The default limit of edges that Mermaid draws."""
 _STYLES = {
     "root": "fill:#fff6da,stroke:#9a6b00,color:#1a1a1a",

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import pydyf
 
-from coframe.escaping import shown
+from coframe._output.escaping import shown
 from coframe.tree_drawing.layout import Box, Line, draw
 
 if TYPE_CHECKING:
@@ -20,13 +20,13 @@ __all__ = ["as_pdf"]
 _POINT = 0.75  # points of 1/72 inch per pixel of the drawing
 _ENCODING = "cp1252"  # the name of WinAnsiEncoding in Python
 _FONTS = {"F": "Helvetica", "B": "Helvetica-Bold"}
-_LONGEST = 14_400.0  # points; PDF readers may not support larger pages
+_MAX_PAGE_LENGTH = 14_400.0  # points; PDF readers may not support larger pages
 
 
 def as_pdf(forest: Forest, title: str) -> bytes:
     """Return the file as bytes."""
     drawing = draw(forest, title, _spelled)
-    scale = min(_POINT, _LONGEST / max(drawing.width, drawing.height))
+    scale = min(_POINT, _MAX_PAGE_LENGTH / max(drawing.width, drawing.height))
     page = pydyf.Stream(compress=True)
     page.set_matrix(scale, 0, 0, -scale, 0, drawing.height * scale)
     page.set_line_width(1)

@@ -23,8 +23,8 @@ __all__ = ["as_png"]
 
 _INCH = 96.0  # pixels of the drawing
 _DENSITY = 192.0  # pixels of the image per inch: sharp on any screen
-_LONGEST = 16_000.0  # Pixels of the image; matplotlib supports 2**16, at a memory of 4 bytes per pixel.
-_MOST_PIXELS = 100e6
+_MAX_SIDE = 16_000.0  # Pixels of the image; matplotlib supports 2**16, at a memory of 4 bytes per pixel.
+_MAX_PIXELS = 100e6
 # The texts are laid out for Helvetica; matplotlib's own font, DejaVu Sans, is wider.
 _FONT_SCALE = 0.92
 _CORNER = 4.0
@@ -36,7 +36,7 @@ def as_png(forest: Forest, title: str) -> bytes:
     """Return the file as bytes."""
     drawing = draw(forest, title, _spelled)
     width, height = drawing.width / _INCH, drawing.height / _INCH
-    density = min(_DENSITY, _LONGEST / max(width, height), (_MOST_PIXELS / (width * height)) ** 0.5)
+    density = min(_DENSITY, _MAX_SIDE / max(width, height), (_MAX_PIXELS / (width * height)) ** 0.5)
     figure = Figure(figsize=(width, height), facecolor="white")
     axes = figure.add_axes((0.0, 0.0, 1.0, 1.0))
     axes.set_axis_off()

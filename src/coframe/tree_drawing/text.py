@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-from coframe.escaping import shown
+from coframe._output.escaping import shown
 from coframe.time import MILLISECOND
 
 if TYPE_CHECKING:
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 __all__ = ["COLUMNS", "Row", "rows"]
 
 COLUMNS = ("frame", "publisher", "Hz", "jitter ms", "delay ms", "p99 ms", "age ms")
-_DEEPEST = 24
+_MAX_INDENTED_LEVELS = 24
 """The deepest indentation; frames below it have the same one, with their depth as a number."""
 
 
@@ -67,8 +67,8 @@ def _branches(frame: Frame, last: list[bool]) -> tuple[str, str]:
     if not last:
         return "", stem
     above = last[:-1]
-    deep = f"({frame.depth}) " if len(above) > _DEEPEST else ""
-    trunks = "".join("   " if end else "│  " for end in above[:_DEEPEST])
+    deep = f"({frame.depth}) " if len(above) > _MAX_INDENTED_LEVELS else ""
+    trunks = "".join("   " if end else "│  " for end in above[:_MAX_INDENTED_LEVELS])
     return trunks + deep + ("└─ " if last[-1] else "├─ "), trunks + deep + ("   " if last[-1] else "│  ") + stem
 
 

@@ -11,7 +11,7 @@ import zlib
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
-from coframe import html_tables
+from coframe._output import html_tables
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

@@ -8,14 +8,14 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from coframe import html_tables
+from coframe._files.complete_files import write_complete
+from coframe._output import html_tables
+from coframe._process.optional_imports import pip_install
 from coframe.buffer import Buffer
-from coframe.complete_files import write_complete
-from coframe.connection import Connection
+from coframe.connection.connection import Connection
 from coframe.errors import ViewerError
-from coframe.optional_imports import pip_install
 from coframe.robots import load
-from coframe.transform import Transform
+from coframe.transform.transform import Transform
 from coframe.viewer.notebook import replay_frame, suitable_inline, viewer_frame
 from coframe.viewer.replay.export import export_replay
 from coframe.viewer.robots.joints import JOINT_STATES

@@ -15,7 +15,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
 
-    from coframe import Buffer, _core
+    from coframe import _core
+    from coframe.buffer.buffer import Buffer
     from coframe.wire.endpoints import GraphNode
     from coframe.wire.graph import Graph
     from coframe.wire.names import Endpoint

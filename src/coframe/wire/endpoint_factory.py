@@ -18,7 +18,8 @@ from coframe.wire.type_hashes import TF_MESSAGE
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from coframe import Buffer, _core
+    from coframe import _core
+    from coframe.buffer.buffer import Buffer
     from coframe.wire.backend import Session
     from coframe.wire.graph import Graph
     from coframe.wire.names import Kind

@@ -5,8 +5,8 @@ from __future__ import annotations
 
 from typing import Literal, NamedTuple
 
+from coframe._output.escaping import shown
 from coframe.errors import WireError
-from coframe.escaping import shown
 
 Kind = Literal["topic", "request", "reply"]
 

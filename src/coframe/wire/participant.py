@@ -12,8 +12,8 @@ import threading
 from typing import TYPE_CHECKING, ClassVar
 
 from coframe import _core
+from coframe._output.escaping import printable
 from coframe.errors import WireError
-from coframe.escaping import printable
 from coframe.frame_names import naming_problems
 from coframe.time import SECOND
 from coframe.wire import domains, names, selection

@@ -12,7 +12,7 @@ from coframe.wire import names
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from coframe import Buffer
+    from coframe.buffer.buffer import Buffer
     from coframe.wire.graph import DiscoveredEndpoint, Graph
     from coframe.wire.tf_reader import TfReader
 

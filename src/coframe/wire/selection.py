@@ -13,8 +13,8 @@ import os
 from importlib import import_module
 from typing import TYPE_CHECKING, Final, NamedTuple, cast
 
+from coframe._process.python_children import pass_to_children
 from coframe.errors import WireError
-from coframe.python_children import pass_to_children
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

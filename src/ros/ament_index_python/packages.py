@@ -10,8 +10,8 @@ from pathlib import Path
 
 from ament_index_python.constants import AMENT_PREFIX_PATH_ENV_VAR
 from coframe.errors import PackageError
-from coframe.packages.finding import find_package, package_names
-from coframe.packages.folders import listed
+from coframe.workspace.packages.finding import find_package, package_names
+from coframe.workspace.packages.folders import listed
 
 __all__ = [
     "PackageNotFoundError",

@@ -6,7 +6,7 @@ from typing import Literal
 
 from ament_index_python.constants import RESOURCE_INDEX_SUBFOLDER
 from ament_index_python.search_paths import get_search_paths
-from coframe.regular_files import read_regular_text
+from coframe._files.regular_files import read_regular_text
 
 __all__ = [
     "InvalidResourceNameError",

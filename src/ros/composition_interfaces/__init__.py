@@ -1,5 +1,5 @@
 """ROS package composition_interfaces."""
 
-from coframe import ros_side
+from coframe.workspace import ros_side
 
 ros_side.check("composition_interfaces")

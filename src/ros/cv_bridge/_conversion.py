@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from coframe.optional_imports import import_optional
+from coframe._process.optional_imports import import_optional
 from cv_bridge._encodings import Encoding, find
 
 Image = NDArray[Any]

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from coframe.escaping import printable
+from coframe._output.escaping import printable
 from coframe.nodes.program import program, spin_until_shutdown
 from rclpy.node import Node
 from std_msgs.msg import String

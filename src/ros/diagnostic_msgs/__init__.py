@@ -1,5 +1,5 @@
 """ROS package diagnostic_msgs."""
 
-from coframe import ros_side
+from coframe.workspace import ros_side
 
 ros_side.check("diagnostic_msgs")

@@ -1,5 +1,5 @@
 """ROS package geographic_msgs."""
 
-from coframe import ros_side
+from coframe.workspace import ros_side
 
 ros_side.check("geographic_msgs")

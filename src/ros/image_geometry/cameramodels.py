@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from coframe.optional_imports import import_optional
+from coframe._process.optional_imports import import_optional
 from sensor_msgs.msg import CameraInfo
 
 __all__ = ["PinholeCameraModel", "StereoCameraModel"]

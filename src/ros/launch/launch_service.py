@@ -12,7 +12,7 @@ import traceback
 from typing import TYPE_CHECKING, Any
 
 import launch.logging
-from coframe.signal_handlers import SignalHandlers
+from coframe._process.signal_handlers import SignalHandlers
 from launch.event_handlers import OnIncludeLaunchDescription, OnShutdown
 from launch.events import IncludeLaunchDescription, Shutdown
 from launch.launch_context import LaunchContext

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Launch files for ROS nodes: actions, substitutions and events on top of `launch`."""
 
-from coframe import ros_side
+from coframe.workspace import ros_side
 
 ros_side.check(__name__)
 

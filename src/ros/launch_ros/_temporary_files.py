@@ -9,7 +9,7 @@ import itertools
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from coframe.temporary_folders import temporary_folder
+from coframe._files.temporary_folders import temporary_folder
 from launch.utilities.yaml_loading import dump_yaml
 
 if TYPE_CHECKING:

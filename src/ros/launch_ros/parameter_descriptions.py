@@ -6,8 +6,8 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from coframe.bounded_yaml import MAX_BYTES
-from coframe.regular_files import read_regular_text
+from coframe._files.bounded_yaml import MAX_BYTES
+from coframe._files.regular_files import read_regular_text
 from launch.frontend.substitution_grammar import parse_text
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 from launch.utilities.type_utils import normalize_typed_substitution, perform_typed_substitution

@@ -5,8 +5,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from coframe.bounded_xml import read_xml
-from coframe.regular_files import UnsuitableFileError
+from coframe._files.bounded_xml import read_xml
+from coframe._files.regular_files import UnsuitableFileError
 from launch.frontend import Parser as BaseParser
 from launch_xml.entity import Entity
 
@@ -21,7 +21,7 @@ class Parser(BaseParser):
         """Read a file, and return its root and the parser.
 
         Raises:
-            ValueError: The file is not XML, or exceeds a limit of :mod:`coframe.bounded_xml`.
+            ValueError: The file is not XML, or exceeds a limit of :mod:`coframe._files.bounded_xml`.
         """
         try:
             return Entity(read_xml(file)), cls()

@@ -5,8 +5,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from coframe.bounded_yaml import MAX_BYTES
-from coframe.regular_files import read_regular_text
+from coframe._files.bounded_yaml import MAX_BYTES
+from coframe._files.regular_files import read_regular_text
 from launch.frontend import Parser as BaseParser
 from launch.utilities.yaml_loading import load_yaml
 from launch_yaml.entity import Entity

@@ -1,5 +1,5 @@
 """ROS package nav2_msgs."""
 
-from coframe import ros_side
+from coframe.workspace import ros_side
 
 ros_side.check("nav2_msgs")

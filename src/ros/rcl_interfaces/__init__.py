@@ -1,5 +1,5 @@
 """ROS package rcl_interfaces."""
 
-from coframe import ros_side
+from coframe.workspace import ros_side
 
 ros_side.check("rcl_interfaces")

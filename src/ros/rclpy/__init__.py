@@ -15,7 +15,7 @@ from __future__ import annotations
 import sys
 from typing import TYPE_CHECKING, Any
 
-from coframe import ros_side
+from coframe.workspace import ros_side
 
 ros_side.check(__name__)
 

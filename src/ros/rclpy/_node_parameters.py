@@ -9,7 +9,7 @@ from collections.abc import Callable, Sequence
 from collections.abc import Set as AbstractSet
 from typing import Any
 
-from coframe.formatting import did_you_mean
+from coframe._output.formatting import did_you_mean
 from rcl_interfaces.msg import ListParametersResult, ParameterDescriptor, ParameterEvent, SetParametersResult
 from rclpy._parameter_ranges import (
     RELATIVE_TOLERANCE,

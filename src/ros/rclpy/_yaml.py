@@ -6,9 +6,9 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING, Any, Final
 
-from coframe.bounded_yaml import MAX_BYTES, yaml_events
-from coframe.optional_imports import pip_install
-from coframe.regular_files import read_regular
+from coframe._files.bounded_yaml import MAX_BYTES, yaml_events
+from coframe._files.regular_files import read_regular
+from coframe._process.optional_imports import pip_install
 from rclpy._parameter_words import parse_scalar
 
 if TYPE_CHECKING:

@@ -9,7 +9,7 @@ import threading
 from enum import IntFlag
 from typing import TYPE_CHECKING, Any
 
-from coframe.signal_handlers import SignalHandlers
+from coframe._process.signal_handlers import SignalHandlers
 from rclpy.context import _shut_down_by_signal
 from rclpy.exceptions import ROSInterruptException
 from rclpy.executors import ExternalShutdownException

@@ -1,5 +1,5 @@
 """ROS package rmw_dds_common."""
 
-from coframe import ros_side
+from coframe.workspace import ros_side
 
 ros_side.check("rmw_dds_common")

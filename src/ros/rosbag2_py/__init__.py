@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """rosbag2's Python interface on coframe's recordings: reads and writes MCAP and SQLite without a ROS installation."""
 
-from coframe import ros_side
+from coframe.workspace import ros_side
 
 ros_side.check("rosbag2_py")
 

@@ -9,11 +9,11 @@ from datetime import datetime, timedelta, timezone
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from coframe._files.bounded_yaml import MAX_BYTES, read_yaml
+from coframe._files.regular_files import read_regular
+from coframe._process.optional_imports import pip_install
 from coframe.bags import Recording, RecordingError, open_bag
 from coframe.bags.formats import METADATA
-from coframe.bounded_yaml import MAX_BYTES, read_yaml
-from coframe.optional_imports import pip_install
-from coframe.regular_files import read_regular
 from rosbag2_py._options import TopicMetadata
 
 if TYPE_CHECKING:

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from coframe.optional_imports import import_optional
+from coframe._process.optional_imports import import_optional
 
 __all__ = ["get_message_slot_types", "message_to_csv", "message_to_ordereddict", "message_to_yaml"]
 

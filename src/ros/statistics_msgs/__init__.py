@@ -1,5 +1,5 @@
 """ROS package statistics_msgs."""
 
-from coframe import ros_side
+from coframe.workspace import ros_side
 
 ros_side.check("statistics_msgs")

@@ -1,5 +1,5 @@
 """ROS package std_srvs."""
 
-from coframe import ros_side
+from coframe.workspace import ros_side
 
 ros_side.check("std_srvs")

@@ -1,5 +1,5 @@
 """ROS package tf2_msgs."""
 
-from coframe import ros_side
+from coframe.workspace import ros_side
 
 ros_side.check("tf2_msgs")

@@ -4,7 +4,7 @@
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-from coframe import ros_side
+from coframe.workspace import ros_side
 
 ros_side.check(__name__)
 

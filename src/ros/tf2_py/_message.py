@@ -11,8 +11,8 @@ from typing import Any
 
 from builtin_interfaces.msg import Time as TimeMessage
 from coframe import _core
-from coframe.ros_side import tf2_is_replaced
 from coframe.time import SECOND
+from coframe.workspace.ros_side import tf2_is_replaced
 from geometry_msgs.msg import Quaternion, Transform, TransformStamped, Vector3
 from rclpy.time import Time
 from std_msgs.msg import Header

@@ -4,8 +4,8 @@
 import sys
 from typing import Any
 
-import coframe
 from coframe import _core
+from coframe.buffer.buffer import Buffer
 from coframe.errors import (
     ConnectivityException,
     ExtrapolationException,
@@ -68,7 +68,7 @@ class BufferCore:
         """
         # Programs subclass BufferCore, so the prefix avoids collisions with their attributes.
         # A Duration, because coframe refuses an int of a few nanoseconds.
-        self._Coframe__buffer = coframe.Buffer(Duration(nanoseconds=_convert.nanoseconds(cache_time, "duration")))
+        self._Coframe__buffer = Buffer(Duration(nanoseconds=_convert.nanoseconds(cache_time, "duration")))
 
     def set_transform(self, transform: Any, authority: str, /) -> None:
         """Insert a dynamic transform. Rejected data are reported on stderr, as in tf2.

@@ -7,7 +7,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-import coframe
+from coframe.buffer.buffer import Buffer
+from coframe.errors import TransformException
 from coframe.time import SECOND
 
 Vector = tuple[float, float, float]
@@ -25,7 +26,7 @@ class Tracked(NamedTuple):
 
 
 def lookup_velocity(
-    core: coframe.Buffer, tracked: Tracked, observation: str, reference: str, *, stamp: int, interval: int
+    core: Buffer, tracked: Tracked, observation: str, reference: str, *, stamp: int, interval: int
 ) -> tuple[Vector, Vector]:
     """Return the linear (m/s) and angular (rad/s) velocity of a tracked point relative to `observation`.
 
@@ -52,11 +53,11 @@ def lookup_velocity(
     return _vector(linear), _vector(angular)
 
 
-def _latest_common_time(core: coframe.Buffer, target: str, source: str) -> int:
+def _latest_common_time(core: Buffer, target: str, source: str) -> int:
     """Return the latest common time, or 0 if there is none, so that the lookups raise the error."""
     try:
         return core.latest_common_time(target, source)
-    except coframe.TransformException:
+    except TransformException:
         return 0
 
 

@@ -5,7 +5,7 @@ The upstream package has no `__all__`, and programs rely on names that its modul
 here as well.
 """
 
-from coframe import ros_side
+from coframe.workspace import ros_side
 
 ros_side.check(__name__)
 

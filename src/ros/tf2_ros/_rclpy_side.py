@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """What tf2_ros needs from rclpy beyond its public API, for the rclpy of this process: coframe's or a sourced ROS's."""
 
-from coframe.ros_side import tf2_is_replaced
+from coframe.workspace.ros_side import tf2_is_replaced
 
 # Two imports of the same names: a type checker compares the signatures of both sides.
 if tf2_is_replaced():

@@ -11,8 +11,8 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from coframe._core import SegmentError
-from coframe.listener_config import ListenerConfig
-from coframe.shared_transforms import SharedTransforms
+from coframe.connection.listener_config import ListenerConfig
+from coframe.connection.shared_transforms import SharedTransforms
 from coframe.wire.qos import TF, TF_STATIC_READER
 from tf2_ros._rclpy_side import domain_and_middleware, reporter, to_wire
 from tf2_ros._subscriptions import AUTHORITY

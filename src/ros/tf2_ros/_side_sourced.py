@@ -9,10 +9,10 @@ import threading
 import weakref
 from typing import TYPE_CHECKING, Any
 
-from coframe import ros_side
 from coframe.errors import WireError
 from coframe.wire import selection
 from coframe.wire.qos import INFINITE, QoS
+from coframe.workspace import ros_side
 from rclpy.qos import QoSProfile
 from rclpy.utilities import get_rmw_implementation_identifier
 from tf2_msgs.msg import TFMessage

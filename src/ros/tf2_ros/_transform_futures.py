@@ -12,8 +12,8 @@ from tf2_py import TransformException
 from tf2_ros._rclpy_side import wake_executors
 
 if TYPE_CHECKING:
-    from coframe import Transform
-    from coframe.dispatcher import Dispatcher, StartWait
+    from coframe.buffer.dispatcher import Dispatcher, StartWait
+    from coframe.transform.transform import Transform
 
     _Future = Future[TransformStamped]
 else:

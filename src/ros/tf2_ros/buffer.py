@@ -13,7 +13,7 @@ import tf2_py as tf2
 import tf2_ros  # noqa: F401
 from builtin_interfaces.msg import Time as TimeMessage
 from coframe import _core
-from coframe.time import SHORTEST_INT
+from coframe.time import MIN_INT_NANOSECONDS
 from geometry_msgs.msg import TransformStamped
 from rclpy.clock import Clock, JumpThreshold, TimeJump
 from rclpy.duration import Duration
@@ -245,7 +245,7 @@ def clear_on_time_jump(buffer: Buffer, clock: Clock) -> Any:
 def _wait(timeout: Duration) -> int | None:
     """Return the nanoseconds to wait, or None for no wait; at least 100 us, because coframe refuses smaller ints."""
     nanoseconds = _nanoseconds(timeout)
-    return max(nanoseconds, SHORTEST_INT) if nanoseconds > 0 else nanoseconds or None
+    return max(nanoseconds, MIN_INT_NANOSECONDS) if nanoseconds > 0 else nanoseconds or None
 
 
 def _limit(timeout: Duration | None) -> int | None:

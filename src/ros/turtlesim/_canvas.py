@@ -14,7 +14,7 @@ SIZE: Final = 500  # pixels of each side, as upstream's window
 METER: Final = 45  # pixels, the height of a turtle
 SIZE_IN_METERS: Final = float(np.float32((SIZE - 1) / METER))  # upstream's precision
 _BLANK: Final = 255  # Upstream's sensor reports white where nothing was drawn.
-_MOST_POINTS: Final = 20_000  # of all strokes; the oldest are forgotten, in the viewer only
+_MAX_POINTS: Final = 20_000  # of all strokes; the oldest are forgotten, in the viewer only
 
 
 class Pen(NamedTuple):
@@ -54,9 +54,9 @@ class Canvas:
             last.points.append(end)
         else:
             self.strokes.append(Stroke(turtle, pen, [start, end]))
-        while len(self.strokes) > 1 and sum(len(stroke.points) for stroke in self.strokes) > _MOST_POINTS:
+        while len(self.strokes) > 1 and sum(len(stroke.points) for stroke in self.strokes) > _MAX_POINTS:
             del self.strokes[0]
-        del self.strokes[0].points[:-_MOST_POINTS]
+        del self.strokes[0].points[:-_MAX_POINTS]
 
     def color(self, x: float, y: float) -> tuple[int, int, int]:
         """Return the color at a point, in meters from the upper left corner."""

@@ -19,12 +19,12 @@ if TYPE_CHECKING:
     from rclpy.action.server import ServerGoalHandle
     from rclpy.node import Node
 
-__all__ = ["LARGEST", "Turtle", "is_in_range"]
+__all__ = ["MAX_VALUE", "Turtle", "is_in_range"]
 
 _QUEUE = 7
 _TOLERANCE = 0.02  # radians, at which a rotation is complete
 _COMMAND_LIFETIME = Duration(seconds=1.0)
-LARGEST = 1e6  # meters or radians, and per second
+MAX_VALUE = 1e6  # meters or radians, and per second
 
 
 class _Rotation(NamedTuple):
@@ -127,7 +127,7 @@ class Turtle:
         accepted = is_in_range(*values)
         if not accepted:
             self._node.get_logger().error(
-                f"Ignoring a {what} of [{self.name}]: the values {values} must be finite and at most {LARGEST:g}"
+                f"Ignoring a {what} of [{self.name}]: the values {values} must be finite and at most {MAX_VALUE:g}"
             )
         return accepted
 
@@ -214,8 +214,8 @@ class Turtle:
 
 
 def is_in_range(*values: float) -> bool:
-    """Return whether all values are finite and at most `LARGEST`."""
-    return all(abs(value) <= LARGEST for value in values)  # False for NaN
+    """Return whether all values are finite and at most `MAX_VALUE`."""
+    return all(abs(value) <= MAX_VALUE for value in values)  # False for NaN
 
 
 def _normalized(angle: float) -> float:

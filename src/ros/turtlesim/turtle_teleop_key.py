@@ -7,7 +7,7 @@ import sys
 from typing import Any
 
 import rclpy
-from coframe.keys import keys
+from coframe._process.keys import keys
 from coframe.nodes.program import initialized, program
 from geometry_msgs.msg import Twist
 from rclpy.action import ActionClient

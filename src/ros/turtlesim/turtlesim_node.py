@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from coframe.escaping import printable, shown
+from coframe._output.escaping import printable, shown
 from coframe.nodes.program import program, spin_until_shutdown
 from rcl_interfaces.msg import IntegerRange, ParameterDescriptor
 from rclpy.exceptions import NameValidationException
@@ -17,7 +17,7 @@ from rclpy.validate_topic_name import validate_topic_name
 from std_srvs.srv import Empty
 from turtlesim._canvas import SIZE_IN_METERS, Canvas
 from turtlesim._drawing import Drawing
-from turtlesim._turtle import LARGEST, Turtle, is_in_range
+from turtlesim._turtle import MAX_VALUE, Turtle, is_in_range
 from turtlesim.srv import Kill, Spawn
 
 if TYPE_CHECKING:
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 __all__ = ["TurtleSim", "main"]
 
 MAX_TURTLES = 100
-_LONGEST_NAME = 64  # with its namespace; the names of its services are longer
+_MAX_NAME_LENGTH = 64  # with its namespace; the names of its services are longer
 _STEP = 0.016  # seconds
 _BACKGROUND = {"background_r": ("Red", 0x45), "background_g": ("Green", 0x56), "background_b": ("Blue", 0xFF)}
 
@@ -88,9 +88,9 @@ class TurtleSim(Node):
         if len(self.__turtles) >= MAX_TURTLES:
             return f"There are {MAX_TURTLES} turtles, the limit"
         if not is_in_range(request.x, request.y, request.theta):
-            return f"The position and the angle of a turtle must be finite and at most {LARGEST:g}"
-        if len(request.name) > _LONGEST_NAME:
-            return f"The name of a turtle has at most {_LONGEST_NAME} characters"
+            return f"The position and the angle of a turtle must be finite and at most {MAX_VALUE:g}"
+        if len(request.name) > _MAX_NAME_LENGTH:
+            return f"The name of a turtle has at most {_MAX_NAME_LENGTH} characters"
         try:
             if request.name:
                 validate_topic_name(request.name)

@@ -1,5 +1,5 @@
 """ROS package unique_identifier_msgs."""
 
-from coframe import ros_side
+from coframe.workspace import ros_side
 
 ros_side.check("unique_identifier_msgs")

@@ -1,5 +1,5 @@
 """ROS package vision_msgs."""
 
-from coframe import ros_side
+from coframe.workspace import ros_side
 
 ros_side.check("vision_msgs")

@@ -25,7 +25,7 @@ tf2 = import_module(os.environ.get("TF2", "tf2_ros"))
 import tf2_geometry_msgs
 import tf2_py
 import tf2_ros
-from coframe import ros_folders
+from coframe.workspace import ros_folders
 from geometry_msgs.msg import PointStamped
 
 ours = str(ros_folders.ros_folder())

@@ -14,7 +14,7 @@ LONG = "m" * 1_000_000
 URDF = """<robot name="{0}"><link name="{0}"/><link name="{0}tip"/><joint name="{0}turn" type="continuous">
 <parent link="{0}"/><child link="{0}tip"/></joint></robot>"""
 ESCAPED = "&lt;img src=x onerror=window.hacked=1&gt;"
-MOST_HEAP = 400 << 20  # bytes of a page that shows names of 1 MB
+MAX_HEAP_BYTES = 400 << 20  # bytes of a page that shows names of 1 MB
 # Elements that only markup in a name could create, and names of 1 MB that are in the page as a whole.
 FOREIGN = """() => ({
     hacked: window.hacked ?? null,
@@ -64,7 +64,7 @@ def check(page, panel):
     assert found["hacked"] is None, panel
     assert found["images"] == 0, panel
     assert found["longest"] < 20_000, panel
-    assert found["heap"] < MOST_HEAP, panel
+    assert found["heap"] < MAX_HEAP_BYTES, panel
     assert page.evaluate("document.documentElement.scrollWidth <= innerWidth"), panel
     updates = page.evaluate("document.activeElement.blur(), coframe.updates")
     page.key("ArrowLeft")

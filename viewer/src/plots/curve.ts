@@ -7,7 +7,7 @@ import type { CurvePoints, CurveStatus } from "../protocol/messages";
 const CAPACITY = 20_000;
 
 /** uPlot computes differences of values, which would be infinite for larger ones. */
-const LARGEST_DRAWN = 1e300;
+const MAX_DRAWN_VALUE = 1e300;
 
 /** Times in seconds, and values; null is a gap. */
 export type Table = [x: number[], y: (number | null)[]];
@@ -69,7 +69,7 @@ export class Curve {
     for (const i of indices) {
       const value = this.values[i] as number;
       x.push((this.times[i] as number) / 1e9);
-      y.push(Math.abs(value) <= LARGEST_DRAWN ? value : null); // null for NaN
+      y.push(Math.abs(value) <= MAX_DRAWN_VALUE ? value : null); // null for NaN
     }
     return [x, y];
   }

@@ -8,7 +8,7 @@ import type { Source, SourceEvents } from "./source";
 import { compareVersion } from "./version";
 
 const FIRST_WAIT_MS = 250;
-const LONGEST_WAIT_MS = 4000;
+const MAX_WAIT_MS = 4000;
 /** That of the server. */
 const MAX_REQUEST_BYTES = 1 << 20;
 /** The most bytes of UTF-8 of one unit of UTF-16. */
@@ -57,7 +57,7 @@ export class SocketSource implements Source {
     socket.onclose = () => {
       this.listener("connected", false);
       if (this.compatible) setTimeout(() => this.open(), this.wait);
-      this.wait = Math.min(this.wait * 2, LONGEST_WAIT_MS);
+      this.wait = Math.min(this.wait * 2, MAX_WAIT_MS);
     };
     this.socket = socket;
   }

@@ -20,7 +20,7 @@ type Distort = (x: number, y: number) => [number, number];
 
 const NEAREST_M = 1e-3;
 /** The distance from the axis, in units of the focal length, up to which the distortion is examined. */
-const LARGEST_RADIUS = 8;
+const MAX_RADIUS = 8;
 const RADIUS_STEP = 0.005;
 
 /** Returns a projection, or the reason why there is none. */
@@ -99,10 +99,10 @@ function equidistant([k1, k2, k3, k4]: readonly number[]): Distort {
 /** Finds the radius up to which points further from the axis are further from the centre of the image, too. */
 function bounded(distort: Distort): { distort: Distort; radius: number } {
   let last = 0;
-  for (let radius = RADIUS_STEP; radius <= LARGEST_RADIUS; radius += RADIUS_STEP) {
+  for (let radius = RADIUS_STEP; radius <= MAX_RADIUS; radius += RADIUS_STEP) {
     const [u] = distort(radius, 0);
     if (!(u > last)) return { distort, radius: radius - RADIUS_STEP };
     last = u;
   }
-  return { distort, radius: LARGEST_RADIUS };
+  return { distort, radius: MAX_RADIUS };
 }

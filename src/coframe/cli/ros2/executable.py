@@ -9,7 +9,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-from coframe.regular_files import open_regular
+from coframe._files.regular_files import open_regular
 
 __all__ = ["is_own_script", "real_executable", "ros2", "rviz2"]
 

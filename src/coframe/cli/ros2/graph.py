@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, NoReturn
 import click
 from click.exceptions import Exit
 
+from coframe._output.formatting import did_you_mean
 from coframe.cli.completion import complete_live_topics
 from coframe.cli.declaration import Command, Declared, argument
 from coframe.cli.lifecycle import run_to_completion
@@ -19,7 +20,6 @@ from coframe.cli.output import fail, warn
 from coframe.cli.ros2.hidden_names import is_hidden
 from coframe.cli.ros2.near_names import near_types
 from coframe.errors import CoframeError
-from coframe.formatting import did_you_mean
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator

@@ -15,10 +15,10 @@ import sysconfig
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from coframe._process.python_children import python_command
 from coframe.cli.declaration import CommandGroup
 from coframe.cli.output import fail, printable
 from coframe.cli.ros2.executable import is_own_script, real_executable
-from coframe.python_children import python_command
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -82,7 +82,7 @@ def _folder() -> Path:
 
 def _script(name: str) -> str:
     """Return the text of an executable; the path of Python may contain spaces and may be long."""
-    words = python_command("coframe.entry_point", f"coframe.cli.ros2.executable:{name}")
+    words = python_command("coframe.workspace.entry_point", f"coframe.cli.ros2.executable:{name}")
     command = " ".join(f'"{word}"' for word in words)
     return f"@{command} %*\n" if os.name == "nt" else f'#!/bin/sh\nexec {command} "$@"\n'
 

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 import click
 from click.exceptions import Exit
 
+from coframe._output.formatting import count, listed
 from coframe.cli.declaration import PATH, Command, argument
 from coframe.cli.output import fail, printable, warn
 from coframe.errors import InterfaceError
-from coframe.formatting import count, listed
 from coframe.interfaces.sources import ENVIRONMENT, Source, package_folders, sources
 from coframe.interfaces.user_folders import added_paths, set_added_paths, settings_file, stub_folder
 from coframe.interfaces.workspace import add_start

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 __all__ = ["MessageStream", "field_of", "message_filter"]
 
-_LONGEST_WAIT = 1.0  # seconds; so that Ctrl-C is handled soon on every system
+_MAX_WAIT = 1.0  # seconds; so that Ctrl-C is handled soon on every system
 
 
 class MessageStream:
@@ -59,13 +59,13 @@ class MessageStream:
             left = deadline - time.monotonic()
             if left <= 0:
                 return None
-            self._executor.spin_once(timeout_sec=min(left, _LONGEST_WAIT))
+            self._executor.spin_once(timeout_sec=min(left, _MAX_WAIT))
         return self._arrived.popleft()
 
     def messages(self, timeout: float | None = None) -> Iterator[Any]:
         """Yield messages until none arrives within `timeout` seconds; without end if it is None."""
         while True:
-            message = self.take(_LONGEST_WAIT if timeout is None else timeout)
+            message = self.take(_MAX_WAIT if timeout is None else timeout)
             if message is not None:
                 yield message
             elif timeout is not None:

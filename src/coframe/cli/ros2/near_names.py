@@ -5,12 +5,12 @@ from __future__ import annotations
 
 import difflib
 
-from coframe.formatting import did_you_mean
+from coframe._output.formatting import did_you_mean
 
 __all__ = ["near_types"]
 
 _KINDS = ("msg", "srv", "action")
-_MOST_NAMES = 3
+_MAX_NAMES = 3
 
 
 def near_types(name: str) -> str:
@@ -28,7 +28,7 @@ def near_types(name: str) -> str:
     types = [f"{each.name}/{kind}/{type_}" for each in packages for kind in _KINDS for type_ in each.names(kind)]
     same = [each for each in types if each.rpartition("/")[2] == last]
     if same:
-        nearest = difflib.get_close_matches(name, same, n=_MOST_NAMES, cutoff=0.0)
+        nearest = difflib.get_close_matches(name, same, n=_MAX_NAMES, cutoff=0.0)
         return f"Did you mean {' or '.join(map(repr, nearest))}?"
     # Types of other packages are no answer to a package that was not found.
     return did_you_mean(name, types, most=2) if found else ""

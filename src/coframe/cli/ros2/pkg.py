@@ -9,12 +9,12 @@ from typing import Any
 
 import click
 
-from coframe.bounded_xml import MAX_BYTES, read_xml
+from coframe._files.bounded_xml import MAX_BYTES, read_xml
+from coframe._files.regular_files import read_regular, reading_hint
 from coframe.cli.declaration import PATH, Command, CommandGroup, argument
 from coframe.cli.lifecycle import run_to_completion
 from coframe.cli.output import fail, printable
 from coframe.cli.ros2.new_package import NewPackage, write_package
-from coframe.regular_files import read_regular, reading_hint
 
 __all__ = ["pkg"]
 
@@ -104,8 +104,8 @@ def executables(package_name: str | None, full_path: bool) -> None:
     Example: coframe pkg executables turtlesim
     """
     with run_to_completion():
-        from coframe.packages import executables as search  # noqa: PLC0415 - slow import
-        from coframe.packages import finding  # noqa: PLC0415
+        from coframe.workspace.packages import executables as search  # noqa: PLC0415 - slow import
+        from coframe.workspace.packages import finding  # noqa: PLC0415
 
         if package_name is not None:
             finding.find_package(package_name)
@@ -122,7 +122,7 @@ def list_packages() -> None:
     Example: coframe pkg list
     """
     with run_to_completion():
-        from coframe.packages import finding  # noqa: PLC0415 - slow import
+        from coframe.workspace.packages import finding  # noqa: PLC0415 - slow import
 
         for name in sorted(finding.package_names()):
             print(printable(name))
@@ -137,7 +137,7 @@ def prefix(package_name: str, share: bool) -> None:
     Example: coframe pkg prefix my_robot --share
     """
     with run_to_completion():
-        from coframe.packages import finding  # noqa: PLC0415 - slow import
+        from coframe.workspace.packages import finding  # noqa: PLC0415 - slow import
 
         package = finding.find_package(package_name)
         print(printable(str(package.share if share else package.prefix)))
@@ -152,7 +152,7 @@ def xml(package_name: str, tag: str | None) -> None:
     Example: coframe pkg xml my_robot --tag version
     """
     with run_to_completion():
-        from coframe.packages import finding  # noqa: PLC0415 - slow import
+        from coframe.workspace.packages import finding  # noqa: PLC0415 - slow import
 
         manifest = finding.find_package(package_name).share / "package.xml"
         try:

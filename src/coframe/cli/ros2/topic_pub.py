@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
 __all__ = ["pub"]
 
-_LONGEST_PERIOD = 1e9  # seconds; Python cannot sleep for more than nine times as long
+_MAX_PERIOD = 1e9  # seconds; Python cannot sleep for more than nine times as long
 _POLL = 0.1  # seconds between two looks for matching subscriptions, as in ros2cli
 
 
@@ -114,7 +114,7 @@ def pub(
         qos = QoSWords(qos_profile, qos_depth, qos_history, qos_reliability, qos_durability).to_profile()
         publisher = node.create_publisher(type(message), topic_name, qos)
         _wait_for_subscriptions(publisher, (1 if count else 0) if wait_matching is None else wait_matching)
-        _publish(node, publisher, message, fill_stamps, min(1.0 / rate, _LONGEST_PERIOD), print_every, count)
+        _publish(node, publisher, message, fill_stamps, min(1.0 / rate, _MAX_PERIOD), print_every, count)
         time.sleep(keep_alive.seconds)
 
 

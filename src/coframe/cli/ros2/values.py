@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from coframe.bounded_yaml import error_position, read_yaml
+from coframe._files.bounded_yaml import error_position, read_yaml
 from coframe.cli.output import fail
 
 if TYPE_CHECKING:
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 __all__ = ["read_values", "yaml_value"]
 
 _WIDTH = 60  # characters of an invalid text that are shown
-_LONGEST_EXAMPLE = 150
+_MAX_EXAMPLE_LENGTH = 150
 # The reasons of the YAML parser (C and Python), and what they mean for the user.
 _REASONS = {
     "found unexpected ':'": "a space is missing after the colon",
@@ -97,7 +97,7 @@ def _example(message: Any) -> str:
     for field in message.get_fields_and_field_types():
         if value := _example_value(getattr(message, field)):
             fields.append(f"{field}: {value}")
-        if sum(map(len, fields)) > _LONGEST_EXAMPLE:
+        if sum(map(len, fields)) > _MAX_EXAMPLE_LENGTH:
             break
     return f"{{{', '.join(fields)}}}"
 

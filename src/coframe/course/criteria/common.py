@@ -15,7 +15,7 @@ from coframe.errors import CoframeError, CourseError
 from coframe.robots.files import expand_xacro
 from coframe.robots.xacro_process import MAX_SECONDS
 from coframe.time import SECOND
-from coframe.transform import Transform
+from coframe.transform.transform import Transform
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence

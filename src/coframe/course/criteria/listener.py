@@ -32,7 +32,7 @@ _LATENCY = STEP  # the transforms arrive one step after their stamps, as those o
 _PERIOD = 2 * STEP
 # Between two samples, tf2 interpolates linearly; the arm moves on circles, and differs from that by less than this.
 _INTERPOLATED = 1e-4  # metres
-_OLDEST = 3 * SECOND // 2  # of a transform that a listener may still use while the broadcaster is missing
+_MAX_AGE = 3 * SECOND // 2  # of a transform that a listener may still use while the broadcaster is missing
 _READ = "handbook chapter 4, what lookup_transform(target, source) means"
 
 
@@ -139,7 +139,7 @@ def _right_at_other_time(robot: Robot, poses: list[Received]) -> bool:
 
 def _true_time(robot: Robot, received: Received) -> int | None:
     pose = pose_of(received.message)
-    for age in range(0, _OLDEST, STEP):
+    for age in range(0, _MAX_AGE, STEP):
         moment = received.time - age
         if not differs(pose, robot.end_effector(moment), TOLERANCE):
             return moment

@@ -10,7 +10,7 @@ from coframe.course.motion import Robot
 from coframe.course.rubric import RUBRIC
 from coframe.course.sheet import Sheet
 from coframe.time import SECOND
-from coframe.transform import Transform
+from coframe.transform.transform import Transform
 from std_msgs.msg import String
 
 if TYPE_CHECKING:

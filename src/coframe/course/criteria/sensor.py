@@ -17,7 +17,7 @@ from coframe.course.sheet import Sheet
 from coframe.course.world import STEP, stamp_of
 from coframe.errors import CoframeError
 from coframe.sensors.layout import field_of
-from coframe.transform import Transform
+from coframe.transform.transform import Transform
 from sensor_msgs.msg import LaserScan, PointCloud2
 
 if TYPE_CHECKING:

@@ -10,7 +10,7 @@ import numpy as np
 from coframe.course.criteria.common import TOLERANCE, Task, differs, edge_of, run_program
 from coframe.course.rubric import RUBRIC
 from coframe.course.sheet import Sheet
-from coframe.transform import Transform
+from coframe.transform.transform import Transform
 from rclpy.qos import DurabilityPolicy, ReliabilityPolicy
 from tf2_msgs.msg import TFMessage
 

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from coframe._output.formatting import count, quoted
 from coframe.doctor.finding import Finding, Severity
-from coframe.formatting import count, quoted
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 __all__ = ["CODE", "find"]
 
 CODE = "TF006"
-_MOST_PREFIXES = 5  # in front of one name
+_MAX_PREFIXES = 5  # in front of one name
 _PLAIN = re.compile(r"[\w./-]+")
 
 
@@ -100,7 +100,7 @@ def _incomplete_prefix(observation: Observation) -> Iterator[Finding]:
 
 def _without_prefixes(frame: str) -> Iterator[str]:
     """Yield ``b/c`` and ``c`` for ``a/b/c``."""
-    for _ in range(_MOST_PREFIXES):
+    for _ in range(_MAX_PREFIXES):
         _, slash, frame = frame.partition("/")
         if not slash:
             return

@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from coframe._output.formatting import duration, listed
 from coframe.analysis.liveness import median_interval, stamp_intervals, usual_gap
 from coframe.analysis.static_command import static_command
 from coframe.doctor.edge import publishers_of
 from coframe.doctor.finding import Finding, Severity
-from coframe.formatting import duration, listed
 from coframe.time import MILLISECOND, SECOND
 
 if TYPE_CHECKING:
@@ -28,7 +28,7 @@ _SENSED = 110 * MILLISECOND  # the same for an edge that sensors with a higher r
 _FASTER = 2.0  # minimum ratio of the sensor rate to the edge rate; poses of the base concern every sensor
 _BASES = {"base_link", "base_footprint"}
 _CORRECTIONS = {"odom"}  # localization intentionally corrects map -> odom at a low rate
-_LEAST = 5  # minimum number of transforms to judge the rate and gaps
+_MIN_TRANSFORMS = 5  # minimum number of transforms to judge the rate and gaps
 # For these sensors, the robot's poses between two transforms matter.
 _NEED_POSES = {
     "sensor_msgs/msg/CameraInfo",
@@ -43,7 +43,7 @@ _NEED_POSES = {
 
 def find(observation: Observation) -> Iterator[Finding]:
     """Yield one finding per slow edge, or edge slower than its sensors; one for all gaps, one for all stale edges."""
-    edges = [edge for edge in observation.dynamic if edge.count >= _LEAST and edge.period]
+    edges = [edge for edge in observation.dynamic if edge.count >= _MIN_TRANSFORMS and edge.period]
     slow = [edge for edge in edges if edge.period > _SLOW]
     gaps = [edge for edge in edges if int(edge.intervals.max()) > usual_gap(edge.period)]
     stale = [edge for edge in observation.dynamic if observation.is_stale(edge)]
@@ -84,7 +84,7 @@ def _below_sensors(observation: Observation, edges: list[Edge]) -> Iterator[Find
             observation.path(sensor.frame),
         )
         for sensor in observation.sensors
-        if len(sensor.stamp) >= _LEAST and sensor.type in _NEED_POSES
+        if len(sensor.stamp) >= _MIN_TRANSFORMS and sensor.type in _NEED_POSES
     ]
     for edge in edges:
         factor = 1.1 if edge.child.rpartition("/")[2] in _BASES else _FASTER

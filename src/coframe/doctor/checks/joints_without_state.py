@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from coframe._output.formatting import listed
 from coframe.doctor.finding import Finding, Severity
 from coframe.doctor.robot_model import model
-from coframe.formatting import listed
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

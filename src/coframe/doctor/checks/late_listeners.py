@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from coframe._output.formatting import duration
 from coframe.doctor.finding import Finding, Severity
-from coframe.formatting import duration
 from coframe.time import MILLISECOND
 
 if TYPE_CHECKING:
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 __all__ = ["CODE", "find"]
 
 CODE = "TF025"
-_LEAST = 3
+_MIN_TRANSFORMS = 3
 _STALL = 500 * MILLISECOND
 _WAIT = (
     "Request the latest transform: lookup_transform(target, source, rclpy.time.Time()), or wait for the requested "
@@ -61,7 +61,7 @@ def _logged_errors(observation: Observation) -> Iterator[Finding]:
                 by_kind.setdefault((line.node, number), []).append(line)
                 break
     for (node, number), lines in by_kind.items():
-        if len(lines) >= _LEAST and lines[-1].arrived > middle:
+        if len(lines) >= _MIN_TRANSFORMS and lines[-1].arrived > middle:
             yield Finding(
                 code=CODE,
                 severity=Severity.WARNING,

@@ -5,8 +5,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from coframe._output.formatting import duration, listed
 from coframe.doctor.finding import Finding, Severity
-from coframe.formatting import duration, listed
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

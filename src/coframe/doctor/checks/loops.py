@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from coframe._output.formatting import quoted, times
 from coframe.doctor.edge import publishers_of
 from coframe.doctor.finding import Finding, Severity
-from coframe.formatting import quoted, times
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 __all__ = ["CODE", "find"]
 
 CODE = "TF004"
-_MOST_NAMES = 20  # maximum number of frames of a loop to list in a finding
+_MAX_NAMES = 20  # maximum number of frames of a loop to list in a finding
 
 
 def find(observation: Observation) -> Iterator[Finding]:
@@ -49,11 +49,11 @@ def _loops(observation: Observation) -> Iterator[Finding]:
     for number in sorted(structure.loops):
         loop = observation.path(structure.names[structure.roots[number]])
         names = [loop[-1].parent, *(edge.child for edge in reversed(loop))]
-        more = [f"and {len(loop) - _MOST_NAMES} more"] if len(names) > _MOST_NAMES else []
+        more = [f"and {len(loop) - _MAX_NAMES} more"] if len(names) > _MAX_NAMES else []
         yield Finding(
             code=CODE,
             severity=Severity.ERROR,
-            text=f"the frames form a loop: {' -> '.join([*names[:_MOST_NAMES], *more])}",
+            text=f"the frames form a loop: {' -> '.join([*names[:_MAX_NAMES], *more])}",
             fix=f"Remove one of these transforms, or invert it. For {loop[0].name}: swap its t.header.frame_id and "
             "t.child_frame_id, and invert the pose.",
             frames=frozenset(edge.child for edge in loop),

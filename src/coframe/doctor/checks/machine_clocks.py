@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from coframe._output.formatting import duration, listed
 from coframe.doctor.edge import publishers_of
 from coframe.doctor.finding import Finding, Severity
-from coframe.formatting import duration, listed
 from coframe.time import MILLISECOND
 
 if TYPE_CHECKING:
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 __all__ = ["CODE", "find"]
 
 CODE = "TF010"
-_LEAST = 20  # messages
+_MIN_MESSAGES = 20  # messages
 # A message that arrives before it was sent proves that the clocks differ; a network may take 100 ms.
 _AHEAD = 1 * MILLISECOND
 _BEHIND = 100 * MILLISECOND
@@ -43,7 +43,7 @@ def find(observation: Observation) -> Iterator[Finding]:
 
 def _by_travel(observation: Observation) -> Iterator[Finding]:
     for publisher, travel in observation.travel.items():
-        if len(travel) < _LEAST or not publisher:
+        if len(travel) < _MIN_MESSAGES or not publisher:
             continue
         least = int(travel.min())
         if -_AHEAD < least < _BEHIND:
@@ -65,7 +65,7 @@ def _by_stamps(observation: Observation) -> Iterator[Finding]:
     offsets: list[tuple[float, Edge]] = []
     for edge in observation.dynamic:
         lags = observation.lags(edge.stamp, edge.arrived)
-        if lags is not None and edge.count >= _LEAST:
+        if lags is not None and edge.count >= _MIN_MESSAGES:
             median = float(np.median(lags))
             if np.median(np.abs(lags - median)) < _SPREAD:
                 offsets.append((median, edge))

@@ -5,10 +5,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from coframe._output.formatting import duration, listed, seconds
 from coframe.analysis.clocks import SAME_CLOCK
 from coframe.doctor.edge import publishers_of
 from coframe.doctor.finding import Finding, Severity
-from coframe.formatting import duration, listed, seconds
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -12,7 +12,7 @@ from coframe.analysis.static_command import static_command
 from coframe.doctor.edge import angles_between
 from coframe.doctor.finding import Finding, Severity
 from coframe.doctor.robot_model import model
-from coframe.transform import Transform
+from coframe.transform.transform import Transform
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -28,7 +28,7 @@ __all__ = ["CODE", "find"]
 CODE = "TF023"
 _METRES = 1e-3
 _RADIANS = 1e-3
-_MOST_COMPARED = 2000  # transforms per joint
+_MAX_COMPARED = 2000  # transforms per joint
 
 
 class _Difference(NamedTuple):
@@ -161,7 +161,7 @@ def _difference(observation: Observation, robot: Robot, name: str, edge: Edge) -
     else:
         if joint.size != 1:
             return None
-        matched = _positions(observation, name, edge.stamp[:_MOST_COMPARED])
+        matched = _positions(observation, name, edge.stamp[:_MAX_COMPARED])
         if matched is None:
             return None
         rows, positions = matched

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from coframe._output.formatting import listed, times
 from coframe.doctor.edge import publishers_of
 from coframe.doctor.finding import Finding, Severity
-from coframe.formatting import listed, times
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from coframe._output.formatting import times
 from coframe.doctor.finding import Finding, Severity
 from coframe.doctor.flicker import flicker
-from coframe.formatting import times
 from coframe.time import SECOND
 
 if TYPE_CHECKING:
@@ -27,13 +27,13 @@ _FAR = 0.5  # metres
 _TURNED = 1.5  # radians
 _SPINNING = 30.0  # rad/s
 _UNUSUAL = 20.0  # times the median step
-_LEAST = 10
+_MIN_JUMPS = 10
 
 
 def find(observation: Observation) -> Iterator[Finding]:
     """Yield one finding per edge; flicker of one publisher is reported here, of several as TF003."""
     for edge in (edge.current for edge in observation.dynamic):
-        if edge.count < _LEAST:
+        if edge.count < _MIN_JUMPS:
             continue
         found = flicker(edge)
         if found is None:

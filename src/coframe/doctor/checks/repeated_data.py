@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from coframe._output.formatting import duration
 from coframe.doctor.finding import Finding, Severity
-from coframe.formatting import duration
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 __all__ = ["CODE", "find"]
 
 CODE = "TF011"
-_LEAST = 3
+_MIN_REPETITIONS = 3
 
 
 def find(observation: Observation) -> Iterator[Finding]:
@@ -36,7 +36,7 @@ def find(observation: Observation) -> Iterator[Finding]:
 def _repeated(edge: Edge) -> Iterator[Finding]:
     order = np.argsort(edge.stamp, kind="stable")
     repeated = np.flatnonzero(np.diff(edge.stamp[order]) == 0)
-    if len(repeated) < _LEAST:
+    if len(repeated) < _MIN_REPETITIONS:
         return
     first, second = edge.values[order[repeated]], edge.values[order[repeated + 1]]
     differ = int(np.count_nonzero((first != second).any(axis=1)))
@@ -72,7 +72,7 @@ def _old(edge: Edge, cache: int) -> Iterator[Finding]:
 def _repeated_states(states: JointStates) -> Iterator[Finding]:
     order = np.argsort(states.stamp, kind="stable")
     repeated = np.flatnonzero(np.diff(states.stamp[order]) == 0)
-    if len(repeated) < _LEAST:
+    if len(repeated) < _MIN_REPETITIONS:
         return
     before, after = order[repeated], order[repeated + 1]
     differ = np.zeros(len(repeated), dtype=bool)

@@ -5,10 +5,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from coframe._output.formatting import listed
 from coframe.doctor.finding import Finding, Severity
 from coframe.doctor.robot_model import parsed
 from coframe.errors import PackageError, RobotDescriptionError
-from coframe.formatting import listed
 from coframe.robots import Mesh, Packages
 
 if TYPE_CHECKING:

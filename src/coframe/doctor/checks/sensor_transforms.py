@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from coframe._output.formatting import count, duration, listed
 from coframe.analysis.missing_edges import BASE_FRAMES, estimator_advice, is_sensor_frame
 from coframe.analysis.static_command import static_command
 from coframe.doctor.finding import Finding, Severity
 from coframe.doctor.observation import NEVER
-from coframe.formatting import count, duration, listed
 from coframe.time import MILLISECOND
 
 if TYPE_CHECKING:
@@ -25,9 +25,9 @@ if TYPE_CHECKING:
 __all__ = ["CODE", "find"]
 
 CODE = "TF014"
-_LONGEST_WAIT = 200 * MILLISECOND
+_MAX_WAIT = 200 * MILLISECOND
 _TOO_MANY = 0.05
-_LEAST = 5
+_MIN_MESSAGES = 5
 _SIMILAR = 0.6
 _USUAL_ENDINGS = ("_link", "_frame", "_footprint")
 _SIMILAR_TO_USUAL = 0.8
@@ -110,8 +110,8 @@ def _missing_frame(observation: Observation, frame: str, publishers: tuple[str, 
 def _late(observation: Observation, sensor: Sensor) -> Iterator[Finding]:
     waits = observation.waits(sensor)
     counted = _countable(observation, sensor)
-    missing = np.flatnonzero(counted & (waits > _LONGEST_WAIT))
-    if np.count_nonzero(counted) < _LEAST or len(missing) <= _TOO_MANY * np.count_nonzero(counted):
+    missing = np.flatnonzero(counted & (waits > _MAX_WAIT))
+    if np.count_nonzero(counted) < _MIN_MESSAGES or len(missing) <= _TOO_MANY * np.count_nonzero(counted):
         return
     never = int(np.count_nonzero(waits[missing] == NEVER))
     longest = int(waits[missing][waits[missing] != NEVER].max()) if never < len(missing) else None
@@ -146,4 +146,4 @@ def _countable(observation: Observation, sensor: Sensor) -> NDArray[np.bool_]:
     begin = max(int(edge.arrived[0]) for edge in edges)
     first = max(int(edge.stamp.min()) for edge in edges)
     early = (sensor.arrived < begin) | ((sensor.stamp < first) & (sensor.stamp > first - observation.cache))
-    return np.asarray(~early & (sensor.arrived < observation.end - _LONGEST_WAIT))
+    return np.asarray(~early & (sensor.arrived < observation.end - _MAX_WAIT))

@@ -5,10 +5,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from coframe._output.formatting import count, listed
 from coframe.analysis.missing_edges import missing_edge, unknown_mount
 from coframe.doctor.edge import publishers_of
 from coframe.doctor.finding import Finding, Severity
-from coframe.formatting import count, listed
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 __all__ = ["CODE", "find"]
 
 CODE = "TF001"
-_MOST = 50  # maximum number of trees with a separate finding
+_MAX_TREES = 50  # maximum number of trees with a separate finding
 
 
 def find(observation: Observation) -> Iterator[Finding]:
@@ -28,7 +28,7 @@ def find(observation: Observation) -> Iterator[Finding]:
     by_root: dict[str, list[Edge]] = {}
     for edge in observation.edges:
         by_root.setdefault(observation.root(edge.child), []).append(edge)
-    for root in others[:_MOST]:
+    for root in others[:_MAX_TREES]:
         missing = missing_edge(_from_root(observation, main), _from_root(observation, root))
         members = [frame for frame in observation.trees[root] if frame != root]
         below = f" with {listed(members)}" if members else ""
@@ -44,7 +44,7 @@ def find(observation: Observation) -> Iterator[Finding]:
             first_stamp=min((edge.first_stamp for edge in edges), default=None),
             publishers=publishers_of(edges),
         )
-    if rest := others[_MOST:]:
+    if rest := others[_MAX_TREES:]:
         yield Finding(
             code=CODE,
             severity=Severity.WARNING,

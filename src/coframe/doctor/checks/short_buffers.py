@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from coframe._output.formatting import duration
 from coframe.doctor.finding import Finding, Severity
-from coframe.formatting import duration
 from coframe.time import SECOND
 
 if TYPE_CHECKING:
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 __all__ = ["CODE", "find"]
 
 CODE = "TF015"
-_LEAST = 3
+_MIN_TRANSFORMS = 3
 
 
 def find(observation: Observation) -> Iterator[Finding]:
@@ -33,7 +33,7 @@ def find(observation: Observation) -> Iterator[Finding]:
             row = np.searchsorted(edge.arrived, sensor.arrived, side="right") - 1
             behind = np.maximum(behind, np.where(row >= 0, newest[np.maximum(row, 0)] - sensor.stamp, 0))
         late = np.flatnonzero((behind > observation.cache) & (sensor.stamp != 0))
-        if len(late) < _LEAST or sensor.topic not in observation.clocks:
+        if len(late) < _MIN_TRANSFORMS or sensor.topic not in observation.clocks:
             continue
         if any(observation.clocks.get(edge.name) != observation.clocks[sensor.topic] for edge in moving):
             continue  # with stamps from another clock, no cache is long enough

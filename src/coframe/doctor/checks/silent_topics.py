@@ -6,8 +6,8 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
+from coframe._output.formatting import duration, listed
 from coframe.doctor.finding import Finding, Severity
-from coframe.formatting import duration, listed
 from coframe.time import SECOND
 
 if TYPE_CHECKING:
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 __all__ = ["CODE", "find"]
 
 CODE = "TF026"
-_LEAST = 4 * SECOND  # a GPS publishes once per second, and a driver may still be starting
+_MIN_DURATION = 4 * SECOND  # a GPS publishes once per second, and a driver may still be starting
 # These types are published regularly; others, such as goals or maps, only on an event.
 _REGULAR = {
     "nav_msgs/msg/Odometry",
@@ -43,7 +43,7 @@ def find(observation: Observation) -> Iterator[Finding]:
     """Yield one finding per group of publishers."""
     silent: dict[tuple[str, ...], list[str]] = {}
     for facts in observation.topics.values():
-        if facts.messages == 0 and facts.observed >= _LEAST and _is_promised(observation, facts):
+        if facts.messages == 0 and facts.observed >= _MIN_DURATION and _is_promised(observation, facts):
             nodes = tuple(dict.fromkeys(endpoint.node for endpoint in facts.publishers if endpoint.node))
             silent.setdefault(nodes, []).append(facts.name)
     for nodes, topics in silent.items():

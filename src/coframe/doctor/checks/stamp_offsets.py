@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from coframe._output.formatting import duration
 from coframe.doctor.finding import Finding, Severity
-from coframe.formatting import duration
 from coframe.time import MILLISECOND, SECOND
 
 if TYPE_CHECKING:
@@ -26,7 +26,7 @@ _AHEAD = 20 * MILLISECOND
 _BEHIND = 500 * MILLISECOND
 # Localization nodes stamp map -> odom ahead of time, by their parameter transform_tolerance.
 _TOLERANCE = 2 * SECOND
-_LEAST = 5
+_MIN_MESSAGES = 5
 
 
 def find(observation: Observation) -> Iterator[Finding]:
@@ -37,7 +37,7 @@ def find(observation: Observation) -> Iterator[Finding]:
             yield _unset(edge)
             continue
         lags = observation.lags(edge.stamp, edge.arrived)
-        if lags is None or edge.count < _LEAST:
+        if lags is None or edge.count < _MIN_MESSAGES:
             continue
         if np.mean(lags < -_AHEAD) > 0.05:
             yield _ahead(edge, lags)
@@ -46,7 +46,7 @@ def find(observation: Observation) -> Iterator[Finding]:
     for sensor in observation.sensors:
         unset = int(np.count_nonzero(sensor.stamp == 0))
         # A few stamps of 0 are normal, because simulations begin at 0.
-        if unset >= _LEAST and unset > 0.05 * len(sensor.stamp):
+        if unset >= _MIN_MESSAGES and unset > 0.05 * len(sensor.stamp):
             yield Finding(
                 code=CODE,
                 severity=Severity.WARNING,

@@ -5,9 +5,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from coframe._output.formatting import times
 from coframe.doctor.edge import publishers_of
 from coframe.doctor.finding import Finding, Severity
-from coframe.formatting import times
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from coframe._output.formatting import duration, listed, times
 from coframe.doctor.finding import Finding, Severity
-from coframe.formatting import duration, listed, times
 from coframe.time import SECOND
 
 if TYPE_CHECKING:

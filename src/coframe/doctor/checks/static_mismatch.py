@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 __all__ = ["CODE", "find"]
 
 CODE = "TF018"
-_LEAST = 10  # transforms
+_MIN_TRANSFORMS = 10  # transforms
 _LONG = 5 * SECOND
 # Joints at rest are published in one message with moving ones, with the same stamps.
 _TOGETHER = 0.5
@@ -62,6 +62,6 @@ def find(observation: Observation) -> Iterator[Finding]:
 
 
 def _should_be_static(edge: Edge) -> bool:
-    if edge.child.rpartition("/")[2] in _USUALLY_MOVING or edge.count < _LEAST:
+    if edge.child.rpartition("/")[2] in _USUALLY_MOVING or edge.count < _MIN_TRANSFORMS:
         return False
     return edge.constant and int(edge.stamp.max() - edge.stamp.min()) >= _LONG

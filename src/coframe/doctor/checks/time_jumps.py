@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from coframe._output.formatting import duration, listed, times
 from coframe.doctor.edge import publishers_of
 from coframe.doctor.finding import Finding, Severity
-from coframe.formatting import duration, listed, times
 from coframe.time import SECOND
 
 if TYPE_CHECKING:

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from coframe.formatting import count, duration, listed, seconds
+from coframe._output.formatting import count, duration, listed, seconds
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

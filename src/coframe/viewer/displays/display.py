@@ -15,8 +15,8 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from coframe._output.formatting import count
 from coframe.errors import ConnectivityException, ExtrapolationException, LookupException, TransformException
-from coframe.formatting import count
 from coframe.time import SECOND
 from coframe.viewer.displays.rows import make_renderer
 from coframe.viewer.protocol.encoding import EntryPose, set_owner
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from coframe import Buffer
+    from coframe.buffer.buffer import Buffer
     from coframe.viewer.displays import Drawing, Options
     from coframe.viewer.displays.renderers import MeshUrl, Renderer
     from coframe.viewer.protocol.common import DisplayState

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from coframe.connection import Connection
+    from coframe.connection.connection import Connection
     from coframe.wire.batch_subscription import BatchSubscription, MessageBatch
 
 __all__ = ["Arrivals", "ArrivedMessages"]

@@ -15,7 +15,7 @@ from coframe.viewer.panels.curve_table import CurveTable
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from coframe.connection import Connection
+    from coframe.connection.connection import Connection
     from coframe.plotting.expressions import Expression
     from coframe.viewer.panels.arrivals import Arrivals
     from coframe.viewer.panels.curve import Curve

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from coframe.escaping import csv_cell
+from coframe._output.escaping import csv_cell
 
 if TYPE_CHECKING:
     from coframe.viewer.panels.ring import Points

@@ -20,8 +20,8 @@ from coframe.viewer.panels.ring import Points, Ring
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from coframe import Buffer
-    from coframe.connection import Connection
+    from coframe.buffer.buffer import Buffer
+    from coframe.connection.connection import Connection
     from coframe.plotting.expressions import Expression, FieldExpression, PoseExpression, TimingExpression
     from coframe.viewer.panels.arrivals import Arrivals, ArrivedMessages
     from coframe.viewer.panels.curve import CurveSpan

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from concurrent.futures import Future
 
     from coframe.bags import Recording
-    from coframe.connection import Connection
+    from coframe.connection.connection import Connection
     from coframe.viewer.protocol.common import LogLevel
     from coframe.viewer.sources.source import Source
     from coframe.wire.endpoints import Subscription

@@ -7,7 +7,7 @@ import time
 from typing import TYPE_CHECKING
 
 from coframe import _core
-from coframe.formatting import duration
+from coframe._output.formatting import duration
 from coframe.viewer.protocol.server_messages import GraphLink, GraphNode, GraphTopic, NodeGraph
 from coframe.wire.endpoint_mismatch import mismatch_reasons
 from coframe.wire.graph import UNKNOWN_NODE
@@ -17,7 +17,7 @@ from coframe.wire.qos import INFINITE
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from coframe.connection import Connection
+    from coframe.connection.connection import Connection
     from coframe.viewer.sources.source import Source
     from coframe.wire.graph import DiscoveredEndpoint, EndpointInfo
     from coframe.wire.qos import QoS

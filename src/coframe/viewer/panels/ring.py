@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 __all__ = ["Points", "Ring"]
 
 # Times may be slightly out of order. A larger step back is a restart, for example of a simulation.
-_LARGEST_STEP_BACK = SECOND
+_MAX_STEP_BACK = SECOND
 
 
 class Points(NamedTuple):
@@ -66,7 +66,7 @@ class Ring:
         """Add points. Times that are slightly too early are set to the last time."""
         if not len(times):
             return
-        if self.last is not None and times[-1] < self.last - _LARGEST_STEP_BACK:
+        if self.last is not None and times[-1] < self.last - _MAX_STEP_BACK:
             self.clear()
         times, values = times[-self._capacity :], values[-self._capacity :]
         if self._end + len(times) > len(self._times):

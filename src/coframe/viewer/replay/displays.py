@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
     from typing_extensions import ParamSpec
 
-    from coframe import Buffer
+    from coframe.buffer.buffer import Buffer
     from coframe.viewer.displays import Options
     from coframe.viewer.protocol.common import DisplayState
     from coframe.viewer.sources.topic_messages import TopicMessages

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, NamedTuple, cast
 
 import numpy as np
 
+from coframe._files.regular_files import read_regular
 from coframe.errors import ViewerError
-from coframe.regular_files import read_regular
 from coframe.time import SECOND
 from coframe.viewer.protocol.encoding import relative_to
 from coframe.viewer.protocol.replay_block import ReplayBlock
@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from coframe import Buffer
+    from coframe.buffer.buffer import Buffer
     from coframe.viewer.protocol.client_messages import ReplayRviz
     from coframe.viewer.protocol.common import Vector
     from coframe.viewer.replay.displays import Progress, ReplayDisplay

@@ -11,7 +11,7 @@ from coframe.time import SECOND
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from coframe.connection import Connection
+    from coframe.connection.connection import Connection
     from coframe.robots import Robot
 
 __all__ = ["JOINT_STATES", "PERIOD", "JointPublisher"]

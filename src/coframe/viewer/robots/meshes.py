@@ -10,16 +10,16 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 from urllib.parse import quote, unquote, urlsplit
 
+from coframe._files.existence import resolved
+from coframe._files.regular_files import check_regular
 from coframe.errors import CoframeError
-from coframe.existence import resolved
-from coframe.regular_files import check_regular
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
-__all__ = ["LARGEST_FILE", "MESH_TYPES", "MeshError", "MeshTable"]
+__all__ = ["MAX_MESH_BYTES", "MESH_TYPES", "MeshError", "MeshTable"]
 
-LARGEST_FILE = 256 << 20
+MAX_MESH_BYTES = 256 << 20
 MESH_TYPES = {
     ".bin": "application/octet-stream",
     ".bmp": "image/bmp",
@@ -176,8 +176,8 @@ def _check_file(file: Path, reference: str) -> None:
         raise MeshError(f"file {_shown(reference)} not found{hint}") from None
     except OSError as error:
         raise MeshError(f"{_shown(reference)} cannot be read: {error.strerror}") from None
-    if (size := file.stat().st_size) > LARGEST_FILE:
-        raise MeshError(f"{_shown(reference)} has {size >> 20} MB; at most {LARGEST_FILE >> 20} MB are served")
+    if (size := file.stat().st_size) > MAX_MESH_BYTES:
+        raise MeshError(f"{_shown(reference)} has {size >> 20} MB; at most {MAX_MESH_BYTES >> 20} MB are served")
 
 
 def _is_file(path: Path) -> bool:

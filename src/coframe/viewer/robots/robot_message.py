@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from coframe.existence import resolved
+from coframe._files.existence import resolved
 from coframe.robots import Box, Capsule, Mesh, PackageError, Packages, Sphere
 from coframe.viewer.protocol.server_messages import JointMimic, RobotJoint, RobotLink, RobotModel, RobotShape
 from coframe.viewer.robots.meshes import MeshError, MeshTable

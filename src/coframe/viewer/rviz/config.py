@@ -7,8 +7,8 @@ import copy
 import re
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from coframe._files.regular_files import read_regular_text, reading_hint
 from coframe.errors import ViewerError
-from coframe.regular_files import read_regular_text, reading_hint
 from coframe.viewer.displays.rows import DISPLAYS
 from coframe.viewer.protocol.server_messages import RvizConfiguration, RvizGlobalOptions, UnknownRvizPart
 from coframe.viewer.rviz.reading import MAX_FILE_BYTES, read_yaml, yaml_module

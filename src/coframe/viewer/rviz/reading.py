@@ -5,9 +5,9 @@ from __future__ import annotations
 
 from typing import Any
 
-from coframe import bounded_yaml
+from coframe._files import bounded_yaml
+from coframe._process.optional_imports import pip_install
 from coframe.errors import ViewerError
-from coframe.optional_imports import pip_install
 
 __all__ = ["MAX_FILE_BYTES", "read_yaml", "yaml_module"]
 

@@ -13,7 +13,7 @@ from coframe.errors import TransformException
 from coframe.viewer.protocol.server_messages import Relation
 
 if TYPE_CHECKING:
-    from coframe import Buffer
+    from coframe.buffer.buffer import Buffer
 
 __all__ = ["relate"]
 

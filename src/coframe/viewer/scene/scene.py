@@ -19,7 +19,8 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from coframe import Buffer, FrameInfo
+    from coframe.buffer.buffer import Buffer
+    from coframe.buffer.edge_info import FrameInfo
 
 __all__ = ["LocalOrigin", "PlacedFrames", "Scene", "Structure"]
 

@@ -18,7 +18,8 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from coframe import Buffer, FrameInfo
+    from coframe.buffer.buffer import Buffer
+    from coframe.buffer.edge_info import FrameInfo
     from coframe.viewer.protocol.common import Span
     from coframe.viewer.sources.topic_messages import TopicMessages
 

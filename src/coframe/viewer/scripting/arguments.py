@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from coframe.transform import Transform
+from coframe.transform.transform import Transform
 from coframe.viewer.scripting.errors import SceneError
 
 if TYPE_CHECKING:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
-from coframe.transform import Transform
+from coframe.transform.transform import Transform
 from coframe.viewer.scripting import arguments
 from coframe.viewer.scripting.colors import color_of, flat_colors_of
 from coframe.viewer.scripting.errors import SceneError

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from functools import partial
 from typing import TYPE_CHECKING, NamedTuple
 
-from coframe.formatting import did_you_mean, quoted
+from coframe._output.formatting import did_you_mean, quoted
 from coframe.viewer.protocol.server_messages import SceneNode
 from coframe.viewer.scripting.errors import SceneError
 from coframe.viewer.scripting.records import Record, RecordStore

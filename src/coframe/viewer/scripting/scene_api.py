@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from coframe.formatting import did_you_mean, quoted
+from coframe._output.formatting import did_you_mean, quoted
 from coframe.time import stamp_ns
 from coframe.viewer.scripting import arguments
 from coframe.viewer.scripting.colors import color_of
@@ -37,7 +37,7 @@ if TYPE_CHECKING:
 
     from coframe.buffer import Buffer
     from coframe.time import StampLike
-    from coframe.transform import Transform
+    from coframe.transform.transform import Transform
     from coframe.viewer.protocol.common import NodeKind, Pose
     from coframe.viewer.scripting.nodes import NodeStore
 

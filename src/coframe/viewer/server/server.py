@@ -14,11 +14,11 @@ from http import HTTPStatus
 from typing import TYPE_CHECKING, Any
 from urllib.parse import parse_qsl, unquote, urlencode, urlsplit
 
+from coframe._files.regular_files import read_regular
 from coframe.errors import PlotError, ViewerError
-from coframe.regular_files import read_regular
 from coframe.viewer.page_files import STATIC
 from coframe.viewer.replay.page import ReplayContent, replay_page
-from coframe.viewer.robots.meshes import LARGEST_FILE, MESH_TYPES, MeshError
+from coframe.viewer.robots.meshes import MAX_MESH_BYTES, MESH_TYPES, MeshError
 from coframe.viewer.server.connections import Connections
 from coframe.viewer.server.http import AccessPolicy, file_response, page_file, response, text_response
 from coframe.viewer.server.scheduler import ClientScheduler
@@ -229,7 +229,7 @@ class ViewerServer:
         policy = self._access.content_security
         try:
             file = self._state.meshes.file(path)
-            return response(HTTPStatus.OK, read_regular(file, LARGEST_FILE), MESH_TYPES[file.suffix.lower()], policy)
+            return response(HTTPStatus.OK, read_regular(file, MAX_MESH_BYTES), MESH_TYPES[file.suffix.lower()], policy)
         except (MeshError, OSError) as error:
             return text_response(HTTPStatus.NOT_FOUND, str(error), policy)
 

@@ -30,11 +30,11 @@ if TYPE_CHECKING:
     MakeListener: TypeAlias = "Callable[[WebSocket], Listener]"
     _Part: TypeAlias = tuple[int, bytes | bytearray | memoryview, bool]
 
-__all__ = ["LARGEST_REQUEST", "Listener", "WebSocket"]
+__all__ = ["MAX_REQUEST_BYTES", "Listener", "WebSocket"]
 
 _logger = logging.getLogger("coframe.viewer")
 
-LARGEST_REQUEST = 1 << 20
+MAX_REQUEST_BYTES = 1 << 20
 # Long messages are sent in parts, so that they do not block other connections and are not copied completely.
 _PART = 1 << 18
 # A connection is closed if nothing is sent or received for this many seconds; a WebSocket is pinged once first.
@@ -65,7 +65,7 @@ class WebSocket(asyncio.Protocol):
         self._answer = answer
         self._connections = connections
         self._make_listener = make_listener
-        self._protocol = ServerProtocol(max_size=LARGEST_REQUEST, logger=_quiet_logger())
+        self._protocol = ServerProtocol(max_size=MAX_REQUEST_BYTES, logger=_quiet_logger())
         self._transport: asyncio.Transport | None = None
         self._listener: Listener | None = None
         self._answering: asyncio.Task[None] | None = None

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from collections.abc import Generator
 
     from coframe.bags import Recording
-    from coframe.connection import Connection
+    from coframe.connection.connection import Connection
     from coframe.doctor import Report
     from coframe.viewer.sources.source import Mode
     from coframe.wire.endpoints import Subscription

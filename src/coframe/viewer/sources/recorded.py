@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from coframe.bags import Recording
-    from coframe.connection import Connection
+    from coframe.connection.connection import Connection
     from coframe.doctor import Report
     from coframe.viewer.sources.source import Mode
 

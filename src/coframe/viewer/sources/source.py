@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Literal, Protocol
 if TYPE_CHECKING:
     from collections.abc import Generator
 
-    from coframe import Buffer
     from coframe.bags import Recording
-    from coframe.connection import Connection
+    from coframe.buffer.buffer import Buffer
+    from coframe.connection.connection import Connection
     from coframe.doctor import Report
     from coframe.viewer.sources.topic_messages import TopicMessages
 

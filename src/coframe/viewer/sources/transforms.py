@@ -7,7 +7,7 @@ import numpy as np
 
 from coframe.buffer import Buffer
 from coframe.errors import ViewerError
-from coframe.transform import Transform
+from coframe.transform.transform import Transform
 
 __all__ = ["buffer_of_transform"]
 

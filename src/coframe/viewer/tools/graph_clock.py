@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from coframe.time import SECOND
 
 if TYPE_CHECKING:
-    from coframe.connection import Connection, MessageSubscription
+    from coframe.connection.connection import Connection, MessageSubscription
 
 __all__ = ["GraphClock"]
 

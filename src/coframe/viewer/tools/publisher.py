@@ -17,7 +17,7 @@ from coframe.viewer.tools.graph_clock import GraphClock
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from coframe.connection import Connection, MessagePublisher
+    from coframe.connection.connection import Connection, MessagePublisher
     from coframe.wire.static_broadcaster import StaticBroadcaster
 
 __all__ = ["ToolPublisher"]

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 _ENCLAVE: Final = "enclave=/;"  # user data of every ROS participant
 _DELAYS: Final = (250 * MILLISECOND, 500 * MILLISECOND, 1000 * MILLISECOND)
-_LARGEST_SHIFT: Final = 50 * MILLISECOND  # randomized for processes that start together
+_MAX_SHIFT: Final = 50 * MILLISECOND  # randomized for processes that start together
 
 
 def participant_user_data(number: int = 0) -> str:
@@ -38,7 +38,7 @@ class Announcements:
     def __init__(self, participant: _core.DomainParticipant, *, repeated: bool) -> None:
         self._participant = participant
         self._number = 0
-        start = time.monotonic_ns() + random.randrange(_LARGEST_SHIFT)  # noqa: S311 - not for cryptography
+        start = time.monotonic_ns() + random.randrange(_MAX_SHIFT)  # noqa: S311 - not for cryptography
         self._due = [start + delay for delay in _DELAYS] if repeated else []
 
     def send_due(self) -> int:

@@ -9,8 +9,8 @@ import sys
 from html import escape
 from typing import TYPE_CHECKING
 
+from coframe._files.regular_files import UnsuitableFileError, check_regular
 from coframe.errors import WireError
-from coframe.regular_files import UnsuitableFileError, check_regular
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

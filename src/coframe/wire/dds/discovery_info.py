@@ -23,7 +23,7 @@ ADAPTS = "coframe=adapts;"
 
 _LONG_GID_DISTROS = ("foxy", "galactic", "humble")
 _GUID_SIZE = 16
-_MOST_NAMES = 10  # in a warning
+_MAX_LISTED_NAMES = 10  # in a warning
 _GID_SIZES = (24, 16)  # the longer form is the GUID, padded with zeros
 _USED_BY = {24: "ROS 2 Humble or earlier", 16: "ROS 2 Iron or later"}
 
@@ -63,7 +63,7 @@ def unseen_text(size: int, others: Mapping[int, Collection[str]]) -> str:
     unable = [other for other in others if other != size]
     if not unable:
         return ""
-    nodes = ", ".join(sorted(others[unable[0]])[:_MOST_NAMES]) or "without a name"
+    nodes = ", ".join(sorted(others[unable[0]])[:_MAX_LISTED_NAMES]) or "without a name"
     return (
         f"Nodes of {_USED_BY[unable[0]]} ({nodes}) cannot list the nodes of this process, because nodes of "
         f"{_USED_BY[size]} are in the same domain and the two describe nodes differently. Topics and services work. "

@@ -18,9 +18,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from coframe import _core
+from coframe._files.existence import is_dir, is_file
+from coframe._process.optional_imports import pip_install
 from coframe.errors import WireError
-from coframe.existence import is_dir, is_file
-from coframe.optional_imports import pip_install
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping

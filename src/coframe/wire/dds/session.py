@@ -21,7 +21,7 @@ from coframe.wire.system_clock import clock_fault
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from coframe import Buffer
+    from coframe.buffer.buffer import Buffer
     from coframe.wire.backend import QueueLimits
     from coframe.wire.endpoints import GraphNode
     from coframe.wire.graph import NodeInfo

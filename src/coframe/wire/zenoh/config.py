@@ -9,8 +9,8 @@ import os
 import re
 from typing import TYPE_CHECKING, Any, Final
 
+from coframe._files.regular_files import UnsuitableFileError, check_regular, reading_hint
 from coframe.errors import WireError
-from coframe.regular_files import UnsuitableFileError, check_regular, reading_hint
 from coframe.wire.zenoh import library
 
 if TYPE_CHECKING:

@@ -22,10 +22,10 @@ if TYPE_CHECKING:
 
 # A process that keeps declaring tokens must not fill the memory, but none may be dropped, because the removal of a node
 # is announced only once. The receiving thread therefore processes tokens itself if no other thread does.
-_MOST_PENDING: Final = 10_000
+_MAX_PENDING: Final = 10_000
 # Tokens in Zenoh's queue, which drops the oldest. A blocking queue would deadlock a process that joins a graph with
 # more tokens, because Zenoh delivers all of them before it returns the queue. Larger than `token_limits.MAX_TOKENS`.
-_MOST_QUEUED: Final = 200_000
+_MAX_QUEUED: Final = 200_000
 
 
 class _Node:
@@ -73,7 +73,7 @@ class ZenohGraph(Graph):
         self._delete = module.SampleKind.DELETE
         self._user_data: dict[bytes, bytes] = {}  # by the identifier of the endpoint
         self._subscribers: list[Any] = [
-            session.liveliness().declare_subscriber(space, module.handlers.RingChannel(_MOST_QUEUED), history=True)
+            session.liveliness().declare_subscriber(space, module.handlers.RingChannel(_MAX_QUEUED), history=True)
             for space in (tokens.all_user_data(domain), tokens.all_tokens(domain))
         ]
         self._threads = [
@@ -131,7 +131,7 @@ class ZenohGraph(Graph):
                 while sample is not None:
                     text = str(sample.key_expr)[: tokens.MAX_BYTES + 1]  # longer ones are not valid
                     self._pending.append((sample.kind != self._delete, text))
-                    if len(self._pending) >= _MOST_PENDING:
+                    if len(self._pending) >= _MAX_PENDING:
                         self.refresh()
                     sample = handler.try_recv()
                 self._changed.set()

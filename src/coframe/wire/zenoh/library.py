@@ -6,8 +6,8 @@ from __future__ import annotations
 import importlib.util
 from typing import TYPE_CHECKING, Final
 
+from coframe._process.optional_imports import import_optional
 from coframe.errors import WireError
-from coframe.optional_imports import import_optional
 
 if TYPE_CHECKING:
     from types import ModuleType

@@ -16,7 +16,7 @@ _KEEP_LAST, _KEEP_ALL = 1, 2
 _AUTOMATIC, _MANUAL_BY_TOPIC = 1, 3
 _DEFAULT_DEPTH: Final = 42
 _INFINITE_SECONDS, _INFINITE_NANOSECONDS = divmod(INFINITE, 1_000_000_000)
-_MOST_DEPTH: Final = 2**31 - 1
+_MAX_DEPTH: Final = 2**31 - 1
 
 
 def encode_qos(qos: QoS) -> str:
@@ -38,7 +38,7 @@ def decode_qos(text: str) -> QoS | None:
     (reliability,), (durability,), (history, depth), deadline, lifespan, (liveliness, *lease) = parts
     try:
         return QoS(
-            depth=min(max(_number(depth, _DEFAULT_DEPTH), 1), _MOST_DEPTH),
+            depth=min(max(_number(depth, _DEFAULT_DEPTH), 1), _MAX_DEPTH),
             reliable=_number(reliability, _RELIABLE) != _BEST_EFFORT,
             transient_local=_number(durability, _VOLATILE) == _TRANSIENT_LOCAL,
             keep_all=_number(history, _KEEP_LAST) == _KEEP_ALL,

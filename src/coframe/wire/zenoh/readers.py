@@ -14,7 +14,7 @@ from coframe.wire.zenoh.endpoint import ZenohEndpoint
 from coframe.wire.zenoh.receiver import Received, Receiver, queue_length
 
 if TYPE_CHECKING:
-    from coframe import Buffer
+    from coframe.buffer.buffer import Buffer
     from coframe.wire.backend import QueueLimits
     from coframe.wire.qos import QoS
     from coframe.wire.zenoh.endpoint import Place

@@ -20,8 +20,8 @@ if TYPE_CHECKING:
 KEEP_ALL: Final = 10_000  # queue length for KEEP_ALL; memory must be bounded
 # Zenoh's network thread must not wait for Python, which may be busy for a few milliseconds. The oldest messages are
 # dropped when the thread of the subscription does not keep up.
-_LEAST_RING: Final = 10
-_MOST_PUBLISHERS: Final = 1024  # limit of the publishers whose last sequence numbers are stored
+_MIN_RING: Final = 10
+_MAX_PUBLISHERS: Final = 1024  # limit of the publishers whose last sequence numbers are stored
 _BURST: Final = 64  # messages after which `end_burst` is called
 _REPEATS: Final = 1000  # messages that are compared to detect duplicates at two keys
 
@@ -132,7 +132,7 @@ class Receiver:
             if len(self._recent) > _REPEATS:
                 self._recent.popitem(last=False)
         last = self._numbers.get(header.gid)
-        if last is None and len(self._numbers) >= _MOST_PUBLISHERS:
+        if last is None and len(self._numbers) >= _MAX_PUBLISHERS:
             self._numbers.popitem(last=False)
         if last is not None and header.sequence > last + 1:
             self._on_lost(header.sequence - last - 1)
@@ -157,7 +157,7 @@ def queue_length(qos: QoS) -> int:
 
 def ring_length(qos: QoS) -> int:
     """Return how many messages may wait for the thread of a subscription. Zenoh allocates this memory immediately."""
-    return min(max(queue_length(qos), _LEAST_RING), KEEP_ALL)
+    return min(max(queue_length(qos), _MIN_RING), KEEP_ALL)
 
 
 def _declare(session: zenoh.Session, key: str, qos: QoS) -> Any:

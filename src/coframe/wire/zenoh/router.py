@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 # rmw_zenoh_cpp's router listens on all interfaces.
 LOOPBACK: Final = "tcp/127.0.0.1:7447"
 _ALL_INTERFACES: Final = ("0.0.0.0", "[::]")  # noqa: S104 - recognized, not listened on
-_MOST_LINES: Final = 20
+_MAX_LINES: Final = 20
 _WINDOW: Final = 10.0  # seconds
 _SYSTEM_ERROR: Final = re.compile(r"([A-Z][^\[\]:()]*) \(os error \d+\)")
 
@@ -108,7 +108,7 @@ def how_to_reach(endpoint: str) -> str:
 
 
 class _Connections:
-    """Reports at most `_MOST_LINES` connections per `_WINDOW`, and counts the others."""
+    """Reports at most `_MAX_LINES` connections per `_WINDOW`, and counts the others."""
 
     def __init__(self, report: Callable[[str], None]) -> None:
         self._report = report
@@ -130,7 +130,7 @@ class _Connections:
                 return
             self._known ^= {identity}
             self._lines += 1
-            if self._lines > _MOST_LINES:
+            if self._lines > _MAX_LINES:
                 self._omitted += 1
                 return
         self._report(f"{'Connected' if is_new else 'Disconnected'}: {link.dst}, session {link.zid}{certificate}")

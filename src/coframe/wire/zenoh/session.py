@@ -10,8 +10,8 @@ import threading
 import weakref
 from typing import TYPE_CHECKING, Any, Final, TypeVar
 
+from coframe._output.escaping import shown
 from coframe.errors import WireError
-from coframe.escaping import shown
 from coframe.time import SECOND
 from coframe.wire import descriptors
 from coframe.wire.names import check_name
@@ -29,7 +29,8 @@ from coframe.wire.zenoh.writer import ZenohWriter
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from coframe import Buffer, _core
+    from coframe import _core
+    from coframe.buffer.buffer import Buffer
     from coframe.wire.backend import BackendReader, BackendServiceReader, BackendWriter, QueueLimits
     from coframe.wire.endpoints import GraphNode
     from coframe.wire.names import Endpoint

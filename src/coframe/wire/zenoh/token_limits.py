@@ -6,7 +6,7 @@ from __future__ import annotations
 import logging
 from typing import Final
 
-from coframe.escaping import shown
+from coframe._output.escaping import shown
 
 MAX_TOKENS: Final = 100_000  # nodes, endpoints and their user data, of other processes
 MAX_TOKEN_BYTES: Final = 64 << 20  # of tokens, which include the names

@@ -12,7 +12,7 @@ import traceback
 from typing import TYPE_CHECKING, Any
 
 import launch.logging
-from coframe.entry_point import LAUNCHER
+from coframe.workspace.entry_point import LAUNCHER
 from launch.action import Action
 from launch.actions.opaque_function import OpaqueFunction
 from launch.actions.process_options import performed_bool, performed_float, performed_output, timeout

@@ -10,7 +10,7 @@ import shlex
 from pathlib import PurePath
 from typing import TYPE_CHECKING
 
-from coframe.python_children import child_environment
+from coframe._process.python_children import child_environment
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 if TYPE_CHECKING:

@@ -7,7 +7,7 @@ import importlib
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from coframe.formatting import did_you_mean
+from coframe._output.formatting import did_you_mean
 from launch.frontend.expose import action_parse_methods
 from launch.frontend.substitution_grammar import parse_text
 from launch.invalid_launch_file_error import InvalidLaunchFileError

@@ -6,7 +6,7 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
-from coframe.formatting import did_you_mean
+from coframe._output.formatting import did_you_mean
 from launch.frontend.expose import substitution_parse_methods
 
 if TYPE_CHECKING:

@@ -6,8 +6,8 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from coframe.formatting import did_you_mean
-from coframe.regular_files import check_regular
+from coframe._files.regular_files import check_regular
+from coframe._output.formatting import did_you_mean
 from launch.frontend.parser import Parser
 from launch.invalid_launch_file_error import InvalidLaunchFileError
 from launch.launch_description_source import LaunchDescriptionSource

@@ -12,7 +12,7 @@ import tempfile
 from pathlib import Path
 from typing import Any, Final
 
-from coframe.bounded_lines import print_bounded
+from coframe._files.bounded_lines import print_bounded
 
 __all__ = ["ProcessOutput", "get_logger", "get_output_loggers", "launch_config", "reset"]
 

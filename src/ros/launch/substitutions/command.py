@@ -10,7 +10,7 @@ from pathlib import PurePath
 from typing import TYPE_CHECKING, Any
 
 import launch.logging
-from coframe.optional_imports import pip_install
+from coframe._process.optional_imports import pip_install
 from launch.frontend.arguments import check_arguments
 from launch.frontend.expose import expose_substitution
 from launch.substitution import Substitution

@@ -5,8 +5,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from coframe.bounded_yaml import MAX_BYTES
-from coframe.regular_files import read_regular_text
+from coframe._files.bounded_yaml import MAX_BYTES
+from coframe._files.regular_files import read_regular_text
 from launch.frontend.arguments import check_arguments
 from launch.frontend.expose import expose_substitution
 from launch.substitution import Substitution

@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
-from coframe.formatting import did_you_mean
+from coframe._output.formatting import did_you_mean
 from launch.frontend.arguments import check_arguments
 from launch.frontend.expose import expose_substitution
 from launch.substitution import Substitution

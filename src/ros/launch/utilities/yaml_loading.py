@@ -6,8 +6,8 @@ from __future__ import annotations
 from importlib import import_module
 from typing import Any
 
-from coframe.bounded_yaml import read_yaml
-from coframe.optional_imports import pip_install
+from coframe._files.bounded_yaml import read_yaml
+from coframe._process.optional_imports import pip_install
 
 __all__ = ["dump_yaml", "load_yaml"]
 
@@ -16,7 +16,7 @@ def load_yaml(text: str) -> Any:
     """Return the value of a YAML text.
 
     Raises:
-        ValueError: The text is not YAML, or exceeds a limit of :mod:`coframe.bounded_yaml`.
+        ValueError: The text is not YAML, or exceeds a limit of :mod:`coframe._files.bounded_yaml`.
         RuntimeError: PyYAML is not installed.
     """
     _yaml()

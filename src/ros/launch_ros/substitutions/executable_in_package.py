@@ -8,7 +8,7 @@ import shlex
 from typing import TYPE_CHECKING, Any
 
 from coframe.errors import PackageError
-from coframe.packages.executables import Executable, find_executable
+from coframe.workspace.packages.executables import Executable, find_executable
 from launch.frontend.arguments import check_arguments
 from launch.frontend.expose import expose_substitution
 from launch.substitution import Substitution

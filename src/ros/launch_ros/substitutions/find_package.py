@@ -6,7 +6,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from coframe.errors import PackageError
-from coframe.packages.finding import Package, find_package
+from coframe.workspace.packages.finding import Package, find_package
 from launch.frontend.arguments import check_arguments
 from launch.frontend.expose import expose_substitution
 from launch.substitution import Substitution

@@ -1,0 +1,61 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Escape untrusted text for terminals and tables: names, messages and problems can contain any characters."""
+
+from __future__ import annotations
+
+__all__ = ["MAX_LINE_LENGTH", "MAX_NAME_LENGTH", "csv_cell", "one_line", "printable", "shown"]
+
+MAX_NAME_LENGTH = 60
+MAX_LINE_LENGTH = 2000
+_FORMULA = ("=", "+", "-", "@", "\t", "\r")
+
+
+def printable(text: str) -> str:
+    r"""Return text without control characters and bidirectional marks; newlines and tabs are kept.
+
+    Example:
+        >>> printable("arm\x1b[2J")
+        'arm\ufffd[2J'
+    """
+    return "".join(c if c.isprintable() or c in "\n\t" else "\N{REPLACEMENT CHARACTER}" for c in text)
+
+
+def one_line(text: str) -> str:
+    r"""Return a message that contains untrusted names as one printable line; a very long one is truncated.
+
+    The end is cut, not the middle: without its middle, a suggested shell command could close a quotation and run what a
+    name contains.
+
+    Example:
+        >>> one_line("no frame 'two\nlines'")
+        "no frame 'two\\nlines'"
+    """
+    short = text if len(text) <= MAX_LINE_LENGTH else f"{text[: MAX_LINE_LENGTH - 1]}\N{HORIZONTAL ELLIPSIS}"
+    return printable(short.replace("\n", r"\n").replace("\t", r"\t"))
+
+
+def shown(name: str) -> str:
+    r"""Return a received name for a drawing or a table: printable and shortened.
+
+    Example:
+        >>> shown("base_link"), shown("two\nlines"), len(shown("x" * 10_000))
+        ('base_link', 'two\\nlines', 60)
+    """
+    # A long name is shortened first, so that the rest of it costs nothing.
+    short = _shortened(name, MAX_NAME_LENGTH)
+    return _shortened("".join(c if c.isprintable() else repr(c)[1:-1] for c in short), MAX_NAME_LENGTH)
+
+
+def _shortened(text: str, longest: int) -> str:
+    half = longest // 2
+    return text if len(text) <= longest else f"{text[: half - 1]}\N{HORIZONTAL ELLIPSIS}{text[-half:]}"
+
+
+def csv_cell(value: object) -> object:
+    """Return a cell value that a spreadsheet does not interpret as a formula; numbers are unchanged.
+
+    Example:
+        >>> csv_cell("=1+1"), csv_cell(-1.5)
+        ("'=1+1", -1.5)
+    """
+    return f"'{value}" if isinstance(value, str) and value.startswith(_FORMULA) else value

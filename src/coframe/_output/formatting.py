@@ -1,0 +1,103 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Format durations, stamps, counts and lists of names for messages."""
+
+from __future__ import annotations
+
+from itertools import islice
+from typing import TYPE_CHECKING
+
+from coframe.time import DAY, HOUR, MICROSECOND, MILLISECOND, SECOND
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+__all__ = [
+    "MAX_COMPARED_LENGTH",
+    "MAX_COMPARED_NAMES",
+    "count",
+    "did_you_mean",
+    "duration",
+    "listed",
+    "quoted",
+    "seconds",
+    "similar",
+    "times",
+]
+
+_UNITS = ((DAY, "days"), (HOUR, "h"), (SECOND, "s"), (MILLISECOND, "ms"), (MICROSECOND, "us"))
+_MAX_LISTED = 5
+MAX_COMPARED_LENGTH = 200  # characters; the time grows with the square
+MAX_COMPARED_NAMES = 20_000
+
+
+def duration(nanoseconds: float) -> str:
+    """Return a duration with three digits and a unit.
+
+    Example:
+        >>> duration(17_300_000), duration(90e9)
+        ('17.3 ms', '90 s')
+    """
+    for size, unit in _UNITS:
+        number = nanoseconds / size
+        if abs(number) >= 0.9995:
+            return f"{number:.3g} {unit}" if abs(number) < 999.5 else f"{number:.0f} {unit}"
+    return f"{nanoseconds:.0f} ns"
+
+
+def seconds(nanoseconds: int) -> str:
+    """Return a stamp in seconds with all nine digits."""
+    sign, size = ("-", -nanoseconds) if nanoseconds < 0 else ("", nanoseconds)
+    return f"{sign}{size // SECOND}.{size % SECOND:09d}"
+
+
+def listed(names: Iterable[str], *, most: int = _MAX_LISTED) -> str:
+    """Return names as a comma-separated list: at most `most` names, then the number of the others.
+
+    Example:
+        >>> listed("abc"), listed("abcdefg")
+        ('a, b, c', 'a, b, c, d, e and 2 more')
+    """
+    every = list(names)
+    more = len(every) - most
+    return ", ".join(every[:most]) + (f" and {more} more" if more > 0 else "")
+
+
+def quoted(names: Iterable[str]) -> str:
+    """Return a list of quoted names, shortened as in :func:`listed`."""
+    return listed(repr(name) for name in names)
+
+
+def did_you_mean(name: str, known: Iterable[str], *, most: int = 1) -> str:
+    """Return a question that suggests names with a similar spelling; empty if there are none.
+
+    Example:
+        >>> did_you_mean("lidra", ["lidar", "camera"])
+        "Did you mean 'lidar'?"
+    """
+    meant = similar(name, known, most=most)
+    return f"Did you mean {' or '.join(map(repr, meant))}?" if meant else ""
+
+
+def similar(name: str, known: Iterable[str], *, most: int = 1) -> list[str]:
+    """Return the names with the most similar spelling; very long names and names beyond a limit are skipped."""
+    import difflib  # noqa: PLC0415 - only errors need it
+
+    if len(name) > MAX_COMPARED_LENGTH:
+        return []
+    compared = islice((each for each in known if len(each) <= MAX_COMPARED_LENGTH), MAX_COMPARED_NAMES)
+    return difflib.get_close_matches(name, list(compared), n=most)
+
+
+def times(number: int) -> str:
+    """Return ``once``, ``twice`` or ``3 times``."""
+    return {1: "once", 2: "twice"}.get(number, f"{number} times")
+
+
+def count(number: int, noun: str) -> str:
+    """Return a number and a noun, in the plural unless the number is 1.
+
+    Example:
+        >>> count(1, "frame"), count(2, "frame")
+        ('1 frame', '2 frames')
+    """
+    return f"{number} {noun}" if number == 1 else f"{number} {noun}s"

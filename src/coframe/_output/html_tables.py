@@ -1,0 +1,84 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Small HTML tables, as notebooks show values.
+
+Names of frames, topics and nodes come from the network, so all text is escaped and shortened. The styles set no
+colours: the tables are readable on light and on dark backgrounds.
+"""
+
+from __future__ import annotations
+
+import html
+from itertools import islice
+from typing import TYPE_CHECKING
+
+from coframe._output.formatting import count
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Sequence
+
+__all__ = ["MAX_ROWS", "paragraph", "preformatted", "section", "table"]
+
+MAX_ROWS = 50
+_MAX_TEXT_LENGTH = 1000  # characters per cell or paragraph
+_BORDER = "1px solid rgba(128, 128, 128, 0.4)"
+_CELL = "text-align: left; padding: 0.15em 0.8em; font-variant-numeric: tabular-nums"
+
+
+def section(title: str, *parts: str) -> str:
+    """Return HTML parts below a title.
+
+    Args:
+        title: The title as text.
+        parts: HTML, as the other functions return it; empty parts are skipped.
+    """
+    heading = f'<div style="font-weight: bold; margin-bottom: 0.3em">{_escaped(title)}</div>'
+    return '<div style="color: inherit">' + heading + "".join(parts) + "</div>"
+
+
+def table(titles: Sequence[str], rows: Iterable[Sequence[object]], total: int, noun: str = "row") -> str:
+    """Return a table with at most `MAX_ROWS` rows, followed by the number of omitted rows.
+
+    Args:
+        titles: The titles of the columns.
+        rows: The cells of each row; only the first rows are read.
+        total: The number of all rows.
+        noun: What a row represents, in the singular.
+
+    Returns:
+        HTML; "" if there are no rows.
+    """
+    if total == 0:
+        return ""
+    head = "".join(f'<th style="{_CELL}; border-bottom: {_BORDER}">{_escaped(title)}</th>' for title in titles)
+    body = "".join(f"<tr>{''.join(map(_cell, row))}</tr>" for row in islice(rows, MAX_ROWS))
+    more = paragraph(_more(total, noun)) if total > MAX_ROWS else ""
+    return (
+        '<table style="border-collapse: collapse; color: inherit; background: transparent">'
+        f"<thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>{more}"
+    )
+
+
+def _cell(value: object) -> str:
+    return f'<td style="{_CELL}">{_escaped(str(value))}</td>'
+
+
+def paragraph(text: str) -> str:
+    """Return text as a paragraph; "" for an empty text."""
+    return f'<div style="margin: 0.3em 0">{_escaped(text)}</div>' if text else ""
+
+
+def preformatted(lines: Sequence[str]) -> str:
+    """Return at most `MAX_ROWS` lines in a fixed-width font, followed by the number of omitted lines."""
+    shown = "\n".join(_escaped(line) for line in lines[:MAX_ROWS])
+    more = paragraph(_more(len(lines), "line")) if len(lines) > MAX_ROWS else ""
+    return f'<pre style="margin: 0; color: inherit; background: transparent">{shown}</pre>{more}'
+
+
+def _more(total: int, noun: str) -> str:
+    return "and " + count(total - MAX_ROWS, f"more {noun}")
+
+
+def _escaped(text: str) -> str:
+    """Return text escaped for HTML and shortened, without control characters and bidirectional marks."""
+    short = text if len(text) <= _MAX_TEXT_LENGTH else f"{text[:_MAX_TEXT_LENGTH]}..."
+    return html.escape("".join(c if c.isprintable() else ascii(c)[1:-1] for c in short))

@@ -1,0 +1,184 @@
+# SPDX-License-Identifier: Apache-2.0
+"""An explanation as lines of text: the verdict, the chain with one line per frame, and what to do."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+from coframe._output import html_tables
+from coframe._output.escaping import one_line, shown
+from coframe._output.formatting import count, duration, seconds
+from coframe.analysis.liveness import stale_limit, usual_gap
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+
+    from coframe.buffer.explanation.facts import ChainEdge, Explanation
+
+__all__ = ["draw", "draw_html", "remark", "verdict"]
+
+_MAX_INDENTED_LEVELS = 20  # levels of indentation; more would leave no room for the columns
+_LOOP_LINES = "\nFrame "  # after the first line of tf2's message about a loop, which lists all frames
+_TITLES = ("  frame", "oldest", "newest", "age", "rate", "publisher")
+
+
+class _Row(NamedTuple):
+    cells: tuple[str, ...]
+    remark: str
+
+
+def draw(found: Explanation) -> Iterator[str]:
+    """Yield the verdict, the chain, what to do, and the message of tf2."""
+    yield verdict(found)
+    yield from _table(found)
+    yield from _advice(found)
+
+
+def draw_html(found: Explanation) -> str:
+    """Return the explanation as an HTML table for notebooks."""
+    rows = [(*row.cells, row.remark) for row in _rows(found)] if found.edges else []
+    titles = (*(title.strip() for title in _TITLES), "")
+    return html_tables.section(
+        verdict(found),
+        html_tables.table(titles, rows, len(rows), "frame"),
+        *(html_tables.paragraph(line) for line in _advice(found)),
+    )
+
+
+def _advice(found: Explanation) -> Iterator[str]:
+    if found.possible_at is not None:
+        other = f"at {seconds(found.possible_at)}" if found.possible_at else "at the latest time"
+        yield f"the tree has changed: there is a transform {other}"
+    if found.hint:
+        yield f"do:  {one_line(found.hint)}"
+    if found.text:
+        yield f"tf2: {one_line(found.text.split(_LOOP_LINES)[0])}"
+
+
+def verdict(found: Explanation) -> str:
+    """Return whether there is a transform, and if not, which edge is the reason and by how much, as one sentence."""
+    frames = f"from {shown(found.source)} to {shown(found.target)}"
+    if found.answered is None:
+        when = f" at {seconds(found.stamp)}" if found.stamp else ""
+        return f"no: there is no transform {frames}{when}: {_reason(found)}"
+    if found.stamp:
+        return f"yes: there is a transform {frames} at {seconds(found.stamp)}"
+    if not found.answered:
+        return f"yes: there is a transform {frames} at any time"
+    age = f", {duration(found.now - found.answered)} old" if found.now is not None else ""
+    limit = f", limited by {' -> '.join(map(shown, found.limit))}" if found.limit and len(found.edges) > 1 else ""
+    return f"yes: there is a transform {frames}, the latest at {seconds(found.answered)}{age}{limit}"
+
+
+def remark(found: Explanation, edge: ChainEdge) -> str:
+    """Return what is wrong or unusual about an edge, and by how much; "" if nothing is."""
+    return _anomaly(found, edge) if edge.state == "ok" else _fault(found, edge)
+
+
+def _fault(found: Explanation, edge: ChainEdge) -> str:
+    by = duration(abs(edge.by))
+    if edge.state == "too_new":
+        due = (
+            f"; the next transform is due {duration(edge.due)} after that time"
+            if edge.due and edge.by < stale_limit(edge.period)
+            else ""
+        )
+        return f"{by} behind the requested time{due}"
+    if edge.state == "too_old":
+        keeps = f"; the buffer keeps {duration(found.cache)}" if found.cache >= 0 else ""
+        return f"first available {by} after the requested time{keeps}"
+    if edge.state == "only_other":
+        return f"available only at one time, {by} {'before' if edge.by > 0 else 'after'} the requested time"
+    return "no longer available"
+
+
+def _anomaly(found: Explanation, edge: ChainEdge) -> str:
+    if edge.later:
+        return f"the parent is now {shown(edge.later)}"
+    if edge.gap > usual_gap(edge.period):
+        return f"in a gap of {duration(edge.gap)}"
+    return f"stale: no transform for {duration(edge.age or 0)}" if found.stamp == 0 and edge.stale else ""
+
+
+def _reason(found: Explanation) -> str:
+    if found.code in _REASONS:
+        return _REASONS[found.code]
+    if found.unknown:
+        frames = "frame" if len(found.unknown) == 1 else "frames"
+        return f"no transform with the {frames} {' and '.join(map(_quoted, found.unknown))} was received"
+    reasons = []
+    if found.broken:
+        worst = max(found.broken, key=lambda edge: abs(edge.by))
+        more = len(found.broken) - 1
+        others = f"; {count(more, 'more edge')} {'has' if more == 1 else 'have'} no data for that time" if more else ""
+        reasons.append(f"{shown(worst.parent or '?')} -> {shown(worst.child)} is {remark(found, worst)}{others}")
+    if found.roots is not None:
+        reasons.append(
+            f"{_quoted(found.roots[0])} and {_quoted(found.roots[1])} are roots of two trees that are not connected"
+        )
+    if found.missing is not None:
+        named = f"a transform such as {shown(found.missing.parent)} -> {shown(found.missing.child)} is missing"
+        reasons.append(named if found.missing[:2] == found.roots else found.missing.text)
+    return "; ".join(reasons)
+
+
+def _quoted(name: str) -> str:
+    return f"'{shown(name)}'"
+
+
+_REASONS = {
+    "empty_name": "a frame name is empty",
+    "leading_slash": "frame names must not begin with a slash",
+    "loop": "the tree has a loop",
+}
+
+
+def _table(found: Explanation) -> list[str]:
+    """Return the chain from the common frame, or from both roots, down to the two frames; one line per frame."""
+    if not found.edges:
+        return []
+    rows = [_Row(_TITLES, ""), *_rows(found)]
+    widths = [max(len(row.cells[column]) for row in rows) for column in range(len(_TITLES))]
+    return [
+        "  ".join([*(cell.ljust(width) for cell, width in zip(row.cells, widths, strict=True)), row.remark]).rstrip()
+        for row in rows
+    ]
+
+
+def _rows(found: Explanation) -> Iterator[_Row]:
+    edges = {edge.child: edge for edge in found.edges}
+    for indent, frame in _tree(found, edges):
+        role = {found.target: " (target)", found.source: " (source)"}.get(frame, "")
+        edge = edges.get(frame)
+        cells = ("",) * (len(_TITLES) - 1) if edge is None else _cells(edge)
+        yield _Row((f"  {indent}{shown(frame)}{role}", *cells), "" if edge is None else remark(found, edge))
+
+
+def _cells(edge: ChainEdge) -> tuple[str, ...]:
+    if edge.static:
+        return "static", "", "", "", shown(edge.publisher)
+    if edge.state == "no_data":
+        return "", "", "", "", shown(edge.publisher)
+    age = duration(edge.age) if edge.age is not None and edge.age >= 0 else ""
+    return seconds(edge.oldest), seconds(edge.newest), age, f"{edge.rate:.3g} Hz", shown(edge.publisher)
+
+
+def _tree(found: Explanation, edges: dict[str, ChainEdge]) -> Iterator[tuple[str, str]]:
+    """Yield the frames in drawing order, each with the branch lines in front of its name."""
+    frames = found.frames
+    if found.roots is not None:
+        cut = frames.index(found.roots[1])
+        for root, *below in (frames[:cut][::-1], frames[cut:]):
+            yield "", root
+            yield from _branch(below, last=True)
+        return
+    top = next((position for position, frame in enumerate(frames) if frame not in edges), 0)
+    yield "", frames[top]
+    yield from _branch(frames[:top][::-1], last=top + 1 == len(frames))
+    yield from _branch(frames[top + 1 :], last=True)
+
+
+def _branch(frames: Sequence[str], *, last: bool) -> Iterator[tuple[str, str]]:
+    first, further = ("└─ ", "   ") if last else ("├─ ", "│  ")
+    for depth, frame in enumerate(frames):
+        yield first if depth == 0 else f"{further}{'   ' * min(depth - 1, _MAX_INDENTED_LEVELS)}└─ ", frame

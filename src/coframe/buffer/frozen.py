@@ -1,0 +1,116 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Buffers in files: small files are copied, large ones are mapped into memory that processes share."""
+
+from __future__ import annotations
+
+import mmap
+import os
+import zlib
+from pathlib import Path
+from typing import Any, BinaryIO
+
+from coframe import _core
+from coframe.buffer import Buffer
+from coframe.buffer.dispatcher import Dispatcher
+from coframe.buffer.frozen_file import BLOCK_SIZE, damaged, opened, read_header
+
+__all__ = ["FrozenBuffer", "load"]
+
+MAX_COPIED = 1 << 20  # bytes; copying them takes half a millisecond
+
+_LOSS = (
+    "{path} was truncated by another program while it was in use. Load it again. To replace a file that is in use, "
+    "save the buffer under its name, or use cp --remove-destination."
+)
+
+
+class FrozenBuffer(Buffer):
+    """A read-only :class:`coframe.Buffer` backed by a file, returned by :func:`load`.
+
+    Pickling stores only the path, so worker processes open the file themselves and share its memory.
+    """
+
+    def __init__(self, path: str | os.PathLike[str]) -> None:
+        self._path = Path(path).absolute()
+        with opened(self._path) as file:
+            header = read_header(self._path, file)
+            self._memory = self._copied(file) or mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ)
+        self._guard = _core.MemoryGuard(self._memory, _LOSS.format(path=self._path))
+        if zlib.crc32(memoryview(self._memory)[header.table : header.table + header.table_size]) != header.table_crc:
+            self._guard.check()
+            raise damaged(self._path, "the checksum of its table is wrong")
+        _core.Buffer.__init__(self, header.cache)
+        positions = (header.table, header.table_size, header.samples, header.samples_size)
+        if reason := _core.become_frozen(self, self._guard, *positions):
+            raise damaged(self._path, reason)
+        self._dispatcher = Dispatcher()
+        self._header = header
+
+    def _copied(self, file: BinaryIO) -> mmap.mmap | None:
+        """Return a copy of a small file, which other programs cannot change; None for a large file."""
+        size = os.fstat(file.fileno()).st_size
+        if size > MAX_COPIED:
+            return None
+        memory = mmap.mmap(-1, size)
+        file.seek(0)
+        if memory.write(file.read(size)) != size:
+            raise damaged(self._path, "it was truncated while it was being read")
+        return memory
+
+    @property
+    def path(self) -> Path:
+        """Absolute path of the file."""
+        return self._path
+
+    def verify(self) -> None:
+        """Read the whole file and compare its samples with their checksum.
+
+        Raises:
+            FrozenFileError: The checksum is wrong, or the file was truncated since it was opened.
+        """
+        start, end = self._header.samples, self._header.samples + self._header.samples_size
+        crc = 0
+        with memoryview(self._memory) as memory:
+            for position in range(start, end, BLOCK_SIZE):
+                crc = zlib.crc32(memory[position : min(position + BLOCK_SIZE, end)], crc)
+        if crc != self._header.samples_crc:
+            self._guard.check()
+            raise damaged(self._path, "the checksum of its samples is wrong")
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return load, (str(self._path),)
+
+    def __repr__(self) -> str:
+        return f"FrozenBuffer({str(self._path)!r}, frames={len(self.frame_names())})"
+
+
+def load(path: str | os.PathLike[str], *, verify: bool = False) -> FrozenBuffer:
+    """Open a file that :meth:`coframe.Buffer.save` wrote, as a read-only buffer; samples are read on first use.
+
+    Args:
+        path: The file. Files up to 1 MiB are copied; larger ones are mapped, and must not change while they are open.
+            :meth:`coframe.Buffer.save` never modifies a file, but replaces it with a new one. To replace it with a copy
+            of another file, use ``cp --remove-destination`` or rename the copy.
+        verify: Whether to read the whole file first and compare it with its checksums. By default only the header and
+            the table are checked.
+
+    Returns:
+        The buffer.
+
+    Raises:
+        FrozenFileError: The file is not a frozen buffer, has another version, or is truncated or damaged. If a mapped
+            file is truncated later, lookups in the buffer raise this error.
+
+    Example:
+        >>> import coframe, tempfile, pathlib
+        >>> buffer = coframe.Buffer(None)
+        >>> _ = buffer.set("map", "base", coframe.Transform([1, 2, 3]), 1_000_000_000)
+        >>> path = pathlib.Path(tempfile.mkdtemp()) / "run.cfz"
+        >>> buffer.save(path)
+        >>> coframe.load(path).lookup("map", "base").translation.tolist()
+        [1.0, 2.0, 3.0]
+    """
+    buffer = FrozenBuffer(path)
+    if verify:
+        buffer.verify()
+    return buffer

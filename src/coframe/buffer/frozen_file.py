@@ -1,0 +1,160 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The file format of frozen buffers: how a buffer is written, and how its header is read.
+
+A frozen file is little endian throughout:
+
+    header    ``_HEADER``: signature, position and checksum of the two parts below, padded to a page
+    samples   chunks of 256 stamps (int64) and 256 records of 64 bytes (x, y, z, w of the quaternion, x, y, z of
+              the translation, index of the parent); each frame begins a new chunk
+    table     names of authorities and frames; for each frame its kind, its counters, its number of samples, and
+              its first and last stamp
+
+Opening a file reads and checks only the header and the table. The samples are mapped into memory, and the system reads
+the pages that lookups touch; small files are copied instead. No number in the file can make a lookup read outside it,
+even if the file is damaged.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import struct
+import zlib
+from typing import TYPE_CHECKING, BinaryIO, NamedTuple
+
+from coframe import _core
+from coframe._files.complete_files import complete_or_absent
+from coframe._files.regular_files import open_regular
+from coframe.errors import FrozenFileError
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+    from pathlib import Path
+
+    from coframe.buffer import Buffer
+
+__all__ = ["BLOCK_SIZE", "Header", "damaged", "opened", "read_header", "save"]
+
+_MAGIC = b"\x89CFZ\r\n\x1a\n"
+_VERSION = 1
+_PAGE = 4096
+_CHUNK = 256 * (8 + 64)
+_OTHER_FILE = "Buffer.save() writes frozen buffers; open_bag() reads recordings."
+_BLOCK = 256  # number of chunks written at once
+_CRC = struct.Struct("<I")
+BLOCK_SIZE = _BLOCK * _CHUNK  # bytes that are written or checked at once
+
+
+class Header(NamedTuple):
+    """The first bytes of a file; the CRC-32 of these bytes follows them.
+
+    Attributes:
+        magic: File signature; its line endings detect transfers in text mode.
+        version: Version of the format.
+        table_crc: CRC-32 of the table.
+        samples_crc: CRC-32 of the samples.
+        reserved: Zero.
+        cache: Cache length of the buffer in nanoseconds; negative if it kept everything.
+        samples: Position of the samples.
+        samples_size: Size of the samples in bytes.
+        table: Position of the table.
+        table_size: Size of the table in bytes.
+    """
+
+    magic: bytes
+    version: int
+    table_crc: int
+    samples_crc: int
+    reserved: int
+    cache: int
+    samples: int
+    samples_size: int
+    table: int
+    table_size: int
+
+
+_HEADER = struct.Struct("<8sIIIIqQQQQ")
+
+
+def save(snapshot: Buffer, path: str | os.PathLike[str]) -> None:
+    """Write a frozen buffer to a file; see :meth:`coframe.Buffer.save`."""
+    try:
+        with complete_or_absent(path) as part, part.open("wb") as file:
+            _write(snapshot, file)
+            file.flush()
+            os.fsync(file.fileno())
+    except OSError as error:
+        raise FrozenFileError(
+            f"{path} cannot be written: {error.strerror or error}",
+            hint="Check that the folder exists, that you may write to it, and that the disk has space. "
+            "On Windows, no other program may have the file open.",
+        ) from None
+
+
+def _write(snapshot: Buffer, file: BinaryIO) -> None:
+    table, chunks = _core.frozen_parts(snapshot)
+    file.write(bytes(_PAGE))  # The header is written last: it contains the checksums.
+    crc = 0
+    for first in range(0, chunks, _BLOCK):
+        block = _core.frozen_chunks(snapshot, first, _BLOCK)
+        crc = zlib.crc32(block, crc)
+        file.write(block)
+    size = chunks * _CHUNK
+    file.write(table)
+    header = _HEADER.pack(
+        _MAGIC, _VERSION, zlib.crc32(table), crc, 0, snapshot.cache_ns, _PAGE, size, _PAGE + size, len(table)
+    )
+    file.seek(0)
+    file.write(header + _CRC.pack(zlib.crc32(header)))
+
+
+@contextlib.contextmanager
+def opened(path: Path) -> Iterator[BinaryIO]:
+    """Open a file for reading.
+
+    Raises:
+        FrozenFileError: The file cannot be opened or read.
+    """
+    try:
+        with open_regular(path) as file:
+            yield file
+    except (OSError, ValueError) as error:
+        if isinstance(error, FrozenFileError):
+            raise
+        reason = getattr(error, "strerror", None) or error
+        raise FrozenFileError(f"{path} cannot be opened: {reason}", hint=_OTHER_FILE) from None
+
+
+def read_header(path: Path, file: BinaryIO) -> Header:
+    """Read the header at the beginning of a file and check it.
+
+    Raises:
+        FrozenFileError: The file is not a frozen buffer, has another version, or is damaged.
+    """
+    size = os.fstat(file.fileno()).st_size
+    data = file.read(_HEADER.size + _CRC.size)
+    if not data.startswith(_MAGIC):
+        raise FrozenFileError(
+            f"{path} is not a frozen buffer",
+            hint=_OTHER_FILE,
+        )
+    if len(data) < _HEADER.size + _CRC.size:
+        raise damaged(path, "it is truncated")
+    header = Header(*_HEADER.unpack_from(data))
+    if header.version != _VERSION:
+        raise FrozenFileError(
+            f"{path} has version {header.version} of the format; this version of coframe reads version {_VERSION}",
+            hint="Save the buffer again with this version of coframe, or install the version that wrote the file.",
+        )
+    if zlib.crc32(data[: _HEADER.size]) != _CRC.unpack_from(data, _HEADER.size)[0]:
+        raise damaged(path, "the checksum of its header is wrong")
+    if header.samples % _PAGE or header.samples < _PAGE:
+        raise damaged(path, "its samples do not begin at a page")
+    if max(header.samples + header.samples_size, header.table + header.table_size) > size:
+        raise damaged(path, "it is truncated")
+    return header
+
+
+def damaged(path: Path, reason: str) -> FrozenFileError:
+    """Return the error for a damaged file."""
+    return FrozenFileError(f"{path} is damaged: {reason}", hint="Save the buffer again.")

@@ -1,0 +1,461 @@
+# SPDX-License-Identifier: Apache-2.0
+"""`coframe.connect()`: a node with a buffer that receives transforms, and with publishers and subscriptions."""
+
+# ruff: noqa: SLF001 - Sharing requires private members of the buffer.
+
+from __future__ import annotations
+
+import logging
+import threading
+import time
+import weakref
+from typing import TYPE_CHECKING, Any, Generic, TypeVar
+
+from coframe import _core
+from coframe.connection.listener_config import ListenerConfig
+from coframe.connection.shared_transforms import SharedTransforms
+from coframe.connection.tf_publishers import TfPublisher, publishers_of
+from coframe.errors import DecodeError, WireError
+from coframe.time import MILLISECOND, SECOND, duration_ns
+from coframe.wire.counted_warning import CountedWarning
+from coframe.wire.names import any_ros_name
+from coframe.wire.participant import Participant
+from coframe.wire.qos import DEFAULT, QoS
+from coframe.wire.tf_reader import STATICS_TIMEOUT
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Iterator
+    from datetime import timedelta
+    from types import TracebackType
+
+    from typing_extensions import Self
+
+    from coframe.messages.message import Message
+    from coframe.viewer import Viewer
+    from coframe.wire.endpoints import GraphNode, Publisher, Subscription
+    from coframe.wire.tf_reader import TfReader
+
+_logger = logging.getLogger("coframe.wire")
+
+_STATICS_CHECK_PERIOD = 50 * MILLISECOND
+
+M = TypeVar("M", bound="Message")
+
+
+class MessagePublisher(Generic[M]):
+    """A publisher of messages of one class. Created by `Connection.publisher`."""
+
+    def __init__(self, publisher: Publisher, message_type: type[M]) -> None:
+        self._publisher = publisher
+        self._message_type = message_type
+
+    @property
+    def matched(self) -> int:
+        """The number of matched subscriptions."""
+        return self._publisher.matched
+
+    def publish(self, message: M) -> None:
+        """Publish a message.
+
+        Raises:
+            TypeError: The message is not of the publisher's class.
+            WireError: The connection is closed, or a reliable subscription has not kept up for one second.
+        """
+        if not isinstance(message, self._message_type):
+            expected = self._message_type.__name__
+            topic = any_ros_name(self._publisher.topic)
+            raise TypeError(f"cannot publish {type(message).__name__} on {topic}: expected {expected}")
+        from coframe.messages.codec import serialize  # noqa: PLC0415 - `import coframe` must be cheap
+
+        self._publisher.write(serialize(message))
+
+    def close(self) -> None:
+        """Close the publisher."""
+        self._publisher.close()
+
+
+class MessageSubscription(Generic[M]):
+    """A subscription to messages of one class. Created by `Connection.subscribe`.
+
+    If there is a callback, it is called with each message on a thread of this subscription. Otherwise, call `receive`
+    or iterate over the subscription.
+    """
+
+    def __init__(
+        self,
+        subscription: Subscription,
+        message_type: type[M],
+        event: _core.Event,
+        callback: Callable[[M], None] | None,
+    ) -> None:
+        self._subscription = subscription
+        self._message_type = message_type
+        self._event = event
+        self._callback = callback
+        self._warn_of_damage = CountedWarning(_logger.warning)
+        self._thread: threading.Thread | None = None
+        if callback:
+            self._thread = threading.Thread(target=self._call, name=f"coframe{subscription.topic}", daemon=True)
+            self._thread.start()
+
+    @property
+    def matched(self) -> int:
+        """The number of matched publishers."""
+        return self._subscription.matched
+
+    def receive(self, timeout: float | str | None = None) -> M | None:
+        """Wait for the next message and return it; return None after the timeout or if the subscription is closed.
+
+        Args:
+            timeout: The timeout in seconds, or a string such as "100ms". If None, wait without a limit.
+
+        Raises:
+            DecodeError: The received bytes are not a message of the announced type.
+        """
+        from coframe.messages.codec import deserialize  # noqa: PLC0415 - `import coframe` must be cheap
+
+        deadline = None if timeout is None else time.monotonic_ns() + _timeout_ns(timeout)
+        while True:
+            # Messages are taken one by one, so that a message that cannot be decoded does not discard others.
+            for sample in self._subscription.take(1):
+                return deserialize(sample.data, self._message_type)
+            left = None if deadline is None else deadline - time.monotonic_ns()
+            if self._subscription.closed or (left is not None and left <= 0):
+                return None
+            self._event.wait(left)
+
+    def __iter__(self) -> Iterator[M]:
+        while (message := self.receive()) is not None:
+            yield message
+
+    def close(self) -> None:
+        """Close the subscription and stop the thread of the callback."""
+        self._subscription.close()
+        self._event.set()
+        if self._thread and self._thread is not threading.current_thread():
+            self._thread.join()
+
+    def _call(self) -> None:
+        while not self._subscription.closed:
+            self._call_once()
+
+    def _call_once(self) -> None:
+        topic = any_ros_name(self._subscription.topic)
+        try:
+            message = self.receive()
+        except DecodeError as error:
+            self._warn_of_damage(f"A message on {topic} is ignored: {error}.")
+            return
+        if message is not None and self._callback:
+            try:
+                self._callback(message)
+            except Exception:
+                _logger.exception("The callback for messages on %s failed.", topic)
+
+
+class Connection:
+    """A node on the ROS graph, with a buffer of the transforms that are published there. Created by `connect`.
+
+    Attributes:
+        buffer: The buffer, which contains all received transforms.
+        config: What the connection receives: topics, frame names, cache, domain and middleware.
+    """
+
+    def __init__(
+        self, node_name: str, config: ListenerConfig, *, node_namespace: str = "/", shared: bool = False
+    ) -> None:
+        self.config = config
+        self.buffer = config.new_buffer()
+        self._name = (node_namespace, node_name)
+        self._participant: Participant | None = None
+        self._closing = threading.RLock()
+        self._closed = False
+        self._subscriptions: list[MessageSubscription[Any]] = []
+        self._readers: list[TfReader] = []
+        self._shared = self._share() if shared else None
+        if self._shared is None:
+            self._receive()
+
+    @property
+    def participant(self) -> Participant:
+        """The participant of this process; with shared transforms, it is created on first use."""
+        return self._join()[0]
+
+    @property
+    def node(self) -> GraphNode:
+        """The node; with shared transforms, it is created on first use."""
+        return self._join()[1]
+
+    @property
+    def shared(self) -> bool:
+        """Whether the buffer reads transforms that one process receives for all processes."""
+        return self._shared is not None
+
+    def publisher(self, topic: str, message_type: type[M], qos: QoS | int | None = None) -> MessagePublisher[M]:
+        """Create a publisher on a topic.
+
+        Args:
+            topic: The name of the topic, relative to the namespace unless it begins with a slash.
+            message_type: The message class.
+            qos: The offered quality of service, or its depth. If None, the publisher is reliable with a depth of 10.
+
+        Raises:
+            TypeError: The topic or the message class has the wrong type.
+            WireError: The connection is closed, or the middleware cannot create the publisher.
+        """
+        self._check(topic, message_type)
+        native = self.participant.publisher(self.node, self._qualified(topic), message_type, _qos(qos))
+        return MessagePublisher(native, message_type)
+
+    def subscribe(
+        self,
+        topic: str,
+        message_type: type[M],
+        callback: Callable[[M], None] | None = None,
+        qos: QoS | int | None = None,
+    ) -> MessageSubscription[M]:
+        """Create a subscription to a topic.
+
+        Args:
+            topic: The name of the topic, relative to the namespace unless it begins with a slash.
+            message_type: The message class.
+            callback: Called with each message on a thread of the subscription. If None, use
+                `MessageSubscription.receive`.
+            qos: The requested quality of service, or its depth. If None, the subscription is reliable with a depth of
+                10.
+
+        Raises:
+            TypeError: The topic, the message class or the callback has the wrong type.
+            WireError: The connection is closed, or the middleware cannot create the subscription.
+        """
+        self._check(topic, message_type)
+        if callback is not None and not callable(callback):
+            raise TypeError(f"the callback must be a function, not {callback!r}")
+        event = _core.Event()
+        native = self.participant.subscription(
+            self.node, self._qualified(topic), message_type, _qos(qos), on_data=event
+        )
+        subscription = MessageSubscription(native, message_type, event, callback)
+        self._subscriptions.append(subscription)
+        return subscription
+
+    def frame(self, name: str) -> str:
+        """Return the buffer's name for a frame in a message, which includes the prefix if there is one."""
+        return self.config.frame(name)
+
+    def publishers(self) -> list[TfPublisher]:
+        """Return the publishers from which transforms were received, including those that have left."""
+        participant, readers = self._receiver()
+        return [publisher for reader in readers for publisher in publishers_of(participant, reader)]
+
+    def awaited_statics(self) -> list[str]:
+        """Return the nodes whose publishers of static transforms have not delivered anything yet."""
+        participant, readers = self._receiver()
+        awaited = {writer for reader in readers if reader.static for writer in reader.awaited_writers()}
+        return sorted(participant.writer_node(writer) or "an unnamed node" for writer in awaited)
+
+    def wait_for_statics(self, timeout: float | str = STATICS_TIMEOUT) -> bool:
+        """Wait until every discovered publisher of static transforms has delivered them.
+
+        A publisher that was started earlier with Fast DDS delivers them up to 3.5 seconds after it is discovered. Until
+        then, lookups of these transforms fail.
+
+        Args:
+            timeout: The timeout in seconds, or a string such as "100ms".
+
+        Returns:
+            Whether all have delivered. `awaited_statics` returns the others.
+        """
+        deadline = time.monotonic_ns() + _timeout_ns(timeout)
+        while awaited := self.awaited_statics():
+            left = deadline - time.monotonic_ns()
+            if left <= 0:
+                break
+            time.sleep(min(left, _STATICS_CHECK_PERIOD) / SECOND)
+        return not awaited
+
+    def show(self, **options: Any) -> Viewer:
+        """Show the live graph in the viewer, or below the cell in a notebook; the same as :func:`coframe.show`.
+
+        Args:
+            options: The options of :func:`coframe.show`, such as ``fixed="map"``.
+        """
+        from coframe.viewer.show import show as show_in_browser  # noqa: PLC0415 - the viewer is above this module
+
+        return show_in_browser(self, **options)
+
+    def close(self) -> None:
+        """Leave the graph. The buffer keeps its transforms. A second call has no effect."""
+        with self._closing:
+            if self._closed:
+                return
+            self._closed = True
+        for subscription in self._subscriptions:
+            subscription.close()
+        if self._shared is not None:
+            self.buffer._on_local_change(None)
+            self.buffer._stop_following()
+            self._shared.leave()
+        if self._participant is not None:
+            self._node.close()
+            self._participant.close()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None
+    ) -> None:
+        self.close()
+
+    def _join(self) -> tuple[Participant, GraphNode]:
+        """Join the graph, unless the connection has done so."""
+        with self._closing:
+            if self._participant is None:
+                if self._closed:
+                    raise _closed_error(self._name[1])
+                participant = Participant.get(self.config.domain, self.config.wire)
+                try:
+                    self._node = participant.add_node(*self._name)
+                except BaseException:
+                    participant.close()
+                    raise
+                self._participant = participant
+            return self._participant, self._node
+
+    def _receive(self) -> None:
+        """Subscribe to the transforms."""
+        participant, node = self._join()
+        try:
+            self._readers = [
+                participant.tf_reader(
+                    node, topic, self.buffer, static=static, authority=None, renaming=self.config.renaming
+                )
+                for topic, static in zip(self.config.topics, (False, True), strict=True)
+            ]
+        except BaseException:
+            self.close()
+            raise
+
+    def _share(self) -> SharedTransforms | None:
+        """Let the buffer read the transforms that one process receives for all; return None if that is impossible."""
+        try:
+            shared = SharedTransforms.join(self.config)
+        except _core.SegmentError as error:
+            _logger.warning("The transforms are not shared with other processes: %s", error)
+            return None
+        shared.follow(self.buffer)
+        method = weakref.WeakMethod(self._receive_alone)
+
+        def receive_alone() -> None:
+            receive = method()
+            if receive is not None:
+                receive()
+
+        self.buffer._on_local_change(receive_alone)
+        return shared
+
+    def _receive_alone(self) -> None:
+        """Stop sharing and detach the buffer, because the program changes it."""
+        with self._closing:
+            shared, self._shared = self._shared, None
+            if shared is None or self._closed:
+                return
+            _logger.info("The buffer no longer shares its transforms with other processes, because it was changed.")
+            self.buffer._stop_following()
+            self._receive()
+            shared.leave()
+
+    def _receiver(self) -> tuple[Participant, list[TfReader]]:
+        """Return the subscriptions to the transforms in this process."""
+        shared = self._shared
+        if shared is None:
+            return self.participant, self._readers
+        return shared.participant or self.participant, shared.readers
+
+    def _check(self, topic: Any, message_type: Any) -> None:
+        if self._closed:
+            raise _closed_error(self._name[1])
+        if not isinstance(topic, str):
+            raise TypeError(f"the first argument must be the topic's name, not {topic!r}; the message class is second")
+        if not isinstance(message_type, type) or not hasattr(message_type, "ROS_TYPE"):
+            raise TypeError(
+                f"expected a message class, such as geometry_msgs.msg.PoseStamped, not {message_type!r}; "
+                "coframe.messages.find() returns the class of a ROS type"
+            )
+
+    def _qualified(self, topic: str) -> str:
+        return topic if topic.startswith("/") else f"{self._name[0].rstrip('/')}/{topic}"
+
+
+def _closed_error(name: str) -> WireError:
+    return WireError(f"The connection of {name} is closed.", hint="Create a new one: coframe.connect().")
+
+
+def _timeout_ns(timeout: float | str) -> int:
+    return duration_ns(timeout) if isinstance(timeout, str) else int(timeout * SECOND)
+
+
+def _qos(qos: QoS | int | None) -> QoS:
+    if qos is None:
+        return DEFAULT
+    return QoS(depth=qos) if isinstance(qos, int) else qos
+
+
+def connect(
+    node_name: str = "coframe",
+    *,
+    node_namespace: str = "/",
+    domain: int | None = None,
+    wire: str | None = None,
+    namespace: str | None = None,
+    tf_topic: str | None = None,
+    tf_static_topic: str | None = None,
+    cache: str | int | timedelta | None = "10s",
+    prefix: str = "",
+    keep: Iterable[str] = (),
+    shared: bool = False,
+) -> Connection:
+    """Join the ROS 2 graph and receive its transforms into a buffer in the background.
+
+    By default, only nodes on this machine are discovered. ROS_AUTOMATIC_DISCOVERY_RANGE=SUBNET includes the local
+    network; ROS_LOCALHOST_ONLY and ROS_STATIC_PEERS are supported, too.
+
+    Args:
+        node_name: The name of the node.
+        node_namespace: The namespace of the node: "/" or "/a/b".
+        domain: The ROS domain, 0 to 232. If None, it is ROS_DOMAIN_ID, or 0 if that is not set.
+        wire: The middleware, "dds" or "zenoh". If None, it is COFRAME_WIRE, or what RMW_IMPLEMENTATION and this machine
+            suggest. Connections of one process may use different ones.
+        namespace: The namespace of the topics of transforms: "/robot1" for /robot1/tf and /robot1/tf_static.
+        tf_topic: The topic of dynamic transforms. If None, it is /tf in the namespace.
+        tf_static_topic: The topic of static transforms. If None, it is /tf_static in the namespace.
+        cache: The cache length of the buffer: a string such as "10s", nanoseconds or a timedelta. If None, the buffer
+            keeps everything.
+        prefix: The prefix of the frames in the buffer, used as given: "robot1/" turns "base_link" into
+            "robot1/base_link".
+        keep: The frames that are shared by robots and get no prefix: ["map"].
+        shared: Whether to read the transforms from memory that all processes of this user on this machine share. The
+            first process receives the transforms for all; if it ends, another one takes over. A buffer that the program
+            changes (`set`, `clear`, ...) is detached. Linux only: on other platforms, a warning is logged and this
+            process receives the transforms itself. See docs/how-to/shared-transforms.md.
+
+    Raises:
+        ValueError: The prefix begins with a slash.
+        WireError: The middleware is not installed, or it cannot join the graph. `.hint` says what to do.
+
+    Example:
+        >>> with coframe.connect() as ros:                                    # doctest: +SKIP
+        ...     ros.buffer.lookup("base_link", "end_effector", timeout="2s")
+    """
+    config = ListenerConfig.of(
+        namespace=namespace,
+        tf_topic=tf_topic,
+        tf_static_topic=tf_static_topic,
+        prefix=prefix,
+        keep=keep,
+        cache=cache,
+        domain=domain,
+        wire=wire,
+    )
+    return Connection(node_name, config, node_namespace=node_namespace, shared=shared)

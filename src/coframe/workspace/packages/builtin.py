@@ -1,0 +1,62 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The executables of ROS packages that coframe provides itself."""
+
+from __future__ import annotations
+
+import importlib.util
+from pathlib import Path
+from typing import Final
+
+from coframe.workspace.ros_folders import ros_folder
+
+__all__ = ["EXECUTABLES", "share"]
+
+_COMMAND: Final = "coframe.cli:main"
+# Package -> executable -> its function, and arguments. A module that is not installed has no executable.
+EXECUTABLES: Final[dict[str, dict[str, tuple[str, ...]]]] = {
+    "robot_state_publisher": {"robot_state_publisher": ("robot_state_publisher:main",)},
+    "joint_state_publisher": {"joint_state_publisher": ("joint_state_publisher:main",)},
+    "joint_state_publisher_gui": {"joint_state_publisher_gui": (_COMMAND, "joints", "--gui")},
+    "tf2_ros": {
+        "static_transform_publisher": (_COMMAND, "static"),
+        "tf2_echo": (_COMMAND, "echo"),
+        "tf2_monitor": (_COMMAND, "monitor", "--classic"),
+        "buffer_server": ("tf2_ros.buffer_server.__main__:main",),
+    },
+    "tf2_tools": {"view_frames": (_COMMAND, "frames", "-o", "frames.pdf", "-o", "frames.gv")},
+    "rviz2": {"rviz2": (_COMMAND, "view")},
+    "turtlesim": {
+        name: (f"turtlesim.{name}:main",) for name in ("turtlesim_node", "turtle_teleop_key", "draw_square", "mimic")
+    },
+    "demo_nodes_py": {name: (f"demo_nodes_py.{name}:main",) for name in ("talker", "listener")},
+    "demo_nodes_cpp": {name: (f"demo_nodes_py.{name}:main",) for name in ("talker", "listener")},
+    "coframe": {
+        name: (f"coframe.lab.{name}:main",)
+        for name in (
+            "complete_tf_tree",
+            "dynamic_tf_broadcaster",
+            "sensor_transform",
+            "simulated_lidar",
+            "static_tf_broadcaster",
+            "tf_listener",
+        )
+    },
+}
+
+
+def share(package: str) -> Path:
+    """Return the folder of a built-in package."""
+    folder = ros_folder() / package
+    return folder if folder.is_dir() else Path(__file__).resolve().parents[2]
+
+
+def executables(package: str) -> dict[str, tuple[str, ...]]:
+    """Return the function and arguments of each executable of a package whose module exists."""
+    return {name: words for name, words in EXECUTABLES.get(package, {}).items() if _exists(words[0].partition(":")[0])}
+
+
+def _exists(module: str) -> bool:
+    try:
+        return importlib.util.find_spec(module) is not None
+    except ModuleNotFoundError:
+        return False

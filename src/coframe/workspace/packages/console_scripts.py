@@ -1,0 +1,151 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The console scripts that a Python package declares, read from its files without running them."""
+
+from __future__ import annotations
+
+import ast
+import configparser
+import re
+import sys
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from coframe._files.regular_files import read_regular_text
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator
+    from pathlib import Path
+
+__all__ = ["PythonPackage", "read"]
+
+MAX_BYTES = 1 << 18  # of a file
+_MAX_DOTS = 4000  # of pyproject.toml; a key takes quadratic time, and this many dots in one key half a second
+
+_SCRIPT = re.compile(r"\s*([\w.\-]+)\s*=\s*([\w.]+\s*:\s*[\w.]+)\s*(?:\[.*\])?\s*", re.ASCII)
+
+
+class PythonPackage(NamedTuple):
+    """What the files of a Python package declare.
+
+    Attributes:
+        scripts: ``module:function`` of each console script.
+        files: Paths of script files, relative to the package.
+        root: Folder for PYTHONPATH, relative to the package.
+    """
+
+    scripts: dict[str, str]
+    files: tuple[str, ...] = ()
+    root: str = "."
+
+
+def read(package: Path) -> PythonPackage:
+    """Read ``setup.py``, ``setup.cfg`` and ``pyproject.toml``; files that are missing or damaged declare nothing."""
+    scripts: dict[str, str] = {}
+    files: tuple[str, ...] = ()
+    root = ""
+    for name, reader in (("pyproject.toml", _pyproject), ("setup.cfg", _setup_cfg), ("setup.py", _setup_py)):
+        try:
+            found = reader(read_regular_text(package / name, MAX_BYTES))
+        except (OSError, ValueError, SyntaxError, RecursionError, MemoryError, configparser.Error):
+            continue
+        scripts |= found.scripts
+        files += found.files
+        root = root or (found.root if found.root != "." else "")
+    if not root and (package / "src").is_dir() and _modules_in(package / "src", scripts.values()):
+        root = "src"
+    return PythonPackage(scripts, files, root or ".")
+
+
+def _modules_in(folder: Path, targets: Iterable[str]) -> bool:
+    tops = {target.partition(":")[0].partition(".")[0] for target in targets}
+    return any((folder / top).is_dir() or (folder / f"{top}.py").is_file() for top in tops)
+
+
+def _parsed(lines: Any) -> Iterator[tuple[str, str]]:
+    """Yield name and target of lines ``name = module:function``."""
+    for line in lines.splitlines() if isinstance(lines, str) else lines or ():
+        if isinstance(line, str) and (match := _SCRIPT.fullmatch(line)):
+            yield match[1], re.sub(r"\s", "", match[2])
+
+
+def _setup_cfg(text: str) -> PythonPackage:
+    parser = configparser.ConfigParser(interpolation=None)
+    parser.read_string(text)
+    scripts = dict(_parsed(parser.get("options.entry_points", "console_scripts", fallback="")))
+    folders = parser.get("options", "package_dir", fallback="")
+    root = next((line.strip()[1:].strip() for line in folders.splitlines() if line.strip().startswith("=")), ".")
+    files = parser.get("options", "scripts", fallback="").split()
+    return PythonPackage(scripts, tuple(files), root)
+
+
+def _pyproject(text: str) -> PythonPackage:
+    if text.count(".") > _MAX_DOTS:
+        return PythonPackage({})
+    if sys.version_info >= (3, 11):
+        import tomllib  # noqa: PLC0415 - Python 3.10 does not have it
+
+        tables: dict[str, Any] = tomllib.loads(text)
+        declared = tables.get("project", {}).get("scripts") or tables.get("tool", {}).get("poetry", {}).get("scripts")
+    else:
+        section = re.search(r"(?ms)^\[(?:project|tool\.poetry)\.scripts\]\s*$(.*?)(?=^\[|\Z)", text)
+        pair = re.compile(r"""(?m)^\s*["']?([\w.\-]+)["']?\s*=\s*["']([^"']+)["']""")
+        declared = dict(pair.findall(section[1] if section else ""))
+    lines = [f"{name} = {target}" for name, target in (declared or {}).items()]
+    return PythonPackage(dict(_parsed(lines)))
+
+
+def _setup_py(text: str) -> PythonPackage:
+    tree = ast.parse(text)
+    names: dict[str, Any] = {}
+    for statement in tree.body:
+        if isinstance(statement, ast.Assign) and isinstance(statement.targets[0], ast.Name):
+            names[statement.targets[0].id] = _value(statement.value, names)
+    for call in ast.walk(tree):
+        if isinstance(call, ast.Call) and _called(call.func) == "setup":
+            arguments = {each.arg: _value(each.value, names) for each in call.keywords if each.arg}
+            return _from_setup_arguments(arguments)
+    return PythonPackage({})
+
+
+def _from_setup_arguments(arguments: dict[str, Any]) -> PythonPackage:
+    entry_points = arguments.get("entry_points") or {}
+    if isinstance(entry_points, str):  # the format of an .ini file
+        parser = configparser.ConfigParser(interpolation=None)
+        parser.read_string(entry_points)
+        lines: Any = parser.items("console_scripts") if parser.has_section("console_scripts") else []
+        entry_points = {"console_scripts": [f"{name} = {target}" for name, target in lines]}
+    scripts = dict(_parsed(entry_points.get("console_scripts"))) if isinstance(entry_points, dict) else {}
+    files = arguments.get("scripts")
+    folders = arguments.get("package_dir")
+    root = folders.get("") if isinstance(folders, dict) else None
+    return PythonPackage(
+        scripts,
+        tuple(file for file in files if isinstance(file, str)) if isinstance(files, list) else (),
+        root if isinstance(root, str) and root else ".",
+    )
+
+
+def _short(value: str | list[Any]) -> Any:
+    """Return a value, None if it is longer than a file: a few lines can double a text any number of times."""
+    return value if len(value) <= MAX_BYTES else None
+
+
+def _called(function: ast.expr) -> str:
+    return function.id if isinstance(function, ast.Name) else getattr(function, "attr", "")
+
+
+def _value(node: ast.expr, names: dict[str, Any]) -> Any:
+    """Return the value of a literal, a name of one, or strings put together from them; None for anything else."""
+    if isinstance(node, ast.Constant):
+        return node.value
+    if isinstance(node, ast.Name):
+        return names.get(node.id)
+    if isinstance(node, ast.Dict):
+        pairs = zip(node.keys, node.values, strict=True)
+        return {_value(key, names): _value(item, names) for key, item in pairs if key}
+    if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Add):
+        left, right = _value(node.left, names), _value(node.right, names)
+        return _short(left + right) if type(left) is type(right) and isinstance(left, str | list) else None
+    if isinstance(node, ast.JoinedStr):
+        parts = [_value(part.value if isinstance(part, ast.FormattedValue) else part, names) for part in node.values]
+        return _short("".join(map(str, parts))) if all(isinstance(part, str | int) for part in parts) else None
+    return [_value(item, names) for item in node.elts] if isinstance(node, ast.List | ast.Tuple) else None

@@ -1,0 +1,162 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The executables of packages: files in ``lib/PACKAGE``, console scripts of source folders, and built-in ones."""
+
+from __future__ import annotations
+
+import os
+import re
+from typing import TYPE_CHECKING, NamedTuple
+
+from coframe._files.existence import resolved
+from coframe._files.regular_files import open_regular, read_regular_text
+from coframe._output.formatting import did_you_mean
+from coframe._process.python_children import python_command, python_environment
+from coframe.errors import PackageError
+from coframe.workspace.packages import builtin, console_scripts
+from coframe.workspace.packages.finding import Package, candidates, find_package
+from coframe.workspace.packages.folders import crawl
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+    from pathlib import Path
+
+__all__ = ["Executable", "executables", "find_executable"]
+
+# install(PROGRAMS scripts/a.py DESTINATION lib/${PROJECT_NAME}) in a CMakeLists.txt
+_INSTALL = re.compile(r"\binstall\s*\(([^()]*)\)", re.IGNORECASE)
+_ENTRY_POINT = tuple(python_command("coframe.workspace.entry_point"))
+_MAX_NAMES = 30  # in an error message
+_MAX_DEPTH = 4
+
+
+class Executable(NamedTuple):
+    """An executable of a package.
+
+    Attributes:
+        package: Name of the package.
+        name: Name of the executable.
+        command: The words that start it.
+        python_path: Folders to put in front of PYTHONPATH.
+    """
+
+    package: str
+    name: str
+    command: tuple[str, ...]
+    python_path: tuple[str, ...] = ()
+
+    def environment(self, base: Mapping[str, str] | None = None) -> dict[str, str]:
+        """Return the environment to start it with; `base` is the environment of this process if None."""
+        environment = python_environment(base)
+        if self.python_path:
+            present = environment.get("PYTHONPATH", "")
+            environment["PYTHONPATH"] = os.pathsep.join([*self.python_path, *([present] if present else [])])
+        return environment
+
+
+def find_executable(package: str, name: str) -> Executable:
+    """Return an executable of a package.
+
+    Raises:
+        PackageError: There is no such package or executable; the hint lists similar names.
+    """
+    find_package(package)
+    found = executables(package)
+    if name in found:
+        return found[name]
+    guess = did_you_mean(name, found, most=3)
+    names = sorted(found)
+    there = f"Its executables: {', '.join(names[:_MAX_NAMES])}." if names else _where_executables_come_from(package)
+    raise PackageError(f"No executable {name!r} in the package {package!r}.", hint=f"{guess} {there}".lstrip())
+
+
+def executables(package: str) -> dict[str, Executable]:
+    """Return the executables of a package by name; an installed one comes before the one in the source folder."""
+    found: dict[str, Executable] = {}
+    for candidate in candidates(package):
+        for name, executable in _of(candidate).items():
+            found.setdefault(name, executable)
+    return found
+
+
+def _where_executables_come_from(package: str) -> str:
+    share = next(candidates(package)).share
+    return (
+        f"{share} declares none: console_scripts of setup.py, setup.cfg or pyproject.toml, and install(PROGRAMS) of "
+        "CMakeLists.txt are read; programs in C++ need `colcon build` and a sourced workspace."
+    )
+
+
+def _of(package: Package) -> dict[str, Executable]:
+    if package.origin == "installed":
+        return _installed(package)
+    if package.origin == "builtin":
+        return {
+            name: Executable(package.name, name, (*_ENTRY_POINT, *words))
+            for name, words in builtin.executables(package.name).items()
+        }
+    return _from_source(package)
+
+
+def _installed(package: Package) -> dict[str, Executable]:
+    folder = package.prefix / "lib" / package.name
+    files = sorted(folder.iterdir()) if folder.is_dir() else []
+    return {
+        file.name: Executable(package.name, file.name, (str(file),))
+        for file in files
+        if file.is_file() and os.access(file, os.X_OK) and not file.name.startswith(".")
+    }
+
+
+def _from_source(package: Package) -> dict[str, Executable]:
+    declared = console_scripts.read(package.share)
+    path = _python_path(package.share, declared.root)
+    found = {
+        name: Executable(package.name, name, (*_ENTRY_POINT, target), path) for name, target in declared.scripts.items()
+    }
+    for relative in [*declared.files, *_programs_of_cmake(package.share)]:
+        file = package.share / relative
+        if file.is_file() and resolved(file).is_relative_to(resolved(package.share)):
+            found.setdefault(file.name, Executable(package.name, file.name, _command_of(file), path))
+    return found
+
+
+def _python_path(package: Path, root: str) -> tuple[str, ...]:
+    """Return the folders of the package and of its neighbors, whose modules it may import."""
+    neighbors = [each for each in crawl(package.parent, _MAX_DEPTH) if each != package and _has_modules(each)]
+    return tuple(map(str, [resolved(package / root), *neighbors]))
+
+
+def _has_modules(package: Path) -> bool:
+    return (package / "setup.py").is_file() or (package / package.name / "__init__.py").is_file()
+
+
+def _programs_of_cmake(package: Path) -> list[str]:
+    try:
+        text = read_regular_text(package / "CMakeLists.txt", console_scripts.MAX_BYTES)
+    except (OSError, UnicodeDecodeError):
+        return []
+    text = re.sub(r"#.*", "", text)
+    installed = [[word.strip('"') for word in match[1].split()] for match in _INSTALL.finditer(text)]
+    return [program for words in installed for program in _installed_programs(words)]
+
+
+def _installed_programs(words: list[str]) -> list[str]:
+    """Return the programs among the arguments of install() that are installed below lib."""
+    keys = [word.upper() for word in words]
+    if keys[:1] != ["PROGRAMS"] or "DESTINATION" not in keys:
+        return []
+    end = keys.index("DESTINATION")
+    return words[1:end] if "".join(words[end + 1 : end + 2]).startswith("lib/") else []
+
+
+def _command_of(file: Path) -> tuple[str, ...]:
+    """Return the command of a script; a Python file needs neither the executable bit nor a first line with #!."""
+    if file.suffix == ".py" or _has_python_shebang(file):
+        return (*_ENTRY_POINT, str(file))
+    return (str(file),)
+
+
+def _has_python_shebang(file: Path) -> bool:
+    with open_regular(file) as stream:
+        first = stream.readline(200)
+    return first.startswith(b"#!") and b"python" in first

@@ -1,0 +1,130 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Search for packages by name: installations in AMENT_PREFIX_PATH, then sources, then coframe's own packages."""
+
+from __future__ import annotations
+
+import os
+import re
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, NamedTuple
+
+from coframe._files.existence import is_dir, is_file, resolved
+from coframe._output.formatting import did_you_mean
+from coframe.errors import PackageError
+from coframe.workspace.packages import builtin
+from coframe.workspace.packages.folders import crawl, listed, named, package_around, package_name
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+__all__ = ["Package", "candidates", "find_package", "package_names", "source_folders", "use_sources_near"]
+
+_NAME = re.compile(r"[A-Za-z][A-Za-z0-9_\-]*", re.ASCII)
+_SOURCES = "COFRAME_PACKAGE_PATH"
+_INDEX = Path("share", "ament_index", "resource_index", "packages")
+_MAX_DEPTH = 4  # levels of folders between a workspace and its packages
+_MAX_NAMES = 12  # in an error message
+_SEARCHED = (
+    "Packages are searched in a sourced workspace (AMENT_PREFIX_PATH), in COFRAME_PACKAGE_PATH, and in the workspace "
+    "around the current folder and the launch file."
+)
+
+
+class Package(NamedTuple):
+    """A package that was found.
+
+    Attributes:
+        name: Its name.
+        share: Folder with its launch files and other data: ``share/NAME`` of an installation, or the source folder.
+        prefix: Installation prefix; for a source folder, the folder that contains it.
+        origin: ``"installed"``, ``"source"`` or ``"builtin"``.
+    """
+
+    name: str
+    share: Path
+    prefix: Path
+    origin: str
+
+
+def find_package(name: str) -> Package:
+    """Return the package that comes first in the search order.
+
+    Raises:
+        PackageError: There is no such package; the hint lists similar names.
+    """
+    if not _NAME.fullmatch(name):
+        raise PackageError(f"{name!r} is not a valid package name", hint="Use letters, digits, '_' and '-'.")
+    package = next(candidates(name), None)
+    if package is not None:
+        return package
+    known = package_names()
+    guess = did_you_mean(name, known, most=3)
+    own = [each for each in known if each not in builtin.EXECUTABLES]
+    there = f"Packages: {', '.join(own[:_MAX_NAMES])}{', ...' if len(own) > _MAX_NAMES else ''}. " if own else ""
+    raise PackageError(f"No package named {name!r}.", hint=f"{guess} {there}{_SEARCHED}".lstrip())
+
+
+def candidates(name: str) -> Iterator[Package]:
+    """Yield all packages with this name in search order: an installed package hides its source, which may have more."""
+    for prefix in listed("AMENT_PREFIX_PATH"):
+        if is_file(prefix / _INDEX / name) or is_file(prefix / "share" / name / "package.xml"):
+            yield Package(name, prefix / "share" / name, prefix, "installed")
+    for folder in _all_source_folders():
+        source = _below(folder).get(name)
+        if source is None and folder in listed(_SOURCES) and is_dir(folder / name):
+            source = folder / name  # A folder that the user has named may contain packages without a manifest.
+        if source is not None:
+            yield Package(name, source, source.parent, "source")
+    if name in builtin.EXECUTABLES:
+        yield Package(name, builtin.share(name), builtin.share(name).parent, "builtin")
+
+
+def package_names() -> list[str]:
+    """Return the names of all packages that can be found, sorted."""
+    found = set(builtin.EXECUTABLES)
+    for prefix in listed("AMENT_PREFIX_PATH"):
+        index = prefix / _INDEX
+        found |= {marker.name for marker in index.iterdir()} if is_dir(index) else set()
+    for folder in _all_source_folders():
+        found |= {package_name(package) for package in crawl(folder, _MAX_DEPTH)}
+    return sorted(found)
+
+
+def source_folders(path: Path) -> list[Path]:
+    """Return the folders around a path that contain packages: the workspace's ``src``, or the package's neighbors."""
+    package = package_around(path)
+    start = path if package is None else package.parent
+    sources = [folder for folder in [start, *start.parents] if folder.name == "src" and package_around(folder) is None]
+    if sources:
+        return [sources[-1]]
+    found = [] if package is None else [package.parent]
+    if package is None and is_dir(path / "src"):
+        found.append(path / "src")
+    elif package is None and any(True for _ in crawl(path, 1)):
+        found.append(path)
+    return found
+
+
+def use_sources_near(*paths: Path) -> None:
+    """Add the source folders around these paths to COFRAME_PACKAGE_PATH, for this process and its children."""
+    known = [str(folder) for folder in listed(_SOURCES)]
+    found = [str(folder) for path in paths for folder in source_folders(resolved(path))]
+    os.environ[_SOURCES] = os.pathsep.join(dict.fromkeys([*known, *found]))
+
+
+def _all_source_folders() -> list[Path]:
+    near = [Path.cwd()]
+    if sys.argv and sys.argv[0].endswith(".py"):
+        near.append(resolved(sys.argv[0]).parent)
+    around = [folder for path in near for folder in source_folders(path)]
+    return list(dict.fromkeys([*listed(_SOURCES), *around]))
+
+
+_crawled: dict[Path, dict[str, Path]] = {}
+
+
+def _below(folder: Path) -> dict[str, Path]:
+    if folder not in _crawled:
+        _crawled[folder] = named(list(crawl(folder, _MAX_DEPTH)))
+    return _crawled[folder]
