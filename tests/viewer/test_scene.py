@@ -10,6 +10,8 @@ import pytest
 
 import coframe
 from coframe.viewer import SceneError
+from coframe.viewer.clients import scripting as sending
+from coframe.viewer.replay import nodes as replayed
 from coframe.viewer.scripting import callbacks, nodes, widgets
 
 SECOND = 1_000_000_000
@@ -208,6 +210,39 @@ def test_a_fast_program_does_not_flood_a_slow_tab(viewer, scene, open_tab):
     while not np.allclose((geometry := tab.wait("geometry")).vertices + geometry.offset, 1999.0):
         pass
     assert tab.received.count("geometry") < 500
+
+
+def test_a_node_that_changes_all_the_time_does_not_hold_up_others(viewer, scene, open_tab, monkeypatch):
+    monkeypatch.setattr(sending, "MAX_UPDATE_BYTES", 1)
+    cloud = scene.add_points("busy", np.zeros((1, 3)))
+    tab = open_tab(viewer)
+    tab.wait("geometry")
+    stop = threading.Event()
+
+    def work():
+        while not stop.is_set():
+            cloud.points = np.zeros((1, 3))
+
+    thread = threading.Thread(target=work)
+    thread.start()
+    try:
+        scene.add_points("calm", np.ones((1, 3)))
+        tab.wait("node", lambda node: node["name"] == "calm")
+    finally:
+        stop.set()
+        thread.join()
+
+
+def test_a_replay_says_which_nodes_it_omits(scene, monkeypatch):
+    monkeypatch.setattr(replayed, "MAX_NODE_BYTES", 1000)
+    scene.add_points("large", np.zeros((1000, 3)), time=5 * SECOND)
+    scene.add_points("small", np.zeros((10, 3))).on_click(print)
+    scene.add_text("text", "hello")
+    large, small, text = replayed.record_nodes(scene._store.all(), 2 * SECOND)
+    assert "omitted from this replay" in large["node"]["problem"]
+    assert (large["geometry"], large["node"]["time"]) == ("", 3e9)
+    assert (bool(small["geometry"]), small["node"]["problem"], small["node"]["clickable"]) == (True, "", False)
+    assert text["node"]["text"] == "hello"
 
 
 def test_a_change_of_the_source_sends_everything_again(viewer, scene, gui, open_tab):

@@ -92,6 +92,14 @@ def click_at(page, point):
     page.raw.locator("#canvas").click(position={"x": x, "y": y})
 
 
+def hover_at(page, point):
+    """Move the pointer to a point; several times, because the page looks for nodes at a limited rate."""
+    x, y = page.evaluate("(point) => coframe.pixel(point)", [float(one) for one in point])
+    for _ in range(3):
+        page.raw.wait_for_timeout(100)
+        page.raw.locator("#canvas").hover(position={"x": x, "y": y})
+
+
 def test_a_node_moves_with_its_frame(viewer, page, buffer):
     viewer.scene.add_box("box", (0.2, 0.2, 0.2), frame="base", position=(1, 0, 0.5))
     # One metre ahead of a base that looks to the left.
@@ -183,6 +191,10 @@ def test_a_click_on_a_point_calls_back_with_its_position(viewer, page):
     cloud.on_click(events.put)
     drawn(page, "cloud", 3)
     until_pixel(page, (2, 1, 1.5), is_reddish, "the second point")
+    hover_at(page, (2, 1, 1.5))
+    page.until("document.querySelector('#canvas').style.cursor === 'pointer'")
+    hover_at(page, (2, 0.5, 0.2))
+    page.until("document.querySelector('#canvas').style.cursor === ''")
     click_at(page, (2, 1, 1.5))
     event = events.get(timeout=20)
     assert event.target is cloud

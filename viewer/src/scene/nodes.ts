@@ -7,6 +7,7 @@ import type { NodeGeometry, SceneNode } from "../protocol/messages";
 import type { Theme } from "../util/theme";
 import type { FramePoses } from "./frame_poses";
 import { drawNode } from "./node_drawings";
+import type { Hit } from "./picking";
 import type { View } from "./view";
 
 interface Entry {
@@ -60,6 +61,7 @@ export class NodesView {
     view.addBounds(() => this.bounds());
     view.addSurfaces(() => [this.object]);
     view.onClick((event) => this.click(event));
+    view.onHover((event) => this.clickableAt(event) !== null);
     theme.onChange(() => {
       for (const place of this.places.values()) for (const entry of place.entries.values()) this.redraw(place, entry);
     });
@@ -90,13 +92,18 @@ export class NodesView {
 
   private setNode(node: SceneNode): void {
     const place = this.places.get(node.name) ?? this.addPlace(node.name);
-    const entry = place.entries.get(node.id) ?? { node, geometry: null, drawing: null };
-    const before = entry.node;
+    const known = place.entries.get(node.id);
+    const before = known?.node;
+    const entry = known ?? { node, geometry: null, drawing: null };
     entry.node = node;
+    if (!before || APPEARANCE.some((key) => JSON.stringify(before[key]) !== JSON.stringify(node[key])))
+      this.redraw(place, entry);
+    if (known) {
+      this.view.refresh();
+      return;
+    }
     place.entries.set(node.id, entry);
     this.names.set(node.id, node.name);
-    if (before === node || APPEARANCE.some((key) => JSON.stringify(before[key]) !== JSON.stringify(node[key])))
-      this.redraw(place, entry);
     this.changed();
   }
 
@@ -106,7 +113,7 @@ export class NodesView {
     if (!place || !entry) return;
     entry.geometry = geometry;
     this.redraw(place, entry);
-    this.changed();
+    this.view.refresh();
   }
 
   private remove(ids: readonly number[]): void {
@@ -219,13 +226,20 @@ export class NodesView {
     return box;
   }
 
-  /** Reports a click on a clickable node, and returns whether it was one. */
-  private click(event: PointerEvent): boolean {
-    if (![...this.places.values()].some((place) => place.current?.node.clickable)) return false;
+  /** The clickable node under the pointer, with the point that is hit; null if there is none. */
+  private clickableAt(event: PointerEvent): { place: Place; node: SceneNode; hit: Hit } | null {
+    if (![...this.places.values()].some((place) => place.current?.node.clickable)) return null;
     const hit = this.view.hit(event, [this.object]);
     const place = hit?.object.parent?.userData.node as Place | undefined;
     const node = place?.current?.node;
-    if (!hit || !place || !node?.clickable) return false;
+    return hit && place && node?.clickable ? { place, node, hit } : null;
+  }
+
+  /** Reports a click on a clickable node, and returns whether it was one. */
+  private click(event: PointerEvent): boolean {
+    const clicked = this.clickableAt(event);
+    if (!clicked) return false;
+    const { place, node, hit } = clicked;
     this.model.send({
       type: "click",
       node: node.id,

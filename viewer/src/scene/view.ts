@@ -17,6 +17,7 @@ import type { Theme } from "../util/theme";
 
 const PICK_PX = 18;
 const CLICK_PX = 5;
+const HOVER_INTERVAL_MS = 60;
 /** Frames far away from all others are ignored when fitting the camera, if the frames span more than this. */
 const OUTLIER_SPAN_M = 300;
 /** An outlier is this many times as far away as the median frame. */
@@ -55,6 +56,7 @@ export class View {
   private readonly picker = new Picker();
   private readonly surfaces: (() => THREE.Object3D[])[] = [];
   private readonly clickListeners: ((event: PointerEvent) => boolean)[] = [];
+  private readonly hoverListeners: ((event: PointerEvent) => boolean)[] = [];
   private readonly pointListeners: ((point: Vector) => void)[] = [];
   private readonly posesListeners: ((framePoses: FramePoses, update: FrameUpdate) => void)[] = [];
   private readonly beforeDrawListeners: ((update: FrameUpdate) => void)[] = [];
@@ -165,6 +167,11 @@ export class View {
   /** Calls the listener with each click without a tool; if it returns true, the click does not select a frame. */
   onClick(listener: (event: PointerEvent) => boolean): void {
     this.clickListeners.push(listener);
+  }
+
+  /** Shows a hand above what the listener returns true for. */
+  onHover(listener: (event: PointerEvent) => boolean): void {
+    this.hoverListeners.push(listener);
   }
 
   /** What is visible under the pointer; null if it is none of these objects. */
@@ -298,6 +305,14 @@ export class View {
     let down: { x: number; y: number } | null = null;
     canvas.addEventListener("pointerdown", (event) => {
       down = event.button === 0 ? { x: event.clientX, y: event.clientY } : null;
+    });
+    let hovered = 0;
+    canvas.addEventListener("pointermove", (event) => {
+      const now = performance.now();
+      if (event.buttons || this.tools.active || now - hovered < HOVER_INTERVAL_MS) return;
+      canvas.style.cursor = this.hoverListeners.some((listener) => listener(event)) ? "pointer" : "";
+      // Large clouds take a while to search, which must not make the page slow.
+      hovered = performance.now() + 9 * (performance.now() - now);
     });
     canvas.addEventListener("pointerup", (event) => {
       if (!down || Math.hypot(event.clientX - down.x, event.clientY - down.y) > CLICK_PX) return;

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from functools import partial
+from operator import attrgetter
 from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 from coframe.viewer.clients.update import Update
@@ -101,7 +102,8 @@ class NodesFeed:
             return
         revision, records = _read(store)
         size = 0
-        for record in records:
+        # The oldest changes first: otherwise, nodes that change all the time could use up the bytes of every update.
+        for record in sorted(records, key=attrgetter("version")):
             known = sent.version(record)
             if known is not None and known.version == record.version:
                 continue
