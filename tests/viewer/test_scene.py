@@ -131,14 +131,27 @@ def test_a_name_is_replaced_and_the_old_handle_says_so(scene):
 
 
 def test_removing_a_node_removes_what_is_below_it_and_nothing_else(scene):
-    for name in ("arm", "arm/hand", "arm/hand/finger", "armour"):
+    for name in ("arm", "arm/hand", "arm/hand/finger", "arm/handle", "armour"):
         scene.add_frame(name)
     scene.remove("/arm/hand")
-    assert scene.names == ["arm", "armour"]
+    assert scene.names == ["arm", "arm/handle", "armour"]
     with pytest.raises(SceneError, match="name: no node 'arn'") as caught:
         scene.remove("arn")
     assert "Did you mean 'arm'?" in caught.value.hint
     scene.reset()
+    assert scene.names == []
+
+
+def test_nodes_with_times_are_replaced_one_by_one(scene):
+    first, second = (scene.add_points("hits", np.zeros((1, 3)), time=time) for time in (1, 2))
+    scene.add_frame("hits/below")
+    again = scene.add_points("hits", np.zeros((2, 3)), time=2)
+    assert [one.is_removed for one in (first, second, again)] == [False, True, False]
+    first.remove()
+    assert scene.names == ["hits", "hits/below"]
+    always = scene.add_points("hits", np.zeros((3, 3)))
+    assert (again.is_removed, always.is_removed) == (True, False)
+    always.remove()
     assert scene.names == []
 
 
@@ -191,12 +204,15 @@ def test_a_late_tab_receives_the_present_state_once(viewer, scene, open_tab):
 
 def test_a_pose_is_sent_without_the_geometry(viewer, scene, open_tab):
     cloud = scene.add_points("cloud", np.zeros((5, 3)))
+    scene.add_frame("other")
     tab = open_tab(viewer)
     tab.wait("geometry")
+    tab.wait("node")
     cloud.position = (1, 2, 3)
     assert tab.wait("node")["pose"] == [1, 2, 3, 0, 0, 0, 1]
     tab.frame_update()
-    assert tab.received.count("geometry") == 1
+    tab.frame_update()
+    assert (tab.received.count("geometry"), tab.received.count("node")) == (1, 3)
     cloud.remove()
     assert tab.wait("nodes_removed")["ids"] == [tab.last["node"]["id"]]
 

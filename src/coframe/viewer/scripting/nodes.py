@@ -4,9 +4,9 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import partial
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 from coframe._output.formatting import did_you_mean, quoted
 from coframe.viewer.protocol.server_messages import SceneNode
@@ -74,13 +74,6 @@ class NodeRecord(Record):
         )
 
 
-class _Key(NamedTuple):
-    """Of several nodes with the same name, at most one has each time."""
-
-    name: str
-    time: int | None
-
-
 class NodeStore(RecordStore[NodeRecord]):
     """All nodes; any thread may use it.
 
@@ -91,7 +84,7 @@ class NodeStore(RecordStore[NodeRecord]):
     def __init__(self, callbacks: CallbackThread) -> None:
         super().__init__()
         self._callbacks = callbacks
-        self._ids_by_key: dict[_Key, int] = {}
+        self._ids_by_name: defaultdict[str, dict[int | None, int]] = defaultdict(dict)  # each has times and ids
         self._clicked: defaultdict[int, list[Callable[[ClickNode], object]]] = defaultdict(list)
         self._size = 0
 
@@ -103,16 +96,16 @@ class NodeStore(RecordStore[NodeRecord]):
         """
         with self.lock:
             replaced = self._replaced_by(record)
-            if len(self.all()) - len(replaced) >= MAX_NODES:
+            if len(self) - len(replaced) >= MAX_NODES:
                 raise SceneError(f"name: the scene has {MAX_NODES} nodes, the limit", hint="Remove other nodes.")
             freed = sum(_size(one.geometry) for one in replaced)
             self._check_size(_size(record.geometry) - freed, record)
             self._remove_records(replaced)
             self._size += _size(record.geometry)
-            self._ids_by_key[_Key(record.name, record.time)] = record.id
-            return self.put(replace(record, geometry_version=self.revision + 1))
+            self._ids_by_name[record.name][record.time] = record.id
+            return self.put(record, geometry_version=self.revision + 1)
 
-    def update(self, number: int, **fields: object) -> NodeRecord:
+    def update(self, number: int, **fields: Any) -> NodeRecord:
         """Change a node.
 
         Raises:
@@ -123,11 +116,11 @@ class NodeStore(RecordStore[NodeRecord]):
             if record is None:
                 raise SceneError("this node was removed, or replaced by another one with its name")
             if "geometry" in fields:
-                change = _size(fields["geometry"]) - _size(record.geometry)  # type: ignore[arg-type]
+                change = _size(fields["geometry"]) - _size(record.geometry)
                 self._check_size(change, record)
                 self._size += change
                 fields["geometry_version"] = self.revision + 1
-            return self.put(replace(record, **fields))  # type: ignore[arg-type]
+            return self.put(record, **fields)
 
     def remove(self, number: int) -> None:
         """Remove a node with everything below it, if it exists."""
@@ -135,8 +128,8 @@ class NodeStore(RecordStore[NodeRecord]):
             record = self.get(number)
             if record is None:
                 return
-            same_name = any(key.name == record.name for key, one in self._ids_by_key.items() if one != number)
-            self._remove_records([record] if same_name else self._at_or_below(record.name))
+            is_only_one = len(self._ids_by_name[record.name]) == 1
+            self._remove_records(self._at_or_below(record.name) if is_only_one else [record])
 
     def remove_name(self, name: str) -> None:
         """Remove all nodes with a name, and everything below them.
@@ -147,10 +140,15 @@ class NodeStore(RecordStore[NodeRecord]):
         with self.lock:
             found = self._at_or_below(name)
             if not found:
-                names = sorted({record.name for record in self.all()})
+                names = self.names()
                 known = f"Nodes: {quoted(names)}." if names else "The scene has no nodes."
                 raise SceneError(f"name: no node {name!r}", hint=f"{did_you_mean(name, names)} {known}".strip())
             self._remove_records(found)
+
+    def names(self) -> list[str]:
+        """Return the names of all nodes, in alphabetical order."""
+        with self.lock:
+            return sorted(self._ids_by_name)
 
     def reset(self) -> None:
         """Remove all nodes."""
@@ -175,11 +173,10 @@ class NodeStore(RecordStore[NodeRecord]):
             self._callbacks.submit(partial(callback, click))
 
     def _replaced_by(self, record: NodeRecord) -> list[NodeRecord]:
-        if record.time is None:
-            return [one for one in self.all() if one.name == record.name]
-        keys = (_Key(record.name, None), _Key(record.name, record.time))
-        found = (self.get(self._ids_by_key.get(key, 0)) for key in keys)
-        return [one for one in found if one is not None]
+        """Return the nodes that another one with their name replaces: all of them, or those with its time or none."""
+        ids = self._ids_by_name.get(record.name, {})
+        replaced = [number for time, number in ids.items() if record.time is None or time in {None, record.time}]
+        return [found for number in replaced if (found := self.get(number)) is not None]
 
     def _at_or_below(self, name: str) -> list[NodeRecord]:
         return [one for one in self.all() if one.name == name or one.name.startswith(f"{name}/")]
@@ -188,7 +185,10 @@ class NodeStore(RecordStore[NodeRecord]):
         for record in records:
             self._size -= _size(record.geometry)
             self._clicked.pop(record.id, None)
-            self._ids_by_key.pop(_Key(record.name, record.time), None)
+            ids = self._ids_by_name[record.name]
+            ids.pop(record.time, None)
+            if not ids:
+                del self._ids_by_name[record.name]
         self.drop(record.id for record in records)
 
     def _check_size(self, change: int, record: NodeRecord) -> None:

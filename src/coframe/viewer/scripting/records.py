@@ -44,6 +44,9 @@ class RecordStore(Generic[R]):
         self._records: dict[int, R] = {}
         self._ids = itertools.count(1)
 
+    def __len__(self) -> int:
+        return len(self._records)
+
     def all(self) -> list[R]:
         """Return all records."""
         with self.lock:
@@ -57,18 +60,18 @@ class RecordStore(Generic[R]):
         """Return the id for a new record."""
         return next(self._ids)
 
-    def put(self, record: R) -> R:
-        """Add a record, or replace the one with its id; return it with its version."""
+    def put(self, record: R, **fields: Any) -> R:
+        """Add a record with other values of some fields, or replace the one with its id; return it with its version."""
         with self.lock:
             self.revision += 1
-            stored = self._records[record.id] = replace(record, version=self.revision)
+            stored = self._records[record.id] = replace(record, version=self.revision, **fields)
             return stored
 
     def change(self, number: int, **fields: Any) -> R | None:
         """Change fields of a record and return it; None if it was removed."""
         with self.lock:
             record = self._records.get(number)
-            return None if record is None else self.put(replace(record, **fields))
+            return None if record is None else self.put(record, **fields)
 
     def drop(self, numbers: Iterable[int]) -> None:
         """Remove records; those that do not exist are skipped."""

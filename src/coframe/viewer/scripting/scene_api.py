@@ -93,7 +93,7 @@ class SceneApi:
     @property
     def names(self) -> list[str]:
         """The names of all nodes, in alphabetical order."""
-        return sorted({record.name for record in self._store.all()})
+        return self._store.names()
 
     def __contains__(self, name: object) -> bool:
         return isinstance(name, str) and name.strip("/") in self.names

@@ -100,7 +100,7 @@ class WidgetStore(RecordStore[WidgetRecord]):
             SceneError: There are too many widgets, or its folder was removed.
         """
         with self.lock:
-            if len(self.all()) >= MAX_WIDGETS:
+            if len(self) >= MAX_WIDGETS:
                 raise SceneError(f"the page has {MAX_WIDGETS} widgets, the limit", hint="Remove other widgets.")
             if record.parent is not None and self.get(record.parent) is None:
                 raise SceneError("the folder of this widget was removed")
