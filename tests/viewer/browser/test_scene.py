@@ -251,6 +251,11 @@ def test_a_slider_moved_in_one_tab_moves_in_another_and_calls_the_program(viewer
     page.raw.locator("[data-kind=slider] input[type=range]").fill("0.7")
     assert values.get(timeout=20) == pytest.approx(0.7)
     other.until("document.querySelector('[data-kind=slider] input[type=range]').value === '0.7'")
+    page.raw.locator("[data-kind=slider] input[type=range]").focus()
+    page.key("ArrowRight")  # moves the slider, not the time
+    assert values.get(timeout=20) == pytest.approx(0.8)
+    assert page.evaluate("coframe.live")
+    other.until("document.querySelector('[data-kind=slider] input[type=range]').value === '0.8'")
     slider.value = -0.3
     for tab in (page, other):
         tab.until("document.querySelector('[data-kind=slider] input[type=range]').value === '-0.3'")

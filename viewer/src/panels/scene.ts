@@ -24,7 +24,7 @@ export class ScenePanel {
     private readonly nodes: NodesView,
     private readonly onChange: () => void,
   ) {
-    this.nodeSection = h("div", { class: "section", hidden: true }, h("h3", {}, "Nodes"), this.nodeList);
+    this.nodeSection = h("div", { class: "section", hidden: true }, h("h3", {}, "Scene nodes"), this.nodeList);
     this.element = h("section", { class: "tab-body" }, this.widgetList, this.nodeSection);
     model.on("hello", () => this.clear());
     model.on("widget", (widget) => this.set(widget));

@@ -51,6 +51,7 @@ export class Shortcuts {
     const target = event.target as HTMLElement;
     const typing = target.matches("input:not([type=checkbox]):not([type=range]), select, textarea");
     if (typing && event.key !== "Escape") return;
+    if (event.key.startsWith("Arrow") && target.matches("input[type=range]")) return;
     if (event.key === " " && target.matches("button, input, summary")) return;
     const found = this.shortcuts.find((shortcut) => shortcut.key === event.key);
     if (!found) return;

@@ -17,7 +17,7 @@ const DEFAULT_COLOUR: [number, number, number] = [0.3, 0.63, 0.96];
 /** Returns the object of a node; null if it draws nothing, or its geometry has not arrived yet. */
 export function drawNode(node: SceneNode, geometry: NodeGeometry | null, palette: Palette): THREE.Object3D | null {
   if (node.kind === "frame") return node.size > 0 ? axes(node, palette) : null;
-  if (node.kind === "text") return textSprite(node.text, colourOf(node, palette.measure), node.size, node.opacity);
+  if (node.kind === "text") return text(node, palette);
   if (!geometry) return null;
   const object = fromGeometry(node, geometry);
   object.position.fromArray(geometry.offset);
@@ -44,6 +44,16 @@ function colourOf(node: SceneNode, other?: string): THREE.Color {
 
 function transparency({ opacity }: SceneNode): { transparent: boolean; opacity: number; depthWrite: boolean } {
   return { transparent: opacity < 1, opacity, depthWrite: opacity >= 1 };
+}
+
+/** Text on top of everything else, because a half hidden text cannot be read. */
+function text(node: SceneNode, palette: Palette): THREE.Object3D | null {
+  const object = textSprite(node.text, colourOf(node, palette.measure), node.size, node.opacity);
+  if (object) {
+    object.material.depthTest = false;
+    object.renderOrder = 11;
+  }
+  return object;
 }
 
 function axes(node: SceneNode, palette: Palette): THREE.Object3D {

@@ -295,7 +295,7 @@ class SceneApi:
         opacity: float = 1.0,
         **placement: Unpack[Placement],
     ) -> TextHandle:
-        """Draw text that faces the camera; its centre is at the pose.
+        """Draw text that faces the camera, on top of everything else; its centre is at the pose.
 
         Args:
             name: The name.
