@@ -97,7 +97,7 @@ export interface RvizConfiguration {
 }
 
 /**
- * The first message. Sent again when the source or the origin changes: the page then starts from scratch.
+ * The first message. Sent again when the source or the origin changes; the page then starts from scratch.
  *
  * The page compares `version` with its own. `mode` is "replay" only inside replay files. `fixed_is_given` is
  * true if an option or the .rviz file names the fixed frame, so that the page does not use that of its last session.
@@ -319,7 +319,7 @@ export interface Finding {
   explains: Finding[];
 }
 
-/** The findings of the doctor; sent when they change. `text` gives the reason if there can be none. */
+/** The findings of the doctor; sent when they change. `text` gives the reason if findings are not available. */
 export interface Findings {
   type: "findings";
   state: "none" | "waiting" | "ready" | "failed";
@@ -433,7 +433,7 @@ export interface NodeGraph {
   links: GraphLink[];
 }
 
-/** The answer to `complete`: texts with which the text can continue. */
+/** The answer to `complete`: possible completions of the text. */
 export interface Completions {
   type: "completions";
   id: number;
@@ -531,14 +531,14 @@ export interface Problem {
 }
 
 /**
- * How the server prepares a display; numbers beyond the limits are set to the limit.
+ * How the server prepares a display; numbers beyond a limit are clamped.
  *
  * Attributes:
- *     color_by: The value that a point's colour shows; null selects the best one that the message contains.
+ *     color_by: The value shown by a point's colour; null selects the best available one.
  *     axis: The coordinate for `color_by="axis"`.
  *     decay: How long messages stay visible, in seconds.
  *     keep: How many poses the trail of an Odometry display has.
- *     most_points: The largest number of points of a cloud; larger clouds are thinned.
+ *     most_points: The maximum number of points of a cloud; larger clouds are thinned.
  */
 export interface DisplayOptions {
   color_by?: "axis" | "intensity" | "rgb" | "distance" | "flat" | null;
@@ -712,12 +712,12 @@ export interface CurveRequest {
 }
 
 /**
- * Sets the curves that the page shows; curves that are not listed any more are removed.
+ * Sets the curves that the page shows; curves that are no longer listed are removed.
  *
  * Attributes:
  *     curves: The curves.
  *     span: The part of a recording that the page shows; null for all of it.
- *     points: The largest number of points of a curve; the smallest and largest values of longer curves are kept.
+ *     points: The maximum number of points of a curve; thinning preserves minima and maxima.
  */
 export interface SetCurves {
   type: "curves";
@@ -727,25 +727,25 @@ export interface SetCurves {
   points?: number;
 }
 
-/** Inspects the messages of a topic instead of those of the previous one; "" ends it. */
+/** Inspects the messages of a topic instead of the previous one; "" stops the inspection. */
 export interface Inspect {
   type: "inspect";
   topic: string;
 }
 
-/** Requests the log messages and all further ones, or ends this. */
+/** Starts or stops sending log messages. */
 export interface ShowLog {
   type: "log";
   shown: boolean;
 }
 
-/** Requests the graph of nodes and topics and its changes, or ends this. */
+/** Starts or stops sending the graph of nodes and topics and its changes. */
 export interface ShowGraph {
   type: "graph";
   shown: boolean;
 }
 
-/** Requests texts with which the beginning of an expression or of a topic's name can continue. */
+/** Requests completions for the beginning of an expression or topic name. */
 export interface Complete {
   type: "complete";
   /** From 0 to 4294967295. */
@@ -784,7 +784,7 @@ export interface UseWidget {
   flag?: boolean | null;
 }
 
-/** Confirms that the last frame update was drawn, so that the next one may follow; `drawn` is its time. */
+/** Confirms that the last frame update was drawn, so that the next one can be sent; `drawn` is its time. */
 export interface Ready {
   type: "ready";
   drawn?: number | null;
@@ -1004,8 +1004,8 @@ export const ImageFormat = { grey: 0, rgb: 1, jpeg: 2, png: 3 } as const;
  * A frame update: the poses of all frames and displayed messages at one time.
  *
  * Followed by float32[7] per frame, uint8 `FrameState` per frame, padding to four bytes, and one `EntryRecord` per
- * displayed message. Positions are relative to `origin`, which is in metres in the fixed frame. Entries that are not
- * listed any more are removed. `time` is NaN while there is no data.
+ * displayed message. Positions are relative to `origin`, which is in metres in the fixed frame. Entries that are no
+ * longer listed are removed. `time` is NaN while there is no data.
  */
 export interface FramesHeader {
   kind: number;
