@@ -30,7 +30,7 @@ from rosidl_runtime_py import (
 from rosidl_runtime_py.import_message import import_message_from_namespaced_type
 from rosidl_runtime_py.utilities import get_interface, get_message, get_service, is_action, is_message, is_service
 from sensor_msgs.msg import Image, Imu, JointState, PointCloud2
-from std_msgs.msg import Byte, Float32MultiArray, Header, String
+from std_msgs.msg import Byte, ByteMultiArray, Float32MultiArray, Header, String
 from std_srvs.srv import SetBool
 from tf2_msgs.action import LookupTransform
 
@@ -131,9 +131,19 @@ def test_fields_from_dictionaries():
     set_message_fields(byte, {"data": 7})
     set_message_fields(text, {"data": 5})
     assert (byte.data, text.data) == (b"\x07", "5")
+    numbers = ByteMultiArray()
+    for typed in ("[1, 0x41, 255]", "!!binary AUH/"):
+        set_message_fields(numbers, yaml.safe_load(f"data: {typed}"))
+        assert numbers.data == [b"\x01", b"A", b"\xff"]
     imu = Imu()
     set_message_fields(imu, {"orientation_covariance": [1, 2, 3, 4, 5, 6, 7, 8, 9]})
     assert imu.orientation_covariance.dtype == np.float64
+
+
+@pytest.mark.parametrize("value", [[256], [-1], ["a"], [1.5], "ab", [b"ab"]])
+def test_elements_of_byte_arrays_that_are_not_bytes(value):
+    with pytest.raises(TypeError, match="a byte is a number from 0 to 255, not "):
+        set_message_fields(ByteMultiArray(), {"data": value})
 
 
 def test_wrong_fields_and_values():

@@ -281,3 +281,10 @@ def test_attributes_and_methods_that_upstreams_window_uses(context, tmp_path):
             node.init_collada(None)
     finally:
         node.destroy_node()
+
+
+@pytest.mark.parametrize("words", [[], ["-p", "source_list:=[]"]])
+def test_an_empty_list_of_sources(context, words):
+    node = JointStatePublisher(context=context, cli_args=["--ros-args", *words], start_parameter_services=False)
+    assert not node.get_parameter("source_list").value
+    node.destroy_node()

@@ -10,7 +10,7 @@ from coframe._output.escaping import one_line
 from coframe.nodes.program import program, spin_until_shutdown
 from coframe.robots import Robot, RobotDescriptionError, load, parse_urdf
 from coframe.robots.joint_states import JointStates
-from rcl_interfaces.msg import ParameterDescriptor
+from rcl_interfaces.msg import ParameterDescriptor, ParameterType
 from rclpy.exceptions import ParameterAlreadyDeclaredException
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile
@@ -61,8 +61,9 @@ class JointStatePublisher(Node):
     def _set_up(self, robot: Robot | None) -> None:
         """Read the parameters, then publish."""
         for name, default in _DEFAULTS.items():
+            kind = ParameterType.PARAMETER_STRING_ARRAY if default == [] else ParameterType.PARAMETER_NOT_SET
             with contextlib.suppress(ParameterAlreadyDeclaredException):
-                self.declare_parameter(name, default, ParameterDescriptor(dynamic_typing=True))
+                self.declare_parameter(name, default, ParameterDescriptor(dynamic_typing=True, type=kind))
         self.lock = threading.Lock()
         self.robot: Robot | None = None
         self.states: JointStates | None = None
@@ -173,6 +174,8 @@ class JointStatePublisher(Node):
 
     def _topics(self, name: str) -> list[str]:
         value = self.get_parameter(name).value
+        if value is None:  # `[]` in a parameter file
+            return []
         if not isinstance(value, Sequence) or isinstance(value, str) or not all(isinstance(v, str) for v in value):
             raise ValueError(f"The parameter '{name}' must be a list of topics, but is {value!r}.")
         return list(value)

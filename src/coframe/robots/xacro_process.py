@@ -50,10 +50,18 @@ def _answer(request: Mapping[str, Any]) -> dict[str, Any]:
         if isinstance(cause, RecursionError):
             hint = "Check whether a macro or an included file contains itself, directly or through others."
             return {"error": "xacro: the file is nested too deeply to be expanded", "hint": hint}
-        return {"error": f"xacro: {str(error) or type(error).__name__}", "hint": getattr(error, "hint", "")}
+        return {"error": f"xacro: {_reason(error, cause)}", "hint": getattr(cause, "hint", "")}
     if len(text) > MAX_OUTPUT:
         return {"error": f"the expanded file has more than {MAX_OUTPUT >> 20} MiB, the limit"}
     return {"text": text}
+
+
+def _reason(error: Exception, cause: Exception) -> str:
+    """Return the text of an exception, without the class and the second text of a cause that xacro adds."""
+    text = str(error)
+    if cause is not error and text.startswith("<class "):
+        text = " ".join(filter(None, (str(cause), getattr(error, "suffix", None))))
+    return text or type(error).__name__
 
 
 def _main() -> None:

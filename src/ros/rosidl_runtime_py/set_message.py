@@ -64,6 +64,8 @@ def _set_fields(message: Any, values: Any, setters: list[StampSetter], auto: boo
         elements = getattr(type_, "value_type", None)
         if hasattr(elements, "namespaced_name"):
             new = [_element(elements, element, setters, auto, now) for element in new]
+        elif getattr(elements, "typename", None) == "octet":
+            new = [_byte(element) for element in new]
         setattr(message, name, new)
 
 
@@ -85,9 +87,16 @@ def _converted(field: Any, value: Any) -> Any:
         return np.array(value, dtype=field.dtype)
     if isinstance(value, type(field)):
         return value
-    if isinstance(field, bytes) and isinstance(value, int):
-        return bytes([value])
-    return type(field)(value)
+    return _byte(value) if isinstance(field, bytes) else type(field)(value)
+
+
+def _byte(value: Any) -> bytes:
+    """Return an element of a byte array. YAML has only numbers for it; rosidl requires bytes of length 1."""
+    if isinstance(value, bytes) and len(value) == 1:
+        return value
+    if not isinstance(value, int) or not 0 <= value <= 255:
+        raise TypeError(f"a byte is a number from 0 to 255, not {value!r}")
+    return bytes([value])
 
 
 def _full_name(type_: Any) -> tuple[str, ...] | None:
