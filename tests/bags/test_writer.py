@@ -72,7 +72,7 @@ def read_by_mcap(file):
 def test_other_programs_open_finished_and_unfinished_recordings(tmp_path, monkeypatch, compression, close, has_index):
     """An unfinished recording has an index, too, unless it is too large to write with each chunk."""
     if not has_index:
-        monkeypatch.setattr(mcap_writer, "_LARGEST_INDEX", 700)  # the first chunks still have an index
+        monkeypatch.setattr(mcap_writer, "_MAX_INDEX_BYTES", 700)  # the first chunks still have an index
     write_walk(tmp_path / "run", compression=compression, close=close)
     folder = tmp_path / ("run" if close else "killed")
     assert read_by_rosbags(folder) == recordings.messages()

@@ -39,6 +39,7 @@ ALLOWED = {
     "coframe.bags.sqlite_database": "checks the file and its journals before SQLite opens them by name",
     "coframe.bags.sqlite_writer": "writes a new file",
     "coframe.cli.hub": "opens shared memory",
+    "coframe.cli.shell_completion": PROC,
     "coframe.cli.ros2.installing": "the list of files of the installed package",
     "coframe.course.checking": OWN_FILES,
     "coframe.course.folders": OWN_DATA,

@@ -101,7 +101,7 @@ def test_png(forest, monkeypatch):
         right = round((box.x + box.width + 2.0) * scale)
         margin = picture.crop((right, round((box.y + 3.0) * scale), right + 2, round((box.y + 12.0) * scale)))
         assert margin.getcolors() == [(margin.width * margin.height, (255, 255, 255))], box.title
-    monkeypatch.setattr(png, "_LONGEST", 500.0)
+    monkeypatch.setattr(png, "_MAX_SIDE", 500.0)
     assert max(image.open(io.BytesIO(png.as_png(forest, "run"))).size) <= 500
 
 

@@ -54,7 +54,7 @@ def test_a_long_name_is_not_listed_and_this_is_said_once(participant, ros_peer, 
 
 
 def test_a_process_joins_a_graph_with_more_tokens_than_the_queue_holds(zenoh_domain, ros_peer, eventually, monkeypatch):
-    monkeypatch.setattr(graph, "_MOST_QUEUED", 100)
+    monkeypatch.setattr(graph, "_MAX_QUEUED", 100)
     ros_peer("announce_many", "/many", 1000)
     participant = Participant.get(zenoh_domain)
     eventually(lambda: len(topics(participant)) >= 50)
@@ -64,7 +64,7 @@ def test_a_process_joins_a_graph_with_more_tokens_than_the_queue_holds(zenoh_dom
 def test_tokens_are_processed_in_a_process_that_never_asks_for_the_graph(
     participant, ros_peer, eventually, monkeypatch
 ):
-    monkeypatch.setattr(graph, "_MOST_PENDING", 50)
+    monkeypatch.setattr(graph, "_MAX_PENDING", 50)
     ros_peer("announce_many", "/many", 1000)
     eventually(lambda: len(participant._graph.by_topic(writers=True)) >= 950)
     assert len(participant._graph._pending) < 100

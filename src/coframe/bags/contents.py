@@ -40,7 +40,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Contents", "read_contents"]
 
-_MOST_APART = 60 * time.SECOND  # between the files of one recording that do not have the same name
+_MAX_PAUSE = 60 * time.SECOND  # between the files of one recording that do not have the same name
 _BURST_SHARE = 0.01  # of the recording's duration
 
 
@@ -179,7 +179,7 @@ class _Reading:
             if parts:
                 spans.append((min(first for first, _ in parts), max(last for _, last in parts)))
         spans.sort()
-        apart = any(later[0] - earlier[1] > _MOST_APART for earlier, later in pairwise(spans))
+        apart = any(later[0] - earlier[1] > _MAX_PAUSE for earlier, later in pairwise(spans))
         if apart:
             names = listed(group[0].path.name for group in groups.values())
             raise RecordingError(
