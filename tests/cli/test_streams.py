@@ -75,8 +75,8 @@ def run_with_closed(descriptors, words, **options):
     ("words", "code"),
     [
         (["frames", "BAG"], 0),
-        (["bag", "info", "BAG"], 0),
-        (["doctor", "BAG"], 0),
+        pytest.param(["bag", "info", "BAG"], 0, marks=pytest.mark.slow),
+        pytest.param(["doctor", "BAG"], 0, marks=pytest.mark.slow),
         (["trajectory", "BAG", "odom", "base"], 0),
         (["doctor", "absent.mcap"], 1),
         (["--no-such-option"], 2),
