@@ -373,7 +373,7 @@ def test_invalid_clouds_and_scans_are_not_drawn():
 
 def test_a_large_cloud_is_thinned_to_what_the_page_can_draw(decoded):
     made = cloud("map", SECOND, {axis: np.arange(1000.0) for axis in "xyz"} | {"intensity": np.arange(1000.0)})
-    shown = decoded(draw_cloud(made, Options(color_by="intensity", most_points=300)).data)
+    shown = decoded(draw_cloud(made, Options(color_by="intensity", max_points=300)).data)
     np.testing.assert_array_equal(shown.points[:, 0], np.arange(0, 1000, 4))
     np.testing.assert_array_equal(shown.scalars, np.arange(0, 1000, 4))
     assert shown.step == 4

@@ -25,7 +25,7 @@ import { NodesView } from "./scene/nodes";
 import { RvizPanel } from "./panels/rviz";
 import { ScenePanel } from "./panels/scene";
 import { Shortcuts } from "./panels/shortcuts";
-import type { Source } from "./protocol/source";
+import type { MessageSource } from "./protocol/source";
 import { Theme } from "./util/theme";
 import { Timeline } from "./panels/timeline";
 import { toast } from "./util/toast";
@@ -36,7 +36,7 @@ import { View } from "./scene/view";
 
 const HIDDEN_PING_MS = 1000;
 
-export function showPage(source: Source): void {
+export function showPage(source: MessageSource): void {
   const theme = new Theme();
   const model = new Model((message) => source.send(message));
   const view = new View(model, theme, byId("canvas") as HTMLCanvasElement, byId("labels"), byId("panes"));

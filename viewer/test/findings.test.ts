@@ -2,9 +2,9 @@
 import { describe, expect, it } from "vitest";
 import { marksOf } from "../src/model/marks";
 import { summary } from "../src/panels/findings";
-import type { Finding, Findings } from "../src/protocol/messages";
+import type { FindingEntry, FindingEntries } from "../src/protocol/messages";
 
-const finding = (change: Partial<Finding>): Finding => ({
+const finding = (change: Partial<FindingEntry>): FindingEntry => ({
   ...{ code: "TF013", severity: "note", title: "", subject: "", frames: [], text: "rare", why: "", fix: "" },
   ...{ publishers: [], first: null, namespace: "", explains: [] },
   ...change,
@@ -27,7 +27,12 @@ describe("the marks of frames", () => {
 });
 
 describe("the summary of the findings", () => {
-  const result = (state: Findings["state"]): Findings => ({ type: "findings", state, text: "gone", findings: [] });
+  const result = (state: FindingEntries["state"]): FindingEntries => ({
+    type: "findings",
+    state,
+    text: "gone",
+    findings: [],
+  });
 
   it("is empty before the first result", () => {
     expect(summary(null, "live")).toBe("");

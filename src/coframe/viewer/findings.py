@@ -14,14 +14,14 @@ from contextlib import closing
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from coframe.errors import RecordingError, ViewerError, WireError
-from coframe.viewer.protocol.server_messages import Finding
+from coframe.viewer.protocol.server_messages import FindingEntry
 
 if TYPE_CHECKING:
     from collections.abc import Generator
 
     from coframe.doctor import Report
     from coframe.viewer.protocol.common import FindingsState
-    from coframe.viewer.sources.source import Source
+    from coframe.viewer.sources.source import ViewerSource
 
 __all__ = ["FindingsReport", "FindingsWatcher", "finding_rows"]
 
@@ -55,9 +55,9 @@ class FindingsWatcher:
     def __init__(self) -> None:
         self.report = FindingsReport("none")
         self._examination: _Examination | None = None
-        self._source: Source | None = None
+        self._source: ViewerSource | None = None
 
-    def watch(self, source: Source) -> None:
+    def watch(self, source: ViewerSource) -> None:
         """Examine a source and update the report, as long as this is called every few seconds."""
         if source is not self._source:
             if self._examination is not None:
@@ -80,7 +80,7 @@ class FindingsWatcher:
 class _Examination:
     """The examination of one source."""
 
-    def __init__(self, source: Source) -> None:
+    def __init__(self, source: ViewerSource) -> None:
         self.report = FindingsReport("none")
         self.last_request = time.monotonic()
         self.has_timed_out = False
@@ -126,7 +126,7 @@ class _Examination:
             self.report = FindingsReport("ready", findings=_findings(reports))
 
 
-def finding_rows(report: FindingsReport, origin: int) -> list[Finding]:
+def finding_rows(report: FindingsReport, origin: int) -> list[FindingEntry]:
     """Return the findings for a page, with stamps relative to an origin in nanoseconds."""
     return [_row(finding, origin) for finding in report.findings]
 
@@ -140,10 +140,10 @@ def _findings(reports: dict[str, Report]) -> tuple[dict[str, Any], ...]:
     return tuple(found[:_MAX_FINDINGS])
 
 
-def _row(finding: dict[str, Any], origin: int) -> Finding:
+def _row(finding: dict[str, Any], origin: int) -> FindingEntry:
     stamp = finding["first_stamp_ns"]
     edge = finding["edge"]
-    return Finding(
+    return FindingEntry(
         code=finding["code"],
         severity=finding["severity"],
         title=finding["title"],

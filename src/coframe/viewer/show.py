@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 
     from coframe.robots import Robot
     from coframe.viewer.notebook import Inline
-    from coframe.viewer.sources.source import Mode, Source
+    from coframe.viewer.sources.source import Mode, ViewerSource
 
 __all__ = ["Viewer", "show", "start_viewer"]
 
@@ -55,7 +55,7 @@ class Viewer:
     def __init__(
         self,
         state: ViewerState,
-        export: Callable[[Source], bytes],
+        export: Callable[[ViewerSource], bytes],
         *,
         host: str,
         port: int | None,
@@ -96,7 +96,7 @@ class Viewer:
         """The widgets that the program adds to the page: buttons, sliders, drop-downs, numbers, text and folders."""
         return self._gui
 
-    def set_source(self, source: Source) -> None:
+    def set_source(self, source: ViewerSource) -> None:
         """Show another source; the viewer closes it when it stops."""
         self._sources.append(source)
         self._server.call(self._state.set_source, source)
@@ -233,7 +233,7 @@ def start_viewer(
 
 
 def _viewer(
-    make_source: Callable[[], Source],
+    make_source: Callable[[], ViewerSource],
     fixed: str,
     rviz: str | os.PathLike[str] | None,
     robot: str | os.PathLike[str] | Robot | None,
@@ -254,7 +254,7 @@ def _viewer(
     return Viewer(state, export, host=host, port=port, inline=inline)
 
 
-def _source_of(source: Any) -> Source:
+def _source_of(source: Any) -> ViewerSource:
     source = getattr(source, "_Coframe__buffer", source)  # the buffer inside a tf2_ros.Buffer
     if isinstance(source, Buffer):
         return BufferSource(source)

@@ -27,9 +27,9 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping
 
     from coframe.robots import Robot
-    from coframe.viewer.protocol.server_messages import Topic
+    from coframe.viewer.protocol.server_messages import DisplayTopic
     from coframe.viewer.rviz.config import RvizConfig
-    from coframe.viewer.sources.source import Source
+    from coframe.viewer.sources.source import ViewerSource
     from coframe.viewer.sources.topic_messages import TopicMessages
 
 __all__ = ["FRAME_TIMEOUT", "ViewerState"]
@@ -57,7 +57,7 @@ class ViewerState:
 
     def __init__(
         self,
-        source: Source,
+        source: ViewerSource,
         *,
         fixed: str = "",
         rviz: RvizConfig | None = None,
@@ -79,7 +79,7 @@ class ViewerState:
         self.fixed = fixed or (rviz.fixed_frame if rviz is not None else "")
         self.fixed_is_given = bool(self.fixed)
         self.saved_rviz: str | None = None
-        self.topics: list[Topic] = []
+        self.topics: list[DisplayTopic] = []
         self.origin = time.time_ns()
         self.executor = ThreadPoolExecutor(2, "coframe-viewer-work")
         self._tools: ToolPublisher | None = None
@@ -88,7 +88,7 @@ class ViewerState:
         self._structure_due = self._topics_due = 0.0
         self.refresh()
 
-    def set_source(self, source: Source) -> None:
+    def set_source(self, source: ViewerSource) -> None:
         """Show another source; all clients start from scratch."""
         self._close_tools()
         self.panels.close()

@@ -15,7 +15,7 @@ export class CloudDisplay extends MessageDisplay<Cloud, "LaserScan" | "PointClou
   override subscription(): DisplayOptions {
     return {
       ...super.subscription(),
-      ...(this.context.software() ? { most_points: MAX_POINTS_IN_SOFTWARE } : {}),
+      ...(this.context.software() ? { max_points: MAX_POINTS_IN_SOFTWARE } : {}),
     };
   }
 

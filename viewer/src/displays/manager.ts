@@ -11,7 +11,7 @@ import type {
   RvizConfiguration,
   RvizDisplay,
   DisplayOptions,
-  Topic,
+  DisplayTopic,
 } from "../protocol/messages";
 import { remember, remembered } from "../util/storage";
 import type { Theme } from "../util/theme";
@@ -171,7 +171,7 @@ export class Displays {
     this.offer(this.model.topics);
   }
 
-  private offer(topics: Topic[]): void {
+  private offer(topics: DisplayTopic[]): void {
     if (!this.automatic || !this.started) return;
     for (const { topic, display } of topics) {
       const kind = displayClass(display);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The marks of frames that findings of the doctor affect. */
 
-import type { Finding, Severity } from "../protocol/messages";
+import type { FindingEntry, Severity } from "../protocol/messages";
 import { shorten } from "../util/dom";
 
 /** The mark of a frame: the highest severity, and a line for each finding. */
@@ -15,7 +15,7 @@ const SEVERITIES: readonly Severity[] = ["error", "warning", "note"];
 const MAX_LINES = 8;
 
 /** Returns the marks by frame. */
-export function marksOf(findings: readonly Finding[]): Map<string, Mark> {
+export function marksOf(findings: readonly FindingEntry[]): Map<string, Mark> {
   const marks = new Map<string, Mark>();
   const all = findings.flatMap((finding) => [finding, ...finding.explains]);
   for (const severity of SEVERITIES)
@@ -29,6 +29,6 @@ export function marksOf(findings: readonly Finding[]): Map<string, Mark> {
 }
 
 /** A finding in one line: code, severity and text. */
-export function headline({ code, severity, text }: Finding): string {
+export function headline({ code, severity, text }: FindingEntry): string {
   return `${code} ${severity}: ${shorten(text, 200)}`;
 }

@@ -11,7 +11,7 @@ import type {
   CurveStatus,
   DisplayMessage,
   DisplayStatus,
-  Findings,
+  FindingEntries,
   Hello,
   Inspection,
   LogEntries,
@@ -30,7 +30,7 @@ import type {
   Stats,
   FrameUpdate,
   Timeline,
-  Topic,
+  DisplayTopic,
   TreeFrame,
   Widget,
 } from "../protocol/messages";
@@ -40,7 +40,7 @@ export interface ModelEvents {
   tree: Forest;
   stats: Stats;
   frames: FrameUpdate;
-  topics: Topic[];
+  topics: DisplayTopic[];
   robot: RobotModel;
   display: DisplayStatus;
   message: DisplayMessage;
@@ -48,7 +48,7 @@ export interface ModelEvents {
   relation: Relation;
   timeline: Timeline;
   problem: Problem;
-  findings: Findings;
+  findings: FindingEntries;
   page: CodePage;
   published: Published;
   replay: ReplayPrepared;
@@ -154,7 +154,7 @@ export class Model extends Emitter<ModelEvents> {
   stats: Stats | null = null;
   statsReceived = 0;
   frameUpdate: FrameUpdate | null = null;
-  topics: Topic[] = [];
+  topics: DisplayTopic[] = [];
   /** The doctor's marks, by frame. */
   marks = new Map<string, Mark>();
   robots = new Map<string | number, RobotModel>();

@@ -5,7 +5,7 @@ import { h, icon, iconButton, shorten, type IconName } from "../util/dom";
 import * as format from "../util/format";
 import { headline } from "../model/marks";
 import type { Model } from "../model/model";
-import type { CodePage, Finding, Findings, Hello, Severity } from "../protocol/messages";
+import type { CodePage, FindingEntry, FindingEntries, Hello, Severity } from "../protocol/messages";
 
 /** Each severity has its own shape, because colour alone is not accessible. */
 const SHAPES: Record<Severity, IconName> = { error: "octagon", warning: "triangle", note: "disc" };
@@ -19,7 +19,7 @@ export function severityIcon(severity: Severity): SVGElement {
 }
 
 /** The summary of the findings; empty before the first result. */
-export function summary(result: Findings | null, mode: Hello["mode"] | undefined): string {
+export function summary(result: FindingEntries | null, mode: Hello["mode"] | undefined): string {
   if (result === null) return "";
   if (result.state === "failed") return shorten(result.text, MAX_TEXT);
   if (result.state === "waiting")
@@ -51,7 +51,7 @@ export class FindingsPanel {
     this.show(null);
   }
 
-  private show(result: Findings | null): void {
+  private show(result: FindingEntries | null): void {
     const key = JSON.stringify(result);
     if (key === this.shown) return;
     this.shown = key;
@@ -60,7 +60,7 @@ export class FindingsPanel {
     this.list.replaceChildren(...findings.map((finding) => this.card(finding)));
   }
 
-  private card(finding: Finding): HTMLElement {
+  private card(finding: FindingEntry): HTMLElement {
     const { severity, subject, code, first, publishers, namespace } = finding;
     const facts = [namespace, publishers.length ? `published by ${publishers.join(", ")}` : ""]
       .filter(Boolean)
@@ -110,7 +110,7 @@ export class FindingsPanel {
     );
   }
 
-  private choose(finding: Finding): void {
+  private choose(finding: FindingEntry): void {
     const frames = [finding, ...finding.explains].flatMap((one) => one.frames);
     const known = frames.find((frame) => this.model.forest.index.has(frame));
     if (known !== undefined) this.model.select(known);

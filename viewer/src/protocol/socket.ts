@@ -4,7 +4,7 @@
 import { fatal } from "../util/fatal";
 import { toast } from "../util/toast";
 import { checkServerMessage, decode, PROTOCOL_VERSION, type ClientMessage } from "./messages";
-import type { Source, SourceEvents } from "./source";
+import type { MessageSource, SourceEvents } from "./source";
 import { compareVersion } from "./version";
 
 const FIRST_WAIT_MS = 250;
@@ -16,7 +16,7 @@ const MAX_UTF8 = 3;
 
 type Listener = <K extends keyof SourceEvents>(event: K, value: SourceEvents[K]) => void;
 
-export class SocketSource implements Source {
+export class SocketSource implements MessageSource {
   readonly live = true;
   private socket: WebSocket | null = null;
   private wait = FIRST_WAIT_MS;

@@ -11,7 +11,7 @@ export interface SourceEvents {
   connected: boolean;
 }
 
-export interface Source {
+export interface MessageSource {
   /** False in a replay, where no server can export, publish or save. */
   readonly live: boolean;
   start(listener: <K extends keyof SourceEvents>(event: K, value: SourceEvents[K]) => void): void;

@@ -29,7 +29,7 @@ import {
 import { fatal } from "../util/fatal";
 import { quoted } from "../util/static_commands";
 import { bytes, DAMAGED, lastUpTo, ReplayDisplay, type PoseAt } from "./displays";
-import type { Source, SourceEvents } from "../protocol/source";
+import type { MessageSource, SourceEvents } from "../protocol/source";
 
 /** A subscription of a display to a recorded topic. */
 interface Subscription {
@@ -58,7 +58,7 @@ export function openReplay(element: HTMLElement): ReplaySource {
   }
 }
 
-export class ReplaySource implements Source {
+export class ReplaySource implements MessageSource {
   readonly live = false;
   private readonly times: Float64Array;
   private readonly poses: Float32Array;

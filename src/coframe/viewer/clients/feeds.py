@@ -21,11 +21,11 @@ from coframe.viewer.findings import finding_rows
 from coframe.viewer.protocol.encoding import encode, encode_frames
 from coframe.viewer.protocol.server_messages import (
     DisplayStatus,
-    Findings,
+    DisplayTopics,
+    FindingEntries,
     Hello,
     Problem,
     Stats,
-    Topics,
     Tree,
     TreeComponent,
     TreeFrame,
@@ -129,7 +129,7 @@ class TopicsFeed(_Feed):
         """Yield the topics."""
         self.due = now + STATISTICS_PERIOD
         topics = self._viewer.topics
-        yield Update(TOPICS, topics, lambda: encode(Topics(type="topics", topics=topics)))
+        yield Update(TOPICS, topics, lambda: encode(DisplayTopics(type="topics", topics=topics)))
 
 
 class StatisticsFeed(_Feed):
@@ -173,7 +173,7 @@ class FindingsFeed(_Feed):
 
     def _encode(self, report: FindingsReport) -> str:
         rows = finding_rows(report, self._client.origin)
-        return encode(Findings(type="findings", state=report.state, text=report.text, findings=rows))
+        return encode(FindingEntries(type="findings", state=report.state, text=report.text, findings=rows))
 
 
 class FramesFeed(_Feed):

@@ -79,7 +79,7 @@ class Options:
         axis: 0, 1 or 2: the coordinate for ``color_by="axis"``.
         decay: How long messages stay visible, in seconds.
         keep: How many poses the trail of an Odometry display has.
-        most_points: The maximum number of points of a cloud; larger clouds are thinned.
+        max_points: The maximum number of points of a cloud; larger clouds are thinned.
         origin: The origin of the times that the page receives, in nanoseconds.
     """
 
@@ -87,7 +87,7 @@ class Options:
     axis: int = 2
     decay: float = 0.0
     keep: int = 1
-    most_points: int = MAX_POINTS
+    max_points: int = MAX_POINTS
     origin: int = 0
 
     @classmethod
@@ -98,7 +98,7 @@ class Options:
             axis="xyz".index(options.axis),
             decay=options.decay,
             keep=options.keep,
-            most_points=options.most_points,
+            max_points=options.max_points,
             origin=origin,
         )
 

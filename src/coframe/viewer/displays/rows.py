@@ -12,7 +12,7 @@ from coframe.viewer.displays import kinds
 from coframe.viewer.displays.drawing import CannotDrawError
 from coframe.viewer.displays.renderers import each_message
 from coframe.viewer.displays.row import DisplayRow
-from coframe.viewer.protocol.server_messages import Topic
+from coframe.viewer.protocol.server_messages import DisplayTopic
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
@@ -42,10 +42,10 @@ DISPLAY_OF_TYPE: dict[str, DisplayRow] = {
 """The display of each message type."""
 
 
-def displayable(topics: Iterable[tuple[str, str]]) -> list[Topic]:
+def displayable(topics: Iterable[tuple[str, str]]) -> list[DisplayTopic]:
     """Return those of a source's topics, with their types, that can be displayed."""
     return [
-        Topic(topic=topic, type=ros_type, display=DISPLAY_OF_TYPE[ros_type].name)
+        DisplayTopic(topic=topic, type=ros_type, display=DISPLAY_OF_TYPE[ros_type].name)
         for topic, ros_type in topics
         if ros_type in DISPLAY_OF_TYPE
     ]

@@ -14,7 +14,7 @@ from coframe.viewer.panels.message_fields import field_paths
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from coframe.viewer.sources.source import Source
+    from coframe.viewer.sources.source import ViewerSource
 
 __all__ = ["MAX_TEXT", "complete_expression", "complete_topic", "topic_types"]
 
@@ -25,7 +25,7 @@ _MAX_ITEMS = 60
 _SEPARATOR = re.compile(r"->|→|:")
 
 
-def complete_expression(source: Source, text: str) -> list[str]:
+def complete_expression(source: ViewerSource, text: str) -> list[str]:
     """Return completions of an expression: complete or partial expressions that begin with the text, or contain it."""
     if text.startswith("/"):
         return _complete_topic_expression(source, text)
@@ -40,12 +40,12 @@ def complete_expression(source: Source, text: str) -> list[str]:
     return _matching((f"{target}{named}.{quantity}" for quantity in (*POSE_QUANTITIES, *TIMINGS)), text)
 
 
-def complete_topic(source: Source, text: str) -> list[str]:
+def complete_topic(source: ViewerSource, text: str) -> list[str]:
     """Return the topics whose names begin with a text or contain it."""
     return _matching(topic_types(source), text)
 
 
-def topic_types(source: Source) -> dict[str, str]:
+def topic_types(source: ViewerSource) -> dict[str, str]:
     """Return all topics with their types."""
     if source.recording is not None:
         return {topic.name: topic.type for topic in source.recording.topics.values()}
@@ -54,7 +54,7 @@ def topic_types(source: Source) -> dict[str, str]:
     return {}
 
 
-def _complete_topic_expression(source: Source, text: str) -> list[str]:
+def _complete_topic_expression(source: ViewerSource, text: str) -> list[str]:
     types = topic_types(source)
     topic, dot, path = text.partition(".")
     if not dot or topic not in types:
@@ -64,7 +64,7 @@ def _complete_topic_expression(source: Source, text: str) -> list[str]:
     return _matching((f"{topic}.{each}" for each in (*fields, *TIMINGS)), text)
 
 
-def _example(source: Source, topic: str, ros_type: str) -> Any:
+def _example(source: ViewerSource, topic: str, ros_type: str) -> Any:
     """Return a message of the type of a topic; None if the type is unknown."""
     try:
         recording = source.recording

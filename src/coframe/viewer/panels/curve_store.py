@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from coframe.plotting.expressions import Expression
     from coframe.viewer.panels.arrivals import Arrivals
     from coframe.viewer.panels.curve import Curve
-    from coframe.viewer.sources.source import Source
+    from coframe.viewer.sources.source import ViewerSource
 
 __all__ = ["CurveStore"]
 
@@ -34,7 +34,7 @@ class CurveStore:
         source: The source.
     """
 
-    def __init__(self, source: Source) -> None:
+    def __init__(self, source: ViewerSource) -> None:
         self._source = source
         self._curves: dict[str, Curve] = {}
         self._users: dict[str, int] = {}

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from coframe.bags import Recording
     from coframe.connection.connection import Connection
     from coframe.viewer.protocol.common import LogLevel
-    from coframe.viewer.sources.source import Source
+    from coframe.viewer.sources.source import ViewerSource
     from coframe.wire.endpoints import Subscription
     from coframe.wire.qos import QoS
 
@@ -51,7 +51,7 @@ class Log:
         text: A note about missing messages, or "".
     """
 
-    def __init__(self, source: Source, own: OwnMessages) -> None:
+    def __init__(self, source: ViewerSource, own: OwnMessages) -> None:
         self._source = source
         self.lines: deque[LogLine] = deque(maxlen=MAX_LINES if source.recording is None else _MAX_RECORDED)
         self.total = 0

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from coframe.connection.connection import Connection
-    from coframe.viewer.sources.source import Source
+    from coframe.viewer.sources.source import ViewerSource
     from coframe.wire.graph import DiscoveredEndpoint, EndpointInfo
     from coframe.wire.qos import QoS
 
@@ -49,7 +49,7 @@ class NodeGraphWatcher:
         version: A number that changes with the description.
     """
 
-    def __init__(self, source: Source) -> None:
+    def __init__(self, source: ViewerSource) -> None:
         self._source = source
         self._changed = _core.Event()
         self._users = 0

@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from coframe.viewer.panels.curve_store import CurveStore
     from coframe.viewer.panels.log import Log
     from coframe.viewer.panels.node_graph import NodeGraphWatcher
-    from coframe.viewer.sources.source import Source
+    from coframe.viewer.sources.source import ViewerSource
 
 __all__ = ["Panels"]
 
@@ -25,7 +25,7 @@ class Panels:
 
     # The modules are imported on demand, because the first frame update does not need them.
 
-    def __init__(self, source: Source) -> None:
+    def __init__(self, source: ViewerSource) -> None:
         self._source = source
         self._own_messages = OwnMessages()
         self._curves: CurveStore | None = None

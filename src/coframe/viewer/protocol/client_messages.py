@@ -43,14 +43,14 @@ class DisplayOptions:
         axis: The coordinate for ``color_by="axis"``.
         decay: How long messages stay visible, in seconds.
         keep: How many poses the trail of an Odometry display has.
-        most_points: The maximum number of points of a cloud; larger clouds are thinned.
+        max_points: The maximum number of points of a cloud; larger clouds are thinned.
     """
 
     color_by: ColorBy | None = None
     axis: AxisName = "z"
     decay: Annotated[float, Clamp(0.0, MAX_DECAY)] = 0.0
     keep: Annotated[int, Clamp(1, MAX_KEPT_MESSAGES)] = 1
-    most_points: Annotated[int, Clamp(1, MAX_POINTS)] = MAX_POINTS
+    max_points: Annotated[int, Clamp(1, MAX_POINTS)] = MAX_POINTS
 
 
 @dataclass(frozen=True)

@@ -26,7 +26,7 @@ from coframe.viewer.protocol.common import (
 )
 
 
-class Topic(TypedDict):
+class DisplayTopic(TypedDict):
     """A topic that can be displayed."""
 
     topic: str
@@ -74,7 +74,7 @@ class Hello(TypedDict):
     fixed: str
     fixed_is_given: bool
     rviz: RvizConfiguration | None
-    topics: list[Topic]
+    topics: list[DisplayTopic]
     can_publish: bool
 
 
@@ -131,11 +131,11 @@ class Stats(TypedDict):
     frames: list[FrameStats]
 
 
-class Topics(TypedDict):
+class DisplayTopics(TypedDict):
     """The topics that can be displayed; sent when they change."""
 
     type: Literal["topics"]
-    topics: list[Topic]
+    topics: list[DisplayTopic]
 
 
 class RobotShape(TypedDict):
@@ -281,7 +281,7 @@ Timeline = TypedDict(
 """The answer to ``timeline``: the number of samples of each dynamic edge over time."""
 
 
-class Finding(TypedDict):
+class FindingEntry(TypedDict):
     """A finding of the doctor.
 
     ``frames`` are the frames whose rows are marked, ``first`` is the time of the first occurrence, and ``explains``
@@ -299,16 +299,16 @@ class Finding(TypedDict):
     publishers: list[str]
     first: float | None
     namespace: str
-    explains: list[Finding]
+    explains: list[FindingEntry]
 
 
-class Findings(TypedDict):
+class FindingEntries(TypedDict):
     """The findings of the doctor; sent when they change. ``text`` gives the reason if findings are not available."""
 
     type: Literal["findings"]
     state: FindingsState
     text: str
-    findings: list[Finding]
+    findings: list[FindingEntry]
 
 
 class CodePage(TypedDict):
@@ -530,13 +530,13 @@ ServerMessage: TypeAlias = (
     Hello
     | Tree
     | Stats
-    | Topics
+    | DisplayTopics
     | RobotModel
     | DisplayStatus
     | Rviz
     | Relation
     | Timeline
-    | Findings
+    | FindingEntries
     | CodePage
     | CurveStatus
     | Inspection

@@ -144,7 +144,7 @@ class _DisplayRecorder:
         self._topic = display.topic
         self._messages = messages
         self._progress = progress
-        self._options = replace(display.options, most_points=min(display.options.most_points, MAX_CLOUD_POINTS))
+        self._options = replace(display.options, max_points=min(display.options.max_points, MAX_CLOUD_POINTS))
         self._clear()
 
     def _clear(self) -> None:

@@ -28,12 +28,12 @@ if TYPE_CHECKING:
     from coframe.robots import Robot
     from coframe.viewer.protocol.client_messages import ReplayRviz
     from coframe.viewer.protocol.common import RvizDisplay
-    from coframe.viewer.protocol.server_messages import Topic
+    from coframe.viewer.protocol.server_messages import DisplayTopic
     from coframe.viewer.replay.displays import Progress
     from coframe.viewer.robots.meshes import MeshTable
     from coframe.viewer.rviz.config import RvizConfig
     from coframe.viewer.scripting.nodes import NodeRecord
-    from coframe.viewer.sources.source import Source
+    from coframe.viewer.sources.source import ViewerSource
     from coframe.viewer.sources.topic_messages import TopicMessages
 
 __all__ = ["export_replay"]
@@ -43,7 +43,7 @@ _FIRST_MESSAGE_TIMEOUT = 2.0  # seconds
 
 
 def export_replay(
-    source: Source,
+    source: ViewerSource,
     meshes: MeshTable,
     *,
     rviz: RvizConfig | None = None,
@@ -119,7 +119,7 @@ def _await_messages(subscriptions: Collection[TopicMessages]) -> None:
         time.sleep(0.02)
 
 
-def _displays(rviz: RvizConfig | None, topics: Sequence[Topic]) -> list[RvizDisplay]:
+def _displays(rviz: RvizConfig | None, topics: Sequence[DisplayTopic]) -> list[RvizDisplay]:
     """Return the displays of a configuration, or those that the page would choose."""
     if rviz is not None:
         return rviz.description()["displays"]

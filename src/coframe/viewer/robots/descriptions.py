@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from coframe.robots import Robot
     from coframe.viewer.protocol.server_messages import RobotModel
     from coframe.viewer.robots.meshes import MeshTable
-    from coframe.viewer.sources.source import Source
+    from coframe.viewer.sources.source import ViewerSource
     from coframe.viewer.sources.topic_messages import StampedMessage, TopicMessages
 
 __all__ = ["ROBOT_DESCRIPTION", "Description", "DescriptionProblem", "RobotDescriptions"]
@@ -65,7 +65,7 @@ class RobotDescriptions:
             message = robot_message(robot, 0, str(robot.path or "a file"), None, meshes)
             self.known[0] = Description(robot, message, next(_versions))
 
-    def refresh(self, source: Source, executor: Executor) -> None:
+    def refresh(self, source: ViewerSource, executor: Executor) -> None:
         """Read new descriptions; the executor parses them."""
         for topic in self._topics:
             if topic.work is None:
@@ -95,7 +95,7 @@ class _DescriptionTopic:
         self.work: Future[Description | DescriptionProblem | None] | None = None
         self._last_key: int | None = None
 
-    def start_reading(self, source: Source, executor: Executor, meshes: MeshTable) -> None:
+    def start_reading(self, source: ViewerSource, executor: Executor, meshes: MeshTable) -> None:
         """Start to parse the newest description if it is new."""
         if self.messages is None:
             self.messages = source.open(self.name)

@@ -14,12 +14,12 @@ if TYPE_CHECKING:
     from coframe.doctor import Report
     from coframe.viewer.sources.topic_messages import TopicMessages
 
-__all__ = ["BufferSource", "Mode", "Source"]
+__all__ = ["BufferSource", "Mode", "ViewerSource"]
 
 Mode = Literal["live", "recording", "buffer"]
 
 
-class Source(Protocol):
+class ViewerSource(Protocol):
     """A source of transforms and messages.
 
     Attributes:

@@ -38,7 +38,7 @@ def draw_cloud(cloud: Any, options: Options) -> Drawing:
         count = int(np.prod(grid_of(cloud)))
         if count > MAX_POINTS:
             raise CannotDrawError(f"a cloud of {count} points is too large: the viewer draws at most {MAX_POINTS}")
-        step = max(1, -(-count // options.most_points))
+        step = max(1, -(-count // options.max_points))
         points = _positions(cloud, step)
         names = {field.name for field in cloud.fields}
         valid = np.isfinite(points).all(axis=1)
