@@ -65,7 +65,7 @@ def test_nothing_is_answered_without_the_token(viewer):
     for path, headers in wrong:
         status, answer, body = get(viewer, path, **headers)
         assert (status, "Set-Cookie" in answer) == (403, False), (path, headers)
-        assert b"Open the complete address that coframe has printed" in body
+        assert b"Open the complete address that coframe printed" in body
         assert token.encode() not in body
 
 
