@@ -164,7 +164,7 @@ def test_the_command_lists_failed_recordings_at_the_end(bags, tmp_path):
     assert "poses from 3 recordings" in ended.stdout
     assert f"coframe: {bags[1]} is not a recording: nothing.mcap: the file is in none" in ended.stderr
     assert ended.stderr.count(f"coframe: {bags[1]}") == 1
-    assert ended.stderr.rstrip().endswith("2 of 5 recordings failed, for the reasons above")
+    assert ended.stderr.rstrip().endswith("2 of 5 recordings failed; see the reasons above")
     assert CliRunner().invoke(app, [*command, "--on", "abacus"]).exit_code == 2
 
 

@@ -102,7 +102,7 @@ def test_time_travel(bag):
     expected = recordings.expected()._lookup_full("base", START + 2 * SECOND, "base", START + SECOND, "odom")
     assert json.loads(out)["translation"] == pytest.approx(expected.translation.tolist(), abs=1e-12)
     code, _, error = run("lookup", bag, "base", "base", "--fixed", "odom")
-    assert (code, error) == (2, "coframe: --fixed requires --source-time\n  Time travel needs both options.\n")
+    assert (code, error) == (2, "coframe: --fixed requires --source-time\n  Time travel requires both options.\n")
 
 
 @pytest.mark.parametrize(

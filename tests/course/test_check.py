@@ -239,10 +239,10 @@ def test_the_current_folder_is_the_default_if_it_is_a_lab(tmp_path, monkeypatch)
 def test_errors_are_sentences(tmp_path):
     for words, expected in (
         (["lab", "check", str(tmp_path / "none")], "There is no folder"),
-        (["lab", "check", str(tmp_path), "--only", "statics"], "there is no criterion statics"),
+        (["lab", "check", str(tmp_path), "--only", "statics"], "unknown criterion statics"),
         (["lab", "check", str(tmp_path), "--all"], "No submissions"),
-        (["lab", "check", str(tmp_path), "--all", "--gradescope", "x.json"], "are for one folder"),
-        (["lab", "check", str(tmp_path), "-o", "x.csv"], "is for the table of a class"),
+        (["lab", "check", str(tmp_path), "--all", "--gradescope", "x.json"], "apply to a single folder"),
+        (["lab", "check", str(tmp_path), "-o", "x.csv"], "writes the table of a class"),
         (["lab", "run", str(tmp_path)], "contains none of the files"),
         (["lab", "break", "3", "--answer", "gremlins"], "is not the name of a fault"),
         (["lab", "break", "3", "--answer", "degrees"], "That is not the fault"),

@@ -130,7 +130,7 @@ def test_the_report_about_this_system():
     assert f"coframe {coframe.__version__}, numpy {np.__version__}" in shown
     assert f"Python {platform.python_version()} (CPython" in shown
     assert "not found" not in shown.partition("DDS library\n")[2].partition("\n")[0]
-    assert "a message through the library in this process: received" in shown
+    assert "a message through the library within this process: received" in shown
 
 
 def test_a_recording_is_written_and_read(tmp_path):

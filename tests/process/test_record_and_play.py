@@ -161,7 +161,7 @@ def test_keys_control_the_replay(network, shared):
         (("record", "-e", "["), 2, "is not a valid regular expression"),
         (("play", "gone"), 1, "gone cannot be read"),
         (("play", "gone", "--rate", "0"), 2, "above 0"),
-        (("play", "gone", "--remap", "/tf"), 2, "is not OLD:=NEW"),
+        (("play", "gone", "--remap", "/tf"), 2, "is not of the form OLD:=NEW"),
     ],
 )
 def test_wrong_usage_gives_an_error(arguments, code, reason, tmp_path, monkeypatch):

@@ -102,8 +102,8 @@ def test_trajectories_without_stamps_are_plotted_by_number(bag, tmp_path):
 @pytest.mark.parametrize(
     ("estimate", "code", "reason", "hint"),
     [
-        ("{bag}", 2, "is a recording: name two frames of it", "walk.mcap:map:base_link"),
-        ("{bag}:odom", 2, "names one frame; a trajectory needs two", "BAG:TARGET:SOURCE"),
+        ("{bag}", 2, "is a recording: give two of its frames", "walk.mcap:map:base_link"),
+        ("{bag}:odom", 2, "has one frame; a trajectory needs two", "BAG:TARGET:SOURCE"),
         ("{bag}:odom:bsae", 1, "does not exist", "Did you mean 'base'?"),
         ("missing.tum", 1, "missing.tum cannot be read: No such file or directory", ""),
         ("missing.mcap:a:b", 1, "missing.mcap cannot be read", ""),

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 __all__ = ["main", "run"]
 
-_INTERRUPTED = 130  # exit code: 128 + SIGINT, as shells have it
+_INTERRUPTED = 130  # exit code: 128 + SIGINT, as in shells
 
 
 def main() -> None:
@@ -37,7 +37,7 @@ def run(words: list[str], *, program: str = "coframe", shown: Collection[str] | 
     Args:
         words: The arguments.
         program: The name of the program in its help.
-        shown: The commands that exist. None: all.
+        shown: The available commands. None for all.
     """
     replace_closed_streams()
     accept_any_encoding()
@@ -55,7 +55,7 @@ def run(words: list[str], *, program: str = "coframe", shown: Collection[str] | 
         sys.exit(_what_to_install(error, words))
     except KeyboardInterrupt:  # Ctrl-C during the imports.
         sys.exit(_INTERRUPTED)
-    except BrokenPipeError:  # The reader of a pipe, such as `head`, has closed it.
+    except BrokenPipeError:  # The reader of a pipe, such as `head`, closed it.
         discard_output()
         sys.exit(1)
     except OSError as error:
@@ -66,7 +66,7 @@ def run(words: list[str], *, program: str = "coframe", shown: Collection[str] | 
 
 
 def _what_to_install(error: ModuleNotFoundError, words: list[str]) -> str:
-    """Return the sentence about a package that is not installed; raise the error again for any other module."""
+    """Return the message about a missing package; re-raise the error for any other module."""
     package = (error.name or "").partition(".")[0]
     if package in CLI_PACKAGES:
         return f"The command line needs the packages {' and '.join(CLI_PACKAGES)}: {pip_install('cli')}"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""``coframe bag info``: shows what a recording contains; ``coframe bag fix``: writes a repaired copy."""
+"""``coframe bag info``: shows the contents of a recording; ``coframe bag fix``: writes a repaired copy."""
 
 from __future__ import annotations
 
@@ -46,9 +46,9 @@ if TYPE_CHECKING:
 __all__ = ["bag"]
 
 _NUMBER = re.compile(r"\d+(\.\d+)?")
-_MAX_ROWS = 500  # rows of `bag info`: no user reads more, and a table of 100 000 rows takes gigabytes
+_MAX_ROWS = 500  # maximum number of rows of `bag info`; a table of 100 000 rows takes gigabytes
 
-output_argument = argument("output", metavar="OUT", type=PATH, help="Folder of the copy; it must not exist yet.")
+output_argument = argument("output", metavar="OUT", type=PATH, help="Folder to create for the copy.")
 compression_option = click.option(
     "--compression", metavar="METHOD", default="zstd", help="Compression of the copy: none, zstd or lz4."
 )
@@ -59,7 +59,7 @@ bag = CommandGroup(
 
 
 def _add(command: click.Command, line: str) -> None:
-    """Add a command of which `coframe NAME` is the short form."""
+    """Add a command that is also available as `coframe NAME`."""
     longer = copy.copy(command)
     longer.short_help = line
     longer.help = (command.help or "").replace(
@@ -68,8 +68,8 @@ def _add(command: click.Command, line: str) -> None:
     bag.add_command(longer)
 
 
-_add(record, "Record topics; short form: coframe record.")
-_add(play, "Replay a recording; short form: coframe play.")
+_add(record, "Record topics, like coframe record.")
+_add(play, "Replay a recording, like coframe play.")
 
 
 @bag.command(short_help="Show topics, transform trees and gaps of a recording.")
@@ -86,7 +86,7 @@ def info(
     keep: str,
     as_json: bool,
 ) -> None:
-    """Show what the recording BAG contains: topics, transform trees, gaps, and which sensor data can be transformed.
+    """Show the contents of the recording BAG: topics, transform trees, gaps, and which sensor data can be transformed.
 
     Example: coframe bag info run.mcap
     """
@@ -106,7 +106,7 @@ def info(
     "--statics",
     metavar="OTHER",
     type=PATH,
-    help="Other recording, whose static transforms are added where BAG has none.",
+    help="Recording from which missing static transforms are added.",
 )
 @listener_options
 @compression_option
@@ -122,9 +122,9 @@ def fix(
 ) -> None:
     """Write a repaired copy of the recording BAG to the folder OUT, and list what was repaired.
 
-    The copy contains everything that can be read, an index, metadata, the static transforms at its start, and no frame
-    names with a leading slash. BAG is not changed. --prefix applies to the frame names in all messages; with --tf-topic
-    /robot1/tf, to those of the topics in /robot1.
+    The copy contains everything that can be read, with an index, metadata, the static transforms at its start, and no
+    leading slashes in frame names. BAG is not changed. --prefix applies to the frame names in all messages; with
+    --tf-topic /robot1/tf, only to messages on topics in /robot1.
 
     Example: coframe bag fix broken.mcap repaired
     """
@@ -161,17 +161,17 @@ def convert(
     output: Path,
     compression: str,
 ) -> None:
-    """Convert the recording BAG, of ROS 1 or in SQLite, to MCAP in rosbag2's layout, or change its compression.
+    """Convert the recording BAG (ROS 1 or SQLite) to MCAP in rosbag2's layout, or change its compression.
 
     Example: coframe bag convert run.bag run --compression lz4
     """
     _copy([bag], output, compression)
 
 
-@bag.command(short_help="Merge several recordings into one, in the order of time.")
+@bag.command(short_help="Merge several recordings into one.")
 @argument("bags", metavar="BAG...", type=PATH, nargs=-1, required=True, help="Recordings to merge.")
 @click.option(
-    "--output", "-o", metavar="FOLDER", type=PATH, required=True, help="Folder of the new recording; it must not exist."
+    "--output", "-o", metavar="FOLDER", type=PATH, required=True, help="Folder to create for the new recording."
 )
 @compression_option
 def merge(
@@ -179,18 +179,18 @@ def merge(
     output: Path,
     compression: str,
 ) -> None:
-    """Merge several recordings into one, with the messages in the order in which they were received.
+    """Merge several recordings into one, with the messages in receive order.
 
     Example: coframe bag merge robot.mcap camera.mcap -o both
     """
     _copy(bags, output, compression)
 
 
-@bag.command("slice", short_help="Copy a time span or some topics of a recording.")
+@bag.command("slice", short_help="Copy a time span or selected topics of a recording.")
 @bag_argument
 @output_argument
-@click.option("--start", metavar="TIME", help=f"First time of receipt: {TIMES}. [default: start]")
-@click.option("--end", metavar="TIME", help="Last time of receipt, written like --start.")
+@click.option("--start", metavar="TIME", help=f"Start time, by receive time: {TIMES}. [default: start]")
+@click.option("--end", metavar="TIME", help="End time, in the same format as --start.")
 @click.option("--topics", metavar="TOPIC", multiple=True, help="Copy only this topic; repeatable.")
 @compression_option
 def slice_(
@@ -201,9 +201,9 @@ def slice_(
     topics: tuple[str, ...],
     compression: str,
 ) -> None:
-    """Copy the messages of the recording BAG that were received in a time span, or those of some topics.
+    """Copy the messages of the recording BAG that were received in a time span, or those on selected topics.
 
-    Static transforms that were received before the start are included.
+    Static transforms received before the start are included.
 
     Example: coframe bag slice run.mcap part --start 10s --end 1min
     """
@@ -283,14 +283,14 @@ def _print_omitted(console: Console, number: int, what: str) -> None:
 
 
 def _print_sensors(summaries: list[SensorSummary], console: Console) -> None:
-    """Print which sensor data can be transformed, and below it once each reason why not."""
+    """Print which sensor data can be transformed, followed by each distinct reason for failures."""
     sensors = _table("sensor", "frame", "transformable")
     reasons: dict[str, list[tuple[str, str]]] = {}
     for sensor in summaries[:_MAX_ROWS]:
         share = f"{sensor.possible} of {sensor.messages} into {sensor.root}" if sensor.root else "none"
         sensors.add_row(_text(sensor.topic), _text(shown(sensor.frame)), _text(share))
         if sensor.why_not:
-            # The sentences about the topics of one frame differ only in the times.
+            # The messages about the topics of one frame differ only in the times.
             reasons.setdefault(_NUMBER.sub("", sensor.why_not), []).append((sensor.topic, sensor.why_not))
     console.print(sensors)
     _print_omitted(console, len(summaries), "sensor")

@@ -45,11 +45,15 @@ __all__ = ["batch"]
 @click.option("--output", "-o", metavar="FOLDER", type=PATH, required=True, help="Dataset: a folder of Parquet files.")
 @click.option("--rate", "-r", metavar="HZ", type=float, help="Poses per second. [default: one per recorded transform]")
 @click.option("--stamps-of", metavar="TOPIC", help="Write a pose at the stamp of each message of this topic.")
-@click.option("--start", metavar="TIME", help="First time in each recording, written like --at of lookup.")
-@click.option("--stop", metavar="TIME", help="Last time, written like --start.")
+@click.option("--start", metavar="TIME", help="Start time in each recording, in the same format as `lookup --at`.")
+@click.option("--stop", metavar="TIME", help="End time, in the same format as --start.")
 @click.option("--on", metavar="ENGINE", default="processes", help=f"Where to run: {', '.join(ENGINES)}.")
 @click.option(
-    "--workers", "-j", metavar="N", type=click.IntRange(min=1), help="Recordings read in parallel. [default: CPU cores]"
+    "--workers",
+    "-j",
+    metavar="N",
+    type=click.IntRange(min=1),
+    help="Number of recordings to read in parallel. [default: number of CPU cores]",
 )
 @namespace_option
 @recorded_listener_options
@@ -94,7 +98,7 @@ def batch(
         poses = sum(one.poses for one in answers)
         print(f"{printable(str(output))}: {count(poses, 'pose')} from {count(good, 'recording')}{reused}")
         if bad:
-            fail(f"{len(bad)} of {count(len(answers), 'recording')} failed, for the reasons above")
+            fail(f"{len(bad)} of {count(len(answers), 'recording')} failed; see the reasons above")
 
 
 def _run(bags: Sequence[Path], query: TrajectoryQuery, output: Path, on: str, workers: int | None) -> list[QueryResult]:

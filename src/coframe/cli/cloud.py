@@ -50,22 +50,20 @@ __all__ = ["cloud"]
 )
 @click.option("--format", "-f", "format_", metavar="FORMAT", help="Format of the files in a folder. [default: ply]")
 @click.option("--at", "-t", metavar="TIME", help="Use only the message at this time.")
-@click.option("--start", metavar="TIME", help="First time, written like --at of lookup.")
-@click.option("--stop", metavar="TIME", help="Last time, written like --start.")
+@click.option("--start", metavar="TIME", help="Start time, in the same format as `lookup --at`.")
+@click.option("--stop", metavar="TIME", help="End time, in the same format as --start.")
 @click.option(
     "--deskew",
     metavar="MODE",
     default="auto",
-    help="auto: transform each point at its own time, if the cloud has times; or off.",
+    help="auto: transform each point at its own time if the cloud contains times; off: use the stamp of the message.",
 )
 @click.option(
     "--point-times",
     metavar="FIELD[:UNIT]",
     help="Field with the time of each point and its unit: s, ms, us or ns. [default: detected]",
 )
-@click.option(
-    "--fixed", metavar="FRAME", help="Frame that does not move during a sweep; needed if --frame itself moves."
-)
+@click.option("--fixed", metavar="FRAME", help="Frame that does not move during a sweep; required if --frame moves.")
 @click.option(
     "--fields", metavar="FIELDS", help="Fields to keep in addition to x,y,z, e.g. intensity,ring. [default: all]"
 )
@@ -92,7 +90,7 @@ def cloud(
     prefix: str,
     keep: str,
 ) -> None:
-    """Write the clouds or scans of TOPIC in the recording BAG, each transformed into FRAME at its own time.
+    """Write the clouds or scans on TOPIC in the recording BAG, each transformed into FRAME at its own time.
 
     Example: coframe cloud run.mcap /points --frame map --voxel 0.05 -o map.ply
     """
@@ -143,7 +141,7 @@ def _write(clouds: Clouds, output: Path, format_: str | None, voxel: float | Non
 
 
 def _print_notes(clouds: Clouds) -> None:
-    """Print how the times of points were read, and which messages and points are omitted and why."""
+    """Print how the times of points were interpreted, and which messages and points were omitted and why."""
     for how, number in clouds.times_read.items():
         warn(f"deskewed the points of {count(number, 'message')} by their own times: {how}")
     for reason, number in clouds.skipped.items():

@@ -24,22 +24,22 @@ if TYPE_CHECKING:
 
 __all__ = ["PLUGINS", "CommandLine"]
 
-PLUGINS = "coframe.commands"  # the group of entry points whose objects are commands of click
-_INTERRUPTED = 130  # exit code: 128 + SIGINT, as shells have it
+PLUGINS = "coframe.commands"  # the entry point group whose objects are click commands
+_INTERRUPTED = 130  # exit code: 128 + SIGINT, as in shells
 _DESCRIPTIONS = {
     "coframe": "ROS 2's transform system (tf2) as one pip install: any frame, any time, on any machine.\n\n"
     "Example: coframe demo",
-    "ros2": "The commands of ros2 that coframe provides where no ROS is installed. coframe --help lists more.\n\n"
+    "ros2": "The ros2 commands that coframe provides if no ROS is installed. coframe --help lists more.\n\n"
     "Example: ros2 topic list",
 }
 
 
 class CommandLine(CommandGroup):
-    """The commands of a program. The help and the other commands do not import the module of a command.
+    """The commands of a program. A command's module is imported only when the command is called.
 
     Args:
         program: The name of the program.
-        shown: The commands that exist. None: all, and those of plug-ins.
+        shown: The available commands. None for all, including those of plug-ins.
     """
 
     def __init__(self, program: str = "coframe", shown: Collection[str] | None = None) -> None:
@@ -47,7 +47,7 @@ class CommandLine(CommandGroup):
             program,
             help=_DESCRIPTIONS[program],
             params=_options(),
-            # The commands of ros2 have -h, too.
+            # The commands of ros2 also accept -h.
             context_settings={"help_option_names": ["--help", "-h"], "show_default": True},
         )
         self._rows = {name: row for name, row in COMMANDS.items() if shown is None or name in shown}
@@ -99,7 +99,7 @@ class CommandLine(CommandGroup):
 
     @functools.cached_property
     def _plugins(self) -> dict[str, Plugin]:
-        """The plug-ins by the names of their commands; the names of coframe's own commands are taken."""
+        """The plug-ins by the names of their commands; they cannot replace coframe's own commands."""
         found = plugins(PLUGINS) if self._has_plugins else []
         return {plugin.name: plugin for plugin in found if plugin.name not in COMMANDS}
 
@@ -118,7 +118,7 @@ def _loaded(plugin: Plugin) -> click.Command:
     try:
         command = plugin.load()
         if not isinstance(command, click.Command):
-            raise plugin.error(f"is not a command of click, but {command!r}")
+            raise plugin.error(f"is not a click command, but {command!r}")
     except PluginError as error:
         raise _Failure(f"{error}\n  {error.hint}") from error
     return command
@@ -145,14 +145,14 @@ def _options() -> list[click.Parameter]:
         _action("--install-completion", "Install completion for the current shell.", _install_completion),
         _action(
             "--show-completion",
-            "Show completion for the current shell, to copy it or customize the installation.",
+            "Print the completion script for the current shell, to copy or customize it.",
             _show_completion,
         ),
     ]
 
 
 def _action(name: str, text: str, action: Any) -> click.Option:
-    """Return an option that does something in place of a command."""
+    """Return an option that runs an action instead of a command."""
 
     def run(ctx: click.Context, _parameter: click.Parameter, requested: bool) -> None:
         if requested and not ctx.resilient_parsing:

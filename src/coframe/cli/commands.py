@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The table of commands: one row for each, with all that other modules have to know about it.
+"""The table of commands: one row for each, with everything that other modules need.
 
-A new command is a module with a command of click, and a row here. Tests fail until the row is correct.
+A new command is a module with a click command, and a row here. Tests fail until the row is correct.
 """
 
 from __future__ import annotations
@@ -15,15 +15,15 @@ __all__ = ["COMMANDS", "CommandRow", "joins_graph"]
 
 
 class CommandRow(NamedTuple):
-    """What the command line knows of a command before it imports its module.
+    """The properties of a command that are known without importing its module.
 
     Attributes:
         line: The line in ``coframe --help``.
         module: The module below ``coframe.cli``; the command in it has the last part of the command's name.
         extras: The extras besides ``cli`` whose packages the command may need.
-        graph: Whether the command joins the ROS graph, so that it has the option ``--wire``; of a group, the names of
+        graph: Whether the command joins the ROS graph, so that it has the option ``--wire``; for a group, the names of
             the commands that do.
-        ros: Whether the command stands on the ROS packages (``src/ros``).
+        ros: Whether the command uses the ROS packages (``src/ros``).
     """
 
     line: str
@@ -40,7 +40,7 @@ COMMANDS: dict[str, CommandRow] = {
         "Start a simulated robot and show its moving transform tree.", "demo", ("dds", "viewer"), graph=True, ros=True
     ),
     "lab": CommandRow(
-        "Do the lab, and grade it: new, run, check, break.", "lab", ("dds", "viewer", "robots"), graph=True, ros=True
+        "Do and grade the lab: new, run, check, break.", "lab", ("dds", "viewer", "robots"), graph=True, ros=True
     ),
     "view": CommandRow(
         "Show frames, sensor data and markers in a browser tab.",
@@ -52,9 +52,7 @@ COMMANDS: dict[str, CommandRow] = {
     "doctor": CommandRow(
         "Find problems with transforms, live or in a recording.", "doctor", ("dds", "bags"), graph=True, ros=False
     ),
-    "why": CommandRow(
-        "Explain why a transform is available, or why it is not.", "why", ("dds", "bags"), graph=True, ros=False
-    ),
+    "why": CommandRow("Explain why a transform is or is not available.", "why", ("dds", "bags"), graph=True, ros=False),
     "frames": CommandRow(
         "Show the transform trees, or write a diagram of them.",
         "frames",
@@ -92,11 +90,9 @@ COMMANDS: dict[str, CommandRow] = {
     ),
     "run": CommandRow("Run an executable of a package, like ros2 run.", "run", ("dds",), graph=True, ros=False),
     "hub": CommandRow(
-        "Receive the transforms once for all programs that share them.", "hub", ("dds",), graph=True, ros=False
+        "Receive transforms once for all programs that share them.", "hub", ("dds",), graph=True, ros=False
     ),
-    "relay": CommandRow(
-        "Merge the transforms of several robots, or split them.", "relay", ("dds",), graph=True, ros=False
-    ),
+    "relay": CommandRow("Merge or split the transforms of several robots.", "relay", ("dds",), graph=True, ros=False),
     "router": CommandRow(
         "Run a Zenoh router, which connects nodes across networks.", "router", ("zenoh",), graph=False, ros=False
     ),
@@ -154,7 +150,7 @@ COMMANDS: dict[str, CommandRow] = {
         "Change the states of lifecycle nodes, like ros2 lifecycle.", "ros2.lifecycle", ("dds",), graph=True, ros=True
     ),
     "interface": CommandRow(
-        "Show types like ros2 interface, and add your own packages.",
+        "Show types, like ros2 interface, and add your own packages.",
         "ros2.interface",
         ("params",),
         graph=False,
@@ -162,7 +158,7 @@ COMMANDS: dict[str, CommandRow] = {
     ),
     "pkg": CommandRow("Create and find packages, like ros2 pkg.", "ros2.pkg", (), graph=False, ros=False),
     "ros2": CommandRow(
-        "Add the executables ros2 and rviz2 where no ROS is installed.", "ros2.installing", (), graph=False, ros=False
+        "Add the executables ros2 and rviz2 if no ROS is installed.", "ros2.installing", (), graph=False, ros=False
     ),
 }
 
@@ -171,7 +167,7 @@ def joins_graph(path: tuple[str, ...]) -> bool:
     """Return whether a command joins the ROS graph.
 
     Args:
-        path: The words that call it, such as ``("bag", "record")``.
+        path: The words of the command, such as ``("bag", "record")``.
     """
     if not path or path[0] not in COMMANDS:
         return False

@@ -46,7 +46,7 @@ _SUFFIXES = tuple(f".{kind}" for kind in (*FIGURE_FORMATS, "json", "csv"))
     help="Reference: a TUM, KITTI, EuRoC, CSV or npz file, or BAG:TARGET:SOURCE for the poses of the frame "
     "SOURCE relative to TARGET in a recording.",
 )
-@argument("est", metavar="EST", help="Estimate, written like REF.")
+@argument("est", metavar="EST", help="Estimate, in the same format as REF.")
 @click.option(
     "--align",
     metavar="KIND",
@@ -59,7 +59,7 @@ _SUFFIXES = tuple(f".{kind}" for kind in (*FIGURE_FORMATS, "json", "csv"))
     metavar="DURATION",
     type=NonNegativeDuration,
     default="10ms",
-    help="Largest difference between the stamps of two compared poses.",
+    help="Maximum difference between the stamps of two compared poses.",
 )
 @click.option(
     "--delta",
@@ -94,7 +94,7 @@ def compare(
 ) -> None:
     """Compare the trajectory EST with the trajectory REF: absolute (APE) and relative (RPE) pose errors.
 
-    Stamps are paired with the nearest ones. The figures equal those of the tool evo.
+    Each pose is paired with the one with the nearest stamp. The results equal those of the tool evo.
 
     Example: coframe compare truth.tum run.mcap:map:base_link --align se3
     """
@@ -116,14 +116,14 @@ def compare(
 
 
 def _read(text: str, choice: TransformChoice) -> Transform:
-    """Return the trajectory that an argument names."""
+    """Return the trajectory given by an argument."""
     path, _, frames = text.partition(":") if Path(text).exists() else _split(text)
     if not frames:
         file = Path(path)
         if file.is_dir() or has_known_suffix(file):
             fail(
-                f"{path} is a recording: name two frames of it",
-                f"Write BAG:TARGET:SOURCE, such as {path}:map:base_link.",
+                f"{path} is a recording: give two of its frames",
+                f"Write BAG:TARGET:SOURCE, for example {path}:map:base_link.",
                 code=2,
             )
         return read_trajectory(file)
@@ -138,7 +138,7 @@ def _split(text: str) -> tuple[str, str, str]:
     if len(frames) == 2 and all((bag, *frames)):
         return bag, ":", ":".join(frames)
     if frames and Path(bag).exists():
-        fail(f"{text!r} names one frame; a trajectory needs two", "Write BAG:TARGET:SOURCE.", code=2)
+        fail(f"{text!r} has one frame; a trajectory needs two", "Write BAG:TARGET:SOURCE.", code=2)
     return text, "", ""
 
 
@@ -192,7 +192,7 @@ def _write(path: Path, result: Comparison, title: str) -> None:
 
 
 def _csv(result: Comparison) -> str:
-    """Return a row for each pair of poses; relative errors stand at their later pose, in metres and radians."""
+    """Return a row for each pair of poses; relative errors are in the row of the later pose, in metres and radians."""
     relative = {
         row: values
         for row, *values in zip(

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Completion of recordings, frames and topics for the shell; it is installed by ``coframe --install-completion``.
+"""Shell completion of recordings, frames and topics, installed by ``coframe --install-completion``.
 
-A completion never prints an error: the user is still typing. It returns no names instead.
+A completion never prints errors, because the user is still typing; it returns no names instead.
 """
 
 from __future__ import annotations
@@ -36,12 +36,12 @@ _MAX_BYTES = 200 << 20  # bytes: reading more takes longer than typing the name
 
 
 def _silent(complete: Callable[..., _Names]) -> Callable[..., _Names | list[str]]:
-    """Return a completion that fails without names, and during which nothing reaches stderr."""
+    """Wrap a completion so that it returns no names on failure and writes nothing to stderr."""
 
     @functools.wraps(complete)
     def run(*args: Any, **kwargs: Any) -> _Names | list[str]:
         stderr, nowhere = os.dup(2), os.open(os.devnull, os.O_WRONLY)
-        os.dup2(nowhere, 2)  # The DDS library writes there, too.
+        os.dup2(nowhere, 2)  # The DDS library also writes to it.
         try:
             return complete(*args, **kwargs)
         except (Exception, SystemExit):  # noqa: BLE001 - whatever happens, the user is still typing
@@ -58,7 +58,7 @@ def _silent(complete: Callable[..., _Names]) -> Callable[..., _Names | list[str]
 def complete_recordings(
     _ctx: click.Context, _parameter: click.Parameter, incomplete: str
 ) -> list[str] | list[CompletionItem]:
-    """Return the recordings whose paths begin with a text; without any, the shell completes the path."""
+    """Return the recordings whose paths begin with a text; if there are none, the shell completes the path."""
     from click.shell_completion import CompletionItem  # noqa: PLC0415 - only for completion
 
     return _recordings(incomplete) or [CompletionItem(incomplete, type="file")]
@@ -78,9 +78,9 @@ def _is_visible(entry: Path, start: str) -> bool:
 
 @_silent
 def complete_frames(ctx: click.Context, parameter: click.Parameter, incomplete: str) -> list[str]:
-    """Return the frames that begin with a text: of the recording in the first argument, otherwise of the ROS graph.
+    """Return matching frames of the recording in the first argument, otherwise those on the ROS graph.
 
-    The first argument may itself be a recording, so that matching recordings are returned for it instead.
+    The first argument may itself be a recording, in which case matching recordings are returned.
     """
     bag, names = ctx.params.get("bag"), ctx.params.get("names") or []
     if not bag and not names:
@@ -136,7 +136,7 @@ def _live_topics(domain: int | None) -> dict[str, list[str]]:
 
 
 def _settled(observe: Callable[[], _Names]) -> _Names:
-    """Return what is known of the ROS graph once it no longer changes, or after the longest discovery."""
+    """Return the state of the ROS graph once it no longer changes, or after a timeout."""
     begin = changed = time.monotonic()
     names = observe()
     while (now := time.monotonic()) - begin < _DISCOVERY and not (names and now - changed > _UNCHANGED):

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How commands are declared: click's decorators, and classes for what click does not have.
+"""How commands are declared: click's decorators, and classes for features that click does not have.
 
-These are the texts of arguments, help without breaks inside of names, suggestions for misspelled names, and the option
+These are help for arguments, line wrapping that does not break names, suggestions for misspelled names, and the option
 ``--wire`` of every command that joins the ROS graph.
 """
 
@@ -24,7 +24,7 @@ __all__ = ["PASS_WORDS_ON", "PATH", "Argument", "Command", "CommandGroup", "Decl
 Declared = TypeVar("Declared", bound="Callable[..., Any] | click.Command")
 
 PATH: Final = click.Path(path_type=Path)
-# For commands that pass unknown words on: --ros-args to a node, NAME:=VALUE to a xacro file.
+# For commands that pass on unknown arguments: --ros-args to a node, NAME:=VALUE to a xacro file.
 PASS_WORDS_ON: Final = {"ignore_unknown_options": True, "allow_extra_args": True}
 
 
@@ -37,12 +37,12 @@ class Argument(click.Argument):
 
 
 def argument(name: str, **attributes: Any) -> Callable[[Declared], Declared]:
-    """Declare an argument as `click.argument` does; `help` is its text."""
+    """Declare an argument as `click.argument` does; `help` is its help text."""
     return click.argument(name, cls=Argument, **attributes)
 
 
 class Command(click.Command):
-    """A command whose help names each argument as it is written on the command line: BAG, [BAG] or TOPIC..."""
+    """A command whose help shows each argument as it is written on the command line: BAG, [BAG] or TOPIC..."""
 
     def get_params(self, ctx: click.Context) -> list[click.Parameter]:
         """Return the parameters; before ``--help``, those of every command that joins the ROS graph."""
@@ -53,7 +53,7 @@ class Command(click.Command):
         return [*params[:own], _wire_option(), *params[own:]]
 
     def collect_usage_pieces(self, ctx: click.Context) -> list[str]:
-        """Return the words after the name of the command."""
+        """Return the usage after the name of the command."""
         return ["[OPTIONS]", *help_format.argument_names(self, ctx)]
 
     def format_help(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
@@ -76,7 +76,7 @@ class CommandGroup(click.Group):
     def resolve_command(
         self, ctx: click.Context, args: list[str]
     ) -> tuple[str | None, click.Command | None, list[str]]:
-        """Return the command that the first word names; suggest the correct name of a misspelled one."""
+        """Return the command for the first word; suggest similar names for a misspelled one."""
         name = args[0]
         if not (name.startswith("-") or ctx.resilient_parsing or self.get_command(ctx, name)):
             from coframe._output.formatting import did_you_mean  # noqa: PLC0415 - the help does not need NumPy
@@ -98,7 +98,7 @@ class CommandGroup(click.Group):
 
 
 def _path(ctx: click.Context) -> tuple[str, ...]:
-    """Return the words that call the command of a context, without the name of the program."""
+    """Return the command path of a context, without the program name."""
     return () if ctx.parent is None else (*_path(ctx.parent), ctx.info_name or "")
 
 

@@ -43,7 +43,7 @@ __all__ = ["demo"]
 
 REFRESH = 0.1  # seconds
 OTHER_LINES = 6  # above and below the rows of the tree
-# These frames exist once every node has published.
+# All of these frames exist once every node has published.
 COMPLETE = ("world", "end_effector", "camera_link", "lidar_link")
 START_TIMEOUT = 20.0
 ARM = Path(coframe.lab.__file__).with_name("two_link_arm.urdf.xacro")
@@ -72,7 +72,7 @@ class CloudCounter:
 
 
 @click.command(cls=Command)
-@click.option("--urdf", is_flag=True, help="Publish the same arm, sensors and gripper from a xacro file.")
+@click.option("--urdf", is_flag=True, help="Publish the arm, sensors and gripper from a xacro file instead.")
 @click.option(
     "--robots", metavar="N", type=click.IntRange(min=1, max=50), help="Start N robots, 1 to 50, in a common map frame."
 )
@@ -102,7 +102,7 @@ def demo(
     """Start a simulated robot and show its moving transform tree in the browser and in the terminal.
 
     Four nodes, each in its own process, publish the complete tree, a moving arm, the scans of a lidar, and these scans
-    as clouds in base_link. They are visible on this machine only, unless ROS_AUTOMATIC_DISCOVERY_RANGE is set.
+    as clouds in base_link. They are visible only on this machine unless ROS_AUTOMATIC_DISCOVERY_RANGE is set.
 
     Example: coframe demo --duration 10
     """
@@ -152,7 +152,7 @@ def demo(
 
 
 def _robot() -> Robot | None:
-    """Return the robot whose meshes the viewer shows; None if xacro is not installed: the demo is complete without."""
+    """Return the robot whose meshes the viewer shows; None if xacro is not installed; the demo works without it."""
     try:
         return load(ARM)
     except CoframeError:

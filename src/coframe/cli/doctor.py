@@ -56,7 +56,7 @@ _CPU_SHARE = 0.006
 @click.option("--json", "as_json", is_flag=True, help="Print JSON; times are in nanoseconds.")
 @click.option("--sarif", is_flag=True, help="Print SARIF 2.1.0.")
 @click.option(
-    "--system", is_flag=True, help="Check this machine instead: DDS library, network, environment variables, nodes."
+    "--system", is_flag=True, help="Check this machine instead: DDS library, network, environment variables and nodes."
 )
 @click.option("--ignore", metavar="CODE", multiple=True, help="Skip the check with this code; repeatable.")
 @click.option("--explain", metavar="CODE", help="Print the page about this code and exit.")
@@ -68,15 +68,14 @@ _CPU_SHARE = 0.006
     metavar="DURATION",
     type=PositiveDuration,
     default=_TEN_SECONDS,
-    help="Observation time; with --watch, the time window of the findings; with --system, the longest search "
-    "for nodes.",
+    help="Observation time; with --watch, the time window; with --system, the maximum time to search for nodes.",
 )
 @click.option(
     "--cache",
     metavar="DURATION",
     type=PositiveDuration,
     default=_TEN_SECONDS,
-    help="Cache length of the nodes that use the transforms.",
+    help="Cache length that listeners are assumed to use.",
 )
 @namespace_option
 @domain_option
@@ -101,9 +100,9 @@ def doctor(
 ) -> None:
     """Find problems with the transforms, live or in the recording BAG: what is wrong, why, and what to do.
 
-    If nodes do not find each other, begin with `coframe doctor --system`.
+    If nodes do not find each other, start with `coframe doctor --system`.
 
-    The exit code is 0 if there are no errors or warnings, and 1 otherwise. Notes do not count.
+    The exit code is 0 if there are no errors or warnings (notes do not count), and 1 otherwise.
 
     Example: coframe doctor run.mcap --ignore TF018
     """
@@ -197,7 +196,7 @@ def _known_codes(options: Iterable[str]) -> list[str]:
 
 
 def _similar_codes(code: str) -> str:
-    """Suggest codes that are spelled similarly or whose title contains the word; otherwise give the range of codes."""
+    """Suggest codes with a similar spelling or whose title contains the word; otherwise return the range of codes."""
     words = code.lower()
     by_title = [known for known in codes() if len(words) > 2 and words in page(known).title.lower()]
     near = by_title or difflib.get_close_matches(code.upper(), codes(), n=3, cutoff=0.8)
@@ -235,7 +234,7 @@ def _watch(observer: LiveObserver, ignore: list[str], as_json: bool) -> None:
     return_freed_arrays()
     console = Console(highlight=False)
     with Live(console=console, auto_refresh=False, screen=False, transient=False) as live:
-        observer.listen(1.0)  # Discovery takes time: at once, every graph would look empty.
+        observer.listen(1.0)  # Discovery takes time: initially, every graph looks empty.
         while True:
             begun = time.process_time()
             report = diagnose(observer.observe(), ignore=ignore)

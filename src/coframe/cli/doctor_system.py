@@ -27,7 +27,7 @@ _MEBIBYTE = 1 << 20
 
 
 def examine_system(domain: int | None, listen: float, *, as_json: bool) -> None:
-    """Print what this machine offers a process that joins the ROS graph; end the command with exit code 0 or 1."""
+    """Print the system report; end the command with exit code 0 or 1."""
     report = collect(domain, listen=listen)
     advice = advise(report)
     if as_json:
@@ -103,7 +103,7 @@ def _network(report: SystemReport) -> Iterator[str]:
         if report.probe.receive_buffer:
             yield f"receive buffer of a participant: {_mebibytes(report.probe.receive_buffer)}"
         received = "received" if report.probe.exchanged else "not received"
-        yield f"a message through the library in this process: {received}"
+        yield f"a message through the library within this process: {received}"
     default, largest = _mebibytes(report.limits.default_buffer), _mebibytes(report.limits.largest_buffer)
     yield f"receive buffer of a UDP socket: {default} by default, at most {largest}"
     if report.limits.shared_memory is not None:

@@ -37,7 +37,7 @@ if TYPE_CHECKING:
 __all__ = ["echo"]
 
 NODE = "tf2_echo"
-MAX_RATE = 10_000.0  # Hz; no terminal is faster
+MAX_RATE = 10_000.0  # Hz; terminals are not faster
 MAX_SECONDS = 4e9  # 126 years: the sum of two such times still fits into int64 nanoseconds
 MAX_DIGITS = 17  # significant digits of a float64
 
@@ -53,9 +53,14 @@ MAX_DIGITS = 17  # significant digits of a float64
     "target_frame", metavar="TARGET_FRAME", shell_complete=complete_live_frames, help="Frame whose pose is printed."
 )
 @argument("echo_rate", metavar="[RATE]", required=False, help="Lookups per second, in Hz. [default: 1]")
-@click.option("--rate", "-r", metavar="HZ", type=float, help="The same as RATE.")
+@click.option("--rate", "-r", metavar="HZ", type=float, help="Same as RATE.")
 @click.option(
-    "--cache-time", "-c", metavar="DURATION", type=Duration, default="10s", help="How long transforms are kept."
+    "--cache-time",
+    "-c",
+    metavar="DURATION",
+    type=Duration,
+    default="10s",
+    help="Cache length: how long transforms are kept.",
 )
 @click.option(
     "--offset", metavar="DURATION", type=Duration, help="Look up at the current time plus this offset, e.g. -1s."
@@ -89,8 +94,8 @@ def echo(
 ) -> None:
     """Print the pose of TARGET_FRAME relative to SOURCE_FRAME repeatedly, like ROS 2's tf2_echo.
 
-    The latest transform is printed, unless --offset or --at is given. The frames are in the order of tf2_echo, which is
-    also the order of TARGET and SOURCE in coframe lookup: the pose of the second frame relative to the first.
+    The latest transform is printed unless --offset or --at is given. The frames are in the order of tf2_echo and
+    coframe lookup: the pose of the second frame relative to the first.
 
     Arguments after --ros-args remap the node and the topics: -r __node:=NAME, -r /tf:=TOPIC.
 
@@ -98,7 +103,7 @@ def echo(
     """
     hertz = _positive("Rate", rate if rate is not None else _positional_rate(echo_rate), MAX_RATE)
     _positive("Period", 1.0 / hertz, MAX_SECONDS)
-    # The texts and exit codes for values out of range are tf2_echo's.
+    # The messages and exit codes for values out of range are tf2_echo's.
     cache = _positive("Cache time", cache_time.seconds, MAX_SECONDS)
     given = offset if offset is not None else upstream_offset
     ahead = None if given is None else given.seconds
@@ -136,7 +141,7 @@ def _positional_rate(text: str | None) -> float:
     try:
         return float(text)
     except ValueError:
-        # The exit codes are tf2_echo's: 2 for no number, 3 for a number followed by other characters.
+        # The exit codes are tf2_echo's: 2 if it is not a number, 3 for a number followed by other characters.
         starts_with_number = text[:1].isdigit()
         fail(
             f"Failed to convert rate argument '{text}' to a floating-point number", code=3 if starts_with_number else 2
@@ -212,7 +217,7 @@ def as_json_line(transform: Transform) -> str:
 
 
 def format_transform(transform: Transform, precision: int = 3) -> str:
-    """Format a transform like tf2_echo, but with the nanoseconds padded to nine digits, so that the time is right."""
+    """Format a transform like tf2_echo, but with the nanoseconds padded to nine digits, so that the time is correct."""
     stamp = transform.stamp or 0
     rpy = transform.rpy
 

@@ -131,9 +131,7 @@ def frames(
             for problem in dict.fromkeys(problem for one in observations.values() for problem in one.unread):
                 warn(problem)
             if not any(forest.frames for forest in forests.values()):
-                fail(
-                    f"{bag} contains no transforms", "Other topics can be chosen with --tf-topic and --tf-static-topic."
-                )
+                fail(f"{bag} contains no transforms", "Use --tf-topic and --tf-static-topic to select other topics.")
             _write_or_print(forests, files, as_json, bag.resolve().name)
             return
         from coframe.doctor.live import LiveObserver  # noqa: PLC0415 - recordings need no middleware
@@ -161,7 +159,7 @@ def frames(
 
 
 def _checked_output(path: Path) -> Path:
-    """Return the path, if its suffix is known and the package for its format is installed."""
+    """Return the path if its suffix is known and the package for its format is installed."""
     if path.suffix.lower() not in _FORMATS:
         fail(f"--output {path}: unknown suffix {path.suffix!r}. Suffixes: {', '.join(_FORMATS)}", code=2)
     suffix = path.suffix.lower()
@@ -182,7 +180,7 @@ def _check_package(suffix: str) -> None:
 
 
 def _write_or_print(forests: dict[str, Forest], files: list[Path], as_json: bool, title: str) -> None:
-    """Write the files; without any, print the trees."""
+    """Write the files, or print the trees if there are none."""
     if files and len(forests) > 1:
         names = ", ".join(name or "/" for name in forests)
         fail(f"the recording has trees in several namespaces: {names}", "Choose one with --namespace.", code=2)

@@ -36,7 +36,7 @@ _HIGHLIGHT_TIME = 5.0  # seconds
 _MAX_CHANGES = 1000  # kept for highlighting
 _LISTED_CHANGES = 8  # below the tree
 _PERIOD = 1.0  # seconds
-_ROWS = 2000  # of a table that is printed at once
+_ROWS = 2000  # rows per table
 
 
 def tree(forest: Forest, changed: dict[str, str] | None = None, most: int | None = None) -> Group:
@@ -45,7 +45,7 @@ def tree(forest: Forest, changed: dict[str, str] | None = None, most: int | None
     Args:
         forest: The trees to show.
         changed: The kind of change of each frame to highlight.
-        most: Maximum number of rows; None: no limit.
+        most: Maximum number of rows; None for no limit.
     """
     every = list(rows(forest))
     cut = every if most is None or len(every) <= most else every[: most - 1]
@@ -55,7 +55,7 @@ def tree(forest: Forest, changed: dict[str, str] | None = None, most: int | None
 
 
 def tree_in_parts(forest: Forest) -> Iterator[Table | Text]:
-    """Yield the same in tables of a limited size: rich needs 10 kB of memory for each row of a table."""
+    """Yield the trees in tables of limited size, because rich needs 10 kB of memory per row."""
     every = list(rows(forest))
     columns = _columns(every)
     for first in range(0, len(every), _ROWS):
@@ -83,7 +83,8 @@ def _columns(every: list[Row]) -> dict[int, int]:
 def _table(shown: list[Row], columns: dict[int, int], changed: dict[str, str]) -> Table:
     table = Table(box=None, pad_edge=False, padding=(0, 1, 0, 0), header_style="dim")
     for number in columns:
-        # In a narrow terminal publishers are cut first: rich shrinks the columns that may wrap, although no cell does.
+        # In a narrow terminal, publishers are truncated first: rich shrinks columns that may wrap, although no cell
+        # does.
         wraps = number == _PUBLISHER
         table.add_column(COLUMNS[number], justify="left" if number <= _PUBLISHER else "right", no_wrap=not wraps)
     for row in shown:
@@ -115,7 +116,7 @@ def watch(observer: LiveObserver, as_json: bool) -> None:
 
 
 def _steps(observer: LiveObserver) -> Iterator[tuple[Forest, list[Change]]]:
-    """Yield the trees every second, and how they differ from those of the second before."""
+    """Yield the trees every second, with the changes since the previous second."""
     before: Forest | None = None
     while True:
         observer.listen(_PERIOD)

@@ -16,8 +16,8 @@ if TYPE_CHECKING:
 __all__ = ["argument_names", "write_arguments", "write_description", "write_options", "write_section"]
 
 _INDENT: Final = "  "
-_NAME_WIDTH: Final = 26  # Longer names have a line of their own.
-# The help texts state ranges in words where users need them.
+_NAME_WIDTH: Final = 26  # Longer names are on a separate line.
+# Help texts state ranges in words where needed.
 _RANGE: Final = re.compile(r"  \[(?:[-\d.]+<=?)?x(?:[<>]=?[-\d.]+)?\]|; (?:[-\d.]+<=?)?x(?:[<>]=?[-\d.]+)?(?=\])")
 
 
@@ -39,14 +39,14 @@ def write_arguments(command: click.Command, ctx: click.Context, formatter: click
 
 
 def write_options(command: click.Command, ctx: click.Context, formatter: click.HelpFormatter) -> None:
-    """Write the options of a command with their texts."""
+    """Write the options of a command with their help texts."""
     options = (each for each in command.get_params(ctx) if isinstance(each, click.Option))
     records = filter(None, (option.get_help_record(ctx) for option in options))
     write_section(formatter, "Options", [(name, _RANGE.sub("", text)) for name, text in records])
 
 
 def write_section(formatter: click.HelpFormatter, title: str, rows: list[tuple[str, str]]) -> None:
-    """Write a title and, below it, two columns: names, and texts that are wrapped to the width of the terminal."""
+    """Write a title and, below it, two columns: names, and descriptions wrapped to the width of the terminal."""
     if not rows:
         return
     column = len(_INDENT) + 2 + max((len(name) for name, _ in rows if len(name) <= _NAME_WIDTH), default=0)
@@ -70,13 +70,13 @@ def _text(argument: click.Argument) -> str:
 
 
 def _whole_name(argument: click.Argument) -> str:
-    """Return the name without a bracket that belongs to several arguments, as in [TARGET SOURCE]."""
+    """Return the name without a bracket that spans several arguments, as in [TARGET SOURCE]."""
     name = argument.human_readable_name
     return name if name.count("[") == name.count("]") else name.strip("[]")
 
 
 def _wrapped(text: str, first: str, rest: str, width: int) -> str:
-    """Wrap a text at spaces only: a break inside `--tf-topic` would be misread."""
+    """Wrap text only at spaces, because a break inside `--tf-topic` would be misread."""
     words = " ".join(text.split())
     return textwrap.fill(
         words, width, initial_indent=first, subsequent_indent=rest, break_on_hyphens=False, break_long_words=False

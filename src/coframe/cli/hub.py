@@ -43,11 +43,11 @@ REFRESH = 1.0  # seconds
     metavar="DURATION",
     type=PositiveDuration,
     default="10s",
-    help="How long dynamic transforms are kept, e.g. 30s.",
+    help="Cache length: how long dynamic transforms are kept, e.g. 30s.",
 )
 @listener_options
 @domain_option
-@click.option("--status", is_flag=True, help="Print which process receives the transforms, and exit.")
+@click.option("--status", is_flag=True, help="Print which process receives the transforms and exit.")
 def hub(
     cache: PositiveDuration,
     tf_topic: str,
@@ -57,10 +57,10 @@ def hub(
     domain: int | None,
     status: bool,
 ) -> None:
-    """Receive the transforms once for all programs that share them, until Ctrl-C.
+    """Receive transforms once for all programs that share them, until Ctrl-C.
 
     Programs share transforms with coframe.connect(shared=True), or with COFRAME_SHARED=1 for tf2_ros. Without this
-    command, the first of them receives the transforms for the others.
+    command, the first program receives the transforms for the others.
 
     Example: coframe hub --domain 5
     """
@@ -87,7 +87,7 @@ def _topics(config: ListenerConfig) -> str:
 
 
 def _print_status(config: ListenerConfig) -> None:
-    """Print which process receives the transforms. Exit with 1 if there is none, or if it is suspended."""
+    """Print which process receives the transforms. Exit with code 1 if there is none, or if it is suspended."""
     segment = open_segment(config)
     try:
         if segment.try_to_write():
@@ -101,7 +101,9 @@ def _print_status(config: ListenerConfig) -> None:
         if shortage := segment.shortage:
             print(full(shortage))
         if segment.outdated:
-            print("Static transforms were withdrawn: programs that start now share another memory, without them.")
+            print(
+                "Static transforms were withdrawn: programs that start now use a separate shared memory without them."
+            )
         if is_suspended(process):
             print(suspension(process))
             raise Exit(1)
@@ -119,7 +121,7 @@ def _receive(config: ListenerConfig) -> None:
 
 
 def _report(config: ListenerConfig, generations: list[SharedTransforms]) -> None:
-    """Log what happens. Programs that start after a static transform was withdrawn share a further generation."""
+    """Log changes. Programs that start after a static transform was withdrawn use a new generation."""
     if not generations[0].writes:
         process = generations[0].writer_process
         log("INFO", NODE, f"Process {process} receives {_topics(config)}. This one takes over when it ends.")
@@ -138,7 +140,7 @@ def _report(config: ListenerConfig, generations: list[SharedTransforms]) -> None
         if generations[-1].outdated and len(generations) < GENERATIONS:
             generations.append(SharedTransforms.join(config))
             buffer = _follow(config, generations[-1])
-            log("INFO", NODE, "Static transforms were withdrawn. Programs that start now share another memory.")
+            log("INFO", NODE, "Static transforms were withdrawn. Programs that start now use a separate shared memory.")
 
 
 def _follow(config: ListenerConfig, shared: SharedTransforms) -> Buffer:

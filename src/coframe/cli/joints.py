@@ -40,8 +40,8 @@ if TYPE_CHECKING:
 __all__ = ["joints"]
 
 REFRESH = 0.1  # seconds
-# The viewer publishes its slider positions on this topic; the node reads it as a source, so that /joint_states has
-# a single publisher.
+# The viewer publishes its slider positions on this topic; the node reads it as a source, so that /joint_states has only
+# one publisher.
 SLIDERS = "/coframe_joints/sliders"
 
 
@@ -52,7 +52,8 @@ SLIDERS = "/coframe_joints/sliders"
     metavar="[FILE]",
     type=PATH,
     required=False,
-    help="Robot description: a URDF or xacro file. With --gui, the default is the topic /robot_description.",
+    help="Robot description: a URDF or xacro file. Optional with --gui, which reads the topic /robot_description by "
+    "default.",
 )
 @click.option(
     "--rate", metavar="HZ", type=click.FloatRange(min=0.001, max=1000.0), help="Publishing rate in Hz. [default: 10]"
@@ -67,7 +68,7 @@ SLIDERS = "/coframe_joints/sliders"
     type=click.FloatRange(min=0.0),
     help="Move all joints back and forth by STEP per message. [default: 0]",
 )
-@click.option("--gui", is_flag=True, help="Show the sliders in the viewer, not in the terminal.")
+@click.option("--gui", is_flag=True, help="Show the sliders in the viewer instead of the terminal.")
 @port_option
 @no_browser_option
 @domain_option
@@ -98,15 +99,15 @@ def joints(
     """
     with run_until_interrupted():
         words = context.args
-        if str(file) == "--ros-args":  # There is no FILE in front of it.
+        if str(file) == "--ros-args":  # No FILE precedes it.
             file, words = None, ["--ros-args", *words]
         if file is None and not gui:
-            fail("FILE is missing.", "Name a URDF or xacro file, or add --gui to read /robot_description.", code=2)
+            fail("FILE is missing.", "Give a URDF or xacro file, or use --gui to read /robot_description.", code=2)
         arguments = xacro_arguments(words)
         robot = None if file is None else load(file, arguments=arguments)
         from rclpy.parameter import Parameter  # noqa: PLC0415 - not needed if the file cannot be read
 
-        # Options that are not given do not override the parameters of -p and --params-file.
+        # Omitted options do not override parameters set by -p and --params-file.
         given = {"rate": rate, "delta": delta}
         values: dict[str, Any] = {name: value for name, value in given.items() if value is not None}
         values |= _zeros(robot, zero)
@@ -129,7 +130,7 @@ def joints(
 
 
 def _zeros(robot: Robot | None, words: Iterable[str]) -> dict[str, float]:
-    """Return the parameters of the node for the words JOINT=VALUE."""
+    """Return the node parameters for arguments JOINT=VALUE."""
     found = {}
     for word in words:
         joint, _, text = word.rpartition("=")
@@ -158,7 +159,7 @@ class RunningNode:
         self.thread.start()
 
     def check(self) -> None:
-        """Raise the error that ended the node, if there was one.
+        """Raise the error that ended the node, if any.
 
         Raises:
             RobotDescriptionError: The node received a robot description whose joints are invalid.
@@ -167,7 +168,7 @@ class RunningNode:
             raise self._failure
 
     def wait(self) -> None:
-        """Wait until the node ends, then raise as :meth:`check` does."""
+        """Wait until the node ends, then raise its error like :meth:`check`."""
         while self.thread.is_alive():
             self.thread.join(1.0)  # On some platforms Ctrl-C does not interrupt a join without a timeout.
         self.check()

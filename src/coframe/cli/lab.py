@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""``coframe lab``: the lab as a course: a folder for a student, its nodes next to a simulated robot, and its grade."""
+"""``coframe lab``: creates a student's folder, runs its nodes with a simulated robot, and grades it."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ if TYPE_CHECKING:
 
 __all__ = ["lab"]
 
-_FIRST_OUTPUT = 8.0  # seconds after which each program should have published something
+_FIRST_OUTPUT = 8.0  # seconds within which each program should have published something
 _HANDBOOK_WIDTH = 120  # columns: longer lines are hard to read
 folder_argument = argument(
     "folder",
@@ -53,7 +53,7 @@ folder_argument = argument(
     help=f"Folder of the lab. [default: the current folder if it contains {FILE}, otherwise lab]",
 )
 variant_option = click.option(
-    "--variant", metavar="SEED", type=int, help="Number of a variant, which has its own lengths, mounts and rates."
+    "--variant", metavar="SEED", type=int, help="Seed of a variant with its own lengths, mounts and rates."
 )
 lab = CommandGroup(
     "lab",
@@ -61,7 +61,7 @@ lab = CommandGroup(
 )
 
 
-@lab.command(short_help="Create a folder with the files of the lab as stubs.")
+@lab.command(short_help="Create a folder with stubs for the lab.")
 @argument(
     "folder",
     metavar="[FOLDER]",
@@ -71,7 +71,7 @@ lab = CommandGroup(
 )
 @variant_option
 def new(folder: Path, variant: int | None) -> None:
-    """Create a folder with the files of the lab: stubs with a task in each docstring, an RViz configuration, a README.
+    """Create a folder with the files of the lab: stubs with a task in each docstring, an RViz file and a README.
 
     Example: coframe lab new my_lab --variant 4711
     """
@@ -82,9 +82,9 @@ def new(folder: Path, variant: int | None) -> None:
         print(f"Next: read {printable(str(folder / 'README.md'))}, then run: {command}")
 
 
-@lab.command(short_help="Run the nodes of a folder next to a simulated robot.")
+@lab.command(short_help="Run the nodes of a folder with a simulated robot.")
 @folder_argument
-@click.option("--complete", is_flag=True, help="Run complete_tf_tree.py in place of the two broadcasters.")
+@click.option("--complete", is_flag=True, help="Run complete_tf_tree.py instead of the two broadcasters.")
 @click.option("--browser/--no-browser", default=True, help="Open the viewer in the browser.")
 @port_option
 @duration_option
@@ -97,7 +97,7 @@ def run(
 ) -> None:
     """Run the nodes of a folder with simulated joints and a simulated lidar, and show them in the viewer.
 
-    The output of each node is printed with its name. The viewer's findings say what is missing.
+    Each output line is prefixed with the name of its node. The viewer's findings show what is missing.
 
     Example: coframe lab run my_lab
     """
@@ -106,22 +106,32 @@ def run(
     with run_until_interrupted():
         programs = [*programs_of(_folder(folder), COMPLETE_TREE if complete else STEPS), *simulation]
         print(
-            "Your nodes run next to a simulated robot. Stop them with Ctrl-C. They are shown in the viewer:", flush=True
+            "Your nodes are running with a simulated robot. Press Ctrl-C to stop them. The viewer shows them:",
+            flush=True,
         )
         _run(programs, seconds, browser=browser, port=port, names_silent=True)
 
 
 @lab.command(short_help="Grade a folder, or the folders of a class.")
 @folder_argument
-@click.option("--all", "everyone", is_flag=True, help="FOLDER contains the folders of a class: grade all of them.")
+@click.option("--all", "everyone", is_flag=True, help="Grade all folders in FOLDER, one per student.")
 @click.option("--output", "-o", metavar="FILE", type=PATH, help="With --all: write a table as CSV.")
-@click.option("--only", metavar="CRITERION", multiple=True, help=f"Check only this: {', '.join(CRITERIA)}; repeatable.")
+@click.option(
+    "--only", metavar="CRITERION", multiple=True, help=f"Check only this criterion: {', '.join(CRITERIA)}; repeatable."
+)
 @variant_option
 @click.option("--json", "as_json", is_flag=True, help="Print the report as JSON.")
 @click.option("--gradescope", metavar="FILE", type=PATH, help="Write Gradescope's results.json.")
 @click.option("--classroom", metavar="FILE", type=PATH, help="Write the result for GitHub Classroom.")
-@click.option("--record", metavar="FOLDER", type=PATH, help="Record everything, to look at it in the viewer.")
-@click.option("--jobs", "-j", metavar="N", type=click.IntRange(min=1), default=2, help="With --all: folders at a time.")
+@click.option("--record", metavar="FOLDER", type=PATH, help="Record all topics, to inspect them in the viewer.")
+@click.option(
+    "--jobs",
+    "-j",
+    metavar="N",
+    type=click.IntRange(min=1),
+    default=2,
+    help="With --all: number of folders to grade in parallel.",
+)
 def check(
     folder: Path | None,
     everyone: bool,
@@ -134,20 +144,21 @@ def check(
     record: Path | None,
     jobs: int,
 ) -> None:
-    """Grade the nodes of a folder by what they publish: 100 points, and 10 for each of four extensions.
+    """Grade the nodes of a folder by what they publish: 100 points, plus 10 for each of four extensions.
 
-    The nodes run with a simulated clock and limits on time, memory and output. The exit code is 0 for every grade.
+    The nodes run with a simulated clock and limits on time, memory and output. The exit code is 0 regardless of the
+    grade.
 
     Example: coframe lab check my_lab
     """
     chosen = tuple(only or CRITERIA)
     if unknown := set(chosen) - set(CRITERIA):
-        fail(f"--only: there is no criterion {', '.join(sorted(unknown))}", f"Criteria: {', '.join(CRITERIA)}.", code=2)
+        fail(f"--only: unknown criterion {', '.join(sorted(unknown))}", f"Criteria: {', '.join(CRITERIA)}.", code=2)
     formatted = ((gradescope, formats.gradescope), (classroom, formats.classroom))
     if everyone and (record or gradescope or classroom):
-        fail("--gradescope, --classroom and --record are for one folder", "Omit them, or omit --all.", code=2)
+        fail("--gradescope, --classroom and --record apply to a single folder", "Omit them, or omit --all.", code=2)
     if output and not everyone:
-        fail("-o is for the table of a class", "Add --all, or use --json for the report of one folder.", code=2)
+        fail("-o writes the table of a class", "Add --all, or use --json for the report of one folder.", code=2)
     with run_to_completion():
         if problem := isolation_problem():
             warn(problem)
@@ -178,12 +189,12 @@ def _write_reports(
             write_complete(path, f"{json.dumps(convert(report), indent=2)}\n".encode())
 
 
-@lab.command("break", short_help="Start the system with a fault, for you to find.")
+@lab.command("break", short_help="Start a system with a fault to find.")
 @argument(
     "number", metavar="N", type=click.IntRange(min=1, max=len(FAULTS)), help=f"Number of a fault, 1 to {len(FAULTS)}."
 )
-@click.option("--answer", metavar="FAULT", help="Your answer; nothing is started.")
-@click.option("--browser/--no-browser", help="Open the browser; its findings are a hint.")
+@click.option("--answer", metavar="FAULT", help="Check this answer instead of starting the system.")
+@click.option("--browser/--no-browser", help="Open the viewer in the browser; its findings are a hint.")
 @port_option
 @duration_option
 def break_(
@@ -195,7 +206,7 @@ def break_(
 ) -> None:
     """Start the robot of the lab with one of ten faults. Find it with the viewer, echo, monitor and frames.
 
-    coframe doctor and the findings in the viewer are the hint.
+    coframe doctor and the findings in the viewer are hints.
 
     Then give your answer: coframe lab break N --answer "FAULT".
 
@@ -220,9 +231,7 @@ def break_(
     required=False,
     help="Number of a chapter. [default: the contents]",
 )
-@click.option(
-    "--output", "-o", metavar="FOLDER", type=PATH, help="Write all chapters as web pages with their pictures."
-)
+@click.option("--output", "-o", metavar="FOLDER", type=PATH, help="Write all chapters as web pages with images.")
 @click.option("--browser/--no-browser", default=True, help="With -o: open the pages in the browser.")
 def handbook(
     chapter: int | None,
@@ -246,7 +255,9 @@ def handbook(
         console = report_console()
         console.print(Markdown(terminal_text(file), hyperlinks=False), width=min(console.width, _HANDBOOK_WIDTH))
         if chapter is None:
-            print("A chapter: coframe lab handbook 1. With pictures, in the browser: coframe lab handbook -o handbook")
+            print(
+                "Read a chapter: coframe lab handbook 1. With images, in the browser: coframe lab handbook -o handbook"
+            )
 
 
 def _write_handbook(folder: Path, chapter: int | None, *, browser: bool) -> None:
@@ -258,7 +269,7 @@ def _write_handbook(folder: Path, chapter: int | None, *, browser: bool) -> None
 
 
 def _folder(given: Path | None) -> Path:
-    """Return the folder of the lab: the given one, or the current one if it is one, or lab."""
+    """Return the folder of the lab: the given one, the current one if it contains the lab, or lab."""
     if given is not None:
         return given
     return Path.cwd() if Path(FILE).is_file() else Path("lab")
@@ -272,12 +283,12 @@ def _run(
     port: int | None,
     names_silent: bool = False,
 ) -> None:
-    """Run programs and the viewer until Ctrl-C, or for some seconds; print the output of the programs.
+    """Run programs and the viewer until Ctrl-C or for a given time; print the output of the programs.
 
-    With `names_silent`, a sentence about each program that publishes nothing is printed after some seconds.
+    With `names_silent`, a message about each program that publishes nothing is printed after a few seconds.
     """
     width = max(len(program.name) for program in programs)
-    closed = threading.Event()  # The reader of a pipe, such as `head`, has closed it.
+    closed = threading.Event()  # The reader of a pipe, such as `head`, closed it.
 
     def write(name: str, line: str) -> None:
         try:
@@ -335,7 +346,7 @@ def _check_class(
 
 
 def _open_table(path: Path) -> TextIO:
-    """Open a file for a table; the names of submissions may contain bytes that are not text."""
+    """Open a file for a table; names of submissions may contain invalid UTF-8."""
     return path.open("w", encoding="utf-8", newline="", errors="backslashreplace")
 
 

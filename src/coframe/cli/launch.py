@@ -39,20 +39,20 @@ _SUFFIXES = (".launch.py", ".launch.xml", ".launch.yaml", ".launch.yml", "_launc
     help="Print the launch description without launching it.",
 )
 @click.option("--debug", "-d", is_flag=True, help="Log all events, and errors with their traceback.")
-@click.option("--noninteractive", "-n", is_flag=True, help="Tell the launch file that no user is present.")
+@click.option("--noninteractive", "-n", is_flag=True, help="Launch without user interaction.")
 @click.option(
     "--launch-prefix",
     metavar="COMMAND",
     default="",
     show_default=False,
-    help="Command to put in front of all processes.",
+    help="Command with which all processes are started, e.g. 'gdb --args'.",
 )
 @click.option(
     "--launch-prefix-filter",
     metavar="REGEX",
     default="",
     show_default=False,
-    help="Use --launch-prefix for processes with such a name only.",
+    help="Regular expression: use --launch-prefix only for matching processes.",
 )
 def launch(
     context: click.Context,
@@ -66,8 +66,8 @@ def launch(
 ) -> None:
     """Launch the nodes of a Python, XML or YAML launch file, like ros2 launch.
 
-    Write coframe launch FILE or coframe launch PACKAGE FILE. Arguments of the launch file follow as NAME:=VALUE.
-    Packages may be sources that were never built. Ctrl-C ends all nodes.
+    Use coframe launch FILE or coframe launch PACKAGE FILE, followed by launch arguments as NAME:=VALUE. Packages do not
+    have to be built. Ctrl-C stops all nodes.
 
     Example: coframe launch my_robot bringup.launch.py use_sim_time:=true
     """
@@ -90,7 +90,7 @@ def launch(
 
 
 def _launch_file(package_or_file: str, words: list[str]) -> Path:
-    """Return the path of the launch file; remove its name from the words if the first one is a package."""
+    """Return the path of the launch file; remove its name from the arguments if the first one is a package."""
     file = Path(package_or_file)
     if exists(file) and not is_dir(file):
         try:
@@ -114,7 +114,7 @@ def _launch_file(package_or_file: str, words: list[str]) -> Path:
     if not path.is_file():
         fail(
             f"No launch file {name!r} in the package {package_or_file!r}.",
-            f"{did_you_mean(name, there, most=2)} Launch files there: {', '.join(there) or 'none'}.".lstrip(),
+            f"{did_you_mean(name, there, most=2)} Available launch files: {', '.join(there) or 'none'}.".lstrip(),
         )
     return path.resolve()
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How commands end: on Ctrl-C, on SIGTERM, when their reader goes away, and with errors of the library."""
+"""How commands end: on Ctrl-C, on SIGTERM, on a closed pipe, and with library errors."""
 
 from __future__ import annotations
 
@@ -23,13 +23,13 @@ __all__ = ["run_to_completion", "run_until_interrupted"]
 
 # Windows has no SIGHUP.
 _END_SIGNALS = [getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name)]
-_INTERRUPTED = 130  # exit code: 128 + SIGINT, as shells have it
+_INTERRUPTED = 130  # exit code: 128 + SIGINT, as in shells
 
 
 @contextlib.contextmanager
 def run_until_interrupted() -> Iterator[None]:
-    """End the block quietly on Ctrl-C, SIGTERM and a closed terminal; report errors of the library with exit code 1."""
-    # nohup sets SIGHUP to be ignored, and it stays so.
+    """End the block quietly on Ctrl-C, SIGTERM and a closed terminal; report library errors with exit code 1."""
+    # nohup ignores SIGHUP, which must stay ignored.
     handled = [number for number in _END_SIGNALS if signal.getsignal(number) is not signal.SIG_IGN]
     handlers = SignalHandlers()
     for number in handled:
@@ -38,10 +38,10 @@ def run_until_interrupted() -> Iterator[None]:
         yield
     except KeyboardInterrupt:
         pass
-    except BrokenPipeError:  # The reader of a pipe, such as `head`, has closed it.
+    except BrokenPipeError:  # The reader of a pipe, such as `head`, closed it.
         sys.stderr.close()
     except CoframeError as error:
-        # After a loop, tf2's text lists all frames, one per line.
+        # For a loop, tf2's message lists all frames, one per line.
         fail(str(error).partition("\nFrame ")[0], error.hint)
     finally:
         handlers.restore()
@@ -49,12 +49,12 @@ def run_until_interrupted() -> Iterator[None]:
 
 @contextlib.contextmanager
 def run_to_completion() -> Iterator[None]:
-    """Do as :func:`run_until_interrupted`, but end with exit code 130 on Ctrl-C: the work is not finished."""
+    """Like :func:`run_until_interrupted`, but end with exit code 130 on Ctrl-C, because the work is not finished."""
     with run_until_interrupted():
         try:
             yield
         except KeyboardInterrupt:
-            # Python ends with several searches for unused objects, which take a second if there are millions of them.
+            # At exit, Python runs several garbage collections, which take a second with millions of objects.
             gc.freeze()
             raise Exit(_INTERRUPTED) from None
 

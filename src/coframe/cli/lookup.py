@@ -50,14 +50,13 @@ _RETRY_PERIOD = 0.05  # seconds
     nargs=-1,
     required=True,
     shell_complete=complete_frames,
-    help="Prints the pose of SOURCE relative to TARGET, in the order of tf2_echo; without a recording BAG, on "
-    "the live ROS graph.",
+    help="Print the pose of SOURCE relative to TARGET, in the order of tf2_echo. Omit BAG to use the live ROS graph.",
 )
 @click.option(
     "--at",
     "-t",
     metavar="TIME",
-    help=f"Time of the lookup: {TIMES}; live also 'now'. [default: 'end', the latest common time]",
+    help=f"Time of the lookup: {TIMES}; for the live graph also 'now'. [default: 'end', the latest common time]",
 )
 @click.option("--fixed", metavar="FRAME", help="Time travel: frame that does not move between --source-time and --at.")
 @click.option("--source-time", metavar="TIME", help="Time travel: time of SOURCE; --at is the time of TARGET.")
@@ -67,7 +66,7 @@ _RETRY_PERIOD = 0.05  # seconds
     metavar="DURATION",
     type=PositiveDuration,
     default="5s",
-    help="Live: time to wait for the transform.",
+    help="Live graph: time to wait for the transform.",
 )
 @namespace_option
 @domain_option
@@ -102,7 +101,7 @@ def lookup(
     """
     if (fixed is None) != (source_time is None):
         given, missing = ("--fixed", "--source-time") if source_time is None else ("--source-time", "--fixed")
-        fail(f"{given} requires {missing}", "Time travel needs both options.", code=2)
+        fail(f"{given} requires {missing}", "Time travel requires both options.", code=2)
     if len(names) not in {2, 3}:
         fail("Give the frames TARGET and SOURCE, or a recording and the two frames.", code=2)
     *bags, target, source = names
@@ -159,7 +158,7 @@ def _clock_time(window: int) -> Callable[[str, str], int]:
 
 
 def _when_possible(transform: Callable[[], Transform], window: int) -> Transform:
-    """Return the transform as soon as it is available; raise the error of the last attempt when the time is over."""
+    """Return the transform as soon as it is available; after the timeout, raise the error of the last attempt."""
     end = time.monotonic() + window / SECOND
     while True:
         try:
@@ -171,7 +170,7 @@ def _when_possible(transform: Callable[[], Transform], window: int) -> Transform
 
 
 def _available_span(recording: Recording, frames: set[str]) -> str:
-    """Describe when the recording has transforms between all these frames; "" if it never has."""
+    """Describe when the recording has transforms between all these frames; "" if it never does."""
     one, *others = sorted(frames)
     try:
         spans = [span for other in others if (span := recording.buffer.span(one, other)) != _ALWAYS]

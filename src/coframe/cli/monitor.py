@@ -46,8 +46,8 @@ _BROADCASTERS = "\nAll Broadcasters:"
 
 
 @click.command(cls=NodeCommand)
-@argument("target", metavar="[TARGET", required=False, help="With SOURCE: show the chain between two frames.")
-@argument("source", metavar="SOURCE]", required=False, help="The other frame.")
+@argument("target", metavar="[TARGET", required=False, help="Show the chain between TARGET and SOURCE.")
+@argument("source", metavar="SOURCE]", required=False, help="The second frame of the chain.")
 @click.option("--once", is_flag=True, help="Print one report after --duration and exit.")
 @click.option("--json", "as_json", is_flag=True, help="Print one line of JSON per report; times are in nanoseconds.")
 @click.option("--classic", is_flag=True, help="Print in the format of ROS 2's tf2_monitor.")
@@ -69,7 +69,7 @@ def monitor(
     prefix: str,
     keep: str,
 ) -> None:
-    """Show the rate, jitter, delay and age of each edge and publisher, and which edge delays a chain.
+    """Show the rate, jitter, delay and age of each edge and publisher, and which edge limits a chain.
 
     Arguments after --ros-args remap the node and the topics: -r __node:=NAME, -r /tf:=TOPIC.
 
@@ -179,7 +179,7 @@ def _data(observation: Observation, pair: Pair) -> dict[str, Any]:
 
 def _print_classic(observation: Observation, pair: Pair) -> None:
     for line in _classic(observation, pair):
-        # tf2_monitor prints this line alone on stderr.
+        # tf2_monitor prints only this line on stderr.
         print(line, file=sys.stderr if line == _BROADCASTERS else sys.stdout, flush=True)
 
 
@@ -228,7 +228,7 @@ def _texts(*cells: str) -> list[Text]:
 def _table(*columns: str) -> Table:
     table = Table(box=None, pad_edge=False, header_style="dim")
     for column in columns:
-        # In a narrow terminal names are cut first: rich shrinks the columns that may wrap, although no cell does.
+        # In a narrow terminal, names are truncated first: rich shrinks columns that may wrap, although no cell does.
         is_name = column in {"edge", "publisher"}
         table.add_column(column, justify="left" if is_name else "right", no_wrap=not is_name)
     return table

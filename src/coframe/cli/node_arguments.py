@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The part of a command line that is meant for a node (``--ros-args``) or for a xacro file (``NAME:=VALUE``)."""
+"""The arguments for a node (``--ros-args``) or a xacro file (``NAME:=VALUE``) on a command line."""
 
 from __future__ import annotations
 
@@ -26,9 +26,9 @@ def reported_node_errors() -> Iterator[None]:
 
 
 def xacro_arguments(words: list[str]) -> dict[str, str]:
-    """Return the xacro arguments NAME:=VALUE among the words that the command does not know; skip ``--ros-args``.
+    """Return the xacro arguments NAME:=VALUE among unknown arguments; skip ``--ros-args``.
 
-    Any other word, such as a misspelled option, ends the command.
+    Any other argument, such as a misspelled option, is an error.
     """
     from rclpy.utilities import remove_ros_args  # noqa: PLC0415 - slow import
 
@@ -37,7 +37,7 @@ def xacro_arguments(words: list[str]) -> dict[str, str]:
         if ":=" not in word or word.startswith("-"):
             fail(
                 f"No option or argument {word!r}.",
-                "Write xacro arguments as NAME:=VALUE, and arguments of the node after --ros-args.",
+                "Write xacro arguments as NAME:=VALUE, and node arguments after --ros-args.",
                 code=2,
             )
     return dict(word.split(":=", 1) for word in own)

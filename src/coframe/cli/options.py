@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The options that several commands share, and how their values are read.
+"""Options shared by several commands, and how their values are parsed.
 
-Every option has the same name, the same value name and the same sentence in every command.
+An option has the same name, the same value name and the same description in every command.
 """
 
 from __future__ import annotations
@@ -48,7 +48,7 @@ __all__ = [
 ]
 
 # How a duration is written.
-DURATIONS = "Write a number of seconds, or a number and a unit: 3, 3s, 500ms, 10min."
+DURATIONS = "Write a number of seconds, or a number with a unit: 3, 3s, 500ms, 10min."
 _BARE_NUMBER = re.compile(r"\d+(\.\d+)?", re.ASCII)
 # How a time of a recording is written.
 TIMES = "seconds (1666859837.36), 10s after the start, -2s before the end, ISO 8601, 'start' or 'end'"
@@ -57,8 +57,8 @@ TIMES = "seconds (1666859837.36), 10s after the start, -2s before the end, ISO 8
 class Duration(int):
     """The value of an option that is a duration, in nanoseconds.
 
-    An option takes this class, or one of those below, as its ``parser``. Users write 3, 3s, 500ms or -1min;
-    a bare number is in seconds. ``str()`` returns the text as it was written.
+    Use this class, or one of those below, as the ``parser`` of an option. Users write 3, 3s, 500ms or -1min;
+    a bare number is in seconds. ``str()`` returns the original string.
     """
 
     _text: str
@@ -67,7 +67,7 @@ class Duration(int):
         """Read a duration.
 
         Raises:
-            click.BadParameter: The text is not a duration, or not one of this class.
+            click.BadParameter: The text is not a duration, or is out of range for this class.
         """
         text = str(text)
         bare = text.strip().removeprefix("+")
@@ -115,7 +115,7 @@ class PositiveDuration(Duration):
 
 
 def topic_name(name: str) -> str:
-    """Return the name of a topic with its leading slash; an option takes this function as its type."""
+    """Return the name of a topic with its leading slash; used as the type of an option."""
     return name if name.startswith("/") else f"/{name}"
 
 
@@ -143,12 +143,12 @@ optional_bag_argument = argument(
     type=PATH,
     required=False,
     shell_complete=complete_recordings,
-    help="Recording; without it, the live ROS graph.",
+    help="Recording to read; omit it for the live ROS graph.",
 )
 namespace_option = click.option(
     "--namespace",
     metavar="NAMESPACE",
-    help="Use only the transforms of this namespace, e.g. /robot1 for /robot1/tf and /robot1/tf_static.",
+    help="Use only transforms in this namespace, e.g. /robot1 for /robot1/tf and /robot1/tf_static.",
 )
 duration_option = click.option(
     "--duration",
@@ -183,14 +183,14 @@ recorded_tf_topic_option = click.option(
     metavar="TOPIC",
     type=topic_name,
     shell_complete=complete_tf_topics,
-    help="Topic of the transforms, e.g. /robot1/tf. [default: /tf; in a recording, all]",
+    help="Topic of the transforms, e.g. /robot1/tf. [default: /tf; for a recording, all]",
 )
 recorded_tf_static_topic_option = click.option(
     "--tf-static-topic",
     metavar="TOPIC",
     type=topic_name,
     shell_complete=complete_tf_topics,
-    help="Topic of the static transforms. [default: /tf_static; in a recording, all]",
+    help="Topic of the static transforms. [default: /tf_static; for a recording, all]",
 )
 prefix_option = click.option(
     "--prefix",
@@ -198,7 +198,7 @@ prefix_option = click.option(
     type=checked_prefix,
     default="",
     show_default=False,
-    help="Prefix for all frame names, with its slash, e.g. robot1/.",
+    help="Prefix for all frame names, including the slash, e.g. robot1/.",
 )
 keep_option = click.option(
     "--keep", metavar="FRAMES", default="", show_default=False, help="Shared frames that get no prefix, e.g. map,world."
@@ -206,12 +206,12 @@ keep_option = click.option(
 
 
 def listener_options(function: Declared) -> Declared:
-    """Declare the options about transforms that are received: topics, prefix and kept frames."""
+    """Declare the options for received transforms: topics, prefix and kept frames."""
     return _declared(function, tf_topic_option, tf_static_topic_option, prefix_option, keep_option)
 
 
 def recorded_listener_options(function: Declared) -> Declared:
-    """Declare the same options for a command that may also read a recording."""
+    """Declare these options for a command that may also read a recording."""
     return _declared(function, recorded_tf_topic_option, recorded_tf_static_topic_option, prefix_option, keep_option)
 
 

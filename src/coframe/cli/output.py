@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What all commands use to print: errors, warnings, log lines, and text that is safe for a terminal."""
+"""Printing for all commands: errors, warnings, log lines, and text that is safe for a terminal."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ _REDIRECTED_WIDTH = 1000  # columns
 
 
 def fail(text: str, hint: str = "", *, code: int = 1, details: str = "") -> NoReturn:
-    """Print what failed in one line, then lines of details, then what to do; end the command with this exit code."""
+    """Print a one-line error, details and what to do; end the command with this exit code."""
     click.echo(f"coframe: {one_line(text)}", err=True)
     if details:
         click.echo(printable(details), err=True)
@@ -48,20 +48,21 @@ def fail(text: str, hint: str = "", *, code: int = 1, details: str = "") -> NoRe
 
 
 def fail_to_write(path: Path | None, error: OSError) -> NoReturn:
-    """End the command because a file, or without a path standard output, could not be written."""
+    """End the command because a file, or standard output if there is no path, could not be written."""
     name = "standard output" if path is None else path
     fail(f"{name} cannot be written: {error.strerror or error}", advice_for_writing(error))
 
 
 def with_doctor_command(hint: str) -> str:
-    """Replace the doctor code in a hint of the library by the command that prints the page about it."""
+    """Replace the doctor code in a library hint with the command that prints its page."""
     return re.sub(r"See doctor code (TF\d+)\.", r"More: coframe doctor --explain \1", hint)
 
 
 def awaited_statics_text(nodes: list[str]) -> str:
-    """Return what to say if publishers of static transforms have been discovered but have not delivered them."""
+    """Return a warning about publishers of static transforms that were discovered but have not delivered them."""
     return (
-        f"The static transforms of {', '.join(nodes)} have not arrived yet. Repeat the command if a frame is missing."
+        f"The static transforms of {', '.join(nodes)} have not arrived yet. Run the command again if a frame is "
+        f"missing."
     )
 
 
@@ -77,7 +78,7 @@ def log(level: str, node: str, text: str) -> None:
 
 
 def report_console() -> Console:
-    """Return the console for tables; without a terminal no cell is cut and no line ends with spaces."""
+    """Return the console for tables; without a terminal, cells are not truncated and lines do not end with spaces."""
     from rich.console import Console  # noqa: PLC0415 - commands without tables start faster
 
     console = Console(highlight=False)
@@ -87,7 +88,7 @@ def report_console() -> Console:
 
 
 class _WithoutTrailingSpaces:
-    """Writes to standard output, without the spaces with which a table fills its last column."""
+    """Writes to standard output without trailing spaces, which tables add in the last column."""
 
     def write(self, text: str) -> int:
         return sys.stdout.write(re.sub(r" +$", "", text, flags=re.MULTILINE))

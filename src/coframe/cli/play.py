@@ -46,7 +46,7 @@ class PlayCommand(Command):
     """The command ``play``, whose option ``--clock`` may have no value, as in rosbag2."""
 
     def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
-        """Insert the default rate after a ``--clock`` without a value, then parse as usual."""
+        """Insert the default rate after ``--clock`` without a value, then parse as usual."""
         for i, argument in enumerate(args):
             if argument == "--clock" and not _is_number(args[i + 1 : i + 2]):
                 args = [*args[: i + 1], _CLOCK_RATE, *args[i + 1 :]]
@@ -66,14 +66,14 @@ def _is_number(following: list[str]) -> bool:
 @click.option("--topics", metavar="TOPIC", multiple=True, help="Replay only this topic; repeatable.")
 @click.option("--remap", "-m", metavar="OLD:=NEW", multiple=True, help="Publish the topic OLD as NEW; repeatable.")
 @click.option("--rate", "-r", metavar="FACTOR", type=float, default=1.0, help="Playback speed; 2 is twice as fast.")
-@click.option("--loop", is_flag=True, help="Start again at the end.")
+@click.option("--loop", is_flag=True, help="Restart at the end.")
 @click.option("-l", "upstream_loop", is_flag=True, hidden=True)
 @click.option(
     "--start-offset",
     metavar="DURATION",
     type=Duration,
     default="0s",
-    help="Skip this much at the start, e.g. 10s or 2min.",
+    help="Start this far into the recording, e.g. 10s or 2min.",
 )
 @click.option("--start-paused", is_flag=True, help="Start paused.")
 @click.option("-p", "upstream_paused", is_flag=True, hidden=True)
@@ -81,10 +81,14 @@ def _is_number(following: list[str]) -> bool:
     "--clock",
     metavar="[HZ]",
     type=float,
-    help="Publish /clock at this rate; without a value, at 40 Hz. [default: /clock as recorded]",
+    help="Publish /clock at this rate, or at 40 Hz without a value. [default: replay /clock as recorded]",
 )
 @click.option(
-    "--delay", metavar="DURATION", type=Duration, default="1s", help="Time to wait for subscribers before the start."
+    "--delay",
+    metavar="DURATION",
+    type=Duration,
+    default="1s",
+    help="Time to wait for subscribers before playback starts.",
 )
 @domain_option
 @listener_options
@@ -124,7 +128,7 @@ def play(
                     **dict(map(_parsed_remapping, remap)),
                 },
                 rate=rate,
-                # The short options of `ros2 bag play` are accepted; in the other commands they mean something else.
+                # The short options of `ros2 bag play` are accepted here; in other commands they have other meanings.
                 loop=loop or upstream_loop,
                 start_offset=start_offset,
                 paused=start_paused or upstream_paused,
@@ -145,7 +149,7 @@ def play(
 def _parsed_remapping(text: str) -> tuple[str, str]:
     old, sign, new = text.partition(":=")
     if not (old and sign and new):
-        fail(f"--remap: {text!r} is not OLD:=NEW. Write, for example, /tf:=/robot1/tf.", code=2)
+        fail(f"--remap: {text!r} is not of the form OLD:=NEW, for example /tf:=/robot1/tf.", code=2)
     return old, new
 
 

@@ -39,9 +39,9 @@ _SUFFIXES = ", ".join(f".{kind}" for kind in FIGURE_FORMATS)
     metavar="EXPR...",
     nargs=-1,
     required=True,
-    help="What to plot. The frame base_link relative to odom: odom:base_link.x, also .y .z .roll .pitch .yaw "
-    ".distance. A field of messages: /odom.twist.twist.linear.x, /scan.ranges[0]. The rate or delay of a topic "
-    "or an edge: /tf.rate, odom:base_link.delay. In quotation marks, 'odom->base_link.x' means the same.",
+    help="What to plot. Pose of base_link relative to odom: odom:base_link.x, also .y .z .roll .pitch .yaw "
+    ".distance. Message field: /odom.twist.twist.linear.x, /scan.ranges[0]. Rate or delay of a topic or edge: "
+    "/tf.rate, odom:base_link.delay. 'odom->base_link.x' also works, but needs quotes.",
 )
 @click.option(
     "--output",
@@ -52,8 +52,8 @@ _SUFFIXES = ", ".join(f".{kind}" for kind in FIGURE_FORMATS)
     required=True,
     help=f"Output file: {_SUFFIXES} (interactive); repeatable.",
 )
-@click.option("--start", metavar="TIME", help="First time, written like --at of lookup.")
-@click.option("--stop", metavar="TIME", help="Last time, written like --start.")
+@click.option("--start", metavar="TIME", help="Start time, in the same format as `lookup --at`.")
+@click.option("--stop", metavar="TIME", help="End time, in the same format as --start.")
 @click.option("--title", metavar="TITLE", help="Title of the plot. [default: the name of BAG]")
 @namespace_option
 @recorded_listener_options
@@ -98,7 +98,7 @@ def plot(
 
 
 def check_figure_package(path: Path) -> None:
-    """End the command if the file is an image and the package that draws images is not installed."""
+    """End the command if the file is an image and the package for images is not installed."""
     if path.suffix.lower() in {".svg", ".png"}:
         from coframe.plotting.image import check_installed  # noqa: PLC0415 - only images need it
 

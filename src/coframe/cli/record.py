@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""``coframe record``: records topics in the folder layout of rosbag2."""
+"""``coframe record``: records topics in rosbag2's folder layout."""
 
 from __future__ import annotations
 
@@ -57,13 +57,15 @@ _MAX_BYTES = 1 << 63  # bytes
     "-o",
     metavar="FOLDER",
     type=PATH,
-    help="Folder of the recording. [default: rosbag2_ and the date and time]",
+    help="Folder to create. [default: rosbag2_DATE-TIME]",
 )
 @click.option("--all", "-a", "everything", is_flag=True, help="Record all topics that are not hidden.")
-@click.option("--regex", "-e", metavar="REGEX", help="Record topics whose full name matches.")
-@click.option("--exclude", "-x", metavar="REGEX", help="Do not record topics that match.")
+@click.option("--regex", "-e", metavar="REGEX", help="Record topics whose full name matches this regular expression.")
+@click.option(
+    "--exclude", "-x", metavar="REGEX", help="Do not record topics whose full name matches this regular expression."
+)
 @click.option("--compression", metavar="METHOD", default="zstd", help="Compression: none, zstd or lz4.")
-@click.option("--max-size", metavar="SIZE", help="Start a new file at this size, e.g. 500MB or 2GB.")
+@click.option("--max-size", metavar="SIZE", help="Start a new file after this size, e.g. 500MB or 2GB.")
 @click.option(
     "--max-duration",
     metavar="DURATION",
@@ -72,7 +74,10 @@ _MAX_BYTES = 1 << 63  # bytes
 )
 @duration_option
 @click.option(
-    "--backlog", metavar="SIZE", default="128MB", help="Memory for messages that wait to be written; more are dropped."
+    "--backlog",
+    metavar="SIZE",
+    default="128MB",
+    help="Size of the write queue; when it is full, the oldest messages are dropped.",
 )
 @domain_option
 @listener_options
@@ -95,8 +100,8 @@ def record(
 ) -> None:
     """Record topics as MCAP files in the layout of rosbag2, until Ctrl-C.
 
-    Topics that appear later are recorded as well. If the process is killed, at most the last second is lost. --prefix
-    applies to the frame names in all messages; with --tf-topic /robot1/tf, to those of the topics in /robot1.
+    Topics that appear later are also recorded. If the process is killed, at most the last second is lost. --prefix
+    applies to the frame names in all messages; with --tf-topic /robot1/tf, only to messages on topics in /robot1.
 
     The exit code is 1 if no message was recorded.
 
@@ -105,7 +110,7 @@ def record(
     if not prefix and (tf_topic, tf_static_topic) != (TF_TOPIC, TF_STATIC_TOPIC):
         fail(
             "--tf-topic and --tf-static-topic require --prefix",
-            "They choose the frames that get the prefix. To choose topics to record, name them.",
+            "They select the topics whose frames get the prefix. To select topics to record, list them as TOPIC.",
             code=2,
         )
     if everything and (topics or regex):
@@ -142,7 +147,7 @@ def record(
         if not recorder.statistics.messages:
             fail(
                 "no messages were recorded",
-                "Check that the topics are published in the same ROS domain: coframe monitor",
+                "Run `coframe monitor` to check that the topics are published in the same ROS domain.",
             )
 
 
@@ -151,7 +156,7 @@ def _print_topic(topic: str, ros_type: str) -> None:
 
 
 def _watch(recorder: Recorder, duration: float | None) -> None:
-    """Show the progress in a terminal, until the recording ends."""
+    """Show the progress in a terminal until the recording ends."""
     print(f"recording to {recorder.writer.path}; Ctrl-C to stop", file=sys.stderr, flush=True)
     console = Console(stderr=True)
     progress = _Progress(recorder)
@@ -171,7 +176,7 @@ def _wait(recorder: Recorder, end: float | None) -> None:
 
 
 class _Progress:
-    """The line that shows the progress of a recording."""
+    """The progress line of a recording."""
 
     def __init__(self, recorder: Recorder) -> None:
         self._recorder = recorder
@@ -217,10 +222,10 @@ def _finish(recorder: Recorder) -> None:
                 f"not recorded, because they are not ROS topics or there are too many: {', '.join(statistics.refused)}"
             )
         if statistics.not_renamed:
-            warn(f"no prefix is added on topics whose types are unknown: {', '.join(statistics.not_renamed)}")
+            warn(f"no prefix was added on topics with unknown types: {', '.join(statistics.not_renamed)}")
         if recorder.writer.undescribed:
             types = ", ".join(recorder.writer.undescribed)
-            warn(f"recorded without message definitions, so that other programs cannot decode them: {types}")
+            warn(f"recorded without message definitions, so other programs cannot decode them: {types}")
         if recorder.writer.incomplete:
             topics = ", ".join(recorder.writer.incomplete)
             warn(f"the files do not begin with all latched messages, because there are too many: {topics}")

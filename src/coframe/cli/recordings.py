@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Opening recordings for a command, and the times in its options."""
+"""Open recordings for a command, and parse the times in its options."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 __all__ = ["EARLIEST_WALL_TIME", "check_has_transforms", "grouped_by_topic", "open_recording", "parse_time"]
 
-# Stamps before 1980 are simulation time, which begins near 0.
+# Stamps before 1980 are assumed to be simulation time, which begins near 0.
 EARLIEST_WALL_TIME = 10 * 365 * DAY
 
 
@@ -51,7 +51,7 @@ def check_has_transforms(recording: Recording) -> None:
 
 
 def parse_time(option: str, text: str, recording: Recording) -> int:
-    """Return the time that an option gives, in nanoseconds; end the command if it is not a time."""
+    """Return the time given by an option, in nanoseconds; end the command if it is invalid."""
     try:
         time_point = parse_time_point(text, recording.span)
     except ValueError as error:
@@ -68,12 +68,12 @@ def parse_time(option: str, text: str, recording: Recording) -> int:
 
 
 def parse_lookup_time(option: str, text: str, recording: Recording) -> int:
-    """Return the time of a lookup; "end" is 0, the latest common time of its frames, as recordings end with others."""
+    """Return the time of a lookup; "end" is 0, the latest common time of its frames, as other topics may end later."""
     return 0 if text.strip() == "end" else parse_time(option, text, recording)
 
 
 def grouped_by_topic(sentences: list[str]) -> list[str]:
-    """Return sentences that begin with a topic, such as "/tf: ...", with equal ones as one about several topics."""
+    """Merge equal messages that begin with a topic, such as "/tf: ...", into one about several topics."""
     topics: dict[str, list[str]] = {}
     for sentence in sentences:
         topic, colon, text = sentence.partition(": ")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""``coframe relay``: merges the transforms of several robots on one topic, or splits them."""
+"""``coframe relay``: merges the transforms of several robots into one topic, or splits them."""
 
 from __future__ import annotations
 
@@ -46,7 +46,8 @@ REFRESH = 1.0  # seconds
     "sources",
     metavar="TOPIC[=PREFIX]",
     multiple=True,
-    help="Topic of one robot, or with --split the common topic; repeatable. Static transforms: TOPIC_static.",
+    help="Topic of one robot, or with --split the common topic; repeatable. Static transforms are read from "
+    "TOPIC_static.",
 )
 @click.option(
     "--to",
@@ -61,7 +62,7 @@ REFRESH = 1.0  # seconds
     "--tf-static-topic",
     metavar="TOPIC",
     type=topic_name,
-    help="Common topic of the static transforms. [default: that of --to with _static]",
+    help="Common topic of the static transforms. [default: the topic of --to with _static appended]",
 )
 @prefix_option
 @click.option("--prefix-each", is_flag=True, help="Prefix the frames of each robot with its name and a slash.")
@@ -70,16 +71,18 @@ REFRESH = 1.0  # seconds
     "--rate",
     metavar="HZ",
     type=float,
-    help="Maximum rate of each edge, in Hz; with --max-error, the least rate while a robot moves. "
+    help="Maximum rate of each edge, in Hz; with --max-error, the minimum rate while a robot moves. "
     "[default: all transforms; with --max-error: 10]",
 )
 @click.option(
     "--max-error",
     metavar="DISTANCE,ANGLE",
-    help="Skip transforms that subscribers can interpolate with at most this error, e.g. 1mm,0.1deg.",
+    help="Omit transforms that subscribers can interpolate within this error, e.g. 1mm,0.1deg.",
 )
 @click.option(
-    "--split", is_flag=True, help="Reverse: relay frames with the prefix robot1/ to /robot1/tf, without the prefix."
+    "--split",
+    is_flag=True,
+    help="Relay in reverse: frames with the prefix robot1/ go to /robot1/tf, without the prefix.",
 )
 @click.option("--status", is_flag=True, help="Show each edge with its source, rate and age.")
 @domain_option
@@ -99,8 +102,8 @@ def relay(
 ) -> None:
     """Relay the transforms of several robots to one topic, or split one topic into one for each robot.
 
-    A warning is printed for each problem: a robot that stops publishing, a clock that is wrong, a frame that two robots
-    publish, a frame name with a leading slash, or a frame with an incomplete prefix.
+    Problems are reported as warnings: robots that stop publishing, wrong clocks, frames that two robots publish, and
+    frame names with leading slashes or incomplete prefixes.
 
     Example: coframe relay --robots robot1,robot2 --prefix-each --keep map,world
     """
@@ -109,7 +112,7 @@ def relay(
     if split:
         common = next(iter(prefixes), tf_topic)
         if len(prefixes) > 1 or any(prefixes.values()):
-            fail("--split reads a single --from topic without a prefix", "Name the robots with --robots.", code=2)
+            fail("--split reads a single --from topic without a prefix", "Use --robots to name the robots.", code=2)
         prefixes = {}
     with run_until_interrupted(), contextlib.ExitStack() as stack:
         try:
@@ -139,13 +142,13 @@ def relay(
 
 
 def _prefixes(sources: Iterable[str]) -> dict[str, str]:
-    """Return the prefix of each topic, from the words TOPIC=PREFIX."""
+    """Return the prefix of each topic from arguments TOPIC=PREFIX."""
     pairs = [source.partition("=") for source in sources]
     return {topic: checked_prefix(prefix) for topic, _, prefix in pairs}
 
 
 def _show(running: Relay) -> None:
-    """Show the table until Ctrl-C; if the output is not a terminal, print it once when there are edges."""
+    """Show the table until Ctrl-C; without a terminal, print it once as soon as there are edges."""
     console = Console()
     rates = _Rates()
     if console.is_terminal:

@@ -68,7 +68,7 @@ def robot(
             "publish_frequency": frequency,
             "ignore_timestamp": ignore_timestamp or None,
         }
-        # Options that are not given do not override the parameters of -p and --params-file.
+        # Omitted options do not override parameters set by -p and --params-file.
         parameters = {"robot_description": description} | {n: value for n, value in given.items() if value is not None}
         from coframe.nodes.robot_state_publisher import run  # noqa: PLC0415 - not needed if the file cannot be read
         from rclpy.parameter import Parameter  # noqa: PLC0415

@@ -51,14 +51,14 @@ def show_robots(
     port: int | None,
     browser: bool,
 ) -> None:
-    """Start robot1, robot2, ... and show them until Ctrl-C; the end of one does not stop the others.
+    """Start robot1, robot2, ... and show them until Ctrl-C. If one ends, the others continue.
 
     Args:
         number_of_robots: Number of robots to start.
-        duration: Seconds after which the demo stops; None: on Ctrl-C.
-        config: What is shown: the common topics of the robots, and the names of the frames.
-        own_topics: Whether each robot publishes names without a prefix on its own topics, which a relay merges. If
-            False, all robots publish names with a prefix on the same topics.
+        duration: Seconds after which the demo stops; None for until Ctrl-C.
+        config: The common topics of the robots and the names of the frames.
+        own_topics: Whether each robot publishes frames without a prefix on its own topics, which a relay merges. If
+            False, all robots publish frames with a prefix on the same topics.
         port: Port of the viewer; see :func:`coframe.show`.
         browser: Whether to open a browser.
     """
@@ -140,7 +140,7 @@ class _Row(NamedTuple):
 
     @property
     def problem(self) -> str:
-        """A sentence about the problem of this robot; "" if there is none."""
+        """A description of this robot's problem; "" if there is none."""
         if self.ended is not None:
             code = self.ended.exit_code
             return f"{self.name} stopped: its process ended with exit code {code}; its frames are stale"
@@ -183,7 +183,7 @@ class _View:
         return [name for name in self._names if self._frame(name, "base_link") not in self._ros.buffer]
 
     def problems(self) -> list[str]:
-        """Return a sentence about each robot that has a problem."""
+        """Return the problems of all robots."""
         return [row.problem for row in self.rows() if row.problem]
 
     def table(self) -> Table:

@@ -2,8 +2,8 @@
 """``--ros-args`` of commands that replace ROS 2's tools, such as ``coframe static``.
 
 The names of the node and of the topics of transforms can be remapped. Other arguments, such as parameters, are accepted
-because ROS 2's tools accept them, but have no effect. rclpy's parser is not used, as that of a sourced ROS has none
-that programs can call.
+because ROS 2's tools accept them, but have no effect. rclpy's parser is not used, because a sourced ROS has no public
+one.
 """
 
 from __future__ import annotations
@@ -48,10 +48,10 @@ _rules: ContextVar[tuple[_Rule, ...]] = ContextVar("rules", default=())
 
 
 class NodeCommand(Command):
-    """A command whose node is named by the remapping rules after ``--ros-args``."""
+    """A command whose node can be renamed by remapping rules after ``--ros-args``."""
 
     def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
-        """Take ``--ros-args ... --`` out of the arguments, and parse the others with the remapped topics."""
+        """Remove ``--ros-args ... --`` from the arguments, and parse the others with the remapped topics."""
         own, rules = _split(args)
         _rules.set(rules)
         namespace = node_identity("")["node_namespace"]
@@ -69,7 +69,7 @@ def node_identity(default: str) -> NodeIdentity:
         default: The name without a rule.
     """
     found = {"__node": default, "__ns": "/"}
-    for rule in reversed(_rules.get()):  # The first rule that matches applies.
+    for rule in reversed(_rules.get()):  # The first matching rule applies.
         match = "__node" if rule.match == "__name" else rule.match
         if match in found and rule.node in {None, default}:
             found[match] = rule.replacement

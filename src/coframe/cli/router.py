@@ -25,29 +25,29 @@ _UPDATE_PERIOD = 1.0  # seconds
     metavar="FILE",
     default="",
     show_default=False,
-    help="Configuration of Zenoh (JSON5), which replaces the defaults. [default: $ZENOH_ROUTER_CONFIG_URI]",
+    help="Zenoh configuration file (JSON5), which replaces the defaults. [default: $ZENOH_ROUTER_CONFIG_URI]",
 )
 @click.option(
     "--listen",
     metavar="ENDPOINT",
     multiple=True,
-    help="Endpoint to listen on, e.g. tcp/0.0.0.0:7447 for all interfaces; repeatable. "
-    "[default: tcp/127.0.0.1:7447, this machine only]",
+    help="Endpoint to listen on, e.g. tcp/0.0.0.0:7447 for all interfaces; repeatable. [default: tcp/127.0.0.1:7447, "
+    "only this machine]",
 )
 @click.option(
     "--connect",
     metavar="ENDPOINT",
     multiple=True,
-    help="Endpoint of another router, e.g. tcp/10.0.0.5:7447; repeatable.",
+    help="Endpoint of another router to connect to, e.g. tcp/10.0.0.5:7447; repeatable.",
 )
 def router(
     config: str,
     listen: tuple[str, ...],
     connect: tuple[str, ...],
 ) -> None:
-    """Run a Zenoh router, which connects nodes on Zenoh with each other and with other networks.
+    """Run a Zenoh router, which connects Zenoh nodes with each other and across networks.
 
-    The defaults are those of ROS 2's rmw_zenohd, except that the router listens on this machine only. It prints a line
+    The defaults are those of ROS 2's rmw_zenohd, except that the router listens only on this machine. A line is printed
     for each process that connects or disconnects. Anyone who can reach an endpoint without certificates can read and
     publish everything.
 

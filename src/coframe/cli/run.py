@@ -29,10 +29,17 @@ __all__ = ["run"]
 @click.pass_context
 @argument("package", metavar="PACKAGE", help="Name of the package.")
 @argument(
-    "executable", metavar="[EXECUTABLE]", required=False, help="Name of the executable; without it, all are listed."
+    "executable",
+    metavar="[EXECUTABLE]",
+    required=False,
+    help="Name of the executable; omit it to list all executables.",
 )
 @click.option(
-    "--prefix", metavar="COMMAND", default="", show_default=False, help="Command to put in front, e.g. 'gdb --args'."
+    "--prefix",
+    metavar="COMMAND",
+    default="",
+    show_default=False,
+    help="Command with which the executable is started, e.g. 'gdb --args'.",
 )
 def run(
     context: click.Context,
@@ -40,10 +47,10 @@ def run(
     executable: str | None,
     prefix: str,
 ) -> None:
-    """Run an executable of PACKAGE with all further arguments, like ros2 run.
+    """Run an executable of PACKAGE with the remaining arguments, like ros2 run.
 
     The package may be in a sourced workspace or in a source folder: console scripts of setup.py, setup.cfg and
-    pyproject.toml run without colcon build. Options of this command stand in front of PACKAGE.
+    pyproject.toml run without colcon build. Options of this command precede PACKAGE.
 
     Example: coframe run my_package talker --ros-args -r chatter:=/news
     """
@@ -59,7 +66,7 @@ def run(
 
 
 def _replace_process(command: list[str], environment: Mapping[str, str]) -> None:
-    """Run a command in place of this process, so that Ctrl-C and signals reach it alone."""
+    """Replace this process with a command, so that only the command receives Ctrl-C and signals."""
     sys.stdout.flush()
     try:
         if os.name == "posix":

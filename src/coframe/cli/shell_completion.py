@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""``--install-completion``: the scripts with which shells complete commands, options, recordings and frames by TAB.
+"""``--install-completion``: scripts for TAB completion of commands, options, recordings and frames.
 
-click writes the scripts; this module finds the shell, and puts them where it reads them.
+click generates the scripts; this module detects the shell and installs them.
 """
 
 from __future__ import annotations
@@ -30,12 +30,12 @@ _SHELLS: Final = ("bash", "zsh", "fish")
 
 
 def script(ctx: click.Context) -> str:
-    """Return the script for the shell that has started this process."""
+    """Return the script for the shell that started this process."""
     return _script(_shell(), ctx)
 
 
 def install(ctx: click.Context) -> None:
-    """Install the script for the shell that has started this process."""
+    """Install the script for the shell that started this process."""
     shell, program = _shell(), str(ctx.info_name)
     text = _script(shell, ctx)
     home = Path.home()
@@ -52,7 +52,7 @@ def install(ctx: click.Context) -> None:
         path.write_text(text, encoding="utf-8")
     except (OSError, UnicodeDecodeError) as error:
         fail(f"the completion for {shell} cannot be installed: {error}")
-    print(f"{shell} completion installed in {path}\nIt works in a new terminal.")
+    print(f"{shell} completion installed in {path}\nOpen a new terminal to use it.")
 
 
 def _script(shell: str, ctx: click.Context) -> str:
@@ -73,16 +73,19 @@ def _add_lines(file: Path, lines: tuple[str, ...]) -> None:
 
 
 def _shell() -> str:
-    """Return the name of the shell that has started this process, else of the user's shell."""
+    """Return the name of the shell that started this process, or the user's default shell."""
     names = [*_ancestors(), Path(os.environ.get("SHELL", "")).name]
     shell = next((name for name in names if name in _SHELLS), None)
     if shell is None:
-        fail(f"no completion for the shell {names[-1] or 'of this system'}", f"Shells: {', '.join(_SHELLS)}.")
+        fail(
+            f"no completion is available for the shell {names[-1] or 'of this system'}",
+            f"Shells: {', '.join(_SHELLS)}.",
+        )
     return shell
 
 
 def _ancestors() -> Iterator[str]:
-    """Yield the names of the program that has started this process, of the one before it, and so on."""
+    """Yield the names of the ancestors of this process, parent first."""
     process = os.getppid()
     for _ in range(MAX_ANCESTORS):
         name, process = _name_and_parent(process)
@@ -92,12 +95,12 @@ def _ancestors() -> Iterator[str]:
 
 
 def _name_and_parent(process: int) -> tuple[str, int]:
-    """Return the name of a process and the number of its parent; nothing if they are unknown."""
+    """Return the name of a process and its parent's ID; nothing if unknown."""
     try:
         start, _, rest = Path(f"/proc/{process}/stat").read_text(encoding="utf-8", errors="replace").rpartition(")")
         return start.partition("(")[2], int(rest.split()[1])
     except (OSError, ValueError, IndexError):
-        pass  # Other systems than Linux have no /proc.
+        pass  # Only Linux has /proc.
     try:
         command = ["ps", "-o", "ppid=,comm=", "-p", str(process)]
         parent, name = subprocess.run(command, capture_output=True, text=True, check=True).stdout.split(maxsplit=1)  # noqa: S603

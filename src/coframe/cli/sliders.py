@@ -22,7 +22,7 @@ _STEPS = {"left": -0.01, "right": 0.01, "page down": -0.1, "page up": 0.1}  # fr
 
 
 class Sliders:
-    """The free joints of a robot, one of which is selected."""
+    """The free joints of a robot; one of them is selected."""
 
     def __init__(self) -> None:
         self.selected = 0

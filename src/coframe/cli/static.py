@@ -48,9 +48,8 @@ Options:
                            or 0]
   --tf-static-topic TOPIC  Topic of the static transforms, e.g.
                            /robot1/tf_static. [default: /tf_static]
-  --tf-topic TOPIC         Accepted for uniformity; nothing is published there.
-  --prefix PREFIX          Prefix for all frame names, with its slash, e.g.
-                           robot1/.
+  --tf-topic TOPIC         Accepted for uniformity; has no effect.
+  --prefix PREFIX          Prefix for all frame names, including the slash, e.g. robot1/.
   --keep FRAMES            Shared frames that get no prefix, e.g. map,world.
   --ros-args -r __node:=NAME -r __ns:=/NAMESPACE -r /tf_static:=TOPIC
                            Names of the node and of the topic.
@@ -59,7 +58,7 @@ Options:
 """
 
 
-# Numbers of a transform may be negative, so the command reads its arguments itself.
+# The command parses its arguments itself, because numbers may be negative.
 @click.command(cls=NodeCommand, add_help_option=False, context_settings=PASS_WORDS_ON)
 @click.pass_context
 def static(context: click.Context) -> None:

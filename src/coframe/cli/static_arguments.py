@@ -23,12 +23,12 @@ NAMES = ("--frame-id", "--child-frame-id", "--domain", "--tf-topic", "--tf-stati
 
 
 class ArgumentError(ValueError):
-    """Invalid arguments; the texts are those of static_transform_publisher where it has one."""
+    """Invalid arguments; the messages are those of static_transform_publisher if it has one."""
 
 
 @dataclass
 class StaticArguments:
-    """The static transform that the command line describes, and where to publish it."""
+    """The static transform given on the command line, and where to publish it."""
 
     frame_id: str
     child_frame_id: str
@@ -51,7 +51,7 @@ def parse(words: Sequence[str]) -> StaticArguments:
     """Parse ``--x 1 --frame-id a ...``, ``x y z yaw pitch roll frame child`` or ``x y z qx qy qz qw frame child``.
 
     Raises:
-        ArgumentError: An argument is missing, unknown or not a number, or two of them contradict each other.
+        ArgumentError: An argument is missing, unknown or not a number, or two of them conflict.
     """
     flags = _flags(words)
     arguments = _transform(flags)

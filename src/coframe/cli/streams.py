@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Encodings of arguments and of standard output; closed streams, closed pipes and full disks."""
+"""Handle encodings of arguments and standard output, closed streams, closed pipes and full disks."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ import sys
 __all__ = ["accept_any_encoding", "discard_output", "flush_output", "replace_closed_streams", "undecodable"]
 
 _HANDLER = "coframe.plain"
-# What trees and texts contain, as far as one character can replace it, so that columns stay aligned.
+# Characters in trees and text with single-character replacements, so that columns stay aligned.
 _PLAIN = {"─": "-", "│": "|", "├": "+", "└": "`", "…": ".", "×": "x", "–": "-", "—": "-", "·": "."}  # noqa: RUF001
 
 
 def accept_any_encoding() -> None:
-    """Let standard output and standard error replace the characters that their encoding does not have.
+    """Let standard output and standard error replace characters that their encoding does not support.
 
     Branches of trees are then drawn with ASCII characters; other characters are escaped. Windows uses such encodings
     for redirected output, other systems where a locale or PYTHONIOENCODING says so.
@@ -28,7 +28,7 @@ def accept_any_encoding() -> None:
 
 
 def replace_closed_streams() -> None:
-    """Let the standard streams that are closed read and write nothing.
+    """Redirect closed standard streams to the null device.
 
     Python represents them by None. Their file descriptors are free, so that the next file or socket would get one of
     them, and would receive what native code and child processes print.
@@ -42,7 +42,7 @@ def replace_closed_streams() -> None:
 
 
 def undecodable(word: str) -> bool:
-    """Return whether an argument has bytes that are not valid UTF-8 and is not the path of a file, nor in a folder.
+    """Return whether an argument contains invalid UTF-8 and is not the path of an existing file or folder.
 
     Python represents these bytes by lone surrogates. The names of frames, topics and new files cannot contain them.
     """
@@ -56,17 +56,17 @@ def undecodable(word: str) -> bool:
 
 
 def flush_output() -> None:
-    """Write what standard output has buffered; Python reports an error at its exit as a traceback.
+    """Flush standard output, because Python would report an error at exit as a traceback.
 
     Raises:
-        OSError: The disk is full, or the reader of a pipe, such as ``head``, has closed it.
+        OSError: The disk is full, or the reader of a pipe, such as ``head``, closed it.
     """
     if sys.stdout is not None and not sys.stdout.closed:
         sys.stdout.flush()
 
 
 def discard_output() -> None:
-    """Discard what standard output has buffered and could not write, so that Python does not try again at its exit."""
+    """Discard buffered output that could not be written, so that Python does not try again at exit."""
     null = os.open(os.devnull, os.O_WRONLY)
     try:
         os.dup2(null, sys.stdout.fileno())

@@ -11,7 +11,7 @@ _FULL = {errno.ENOSPC, getattr(errno, "EDQUOT", errno.ENOSPC)}
 _ADVICE = {
     errno.EACCES: "Check the permissions.",
     errno.EPERM: "Check the permissions.",
-    errno.EROFS: "Choose a folder that is writable.",
+    errno.EROFS: "Choose a writable folder.",
     errno.EMFILE: "Close files or raise the limit of open files: ulimit -n 4096.",
     **dict.fromkeys(_FULL, "Free some space, or write to another disk."),
 }
@@ -23,9 +23,9 @@ def advice_for_writing(error: OSError) -> str:
 
 
 def description(error: OSError) -> str:
-    """Return a sentence about an error that no command expects and, where there is advice, a second line with it."""
+    """Return a description of an unexpected error, with advice on a second line if available."""
     file = f"{error.filename}: " if error.filename else ""
     advice = _ADVICE.get(error.errno or 0, "")
-    if "temporary directory" in str(error):  # the text of tempfile, and of packages that use it
+    if "temporary directory" in str(error):  # the message of tempfile and of packages that use it
         advice = "Set TMPDIR to a folder with write permission."
     return f"coframe: {file}{error.strerror or error}" + (f"\n  {advice}" if advice else "")

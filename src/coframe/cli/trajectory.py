@@ -44,12 +44,12 @@ __all__ = ["trajectory"]
     "-f",
     "format_",
     metavar="FORMAT",
-    help=f"Format: {', '.join(FORMATS)}. [default: by the suffix of FILE, or tum]",
+    help=f"Format: {', '.join(FORMATS)}. [default: from the suffix of FILE, or tum]",
 )
 @click.option("--rate", "-r", metavar="HZ", type=float, help="Poses per second. [default: one per recorded transform]")
 @click.option("--stamps-of", metavar="TOPIC", help="Write a pose at the stamp of each message of this topic.")
-@click.option("--start", metavar="TIME", help="First time, written like --at of lookup.")
-@click.option("--stop", metavar="TIME", help="Last time, written like --start.")
+@click.option("--start", metavar="TIME", help="Start time, in the same format as `lookup --at`.")
+@click.option("--stop", metavar="TIME", help="End time, in the same format as --start.")
 @namespace_option
 @recorded_listener_options
 def trajectory(

@@ -31,7 +31,7 @@ def tree_table(buffer: Buffer, reference: str, liveness: LivenessTracker, *, mos
     Args:
         buffer: The buffer that contains the frames.
         reference: The frame in which poses are expressed.
-        liveness: Decides which frames are stale; the table updates it.
+        liveness: Determines which frames are stale; updated by the table.
         most: Maximum number of rows.
         wide: Whether the terminal has at least 100 columns, enough to show millimetres.
     """

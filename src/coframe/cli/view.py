@@ -52,7 +52,7 @@ port_option = click.option(
     "--port",
     metavar="PORT",
     type=click.IntRange(min=0, max=65535),
-    help="Port of the viewer; 0 chooses a free one. [default: 7676 or, if it is in use, a free one]",
+    help="Port of the viewer; 0 selects a free port. [default: 7676, or a free port if it is in use]",
 )
 no_browser_option = click.option("--no-browser", is_flag=True, help="Print the address without opening a browser.")
 
@@ -63,17 +63,17 @@ no_browser_option = click.option("--no-browser", is_flag=True, help="Print the a
     metavar="[BAG]",
     default="live",
     shell_complete=complete_recordings,
-    help="Recording; without it, or with 'live', the live ROS graph.",
+    help="Recording to read; omit it, or pass 'live', for the live ROS graph.",
 )
 @click.option(
-    "--display-config", "-d", "rviz", metavar="FILE", type=PATH, help="RViz configuration, a .rviz file of RViz 2 or 1."
+    "--display-config", "-d", "rviz", metavar="FILE", type=PATH, help="RViz configuration file (.rviz) of RViz 2 or 1."
 )
 @click.option(
     "--fixed",
     metavar="FRAME",
     default="",
     show_default=False,
-    help="Fixed frame, in which everything is shown. [default: the root of the tree]",
+    help="Fixed frame, in which everything is drawn. [default: the root of the tree]",
 )
 @port_option
 @host_option
@@ -96,10 +96,10 @@ no_browser_option = click.option("--no-browser", is_flag=True, help="Print the a
     "-o",
     metavar="FILE",
     type=PATH,
-    help="Write a replay of BAG to an .html file, which plays in any browser, instead of starting a viewer.",
+    help="Write a replay of BAG to an .html file, which any browser can play, instead of starting a viewer.",
 )
-@click.option("--start", metavar="TIME", help="First time of the replay, written like --at of lookup.")
-@click.option("--stop", metavar="TIME", help="Last time of the replay.")
+@click.option("--start", metavar="TIME", help="Start time of the replay, in the same format as `lookup --at`.")
+@click.option("--stop", metavar="TIME", help="End time of the replay.")
 @click.option(
     "--rate",
     metavar="HZ",
@@ -127,7 +127,7 @@ def view(
     prefix: str,
     keep: str,
 ) -> None:
-    """Show all frames and the data in them in a browser tab, live or from the recording BAG at any time.
+    """Show frames, sensor data and markers in a browser tab, live or from the recording BAG at any time.
 
     Example: coframe view run.mcap -d lab.rviz
     """
@@ -161,7 +161,7 @@ def view(
             mesh_roots=mesh_root,
         )
         with viewer:
-            # The browser starts while the graph is joined or the recording is read.
+            # The browser starts while the graph is being joined or the recording is being read.
             if live:
                 announce(viewer, browser=not no_browser)
                 config = ListenerConfig.of(
@@ -235,6 +235,6 @@ def announce(viewer: Viewer, *, browser: bool) -> None:
 
 
 def open_browser(url: str) -> None:
-    """Open a page in the browser, if there is one."""
-    with contextlib.suppress(Exception):  # Without a browser, the printed address is enough.
+    """Open a page in the browser, if available."""
+    with contextlib.suppress(Exception):  # Without a browser, the printed address is sufficient.
         webbrowser.open(url)

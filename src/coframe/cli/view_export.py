@@ -41,7 +41,7 @@ def write_replay(
     stop: str | None,
     rate: float | None,
 ) -> None:
-    """Write the replay; the file exists at the end only if it is complete."""
+    """Write the replay atomically."""
     with run_to_completion():
         config = None if rviz is None else RvizConfig.load(rviz)
         description = None if robot is None else load(robot, packages=list(mesh_roots))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""``coframe why``: explains why a transform between two frames is available, or why it is not.
+"""``coframe why``: explains why a transform between two frames is or is not available.
 
 The arguments are those of ``coframe lookup``, so that a user who gets an error there changes only the command.
 """
@@ -54,7 +54,7 @@ if TYPE_CHECKING:
 __all__ = ["why"]
 
 _NAMES = "[BAG] TARGET SOURCE"
-# The node of the connection receives static transforms at about the same time as the doctor's node, which waits first.
+# The connection receives static transforms at about the same time as the doctor's node, which waits for them first.
 _SECOND_LISTENER = 0.5  # seconds
 _TF_TYPE = "tf2_msgs/msg/TFMessage"
 _ASCII = str.maketrans("├└│─", "+`|-")
@@ -75,13 +75,13 @@ class _Answer(NamedTuple):
     metavar=_NAMES,
     nargs=-1,
     shell_complete=complete_frames,
-    help="The frames as in lookup; without a recording BAG, the live ROS graph is used.",
+    help="The frames, as in coframe lookup. Omit BAG to use the live ROS graph.",
 )
 @click.option(
     "--at",
     "-t",
     metavar="TIME",
-    help=f"Time of the lookup: {TIMES}; live also 'now'. [default: 'end', the latest common time]",
+    help=f"Time of the lookup: {TIMES}; for the live graph also 'now'. [default: 'end', the latest common time]",
 )
 @click.option(
     "--duration", "--timeout", metavar="DURATION", type=PositiveDuration, default="2s", help="Observation time."
@@ -104,10 +104,10 @@ def why(
     prefix: str,
     keep: str,
 ) -> None:
-    """Explain why the transform from SOURCE to TARGET is available, or why it is not.
+    """Explain why the transform from SOURCE to TARGET is or is not available.
 
-    The answer lists each edge of the chain with its publisher and its age, and says what to change. The exit code is 0
-    if the transform is available, and 1 if it is not.
+    The output lists each edge of the chain with its publisher and age, and what to change. The exit code is 0 if the
+    transform is available, and 1 otherwise.
 
     Example: coframe why base_link camera_link --at now
     """
@@ -190,7 +190,7 @@ def _watch(config: ListenerConfig, target: str, source: str, at: str | None, win
 
 
 def _lookup_time(at: str | None, clock: int | None, window: int) -> int | None:
-    """Return the time of a lookup in a window that ends now; None: the latest."""
+    """Return the time of a lookup in a window that ends now; None for the latest."""
     if at is None:
         return None
     now = time.time_ns() if clock is None else clock
@@ -264,7 +264,7 @@ def _texts(answer: _Answer, console: Console) -> list[Text]:
 
 
 def _with_fix(found: Explanation, text: str) -> str:
-    """Replace what the library says about a missing edge by the command that publishes it."""
+    """Replace the library's advice about a missing edge with the command that publishes it."""
     return text if found.missing is None else text.replace(found.missing.hint, found.missing.fix)
 
 

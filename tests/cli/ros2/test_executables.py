@@ -36,7 +36,7 @@ def test_help_and_commands_without_a_counterpart(execute):
     assert "\n  view " not in output
     assert execute("ros2", "daemon", "status") == (
         0,
-        "coframe has no daemon: each command looks at the ROS graph itself.\n",
+        "coframe has no daemon: each command reads the ROS graph itself.\n",
     )
     code, output = execute("ros2", "component", "list")
     assert code == 1
@@ -131,7 +131,7 @@ def test_a_new_package_runs_without_a_build(execute, tmp_path):
     assert execute("ros2", "pkg", "xml", "my_robot", "--tag", "version") == (0, "0.0.0\n")
     code, output = execute("ros2", "pkg", "create", "my_robot")
     assert code == 1
-    assert "exists already" in output
+    assert "already exists" in output
     assert execute("ros2", "pkg", "create", "My-Robot")[0] == 2
     compile((tmp_path / "my_robot" / "my_robot" / "hello.py").read_text(), "hello.py", "exec")
     metadata = subprocess.run(

@@ -164,7 +164,7 @@ def test_an_impossible_domain(domain):
 @pytest.mark.slow
 def test_a_name_that_no_topic_can_have_is_not_waited_for(run):
     message = run("topic", "hz", "bad name", code=1)
-    assert "coframe: '/bad name' cannot be the name of a topic: topic name must not contain characters" in message
+    assert "coframe: '/bad name' is not a valid topic name: topic name must not contain characters" in message
 
 
 @pytest.mark.slow

@@ -43,7 +43,7 @@ def run(*words: str) -> Any:
 
 def test_added_folders_are_listed_and_removed(tmp_path: Path) -> None:
     result = run("check")
-    assert result.stdout.startswith("No packages of yours were found. Searched: no folder\n")
+    assert result.stdout.startswith("None of your packages were found. Searched: no folder\n")
     assert "visualization_msgs" in result.stdout
     result = run("add", "ws/src")
     assert (result.exit_code, result.stderr) == (0, "")
@@ -54,7 +54,7 @@ def test_added_folders_are_listed_and_removed(tmp_path: Path) -> None:
     assert run("remove", "ws").stderr == f"coframe: {tmp_path}/ws was not added\n  Added: {tmp_path}/ws/src.\n"
     assert run("remove", "ws/src").exit_code == 0
     packages.forget()
-    assert "No packages of yours were found" in run("check").stdout
+    assert "None of your packages were found" in run("check").stdout
 
 
 def test_the_origin_of_a_definition_is_shown_on_request(tmp_path: Path) -> None:

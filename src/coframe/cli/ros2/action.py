@@ -42,8 +42,8 @@ action = CommandGroup(
 
 @action.command(cls=GraphCommand, short_help="Show the clients and servers of an action.")
 @action_argument
-@click.option("--show-types", "-t", is_flag=True, help="Show the types as well.")
-@click.option("--count", "-c", is_flag=True, help="Print the numbers of nodes only.")
+@click.option("--show-types", "-t", is_flag=True, help="Also show the types.")
+@click.option("--count", "-c", is_flag=True, help="Print only the numbers of nodes.")
 @spin_time_option(DISCOVERY)
 def info(
     action_name: str,
@@ -51,7 +51,7 @@ def info(
     count: bool,
     spin_time: NonNegativeDuration,
 ) -> None:
-    """Show the nodes that are clients and servers of an action.
+    """Show the nodes with clients and servers of an action.
 
     Example: coframe action info /fibonacci
     """
@@ -73,8 +73,8 @@ def info(
 
 
 @action.command("list", cls=GraphCommand, short_help="List the actions.")
-@click.option("--show-types", "-t", is_flag=True, help="Show the types as well.")
-@click.option("--count-actions", "-c", "count", is_flag=True, help="Print the number of actions only.")
+@click.option("--show-types", "-t", is_flag=True, help="Also show the types.")
+@click.option("--count-actions", "-c", "count", is_flag=True, help="Print only the number of actions.")
 @spin_time_option(DISCOVERY)
 def list_actions(
     show_types: bool,
@@ -128,7 +128,7 @@ def send_goal(
 
 
 def _follow_goal(node: Node, client: Any, goal: Any, *, feedback: bool) -> None:
-    """Send the goal, and print what happens to it until it is finished."""
+    """Send the goal, and print its progress until it is finished."""
     import rclpy  # noqa: PLC0415 - slow import
 
     def print_feedback(message: Any) -> None:

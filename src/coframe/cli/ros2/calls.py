@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Calls of services of another node, with sentences for what can go wrong."""
+"""Call services of another node, with error messages for the possible failures."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _RESPONSE = 5.0  # seconds
 
 
 def fail_if_refused(client: Any) -> None:
-    """End the command if the only servers are ones whose middleware would misread requests.
+    """End the command if the middleware of all servers would misread requests.
 
     Args:
         client: A service client or an action client.
@@ -30,11 +30,11 @@ def fail_if_refused(client: Any) -> None:
 
 
 def wait_for_server(client: Any, wait: Callable[[float], bool]) -> None:
-    """Wait for a server without a limit; end the command if the only servers are ones that misread requests.
+    """Wait for a server without a limit; end the command if all servers would misread requests.
 
     Args:
         client: A service client or an action client.
-        wait: Its method that waits for at most some seconds.
+        wait: Its method that waits for a server with a timeout.
     """
     while not wait(PATIENCE):
         fail_if_refused(client)
@@ -59,7 +59,7 @@ def call_service(node: Node, service_class: Any, name: str, request: Any) -> Any
         future = client.call_async(request)
         rclpy.spin_until_future_complete(node, future, timeout_sec=_RESPONSE)
         if not future.done():
-            fail(f"Service {name} did not respond within {_RESPONSE:g} s.", "Its node must be spinning to respond.")
+            fail(f"Service {name} did not respond within {_RESPONSE:g} s.", "Check that its node is spinning.")
         return future.result()
     finally:
         node.destroy_client(client)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The definitions of types as text, with the fields of nested types below each field."""
+"""Type definitions as text, with the fields of nested types below each field."""
 
 from __future__ import annotations
 
@@ -30,10 +30,10 @@ def shown_definition(name: str, *, comments: bool, nested_comments: bool, level:
     """Yield the lines of a definition; fields of nested types follow their field, indented by tabs.
 
     Args:
-        name: Name of a type, e.g. "geometry_msgs/msg/Pose"; the part "msg" may be left out.
+        name: Name of a type, e.g. "geometry_msgs/msg/Pose"; "msg" may be omitted.
         comments: Whether to show the comments of this type.
-        nested_comments: Whether to show the comments of nested types as well.
-        level: How deep this type is nested.
+        nested_comments: Whether to also show the comments of nested types.
+        level: The nesting depth of this type.
     """
     package, kind, base = _parts(name)
     for line in _definition(package, kind, base).text.splitlines():
@@ -72,7 +72,7 @@ def _parts(name: str) -> tuple[str, str, str]:
         parts.insert(1, "msg")
     if len(parts) != 3 or parts[1] not in _KINDS or not all(parts):
         examples = "Examples: geometry_msgs/msg/Pose, std_srvs/srv/SetBool"
-        fail(f"{name!r} is not the name of a type.", near_types(name) or examples, code=2)
+        fail(f"{name!r} is not a type name.", near_types(name) or examples, code=2)
     return parts[0], parts[1], parts[2]
 
 

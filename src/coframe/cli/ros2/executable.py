@@ -38,7 +38,7 @@ _ABSENT = {
     "extension_points": _EXTENSIONS,
     "extensions": _EXTENSIONS,
 }
-# Options of `ros2 bag play` that have another form in coframe.
+# Options of `ros2 bag play` with another form in coframe.
 _PLAY_OPTIONS = {"-l": "--loop", "-p": "--start-paused", "-d": "--delay"}
 _STORAGE_OPTIONS = {"-s", "--storage"}  # coframe detects the storage of a recording, and records MCAP
 _OWN_SCRIPT = b"coframe.cli.ros2.executable"  # in the executables that `coframe ros2 install` writes
@@ -51,7 +51,7 @@ def ros2() -> None:
     words = sys.argv[1:]
     name = _ALIASES.get(words[0], words[0]) if words else ""
     if name == "daemon":
-        print("coframe has no daemon: each command looks at the ROS graph itself.")
+        print("coframe has no daemon: each command reads the ROS graph itself.")
         return
     if name in _ABSENT:
         sys.exit(f"ros2: The command {name} does not exist in coframe. {_ABSENT[name]}")
@@ -64,7 +64,7 @@ def ros2() -> None:
 def rviz2() -> None:
     """Run the console script ``rviz2``: open the viewer with RViz's options."""
     _run_real("rviz2")
-    parser = argparse.ArgumentParser("rviz2", description="Open coframe's viewer in the browser, in place of RViz.")
+    parser = argparse.ArgumentParser("rviz2", description="Open coframe's viewer in the browser instead of RViz.")
     parser.add_argument("-d", "--display-config", metavar="FILE", help="a .rviz file")
     parser.add_argument("-f", "--fixed-frame", metavar="FRAME", help="the fixed frame")
     parser.add_argument("-s", "--splash-screen", metavar="FILE", help=argparse.SUPPRESS)
@@ -90,7 +90,7 @@ def _bag_words(words: list[str]) -> list[str]:
 
 
 def _run_real(name: str) -> None:
-    """Replace this process by the executable of an installed ROS, if there is one."""
+    """Replace this process with the executable of an installed ROS, if there is one."""
     real = real_executable(name)
     if real is None:
         return

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The node of a command, which reads the ROS graph; names that ``ros2`` hides; options of all these commands."""
+"""The node of a command, hidden names, and the options shared by all graph commands."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ __all__ = [
 
 DISCOVERY = NonNegativeDuration("0.4s")  # ros2cli waits 0.5 s without its daemon
 AT_ONCE = NonNegativeDuration("0s")
-# Fast DDS may need seconds to announce an endpoint, so a name that was asked for is awaited longer than a list.
+# Fast DDS may take seconds to announce an endpoint, so commands wait longer for a specific name than for a list.
 PATIENCE = 3.0  # seconds
 _PERIOD = 0.02  # seconds between two looks at the graph
 
@@ -56,7 +56,7 @@ _warned: set[str] = set()  # the warnings that were printed
 
 
 def spin_time_option(default: NonNegativeDuration) -> Callable[[Declared], Declared]:
-    """Declare the option `--spin-time`: DISCOVERY for lists, AT_ONCE for names that are waited for."""
+    """Declare the option `--spin-time`: DISCOVERY for lists, AT_ONCE for commands that wait for a name."""
     return click.option(
         "--spin-time",
         metavar="DURATION",
@@ -73,9 +73,9 @@ hidden_topics_option = click.option(
     "--include-hidden-topics",
     "include_hidden",
     is_flag=True,
-    help="Consider hidden topics, such as those of actions, as well.",
+    help="Include hidden topics, such as those of actions.",
 )
-all_option = click.option("--all", "-a", "include_hidden", is_flag=True, help="Consider hidden nodes as well.")
+all_option = click.option("--all", "-a", "include_hidden", is_flag=True, help="Include hidden nodes.")
 topic_argument = argument(
     "topic_name",
     metavar="TOPIC",
@@ -144,14 +144,14 @@ def _warn(text: str) -> None:
 
 
 def fail_once(text: str) -> NoReturn:
-    """End the command with a text of the middleware, which is printed unless it was printed as a warning before."""
+    """End the command with an error of the middleware, printed unless it was already printed as a warning."""
     if text in _warned:
         raise Exit(1)
     fail(text)
 
 
 def wait_until(condition: Callable[[], Any]) -> Any:
-    """Return the first true result of a function; its last result if none is true for PATIENCE."""
+    """Return the first true result of a function, or its last result after PATIENCE."""
     deadline = time.monotonic() + PATIENCE
     while not (result := condition()) and time.monotonic() < deadline:
         time.sleep(_PERIOD)
@@ -173,14 +173,14 @@ def split_node_name(name: str) -> tuple[str, str]:
 def topic_type(node: Node, topic: str, *, include_hidden: bool = True, wait: bool = False) -> str:
     """Return the type of a topic in the graph; end the command if there is none or if there are several.
 
-    The texts are those of ros2cli.
+    The messages are those of ros2cli.
 
     Args:
         node: A node in the graph.
         topic: Full name of the topic.
-        include_hidden: Accept a topic with a part that begins with an underscore.
+        include_hidden: Whether to accept a topic with a part that begins with an underscore.
         wait: Print a warning and wait for a topic that does not exist yet, as ``ros2 topic hz`` does. End the command
-            if no topic can have this name.
+            if this is not a valid topic name.
     """
 
     def types() -> list[str]:
@@ -206,16 +206,16 @@ def topic_type(node: Node, topic: str, *, include_hidden: bool = True, wait: boo
 
 
 def _check_name(node: Node, topic: str) -> None:
-    """End the command if no topic can have this name."""
+    """End the command if this is not a valid topic name."""
     try:
         node.resolve_topic_name(topic)
     except RuntimeError as error:
         reason = str(error).removeprefix("failed to resolve name: ")
-        fail(f"'{topic}' cannot be the name of a topic: {reason}", "coframe topic list shows all topics.")
+        fail(f"'{topic}' is not a valid topic name: {reason}", "coframe topic list shows all topics.")
 
 
 def load_type(kind: str, load: Callable[[str], Any]) -> Any:
-    """Return the class of a ROS type; end the command with a sentence if there is none.
+    """Return the class of a ROS type; end the command with an error message if there is none.
 
     Args:
         kind: Name of the type, e.g. "std_msgs/msg/String".
@@ -231,16 +231,16 @@ def load_type(kind: str, load: Callable[[str], Any]) -> Any:
 
 
 def joined(types: Iterable[str]) -> str:
-    """Return types as ros2 prints them behind a name."""
+    """Return types as ros2 prints them after a name."""
     return f"[{', '.join(types)}]"
 
 
 def fail_without_node(node: Node, message: str, name: str) -> NoReturn:
-    """End the command because there is no node of a name; suggest similar names.
+    """End the command because there is no node with this name; suggest similar names.
 
     Args:
         node: Node of the command.
-        message: What ros2cli prints.
+        message: The message of ros2cli.
         name: Full name of the missing node.
     """
     fail(

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """``coframe ros2``: adds the executables ``ros2`` and ``rviz2`` to the environment, and removes them.
 
-They are not installed with the package, because pip overwrites files of the same names: in a conda environment with ROS
-(RoboStack), the real ``ros2`` and ``rviz2`` are in the same folder.
+They are not installed with the package, because pip overwrites files with the same names: in a conda environment with
+ROS (RoboStack), the real ``ros2`` and ``rviz2`` are in the same folder.
 """
 
 from __future__ import annotations
@@ -28,15 +28,15 @@ __all__ = ["ros2"]
 _NAMES = ("ros2", "rviz2")
 ros2 = CommandGroup(
     "ros2",
-    help="Add the executables ros2 and rviz2 where no ROS is installed.\n\nExample: coframe ros2 install",
+    help="Add the executables ros2 and rviz2 if no ROS is installed.\n\nExample: coframe ros2 install",
 )
 
 
 @ros2.command(short_help="Add the executables ros2 and rviz2.")
 def install() -> None:
-    """Add the executables ros2 and rviz2 to this Python environment. Existing ones of a real ROS are not replaced.
+    """Add the executables ros2 and rviz2 to this Python environment. Those of a real ROS are not replaced.
 
-    They run the commands of coframe. pip uninstall coframe removes them as well.
+    They run coframe's commands. pip uninstall coframe also removes them.
 
     Example: coframe ros2 install
     """
@@ -54,9 +54,9 @@ def install() -> None:
         print(f"created {printable(str(path))}")
 
 
-@ros2.command(short_help="Remove the executables that coframe has added.")
+@ros2.command(short_help="Remove the executables that coframe added.")
 def remove() -> None:
-    """Remove the executables ros2 and rviz2 that coframe ros2 install has added.
+    """Remove the executables ros2 and rviz2 added by coframe ros2 install.
 
     Example: coframe ros2 remove
     """

@@ -99,7 +99,7 @@ def packages(
 
 @interface.command(short_help="Print a type with its default values, for topic pub.")
 @type_argument
-@click.option("--no-quotes", is_flag=True, help="Print no quotes around the text.")
+@click.option("--no-quotes", is_flag=True, help="Print the YAML without quotes.")
 def proto(type_name: str, no_quotes: bool) -> None:
     """Print the YAML of a message, request or goal with its default values.
 
@@ -117,9 +117,9 @@ def proto(type_name: str, no_quotes: bool) -> None:
 
 @interface.command(short_help="Print the definition of a type.")
 @type_argument
-@click.option("--all-comments", is_flag=True, help="Show the comments of nested types as well.")
-@click.option("--no-comments", is_flag=True, help="Show no comments.")
-@click.option("--origin", "with_origin", is_flag=True, help="Show the file of the definition and its type hash first.")
+@click.option("--all-comments", is_flag=True, help="Also show the comments of nested types.")
+@click.option("--no-comments", is_flag=True, help="Omit comments.")
+@click.option("--origin", "with_origin", is_flag=True, help="Also show the file of the definition and its type hash.")
 def show(type_name: str, all_comments: bool, no_comments: bool, with_origin: bool) -> None:
     """Print the definition of a type, with the fields of nested types below it.
 
@@ -136,7 +136,7 @@ for _command in (add, check, remove, stubs):
 
 
 def _kinds(messages: bool, services: bool, actions: bool) -> list[str]:
-    """Return the kinds that were asked for; all if none was."""
+    """Return the requested kinds, or all if none was requested."""
     chosen = [kind for kind, wanted in zip(_TITLES, (messages, services, actions), strict=True) if wanted]
     return chosen or list(_TITLES)
 

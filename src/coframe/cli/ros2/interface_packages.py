@@ -33,17 +33,17 @@ program_folder = argument(
     metavar="[FOLDER]",
     type=PATH,
     required=False,
-    help="Folder of a program: also show what the program finds there.",
+    help="Folder of a program: also show the packages that it would find.",
 )
 
 
-@click.command(cls=Command, short_help="Show your packages and where they were found; check them.")
+@click.command(cls=Command, short_help="Show and check your interface packages.")
 @program_folder
 def check(folder: Path | None) -> None:
-    """Show your interface packages, where they were found, and what is wrong with their definitions.
+    """Show your interface packages, where they were found, and problems in their definitions.
 
-    Programs also find packages next to them and in their workspace: give the FOLDER of the program. The exit code is 1
-    if a definition is invalid.
+    Programs also find packages next to them and in their workspace; pass their FOLDER to include these. The exit code
+    is 1 if a definition is invalid.
 
     Example: coframe interface check .
     """
@@ -59,17 +59,17 @@ def check(folder: Path | None) -> None:
             errors += _invalid(load_package(name, path))
     if not found:
         searched = list(dict.fromkeys(printable(f"\n  {source.folder}") for source in sources()))
-        click.echo("No packages of yours were found. Searched:" + ("".join(searched) or " no folder"))
-        click.echo(f"Show those of a program with `coframe interface check FOLDER`, or set {ENVIRONMENT}.")
-        click.echo("Add a folder for all programs and commands with `coframe interface add FOLDER`.")
+        click.echo("None of your packages were found. Searched:" + ("".join(searched) or " no folder"))
+        click.echo(f"Run `coframe interface check FOLDER` to include those of a program, or set {ENVIRONMENT}.")
+        click.echo("Run `coframe interface add FOLDER` to add a folder for all programs and commands.")
     click.echo(f"coframe contains {', '.join(name for name in shipped_names() if name not in found)}.")
     _report(errors)
 
 
-@click.command(cls=Command, short_help="Search a folder in every program from now on.")
+@click.command(cls=Command, short_help="Add a folder to the search path of all programs.")
 @folder_argument
 def add(path: Path) -> None:
-    """Search FOLDER for interface packages in every program from now on, and write stubs for editors.
+    """Add FOLDER to the folders in which all programs find interface packages, and write stubs for editors.
 
     Example: coframe interface add ~/ros2_ws/src/my_msgs
     """
@@ -95,10 +95,10 @@ def add(path: Path) -> None:
     _report(errors)
 
 
-@click.command(cls=Command, short_help="Stop searching an added folder.")
+@click.command(cls=Command, short_help="Remove a folder from the search path.")
 @folder_argument
 def remove(path: Path) -> None:
-    """Stop searching a folder that was added.
+    """Remove a folder that was added to the search path.
 
     Example: coframe interface remove ~/ros2_ws/src/my_msgs
     """
@@ -112,14 +112,16 @@ def remove(path: Path) -> None:
         fail(f"{settings_file()} cannot be written: {error.strerror}")
 
 
-@click.command(cls=Command, short_help="Write stubs, so that editors know your messages.")
+@click.command(cls=Command, short_help="Write stubs of your messages for editors.")
 @program_folder
-@click.option("--output", metavar="FOLDER", type=PATH, help="Folder to write; default: a folder of the user's cache.")
+@click.option(
+    "--output", metavar="FOLDER", type=PATH, help="Folder to write to. [default: a folder in the user's cache]"
+)
 def stubs(folder: Path | None, output: Path | None) -> None:
-    """Write stub files of your packages, so that editors and type checkers know the fields of each class.
+    """Write stub files of your packages, which show the fields of each class to editors and type checkers.
 
-    Pylance and pyright search a folder named typings in the project without any setting. Run the command again after
-    you have changed a definition.
+    Pylance and pyright find a folder named typings in the project automatically. Run the command again after you change
+    a definition.
 
     Example: coframe interface stubs . --output typings
     """
@@ -130,7 +132,7 @@ def stubs(folder: Path | None, output: Path | None) -> None:
             found.setdefault(name, path)
     if not found:
         fail(
-            "no packages of yours were found",
+            "none of your packages were found",
             "Give the folder of the program that uses them: coframe interface stubs FOLDER.",
         )
     _report(_write_stubs([load_package(name, found[name]) for name in sorted(found)], output or stub_folder()))

@@ -56,7 +56,7 @@ def get(
             print(one_line(f"{'' if node_name else f'{name}: '}{state.label} [{state.id}]"))
 
 
-@lifecycle.command("list", cls=GraphCommand, short_help="List the transitions that a node can make now.")
+@lifecycle.command("list", cls=GraphCommand, short_help="List the available transitions of a node.")
 @node_argument
 @click.option("--all", "-a", "show_all", is_flag=True, help="List all transitions of the node.")
 @spin_time_option(AT_ONCE)
@@ -65,7 +65,7 @@ def list_transitions(
     show_all: bool,
     spin_time: NonNegativeDuration,
 ) -> None:
-    """List the transitions that a lifecycle node can make in its state.
+    """List the available transitions of a lifecycle node in its current state.
 
     Example: coframe lifecycle list /lidar
     """
@@ -78,7 +78,7 @@ def list_transitions(
 
 @lifecycle.command(cls=GraphCommand, short_help="List the lifecycle nodes.")
 @all_option
-@click.option("--count-nodes", "-c", "count", is_flag=True, help="Print the number of nodes only.")
+@click.option("--count-nodes", "-c", "count", is_flag=True, help="Print only the number of nodes.")
 @spin_time_option(DISCOVERY)
 def nodes(
     include_hidden: bool,
@@ -123,7 +123,7 @@ def set_state(
 
 
 def _lifecycle_nodes(node: Node, *, include_hidden: bool) -> list[str]:
-    """Return the names of all nodes that have the service of lifecycle nodes for their state."""
+    """Return the names of all nodes with the service get_state of lifecycle nodes."""
     services = dict(node.get_service_names_and_types())
     names = node_names(node, include_hidden=include_hidden)
     return [name for name in names if _GET_STATE in services.get(f"{name}/get_state", [])]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The messages that a command receives on a topic, and Python expressions about them on the command line."""
+"""Receive messages on a topic for a command, and evaluate Python expressions about them."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _MAX_WAIT = 1.0  # seconds; so that Ctrl-C is handled soon on every system
 
 
 class MessageStream:
-    """The messages of a subscription, in the order of their arrival.
+    """The messages of a subscription, in the order of arrival.
 
     Args:
         node: Node of the command.
@@ -53,7 +53,7 @@ class MessageStream:
         node.create_subscription(message_class, topic, self._arrived.append, qos, raw=raw, event_callbacks=events)
 
     def take(self, seconds: float) -> Any:
-        """Return the next message, waiting for it at most some seconds; None if there is none."""
+        """Return the next message; None after the timeout."""
         deadline = time.monotonic() + seconds
         while not self._arrived:
             left = deadline - time.monotonic()
@@ -63,7 +63,7 @@ class MessageStream:
         return self._arrived.popleft()
 
     def messages(self, timeout: float | None = None) -> Iterator[Any]:
-        """Yield messages until none arrives within `timeout` seconds; without end if it is None."""
+        """Yield messages until none arrives within `timeout` seconds; forever if it is None."""
         while True:
             message = self.take(_MAX_WAIT if timeout is None else timeout)
             if message is not None:
@@ -73,7 +73,7 @@ class MessageStream:
 
 
 def message_filter(expression: str | None) -> Callable[[Any], bool]:
-    """Return the function that evaluates a Python expression about a message `m`; without one, all messages pass.
+    """Return the function that evaluates a Python expression about a message `m`; by default, all messages pass.
 
     End the command if the expression cannot be compiled, or if it fails for a message.
     """

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Types similar to one that does not exist, as a question for the user."""
+"""Suggest types with names similar to a nonexistent one."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ _MAX_NAMES = 3
 
 
 def near_types(name: str) -> str:
-    """Return "Did you mean ...?" for a type that does not exist, also if parts of its name are missing.
+    """Return "Did you mean ...?" for a nonexistent type, even if parts of its name are missing.
 
     Args:
         name: What the user wrote, e.g. "std_msgs/String" or "TransformStamped".
@@ -30,5 +30,5 @@ def near_types(name: str) -> str:
     if same:
         nearest = difflib.get_close_matches(name, same, n=_MAX_NAMES, cutoff=0.0)
         return f"Did you mean {' or '.join(map(repr, nearest))}?"
-    # Types of other packages are no answer to a package that was not found.
+    # If the package was not found, types of other packages are not suggested.
     return did_you_mean(name, types, most=2) if found else ""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The files of a new Python package, which pip installs and colcon builds as ament_python."""
+"""Create a new Python package, which pip can install and colcon builds as ament_python."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _NAME = re.compile(r"[a-z][a-z0-9_]*", re.ASCII)
 
 
 class NewPackage(NamedTuple):
-    """What is known of a new package; `node_name` is the name of its first executable."""
+    """The properties of a new package; `node_name` is the name of its first executable."""
 
     name: str
     node_name: str | None
@@ -32,7 +32,7 @@ class NewPackage(NamedTuple):
 
 
 def write_package(package: NewPackage, destination: Path) -> list[Path]:
-    """Write the files of a package to a new folder; end the command if that is not possible.
+    """Write the files of a package to a new folder; end the command if that fails.
 
     Returns:
         The files, in the order in which they were written.
@@ -44,7 +44,7 @@ def write_package(package: NewPackage, destination: Path) -> list[Path]:
         fail("The node needs another name than the package: both would be executables.", code=2)
     folder = destination / package.name
     if folder.exists():
-        fail(f"Aborted! {folder} exists already.", "Choose another name, or remove the folder.")
+        fail(f"Aborted! {folder} already exists.", "Choose another name, or remove the folder.")
     written = []
     try:
         for name, text in _files(package).items():

@@ -40,7 +40,7 @@ node = CommandGroup(
 
 @node.command("list", cls=GraphCommand, short_help="List the nodes.")
 @all_option
-@click.option("--count-nodes", "-c", "count", is_flag=True, help="Print the number of nodes only.")
+@click.option("--count-nodes", "-c", "count", is_flag=True, help="Print only the number of nodes.")
 @spin_time_option(DISCOVERY)
 def list_nodes(
     include_hidden: bool,
@@ -68,7 +68,7 @@ def list_nodes(
 
 @node.command(cls=GraphCommand, short_help="Show the topics, services and actions of a node.")
 @node_argument
-@click.option("--include-hidden", is_flag=True, help="Show hidden topics, services and actions as well.")
+@click.option("--include-hidden", is_flag=True, help="Also show hidden topics, services and actions.")
 @spin_time_option(DISCOVERY)
 def info(
     node_name: str,

@@ -40,7 +40,7 @@ __all__ = ["param"]
 
 parameter_argument = argument("name", metavar="NAME", help="Name of the parameter, e.g. use_sim_time.")
 hidden_nodes_option = click.option(
-    "--include-hidden-nodes", "include_hidden", is_flag=True, help="Consider hidden nodes as well."
+    "--include-hidden-nodes", "include_hidden", is_flag=True, help="Include hidden nodes."
 )
 param = CommandGroup(
     "param",
@@ -69,7 +69,7 @@ def delete(
     print("Deleted parameter successfully")
 
 
-@param.command(cls=GraphCommand, short_help="Show type, description and limits of parameters.")
+@param.command(cls=GraphCommand, short_help="Show the type, description and limits of parameters.")
 @node_argument
 @argument("names", metavar="NAME...", nargs=-1, required=True, help="Names of parameters.")
 @spin_time_option(AT_ONCE)
@@ -108,7 +108,7 @@ def dump(node_name: str, spin_time: NonNegativeDuration) -> None:
 @param.command(cls=GraphCommand, short_help="Print a parameter of a node.")
 @node_argument
 @parameter_argument
-@click.option("--hide-type", is_flag=True, help="Print the value only.")
+@click.option("--hide-type", is_flag=True, help="Print only the value.")
 @spin_time_option(AT_ONCE)
 def get(
     node_name: str,
@@ -135,10 +135,12 @@ def get(
     "prefixes",
     metavar="PREFIX",
     multiple=True,
-    help="Only parameters with this prefix; repeatable.",
+    help="List only parameters with this prefix; repeatable.",
 )
-@click.option("--param-type", is_flag=True, help="Show the types as well.")
-@click.option("--filter", "expression", metavar="REGEX", help="Only parameters that match this expression.")
+@click.option("--param-type", is_flag=True, help="Also show the types.")
+@click.option(
+    "--filter", "expression", metavar="REGEX", help="List only parameters that match this regular expression."
+)
 @hidden_nodes_option
 @spin_time_option(DISCOVERY)
 def list_parameters(
@@ -174,7 +176,7 @@ def list_parameters(
 @param.command(cls=GraphCommand, short_help="Set the parameters of a node from a YAML file.")
 @node_argument
 @argument("file", metavar="FILE", type=PATH, help="A YAML file in the format of --params-file.")
-@click.option("--no-use-wildcard", is_flag=True, help="Do not use the parameters below /**.")
+@click.option("--no-use-wildcard", is_flag=True, help="Do not use the parameters under /**.")
 @spin_time_option(AT_ONCE)
 def load(
     node_name: str,

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The parameter services of another node, as the commands of ``coframe param`` call them."""
+"""Client of the parameter services of another node, for ``coframe param``."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 __all__ = ["ParameterClient"]
 
-# How long a node of the list may need until its services match; nodes without them are common.
+# How long to wait for the services of each node in a list; nodes without them are common.
 _SHORT_PATIENCE = 1.0  # seconds
 
 
@@ -44,7 +44,7 @@ class ParameterClient:
 
         try:
             probe = self._node.create_client(ListParameters, f"{self._target}/list_parameters")
-        except InvalidServiceNameException:  # Other programs can announce nodes with any name.
+        except InvalidServiceNameException:  # Other programs can announce nodes with arbitrary names.
             return False
         found: bool = probe.wait_for_service(PATIENCE if required else _SHORT_PATIENCE)
         if required and not found:

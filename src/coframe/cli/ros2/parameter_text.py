@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Parameters as text: the lines of ``ros2 param``, and YAML files of parameters."""
+"""Parameters as text: the output of ``ros2 param``, and YAML parameter files."""
 
 from __future__ import annotations
 
@@ -89,12 +89,12 @@ def as_yaml_file(node_name: str, values: Mapping[str, Any]) -> str:
 
 
 def parameters_of_file(file: Path, node_name: str, *, use_wildcard: bool) -> dict[str, Any]:
-    """Return the parameters of a node in a YAML file; end the command if there are none.
+    """Return a node's parameters from a YAML file; end the command if there are none.
 
     Args:
         file: File in the format of --params-file.
         node_name: Full name of the node.
-        use_wildcard: Whether parameters below /** count.
+        use_wildcard: Whether to include parameters under /**.
     """
     from rclpy.parameter import parameter_dict_from_yaml_file  # noqa: PLC0415 - slow import
 

@@ -52,8 +52,8 @@ class CreateCommand(Command):
     default=Path(),
     help="Folder in which to create it.",
 )
-@click.option("--dependencies", metavar="PACKAGE...", multiple=True, help="Packages that it depends on.")
-@click.option("--description", metavar="SENTENCE", default="A ROS 2 package", help="What the package is for.")
+@click.option("--dependencies", metavar="PACKAGE...", multiple=True, help="Packages on which it depends.")
+@click.option("--description", metavar="SENTENCE", default="A ROS 2 package", help="Description of the package.")
 @click.option(
     "--license", "license_name", metavar="NAME", default="No license declared", help="Licence of the package."
 )
@@ -97,7 +97,7 @@ def create(
 
 @pkg.command(short_help="List the executables of packages.")
 @argument("package_name", metavar="[PACKAGE]", required=False, help="Name of a package. [default: all packages]")
-@click.option("--full-path", is_flag=True, help="Show the words that start each one.")
+@click.option("--full-path", is_flag=True, help="Also show the command of each one.")
 def executables(package_name: str | None, full_path: bool) -> None:
     """List the executables that coframe run can start.
 
@@ -117,7 +117,7 @@ def executables(package_name: str | None, full_path: bool) -> None:
 
 @pkg.command("list", short_help="List the packages.")
 def list_packages() -> None:
-    """List the packages that coframe finds: installed ones, source folders and its own.
+    """List the packages that coframe finds: installed, in source folders, and built-in.
 
     Example: coframe pkg list
     """
@@ -128,9 +128,9 @@ def list_packages() -> None:
             print(printable(name))
 
 
-@pkg.command(short_help="Print the prefix or the share folder of a package.")
+@pkg.command(short_help="Print the installation prefix or share folder of a package.")
 @package_argument
-@click.option("--share", is_flag=True, help="Print the folder of its data instead.")
+@click.option("--share", is_flag=True, help="Print the share folder instead.")
 def prefix(package_name: str, share: bool) -> None:
     """Print the folder in which a package is installed, or the folder that contains its sources.
 

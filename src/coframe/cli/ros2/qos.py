@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The QoS options of ``topic echo`` and ``topic pub``, and the QoS that suits the publishers of a topic."""
+"""The QoS options of ``topic echo`` and ``topic pub``, and the QoS that matches the publishers of a topic."""
 
 from __future__ import annotations
 
@@ -39,10 +39,10 @@ class QoSWords(NamedTuple):
     durability: str | None
 
     def to_profile(self, start: QoSProfile | None = None) -> QoSProfile:
-        """Return the QoS profile; policies that are not given come from --qos-profile, else from `start`.
+        """Return the QoS profile; omitted policies are taken from --qos-profile, else from `start`.
 
         Args:
-            start: QoS for policies that are not given. None: the default of ROS.
+            start: QoS for omitted policies. None for the default of ROS.
         """
         from rclpy.qos import (  # noqa: PLC0415 - help starts faster
             DurabilityPolicy,
@@ -67,9 +67,9 @@ class QoSWords(NamedTuple):
         )
 
     def for_subscription(self, node: Node, topic: str) -> QoSProfile:
-        """Return the QoS with which a subscription receives from as many publishers of a topic as possible.
+        """Return the QoS with which a subscription matches as many publishers of a topic as possible.
 
-        The rule and the texts are those of ros2cli: reliable and transient local if every publisher is.
+        The rule and the messages are those of ros2cli: reliable and transient local if every publisher is.
         """
         if self.profile or self.reliability or self.durability:
             return self.to_profile()

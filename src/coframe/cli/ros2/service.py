@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 __all__ = ["service"]
 
 hidden_services_option = click.option(
-    "--include-hidden-services", "include_hidden", is_flag=True, help="Consider hidden services as well."
+    "--include-hidden-services", "include_hidden", is_flag=True, help="Include hidden services."
 )
 service_argument = argument(
     "service_name", metavar="SERVICE", type=topic_name, help="Name of the service, e.g. /reset."
@@ -85,7 +85,7 @@ def call(
 
 @service.command(cls=GraphCommand, short_help="List the services of a type.")
 @argument("service_type", metavar="TYPE", help="Type, e.g. std_srvs/srv/SetBool.")
-@click.option("--count-services", "-c", "count", is_flag=True, help="Print the number of services only.")
+@click.option("--count-services", "-c", "count", is_flag=True, help="Print only the number of services.")
 @hidden_services_option
 @spin_time_option(DISCOVERY)
 def find(
@@ -94,7 +94,7 @@ def find(
     include_hidden: bool,
     spin_time: NonNegativeDuration,
 ) -> None:
-    """List the services that have a type.
+    """List the services of a type.
 
     Example: coframe service find std_srvs/srv/SetBool
     """
@@ -104,8 +104,8 @@ def find(
 
 
 @service.command("list", cls=GraphCommand, short_help="List the services.")
-@click.option("--show-types", "-t", is_flag=True, help="Show the types as well.")
-@click.option("--count-services", "-c", "count", is_flag=True, help="Print the number of services only.")
+@click.option("--show-types", "-t", is_flag=True, help="Also show the types.")
+@click.option("--count-services", "-c", "count", is_flag=True, help="Print only the number of services.")
 @hidden_services_option
 @spin_time_option(DISCOVERY)
 def list_services(

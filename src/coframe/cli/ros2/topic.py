@@ -43,7 +43,7 @@ topic.add_command(echo)
 
 @topic.command(cls=GraphCommand, short_help="List the topics of a type.")
 @argument("topic_type", metavar="TYPE", help="Type, e.g. sensor_msgs/msg/LaserScan.")
-@click.option("--count-topics", "-c", "count", is_flag=True, help="Print the number of topics only.")
+@click.option("--count-topics", "-c", "count", is_flag=True, help="Print only the number of topics.")
 @hidden_topics_option
 @spin_time_option(DISCOVERY)
 def find(
@@ -52,7 +52,7 @@ def find(
     include_hidden: bool,
     spin_time: NonNegativeDuration,
 ) -> None:
-    """List the topics that have a type.
+    """List the topics of a type.
 
     Example: coframe topic find sensor_msgs/msg/LaserScan
     """
@@ -64,9 +64,11 @@ def find(
 topic.add_command(hz)
 
 
-@topic.command(cls=GraphCommand, short_help="Show the type of a topic and who publishes it.")
+@topic.command(cls=GraphCommand, short_help="Show the type, publishers and subscriptions of a topic.")
 @topic_argument
-@click.option("--verbose", "-v", is_flag=True, help="Show node, type, GID and QoS of each publisher and subscription.")
+@click.option(
+    "--verbose", "-v", is_flag=True, help="Show the node, type, GID and QoS of each publisher and subscription."
+)
 @spin_time_option(DISCOVERY)
 def info(
     topic_name: str,
@@ -92,9 +94,11 @@ def info(
 
 
 @topic.command("list", cls=GraphCommand, short_help="List the topics.")
-@click.option("--show-types", "-t", is_flag=True, help="Show the types as well.")
-@click.option("--count-topics", "-c", "count", is_flag=True, help="Print the number of topics only.")
-@click.option("--verbose", "-v", is_flag=True, help="Show types and numbers of publishers and subscriptions.")
+@click.option("--show-types", "-t", is_flag=True, help="Also show the types.")
+@click.option("--count-topics", "-c", "count", is_flag=True, help="Print only the number of topics.")
+@click.option(
+    "--verbose", "-v", is_flag=True, help="Also show the types and the numbers of publishers and subscriptions."
+)
 @hidden_topics_option
 @spin_time_option(DISCOVERY)
 def list_topics(

@@ -38,7 +38,7 @@ if TYPE_CHECKING:
 
 __all__ = ["echo"]
 
-_TRUNCATE_LENGTH = 128  # ros2cli's default: elements of an array, characters of a text
+_TRUNCATE_LENGTH = 128  # ros2cli's default: elements of an array, characters of a string
 
 
 @click.command(cls=GraphCommand, short_help="Print the messages of a topic as YAML.")
@@ -49,24 +49,30 @@ _TRUNCATE_LENGTH = 128  # ros2cli's default: elements of an array, characters of
 @click.option("--field", metavar="FIELD", help="Print only this field, e.g. pose.position.x.")
 @click.option("--once", is_flag=True, help="Print the first message and exit.")
 @click.option(
-    "--timeout", metavar="DURATION", type=NonNegativeDuration, help="Exit with 1 if no message arrives in time."
+    "--timeout",
+    metavar="DURATION",
+    type=NonNegativeDuration,
+    help="Exit with code 1 if no message arrives within this time.",
 )
 @click.option("--csv", is_flag=True, help="Print each message as one line of comma-separated values.")
-@click.option("--full-length", "-f", is_flag=True, help="Print all elements of arrays and all characters of texts.")
+@click.option("--full-length", "-f", is_flag=True, help="Do not truncate arrays and strings.")
 @click.option(
     "--truncate-length",
     "-l",
     metavar="N",
     type=click.IntRange(min=1),
     default=_TRUNCATE_LENGTH,
-    help="Print N elements of arrays and texts.",
+    help="Truncate arrays and strings to N elements.",
 )
 @click.option("--no-arr", is_flag=True, help="Print the types of arrays instead of their elements.")
-@click.option("--no-str", is_flag=True, help="Print the lengths of texts instead of the texts.")
+@click.option("--no-str", is_flag=True, help="Print the lengths of strings instead of the strings.")
 @click.option("--flow-style", is_flag=True, help="Print collections on one line.")
 @click.option("--raw", is_flag=True, help="Print the serialized bytes.")
 @click.option(
-    "--filter", "filter_expression", metavar="EXPR", help="Print messages m for which this Python expression is true."
+    "--filter",
+    "filter_expression",
+    metavar="EXPR",
+    help="Print only messages m for which this Python expression is true.",
 )
 @click.option(
     "--lost-messages", is_flag=True, hidden=True, help="Accepted for compatibility: lost messages are always reported."
@@ -105,7 +111,7 @@ def echo(
     use_sim_time: bool,
     spin_time: NonNegativeDuration,
 ) -> None:
-    """Print the messages of a topic. The QoS is chosen so that every publisher matches, unless it is given.
+    """Print the messages of a topic. Unless specified, the QoS is chosen to match all publishers.
 
     Example: coframe topic echo /scan --once --field header
     """

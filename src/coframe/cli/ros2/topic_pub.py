@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""``coframe topic pub``: publishes messages that are written as YAML, like ``ros2 topic pub``."""
+"""``coframe topic pub``: publishes messages written as YAML, like ``ros2 topic pub``."""
 
 from __future__ import annotations
 
@@ -63,14 +63,14 @@ _POLL = 0.1  # seconds between two looks for matching subscriptions, as in ros2c
     "wait_matching",
     metavar="N",
     type=click.IntRange(min=0),
-    help="Wait for N subscriptions first. [default: 1 with --once and --times, else 0]",
+    help="Wait for N matching subscriptions first. [default: 1 with --once and --times, else 0]",
 )
 @click.option(
     "--keep-alive",
     metavar="DURATION",
     type=NonNegativeDuration,
     default="100ms",
-    help="Keep the node alive after the last message.",
+    help="How long to keep the node alive after the last message.",
 )
 @click.option("--node-name", "-n", metavar="NAME", help="Name of the publishing node.")
 @profile_option
@@ -99,7 +99,7 @@ def pub(
     use_sim_time: bool,
     spin_time: NonNegativeDuration,
 ) -> None:
-    """Publish messages on a topic. In VALUES, "stamp: now" and "header: auto" stand for the current time.
+    """Publish messages on a topic. In VALUES, "stamp: now" and "header: auto" insert the current time.
 
     Example: coframe topic pub /chatter std_msgs/msg/String '{data: hello}' --rate 2
     """

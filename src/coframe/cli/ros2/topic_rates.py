@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""``coframe topic hz``, ``bw`` and ``delay``: figures of a topic, printed every second like those of ``ros2 topic``."""
+"""``coframe topic hz``, ``bw`` and ``delay``: statistics of a topic, printed every second as by ``ros2 topic``."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ def window_option(default: int) -> Callable[[Declared], Declared]:
         metavar="N",
         type=click.IntRange(min=2, max=10_000_000),
         default=default,
-        help="Number of messages of the statistics.",
+        help="Number of messages in the statistics window.",
     )
 
 
@@ -57,9 +57,12 @@ def window_option(default: int) -> Callable[[Declared], Declared]:
 @topic_argument
 @window_option(10_000)
 @click.option(
-    "--filter", "filter_expression", metavar="EXPR", help="Count messages m for which this Python expression is true."
+    "--filter",
+    "filter_expression",
+    metavar="EXPR",
+    help="Count only messages m for which this Python expression is true.",
 )
-@click.option("--wall-time", is_flag=True, help="Use the system time, not that of /clock.")
+@click.option("--wall-time", is_flag=True, help="Use the system time instead of /clock.")
 @sim_time_option
 @spin_time_option(AT_ONCE)
 def hz(
@@ -70,7 +73,7 @@ def hz(
     use_sim_time: bool,
     spin_time: NonNegativeDuration,
 ) -> None:
-    """Show the rate at which messages arrive on a topic: mean, shortest, longest period and standard deviation.
+    """Show the rate of messages on a topic: mean rate, minimum and maximum period, and standard deviation.
 
     Example: coframe topic hz /scan
     """
@@ -96,7 +99,7 @@ def bw(
     use_sim_time: bool,
     spin_time: NonNegativeDuration,
 ) -> None:
-    """Show the bytes per second that arrive on a topic, and the sizes of the messages.
+    """Show the bandwidth of a topic in bytes per second, and the sizes of its messages.
 
     Example: coframe topic bw /camera/image_raw
     """
@@ -111,7 +114,7 @@ def bw(
         )
 
 
-@click.command(cls=GraphCommand, short_help="Show the delay of messages by their header.")
+@click.command(cls=GraphCommand, short_help="Show the delay of messages since the stamp in their header.")
 @topic_argument
 @window_option(10_000)
 @sim_time_option
@@ -122,7 +125,7 @@ def delay(
     use_sim_time: bool,
     spin_time: NonNegativeDuration,
 ) -> None:
-    """Show how long after the stamp in its header a message arrives.
+    """Show the delay from the stamp in the header to the arrival of messages.
 
     Example: coframe topic delay /scan
     """
@@ -187,7 +190,7 @@ def _statistics_line(values: list[float], size: int) -> str:
 
 
 def _bandwidth_lines(samples: list[tuple[float, int]], now: float) -> list[str]:
-    """Return the lines of ros2cli; the rate is that of the time since the oldest message of the window."""
+    """Return the lines of ros2cli; the rate is computed since the oldest message in the window."""
     if len(samples) < 2 or now <= samples[0][0]:
         return []
     sizes = [size for _, size in samples]

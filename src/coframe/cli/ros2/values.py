@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Values of messages, requests and parameters that are written as YAML on the command line."""
+"""Parse values of messages, requests and parameters given as YAML on the command line."""
 
 from __future__ import annotations
 
@@ -18,13 +18,14 @@ _MAX_EXAMPLE_LENGTH = 150
 # The reasons of the YAML parser (C and Python), and what they mean for the user.
 _REASONS = {
     "found unexpected ':'": "a space is missing after the colon",
-    "',' or '}'": "a comma or } is missing, or a text with special characters has no quotes",
-    "',' or ']'": "a comma or ] is missing, or a text with special characters has no quotes",
-    "mapping values are not allowed": "there is a second colon; a text that contains a colon and a space needs quotes",
+    "',' or '}'": "a comma or } is missing, or a string with special characters has no quotes",
+    "',' or ']'": "a comma or ] is missing, or a string with special characters has no quotes",
+    "mapping values are not allowed": "there is a second colon; a string that contains a colon and a space needs "
+    "quotes",
     "unexpected end of stream": "a quote is missing",
-    "cannot start any token": "a text that begins with this character needs quotes",
+    "cannot start any token": "a string that begins with this character needs quotes",
     "expected node content": "a value or a closing bracket is missing",
-    "undefined alias": "a text that begins with * needs quotes",
+    "undefined alias": "a string that begins with * needs quotes",
     "<document start>": "there is something after the end of the values",
 }
 
@@ -34,7 +35,7 @@ def yaml_value(text: str, what: str, hint: str = "") -> Any:
 
     Args:
         text: The text.
-        what: What it is, for the error: "VALUES".
+        what: Its name in error messages, such as "VALUES".
         hint: What to do.
     """
     try:
@@ -44,7 +45,7 @@ def yaml_value(text: str, what: str, hint: str = "") -> Any:
         if position is None:
             fail(f"{what} is not valid YAML: {error}", hint, code=2)
         lines = text.splitlines() or [""]
-        # An end that is missing is reported after the last line.
+        # A missing end is reported after the last line.
         row, column = position if position[0] < len(lines) else (len(lines) - 1, len(lines[-1]))
         reason = next((ours for theirs, ours in _REASONS.items() if theirs in str(error)), str(error))
         where = f"line {row + 1}, character {column + 1}" if len(lines) > 1 else f"character {column + 1}"
