@@ -77,9 +77,9 @@ def test_the_scripts_of_the_lab(shared, tmp_path):
     folder = shutil.copytree(shared / "lab", tmp_path / "lab")
     found = {each["file"]: each for each in check_folder(folder)["criteria"]}
     static = lost(found["static_tf_broadcaster.py"])
-    assert list(static) == ["camera_link is at the right place"]
-    assert "0.707" in static["camera_link is at the right place"]["cause"]
-    assert list(lost(found["dynamic_tf_broadcaster.py"])) == ["nothing else moves the arm at the same time"]
+    assert list(static) == ["camera_link is at the correct position"]
+    assert "0.707" in static["camera_link is at the correct position"]["cause"]
+    assert list(lost(found["dynamic_tf_broadcaster.py"])) == ["no other source moves the arm at the same time"]
     listener = lost(found["tf_listener.py"])
     assert list(listener) == ["each pose is right at its stamp"]
     assert "use transform.header.stamp, not now()" in listener["each pose is right at its stamp"]["cause"]
@@ -97,7 +97,7 @@ def test_stubs_run_and_one_sentence_for_each_says_what_is_missing(tmp_path):
     for criterion in report["criteria"]:
         assert re.search("publishes nothing|describes no joint yet", criterion["problem"]), criterion["problem"]
     printed = "\n".join(formats.text(report))
-    assert "RViz configuration shows nothing of the robot yet" in printed
+    assert "RViz configuration does not show the robot yet" in printed
     assert "expected:" not in printed
     assert "Grade: 0 of 100" in printed
 

@@ -419,7 +419,12 @@ def test_what_a_system_cannot_protect_is_said(monkeypatch):
     monkeypatch.setattr(confinement_module, "can_filter", lambda: False)
     monkeypatch.setattr(confinement_module, "scopes_signals", lambda: False)
     assert "Unix sockets" in protection_problem(has_namespaces=True)
-    for words in ("read and change yours", "solutions in coframe.lab", "signals to your processes", "Unix sockets"):
+    for words in (
+        "read and modify your files",
+        "solutions in coframe.lab",
+        "signals to your processes",
+        "Unix sockets",
+    ):
         assert words in protection_problem(has_namespaces=False)
 
 

@@ -35,7 +35,7 @@ MUTANTS = {
         STATIC,
         "StaticTransformBroadcaster",
         "TransformBroadcaster",
-        ["has the parent", "right place", "/tf_static", "transient local", "5 s later", "sent once"],
+        ["has the parent", "correct position", "/tf_static", "transient local", "5 s later", "sent once"],
     ),
     "sent repeatedly": (
         STATIC,
@@ -54,13 +54,13 @@ MUTANTS = {
         DYNAMIC,
         "math.sin(yaw / 2)",
         "math.sin(yaw)",
-        ["joint 1 moves", "joint 2 moves", "obeys", "nothing else"],
+        ["joint 1 moves", "joint 2 moves", "obeys", "no other source"],
     ),
     "rotation about x": (
         DYNAMIC,
         "rotation.z =",
         "rotation.x =",
-        ["joint 1 moves", "joint 2 moves", "obeys", "nothing else"],
+        ["joint 1 moves", "joint 2 moves", "obeys", "no other source"],
     ),
     "stale stamps": (
         DYNAMIC,
@@ -68,8 +68,8 @@ MUTANTS = {
         "self.stamp = getattr(self, 'stamp', None) or self.get_clock().now().to_msg()\n        stamp = self.stamp",
         ["joint 1 moves", "joint 2 moves", "stamps are the current time"],
     ),
-    "joint states ignored": (DYNAMIC, "self.followed = True\n", "return\n", ["obeys", "nothing else"]),
-    "two sources of the arm": (DYNAMIC, "self.followed = True\n", "pass\n", ["nothing else"]),
+    "joint states ignored": (DYNAMIC, "self.followed = True\n", "return\n", ["obeys", "no other source"]),
+    "two sources of the arm": (DYNAMIC, "self.followed = True\n", "pass\n", ["no other source"]),
     "target and source swapped": (
         LISTENER,
         '"base_link", "end_effector", Time',
@@ -106,9 +106,9 @@ MUTANTS = {
     "new stamp": (SENSOR, "stamp=header.stamp,", "stamp=self.get_clock().now().to_msg(),", ["keep the stamps"]),
     "fixed sensor frame": (SENSOR, "header.frame_id, stamp,", '"lidar_link", stamp,', ["moving gripper"]),
     "wrong frame of the cloud": (SENSOR, "frame_id=TARGET)", "frame_id=header.frame_id)", ["clouds are in base_link"]),
-    "angles from zero": (SENSOR, "scan.angle_min + ", "", ["right to 1 mm"]),
+    "angles from zero": (SENSOR, "scan.angle_min + ", "", ["correct to 1 mm"]),
     "disconnected tree": (TREE, '"map", "odom"', '"mapp", "odom"', ["connected"]),
-    "time stands still": (TREE, ".nanoseconds / 1e9", ".nanoseconds * 0.0", ["really move"]),
+    "time stands still": (TREE, ".nanoseconds / 1e9", ".nanoseconds * 0.0", ["its frames move"]),
     "fixed frame does not exist": ("lab.rviz", "base_link", "base", ["fixed frame exists"]),
     "wrong topic of a display": ("lab.rviz", "/scan_base_frame", "/cloud", ["PointCloud2 display"]),
 }

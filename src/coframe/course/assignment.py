@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The numbers of the lab: the arm, the sensor mounts and the rates, which differ from student to student if wanted."""
+"""The parameters of the lab: the arm, the sensor mounts and the rates, which can differ between students."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 __all__ = ["FILE", "Assignment", "Mount", "assignment_of", "read_assignment"]
 
-FILE = "lab.json"  # in a student's folder; contains the number of the variant
+FILE = "lab.json"  # in a student's folder; contains the variant's seed
 _LAB = "09-02"
 NO_ROTATION = (0.0, 0.0, 0.0, 1.0)
 # A rotation of 90 degrees about y: the z axis of the camera points along the gripper.
@@ -28,7 +28,7 @@ class Mount(NamedTuple):
     """The static transform of a sensor.
 
     Attributes:
-        parent: The frame that the sensor is mounted on.
+        parent: The frame on which the sensor is mounted.
         frame: The frame of the sensor.
         translation: The position x, y, z relative to the parent, in metres.
         quaternion: The rotation x, y, z, w relative to the parent.
@@ -41,10 +41,10 @@ class Mount(NamedTuple):
 
 
 class Assignment(NamedTuple):
-    """The numbers that a student's nodes have to use. The defaults are those of the lab.
+    """The parameters that a student's nodes have to use. The defaults are those of the lab.
 
     Attributes:
-        variant: The number of the variant; None for the lab's own numbers.
+        variant: The seed of the variant; None for the lab's own parameters.
         base_height: The height of the first joint above base_link, in metres.
         link_lengths: The lengths of the two links, in metres.
         camera: The mount of the camera on the end effector.
@@ -70,10 +70,10 @@ class Assignment(NamedTuple):
 
 
 def assignment_of(variant: int | None) -> Assignment:
-    """Return the numbers of a variant; the same number always gives the same assignment.
+    """Return the assignment of a variant; the same seed always gives the same assignment.
 
     Args:
-        variant: Any integer, for example a student number. None: the numbers of the lab.
+        variant: Any integer, for example a student number. None for the lab's own parameters.
     """
     if variant is None:
         return Assignment()
@@ -96,7 +96,7 @@ def assignment_of(variant: int | None) -> Assignment:
 
 
 def read_assignment(folder: Path) -> Assignment:
-    """Return the assignment of a student's folder: the lab's own numbers if it has no file ``lab.json``.
+    """Return the assignment of a student's folder; the lab's own if it has no file ``lab.json``.
 
     Raises:
         CourseError: The file is damaged, or belongs to another lab.

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Grades of folders, each in an isolated process: one folder, or the folders of a class several at a time."""
+"""Grade folders, each in an isolated process: a single folder, or a class with several folders at a time."""
 
 from __future__ import annotations
 
@@ -26,9 +26,9 @@ if TYPE_CHECKING:
 
 __all__ = ["MAX_SECONDS", "check_class", "check_folder", "submissions"]
 
-MAX_SECONDS = 400.0  # of real time for one folder; nine programs that never respond need about half of it
-_MAX_FOLDERS = 200  # in a folder, among which the files of the lab are searched
-_PERIOD = 0.05  # seconds between two looks at the progress
+MAX_SECONDS = 400.0  # real time for one folder; nine programs that never respond need about half of it
+_MAX_FOLDERS = 200  # maximum number of files in a folder among which the files of the lab are searched
+_PERIOD = 0.05  # seconds between two progress checks
 
 
 def check_folder(
@@ -44,16 +44,16 @@ def check_folder(
 ) -> dict[str, Any]:
     """Grade a student's folder in an isolated process.
 
-    When the time is over, or the process ends, the criteria that are done count.
+    If the time limit is reached or the process ends, the completed criteria count.
 
     Args:
         folder: The folder.
-        variant: The variant of the assignment. None: the one in the folder's ``lab.json``.
+        variant: The variant of the assignment. None for the one in the folder's ``lab.json``.
         only: The criteria to check.
-        record: A folder for a recording of everything that was published.
-        progress: Called with the number of criteria that are done.
-        number: Number of this grade among those that run at the same time.
-        cancelled: Ends the grade when it is set.
+        record: A folder for a recording of all published messages.
+        progress: Called with the number of completed criteria.
+        number: Number of this grade among concurrent ones.
+        cancelled: Ends the grading when it is set.
         max_seconds: The limit on real time.
 
     Returns:
@@ -108,20 +108,20 @@ def check_folder(
 
 
 def _report(folder: Path, results: _Results, missing: Sequence[str], reason: str) -> dict[str, Any]:
-    """Return the report of a grade, which may have ended before all criteria were checked."""
+    """Return the report of a grade, which may have ended early."""
     notices = [problem] if (problem := isolation_problem()) else []
     if missing:
         names = ", ".join(RUBRIC[name].name for name in missing)
-        notices.append(f"{_upper(reason)} and was ended before these criteria: {names}. The points before them count.")
+        notices.append(f"{_upper(reason)} and was ended before these criteria: {names}. The other points count.")
     sheets = results.sheets + [Sheet.not_reached(RUBRIC[name], reason) for name in missing]
     return Report(str(folder.resolve()), results.variant, sheets, notices).as_dict()
 
 
 def submissions(folder: Path) -> dict[str, Path]:
-    """Return the submissions of a class: the name of each folder in `folder`, and where its files of the lab are.
+    """Return the submissions of a class: the name of each folder in `folder`, and the location of its lab files.
 
-    A folder without any such file is a submission too. Hidden folders, and those that macOS adds to archives, are not.
-    A symbolic link to a folder is a submission that cannot be graded: it leads to files of someone else.
+    A folder without such files is also a submission. Hidden folders, and those that macOS adds to archives, are not. A
+    symbolic link to a folder is a submission that cannot be graded, because it may point to files of someone else.
 
     Raises:
         CourseError: There is none.
@@ -135,9 +135,9 @@ def submissions(folder: Path) -> dict[str, Path]:
 
 
 def _lab_below(student: Path) -> Path:
-    """Return the folder with most files of the lab, at most two levels below the folder of a student.
+    """Return the folder with the most lab files, at most two levels below the folder of a student.
 
-    Links to folders are not followed, and a link is not a file of the lab.
+    Links to folders are not followed, and links do not count as lab files.
     """
     names = file_names()
     candidates = [student, *_folders_in(student)]
@@ -165,14 +165,13 @@ def check_class(
     """Grade several folders at the same time.
 
     Args:
-        folders: The folders by the names of their submissions.
-        jobs: How many to grade at a time.
-        variant: The variant of all assignments. None: that in each folder.
+        folders: The folders by submission name.
+        jobs: Number of folders to grade in parallel.
+        variant: The variant of all assignments. None for the one in each folder.
         only: The criteria to check.
 
     Yields:
-        The name of each submission with its report, or with the error that prevented it, in the order in which they
-        are done.
+        The name of each submission with its report, or with the error that prevented it, in order of completion.
     """
 
     def check(number: int) -> dict[str, Any]:
@@ -193,7 +192,7 @@ def check_class(
                 if error is not None and not isinstance(error, CourseError):
                     raise error
                 yield running[done], done.result() if error is None else error
-        finally:  # Ctrl-C ends the grades that run, and no other one starts.
+        finally:  # Ctrl-C ends the running grades, and no more are started.
             cancelled.set()
             pool.shutdown(wait=False, cancel_futures=True)
 
@@ -207,7 +206,7 @@ class _Results(threading.Thread):
 
     Attributes:
         variant: The variant of the assignment.
-        sheets: The criteria that are done.
+        sheets: The completed criteria.
         error: Why the folder cannot be graded, and what to do; None if it can.
         is_late: Whether the grade took too long.
     """
@@ -222,9 +221,9 @@ class _Results(threading.Thread):
         self._max_seconds = max_seconds
 
     def run(self) -> None:
-        """Read until the grade ends."""
+        """Read until the grading ends."""
         for line in self._output:
-            if not line.endswith(b"\n"):  # The grade was ended in the meantime.
+            if not line.endswith(b"\n"):  # The grading was ended in the meantime.
                 break
             content = json.loads(line)
             if "sheet" in content:
@@ -235,7 +234,7 @@ class _Results(threading.Thread):
                 self.variant = content["variant"]
 
     def follow(self, progress: Callable[[int], object], cancelled: threading.Event) -> None:
-        """Report the progress until the grade ends, its time is over, or it is cancelled."""
+        """Report the progress until the grading ends, its time limit is reached, or it is cancelled."""
         self.start()
         deadline = time.monotonic() + self._max_seconds
         while self.is_alive() and not cancelled.wait(_PERIOD):

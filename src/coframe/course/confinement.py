@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How the programs of one grade are confined: the command and the variables that start each of them."""
+"""Confine the programs of one grade: the command and the environment with which each is started."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ MAX_OUTPUT = 10 << 20  # bytes of the output, and of each file that a program wr
 MAX_CPU = 120  # seconds of processor time
 _ADDRESS_SPACE = 8 * MAX_MEMORY  # threads and libraries reserve more than they use
 
-# Variables of the person who runs the check that a grade may see. All others may contain secrets.
+# Environment variables of the user that are visible to the grade. All others may contain secrets.
 PASSED: Final = (
     "AMENT_PREFIX_PATH",
     "CYCLONEDDS_URI",
@@ -51,16 +51,16 @@ PASSED: Final = (
     "VIRTUAL_ENV",
 )
 FOLDER_LISTS: Final = frozenset({"AMENT_PREFIX_PATH", "DYLD_LIBRARY_PATH", "LD_LIBRARY_PATH", "PATH"})
-DECOYS: Final = "decoys"  # the folder for what programs find instead of solutions
-_FIRST_USER, _USERS = 64_000, 1000  # numbers of users without an account, for programs of the superuser
+DECOYS: Final = "decoys"  # the folder with decoys that programs find instead of solutions
+_FIRST_USER, _USERS = 64_000, 1000  # IDs of users without an account, for programs run by root
 _START: Final = "import sys; sys.path.append({!r}); from sandbox.start import main; main()"
 
 
 def passed_variables() -> dict[str, str]:
-    """Return the variables of this process that a grade may see.
+    """Return the environment variables of this process that are visible to a grade.
 
-    In lists of folders, an empty or relative element would mean a folder of the student, from which libraries and
-    programs would be loaded. They are removed.
+    Empty or relative elements in lists of folders are removed, because they would refer to a folder of the student,
+    from which libraries and programs would be loaded.
     """
     environment = {name: os.environ[name] for name in PASSED if name in os.environ}
     for name in environment.keys() & FOLDER_LISTS:
@@ -69,11 +69,12 @@ def passed_variables() -> dict[str, str]:
 
 
 class Confinement:
-    """What the programs of one grade may do.
+    """Restricts what the programs of one grade may do.
 
     Attributes:
-        has_namespaces: Whether each program has a file system and a list of processes of its own.
-        working_folder: Where the processes that start the programs work: an empty folder, as they are not confined.
+        has_namespaces: Whether each program has its own file system and process list.
+        working_folder: The working folder of the processes that start the programs; empty, because they are not
+            confined.
     """
 
     def __init__(
@@ -84,9 +85,9 @@ class Confinement:
         Args:
             folder: The student's folder.
             scratch: An empty folder.
-            private: Folders that they cannot read, see `private_folders`.
+            private: Folders that they cannot read; see `private_folders`.
             has_namespaces: Whether this process can create namespaces.
-            number: Number of the grade among those that run at the same time.
+            number: Number of the grade among concurrent ones.
         """
         self.has_namespaces = has_namespaces
         self._number = number
@@ -94,7 +95,7 @@ class Confinement:
         self._decoys = Decoys(scratch / DECOYS) if has_namespaces else None
         root = scratch / "root"
         root.mkdir()
-        self.working_folder = root if os.name == "posix" else self._folder  # where nothing is started in between
+        self.working_folder = root if os.name == "posix" else self._folder  # if no process is started in between
         self._solutions = solution_folders()
         self._entries, self._links = view_of(folder, private, self._solutions)
         if self._decoys is None:
@@ -108,7 +109,7 @@ class Confinement:
             self._decoys.close()
 
     def command(self, home: Path, *words: str) -> list[str]:
-        """Return a command that runs Python confined; without limits on Windows, which has none of them.
+        """Return a command that runs Python confined; without limits on Windows, which does not support them.
 
         Args:
             home: The only folder in which it can write.
@@ -128,22 +129,22 @@ class Confinement:
             "limits": {"AS": _ADDRESS_SPACE, "FSIZE": MAX_OUTPUT, "CPU": MAX_CPU},
         }
         start = _START.format(str(Path(__file__).parent))
-        # Isolated (-I): no variable of Python and no current folder has an effect; without the module site (-S).
+        # Isolated (-I): ignores Python's variables and the current folder; without the module site (-S).
         return [sys.executable, "-I", "-S", "-c", start, json.dumps(plan), sys.executable, *words]
 
     def environment(self, home: Path) -> dict[str, str]:
-        """Return the variables of a program with this home folder."""
+        """Return the environment of a program with this home folder."""
         environment = passed_variables()
         environment |= {"HOME": str(home), "TMPDIR": str(home), "ROS_LOG_DIR": str(home)}
         environment |= {"PYTHONUNBUFFERED": "1", "PYTHONDONTWRITEBYTECODE": "1", GRADED: "1"}
-        environment |= {"USER": "student", "LOGNAME": "student"}  # where the user has no account
+        environment |= {"USER": "student", "LOGNAME": "student"}  # if the user has no account
         return python_environment(environment)
 
     def attempt(self, output: bytes) -> str:
-        """Return a sentence about a program that has tried to use solutions of the lab since the last call, or "".
+        """Return a message if the program has tried to use solutions of the lab since the last call, or "".
 
         Args:
-            output: What it has printed, which is the only sign where a program has no file system of its own.
+            output: Its output, which is the only evidence if programs have no file system of their own.
         """
         opened = "" if self._decoys is None else self._decoys.opened()
         printed = (package for package in SOLUTIONS if refusal(package).encode() in output)
@@ -153,23 +154,23 @@ class Confinement:
 
 
 def protection_problem(*, has_namespaces: bool) -> str:
-    """Return sentences about what this system does not protect from a program; "" if it protects everything."""
+    """Describe what this system does not protect from a program; "" if it protects everything."""
     sentences = []
     if not has_namespaces:
         sentences.append(
-            "This system does not give the programs namespaces of their own (unshare), so they run in a ROS domain of "
-            "their own but could reach the network, and see which processes run."
+            "This system does not allow separate namespaces for the programs (unshare), so they run in a separate ROS "
+            "domain but could reach the network and list running processes."
         )
         if not landlock_version():
             sentences.append(
-                "It does not restrict files either (Landlock), so they could read and change yours, and import the "
-                "solutions in coframe.lab."
+                "It does not restrict files either (Landlock), so they could read and modify your files, and import "
+                "the solutions in coframe.lab."
             )
         if not (scopes_signals() or can_filter()):
             sentences.append("They could send signals to your processes.")
     if not can_filter():
         sentences.append(
-            "This system has no filter for system calls (seccomp), so the programs could use Unix sockets, and memory "
-            "that is not counted."
+            "This system has no filter for system calls (seccomp), so the programs could use Unix sockets and "
+            "uncounted memory."
         )
     return " ".join(sentences)

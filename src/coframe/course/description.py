@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A node that publishes the description of the lab's arm without any transform.
+"""A node that publishes only the description of the lab's arm, without transforms.
 
 The doctor compares the transforms of other nodes with it.
 """
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 __all__ = ["main"]
 
-_LIDAR = "0 0 0.5"  # where static_tf_broadcaster mounts it
+_LIDAR = "0 0 0.5"  # as mounted by static_tf_broadcaster
 
 
 def _publish(node: Node) -> None:

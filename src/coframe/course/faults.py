@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Ten systems with one fault each, for students to find."""
+"""Ten deliberately broken systems, each with one fault for students to find."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ __all__ = ["FAULTS", "Fault"]
 
 
 class Fault(NamedTuple):
-    """A system with a fault.
+    """A deliberately broken system to diagnose.
 
     Attributes:
         name: The name of the fault, which is the answer.
-        explanation: What is wrong, and how it can be found.
+        explanation: What is wrong, and how to find it.
         programs: The programs of the system.
     """
 
@@ -33,7 +33,7 @@ def _node(name: str, *parameters: str, title: str = "") -> Program:
 
 
 def _faulty(fault: str, name: str) -> Program:
-    """Return a node of the lab in which a fault of coframe.course.faulty_node is built in."""
+    """Return a node of the lab with a fault from coframe.course.faulty_node."""
     return module_program(name, "coframe.course.faulty_node", fault, name)
 
 
@@ -57,7 +57,7 @@ FAULTS = (
     ),
     Fault(
         "clock offset",
-        "The stamps of the arm are 5 s behind the clock, as if its computer had another time.",
+        "The stamps of the arm are 5 s behind the clock, as if the clock of its computer were wrong.",
         (_STATIC, _faulty("offset", "dynamic_tf_broadcaster"), _LISTENER, _LIDAR, _SENSOR),
     ),
     Fault(

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A node of the lab with a fault: its arguments are the fault and the node."""
+"""Run a node of the lab with a fault; the arguments are the fault and the node."""
 
 from __future__ import annotations
 
@@ -72,7 +72,7 @@ _FAULTS: dict[str, Callable[[Any], None]] = {
 
 
 def _change_transforms(change: Callable[[list[Any]], list[Any]]) -> None:
-    """Change the transforms that a broadcaster sends."""
+    """Modify the transforms sent by a broadcaster."""
     send = tf2_ros.TransformBroadcaster.sendTransform
 
     def send_changed(self: Any, transform: Any) -> None:

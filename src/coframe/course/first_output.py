@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Which of a student's programs publish nothing yet: the first thing to do."""
+"""Find out which of a student's programs do not publish anything yet."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ __all__ = ["FirstOutput"]
 
 
 class _Output(NamedTuple):
-    """What a program of the lab publishes: a topic, and the chapter of the handbook about it."""
+    """The output topic of a lab program, and the handbook chapter about it."""
 
     topic: str
     chapter: int
@@ -35,7 +35,7 @@ _OUTPUTS = {
 
 
 class FirstOutput:
-    """Subscriptions to what the programs of the lab publish."""
+    """Subscriptions to the output topics of the lab programs."""
 
     def __init__(self, ros: Connection, programs: Iterable[Program]) -> None:
         self._ros = ros
@@ -54,7 +54,7 @@ class FirstOutput:
             subscription.close()
 
     def missing(self) -> Iterator[tuple[str, str]]:
-        """Yield the name of each program that has published nothing, and a sentence about it."""
+        """Yield the name of each program that has not published anything, and a message about it."""
         kinds = {"/tf_static" if edge.static else "/tf" for edge in self._ros.buffer.edges()}
         for name in self._names:
             output = _OUTPUTS[name]

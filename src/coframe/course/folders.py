@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Folders for students: stubs with the task in each docstring, an RViz configuration, and a README."""
+"""Create folders for students: stubs with a task in each docstring, an RViz configuration, and a README."""
 
 from __future__ import annotations
 
@@ -26,13 +26,13 @@ def create_folder(folder: Path, variant: int | None) -> list[Path]:
 
     Args:
         folder: The folder; it must not contain files of these names.
-        variant: The number of a variant. None: the lab's own numbers.
+        variant: The seed of a variant. None for the lab's own parameters.
 
     Returns:
         The files.
 
     Raises:
-        CourseError: A file exists already, or cannot be written.
+        CourseError: A file already exists, or cannot be written.
     """
     assignment = assignment_of(variant)
     names = file_names()
@@ -49,7 +49,7 @@ def create_folder(folder: Path, variant: int | None) -> list[Path]:
         write_complete(folder / FILE, assignment_file(assignment).encode())
     except OSError as error:
         for name in (*names, FILE):
-            with suppress(OSError):  # It was not written yet.
+            with suppress(OSError):  # The file was not written yet.
                 (folder / name).unlink()
         raise CourseError(
             f"Cannot write {error.filename or folder}: {error.strerror}.", hint="Choose another folder."
@@ -63,7 +63,7 @@ def file_names() -> list[str]:
 
 
 def _filled(text: str, assignment: Assignment) -> str:
-    """Return a template with the numbers of the assignment."""
+    """Return a template filled with the parameters of the assignment."""
     first, second = assignment.link_lengths
     values = {
         "CAMERA": _numbers(assignment.camera.translation),

@@ -12,11 +12,11 @@ if TYPE_CHECKING:
 __all__ = ["classroom", "csv_row", "gradescope", "text", "ungraded"]
 
 _WIDTH = 100
-_FOLDER = "Folder"  # stands for all criteria of a folder that could not be graded
+_FOLDER = "Folder"  # represents all criteria of a folder that could not be graded
 
 
 def text(report: dict[str, Any]) -> Iterator[str]:
-    """Yield the lines of a report for a terminal: each criterion with its facts; lost points with their reason."""
+    """Yield the lines of a report for a terminal: each criterion with its facts, and the reasons for lost points."""
     for criterion in report["criteria"]:
         if _is_skipped(criterion):
             continue
@@ -48,7 +48,7 @@ def _sum(report: dict[str, Any]) -> str:
         return f"Grade: {report['earned']:g} of {points:g}{bonus}"
     parts = [f"{report['earned']:g} of {points:g}"] if points else []
     parts += [f"{report['bonus']:g} of {bonus_points:g} bonus"] if bonus_points else []
-    return f"Points in this part of the check: {' + '.join(parts)}. The grade is that of all parts."
+    return f"Points in this part of the check: {' + '.join(parts)}. The grade requires all parts."
 
 
 def _is_skipped(criterion: dict[str, Any]) -> bool:
@@ -67,7 +67,7 @@ def _indented(content: str, start: str) -> list[str]:
 
 
 def ungraded(folder: str, problem: str) -> dict[str, Any]:
-    """Return the report of a folder that could not be graded: no points, and a sentence."""
+    """Return the report of a folder that could not be graded: no points, and the reason."""
     fact = {"name": "the folder can be graded", "points": 100, "earned": 0.0, "cause": "", "read": ""}
     fact |= {"expected": "a folder that can be graded", "observed": problem}
     criterion = {"name": _FOLDER, "file": folder, "bonus": False, "earned": 0.0, "points": 100, "problem": problem}
@@ -125,7 +125,7 @@ def _graded_facts(report: dict[str, Any]) -> Iterator[tuple[dict[str, Any], dict
 
 
 def csv_row(submission: str, report: dict[str, Any]) -> dict[str, Any]:
-    """Return the row of a table of grades: the submission, its variant, the sum, each criterion, the first problem."""
+    """Return the row of a submission in the table of grades: variant, total, each criterion, first problem."""
     problems = [each["problem"] for each in report["criteria"] if each["problem"] and not _is_skipped(each)]
     return {
         "submission": submission,

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The grade of one folder, in a process of its own: `main` prints it as JSON."""
+"""Grade one folder in a separate process: `main` prints the result as JSON."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ _SEARCHABLE = 0o711
 
 
 def main() -> None:
-    """Grade a folder; print the assignment and each criterion that is done as lines of JSON.
+    """Grade a folder; print the assignment and each completed criterion as lines of JSON.
 
     The argument is JSON: "folder"; "scratch", an empty folder; "variant", null for that of the folder; "only", the
     criteria; "number", that of the grade among those at the same time; "record", a folder for a recording or null; and
@@ -46,13 +46,16 @@ def main() -> None:
         forbid_tracing()
     bring_loopback_up()
     homes = scratch / HOMES
-    for path in (homes, scratch / DECOYS):  # No other process of this machine sees these disks, or opens files there.
+    for path in (
+        homes,
+        scratch / DECOYS,
+    ):  # No other process on this machine can see these disks or open files on them.
         path.mkdir()
         limit_disk(path)
     for path in (scratch.parent, scratch, homes):
-        path.chmod(_SEARCHABLE)  # The programs of the superuser run as other users.
+        path.chmod(_SEARCHABLE)  # If this process runs as root, programs run as other users.
     adopt_orphans()
-    signal.signal(signal.SIGINT, lambda _number, _frame: None)  # A program can send it to its parent.
+    signal.signal(signal.SIGINT, lambda _number, _frame: None)  # A program can send this signal to its parent.
     confinement = Confinement(folder, scratch, job["private"], has_namespaces=is_isolated(), number=job["number"])
     with _result_output() as output, _recorded(job["record"]), confinement:
 
@@ -80,9 +83,9 @@ def _grade(
 
     Args:
         folder: The student's folder.
-        assignment: The numbers that the nodes have to use.
+        assignment: The parameters that the nodes have to use.
         scratch: An empty folder for the output of the nodes and the files that they write.
-        confinement: What the nodes may do.
+        confinement: The restrictions of the nodes.
         only: The criteria to check.
         done: Called with the sheet of each criterion.
     """
@@ -97,7 +100,7 @@ def _grade(
 
 
 def _result_output() -> TextIO:
-    """Return the standard output as a file that no other process gets; from then on, it is the standard error."""
+    """Return standard output as a file that children do not inherit; redirect it to standard error from then on."""
     output = os.fdopen(os.dup(sys.stdout.fileno()), "w", encoding="utf-8")
     os.dup2(sys.stderr.fileno(), sys.stdout.fileno())
     return output

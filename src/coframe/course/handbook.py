@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The handbook of the course: its chapters as text for a terminal, and as web pages with their pictures."""
+"""The handbook of the course: its chapters as text for a terminal, and as web pages with images."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ def contents() -> Path:
 
 
 def chapters() -> list[Chapter]:
-    """Return the chapters in their order.
+    """Return the chapters in order.
 
     Raises:
         CourseError: The handbook is not installed.
@@ -73,15 +73,15 @@ def chapters() -> list[Chapter]:
 
 
 def terminal_text(file: Path) -> str:
-    """Return a file of the handbook as Markdown for a terminal: pictures as their descriptions."""
+    """Return a file of the handbook as Markdown for a terminal, with images replaced by their descriptions."""
     return _LINK.sub(r"\1", _PICTURE.sub(r"*Picture: \1*", file.read_text(encoding="utf-8")))
 
 
 def write_pages(folder: Path) -> Path:
-    """Write the handbook as web pages with its pictures and notebooks, and return the page with the contents.
+    """Write the handbook as web pages with images and notebooks, and return the contents page.
 
     Args:
-        folder: The folder; files of the same names are replaced.
+        folder: The folder; existing files are replaced.
 
     Raises:
         CourseError: The handbook is not installed, or a file cannot be written.
@@ -112,7 +112,7 @@ def _pictures(folder: Path) -> list[Path]:
 
 
 def _page(text: str) -> str:
-    """Return Markdown as a web page, whose links lead to the other pages."""
+    """Return Markdown as a web page, with links to the other pages."""
     from markdown_it import MarkdownIt  # noqa: PLC0415 - only for web pages
 
     body = MarkdownIt("commonmark").enable("table").render(_OUTSIDE.sub(r"\1", text))

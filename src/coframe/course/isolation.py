@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A network, a process list and a disk of its own for a grade, where the system can give them; else a ROS domain."""
+"""Isolate a grade with its own network, process list and disk if the system supports them, else a ROS domain."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ _FLAGS = ("--net", "--ipc", "--pid", "--fork", "--kill-child", "--mount-proc")
 
 
 def isolated_command(command: list[str]) -> list[str]:
-    """Return a command that runs in namespaces of its own; the command itself where there are none.
+    """Return a command that runs in new namespaces; the command itself if namespaces are not available.
 
     When the first process of the namespaces ends, the system ends all others in them.
     """
@@ -56,7 +56,7 @@ def isolated_environment(number: int, home: Path) -> dict[str, str]:
         home: The home folder of the grade.
     """
     environment = passed_variables()
-    # The packages of `pip install --user` are usually below the home folder, which is another one.
+    # Packages of `pip install --user` are usually in the home folder, which is replaced.
     environment["PYTHONUSERBASE"] = site.getuserbase()
     environment |= {"HOME": str(home), "TMPDIR": str(home), "ROS_LOG_DIR": str(home)}
     environment |= {"ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST", "PYTHONDONTWRITEBYTECODE": "1"}
@@ -68,17 +68,17 @@ def isolated_environment(number: int, home: Path) -> dict[str, str]:
 
 
 def isolation_problem() -> str:
-    """Return sentences about what the system does not protect from the programs of a grade; "" if there is nothing."""
+    """Describe what the system does not protect from the programs of a grade; "" if it protects everything."""
     return protection_problem(has_namespaces=bool(_unshare()))
 
 
 def is_isolated() -> bool:
-    """Return whether this process is a grade in namespaces of its own."""
+    """Return whether this process is a grade in its own namespaces."""
     return _VARIABLE in os.environ
 
 
 def bring_loopback_up() -> None:
-    """Enable loopback and its multicast in a network namespace that was just made; do nothing elsewhere."""
+    """Enable loopback and multicast in a newly created network namespace; do nothing elsewhere."""
     if not is_isolated():
         return
     import fcntl  # noqa: PLC0415 - not on Windows
@@ -90,14 +90,14 @@ def bring_loopback_up() -> None:
 
 
 def limit_disk(folder: Path) -> None:
-    """Give a folder a small disk of its own in memory, in namespaces that were just made; do nothing elsewhere."""
+    """Mount a small memory disk on a folder in newly created namespaces; do nothing elsewhere."""
     if is_isolated():
         c_function("mount", b"coframe", os.fsencode(folder), b"tmpfs", 0, _DISK)
 
 
 @functools.cache
 def _unshare() -> tuple[str, ...]:
-    """Return the words in front of a command that give it namespaces of its own; none if that is not possible."""
+    """Return the command prefix that creates namespaces; empty if that is not possible."""
     program = shutil.which("unshare", path=passed_variables().get("PATH", ""))
     if program is None or not sys.platform.startswith("linux"):
         return ()
@@ -106,7 +106,7 @@ def _unshare() -> tuple[str, ...]:
 
 
 def _is_possible(words: Sequence[str]) -> bool:
-    """Return whether a process with these namespaces can start a confined program, which needs more of them."""
+    """Return whether a process in these namespaces can start a confined program, which creates more of them."""
     with temporary_folder("coframe-check-") as name:
         folder, home = Path(name, "folder"), Path(name, "home")
         for each in (folder, home):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The motion of the simulated robot in closed form: what a student's nodes have to publish at each time."""
+"""The motion of the simulated robot in closed form, as a student's nodes have to publish it."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ if TYPE_CHECKING:
 
 __all__ = ["JOINT_PERIOD", "Robot", "joint_angles"]
 
-JOINT_PERIOD = 10.0  # seconds after which both joints are where they were: their frequencies are 0.2 and 0.3 Hz
+JOINT_PERIOD = 10.0  # seconds; common period of both joints, whose frequencies are 0.2 and 0.3 Hz
 _SECOND = 1_000_000_000
 
 
 def joint_angles(seconds: float) -> tuple[float, float]:
-    """Return the angles of the two joints by the lab's law, in radians."""
+    """Return the angles of the two joints in the specified motion, in radians."""
     return (
         0.5 * math.sin(2 * math.pi * 0.2 * seconds),
         0.3 * math.sin(2 * math.pi * 0.3 * seconds + math.pi / 4),
@@ -26,7 +26,7 @@ def joint_angles(seconds: float) -> tuple[float, float]:
 
 
 class Robot(NamedTuple):
-    """The robot of an assignment, which moves by the lab's law."""
+    """The robot of an assignment with the specified motion."""
 
     assignment: Assignment
 

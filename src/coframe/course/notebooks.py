@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 __all__ = ["Cell", "cells", "notebook"]
 
 _CODE = re.compile(r"^```python\n(?P<block>.*?)^```\n|^<!-- notebook:(?P<comment>.*?)-->\n", re.MULTILINE | re.DOTALL)
-# In a notebook, the view itself takes the place of its picture.
+# In a notebook, the view replaces the image.
 _PICTURE = re.compile(r"^!\[[^]]*\]\(\d\d_\w+\.webp\)\n+", re.MULTILINE)
 _CHAPTER_LINK = re.compile(r"\]\((\d\d_\w+)\.md(#[\w-]*)?\)")
 _OTHER_LINK = re.compile(r"\]\((?!\w+:|#|\d\d_\w+\.ipynb)([^)]+)\)")

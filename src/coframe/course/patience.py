@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A limit on real time that is fair on a busy machine."""
+"""A real-time limit that is fair on a busy machine."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ _MAX_FACTOR = 4  # times the limit, after which it is over in any case
 
 
 class Patience:
-    """A limit on the time that a program has for something, without the time that it waits for a processor."""
+    """A time limit for a program that excludes the time it waits for a processor."""
 
     def __init__(self, seconds: float, waiting_time: Callable[[], float]) -> None:
-        """Start the time.
+        """Start the timer.
 
         Args:
             seconds: The limit.
-            waiting_time: Returns how long the program has waited for a processor so far, in seconds.
+            waiting_time: Returns how long the program has waited for a processor, in seconds.
         """
         self._seconds = seconds
         self._waiting_time = waiting_time
@@ -30,7 +30,7 @@ class Patience:
         self._waited = waiting_time()
 
     def is_over(self) -> bool:
-        """Return whether the time is over."""
+        """Return whether the time is up."""
         passed = time.monotonic() - self._start
         if passed < self._seconds:
             return False

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The processes below this one, where the system lists them in ``/proc``; elsewhere none are found."""
+"""The descendants of this process, on systems that list them in ``/proc``; elsewhere none are found."""
 
 from __future__ import annotations
 
@@ -54,17 +54,17 @@ def adopt_orphans() -> None:
 
 
 def children(of: int | None = None) -> list[int]:
-    """Return the processes that a process has started or adopted, the oldest first; None: this process."""
+    """Return the child processes of a process, the oldest first; None for this process."""
     parent = os.getpid() if of is None else of
     return sorted(each.pid for each in _entries() if each.parent == parent)
 
 
 def descendants(of: int | None = None, without: Container[int] = ()) -> list[Process]:
-    """Return all processes below a process, in any session and process group, the oldest generation first.
+    """Return all descendants of a process, in any session and process group, the oldest generation first.
 
     Args:
-        of: The process. None: this one.
-        without: Processes to leave out, with all below them.
+        of: The process. None for this one.
+        without: Processes to exclude, with all their descendants.
     """
     below: dict[int, list[_Entry]] = {}
     for entry in _entries():
@@ -81,21 +81,21 @@ def descendants(of: int | None = None, without: Container[int] = ()) -> list[Pro
 
 
 def waiting_time(pid: int) -> float:
-    """Return how long the threads of a process have waited for a processor, in seconds: the longest time of a thread.
+    """Return how long a process has waited for a processor, in seconds: the maximum of its threads.
 
-    It is 0 where the system does not count it.
+    It is 0 if the system does not measure it.
     """
     longest = 0
-    with contextlib.suppress(OSError, ValueError, IndexError):  # The process, or one of its threads, has ended.
+    with contextlib.suppress(OSError, ValueError, IndexError):  # The process or one of its threads has ended.
         for file in (_PROC / str(pid) / "task").glob("*/schedstat"):
             longest = max(longest, int(file.read_text().split()[1]))
     return longest / SECOND
 
 
 def shared_memory(running: Iterable[Process]) -> int:
-    """Return the sizes of the memory that processes share without a file, each once, in bytes.
+    """Return the sizes of anonymous shared memory of processes, each once, in bytes.
 
-    It is not a part of their resident memory while it is not used, but exists as long as one of them can use it.
+    Unused parts are not included in their resident memory, but exist as long as a process can use them.
     """
     sizes: dict[str, int] = {}
     for each in running:
@@ -104,7 +104,7 @@ def shared_memory(running: Iterable[Process]) -> int:
                 fields = line.split(None, 5)
                 if fields[1].endswith("s") and fields[5:] and fields[5].startswith(_SHARED_WITHOUT_FILE):
                     first, last = (int(number, 16) for number in fields[0].split("-"))
-                    size = int(fields[2], 16) + last - first  # the mapping may begin in the middle
+                    size = int(fields[2], 16) + last - first  # the mapping may start in the middle
                     sizes[fields[4]] = max(size, sizes.get(fields[4], 0))
     return sum(sizes.values())
 
@@ -115,7 +115,7 @@ def own_memory() -> int:
 
 
 def kill(pid: int) -> None:
-    """Kill a process that may have ended; forget it if it was adopted."""
+    """Kill a process that may have ended; reap it if it was adopted."""
     with contextlib.suppress(OSError):
         os.kill(pid, signal.SIGKILL if os.name == "posix" else signal.SIGTERM)
     if os.name == "posix":
@@ -140,7 +140,7 @@ def _entries() -> list[_Entry]:
         if not folder.name.isdecimal():
             continue
         try:
-            # The name of the command, in parentheses, may itself contain spaces and parentheses.
+            # The command name in parentheses may contain spaces and parentheses.
             fields = (folder / "stat").read_text(errors="replace").rpartition(")")[2].split()
         except OSError:  # The process has ended.
             continue

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A student's program as a process with limits: it is someone else's code, and may do anything."""
+"""Run a student's program as a process with limits, because it is untrusted code."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 __all__ = ["HOMES", "MAX_FILES", "MAX_PROCESSES", "Program"]
 
 HOMES = "home"  # the folder for the home folders of all programs
-MAX_FILES = 100 << 20  # bytes of all files that it writes
+MAX_FILES = 100 << 20  # bytes of all files it writes
 MAX_PROCESSES = 8
 _MAX_FILES = 10_000
 _TOO_MUCH_OUTPUT = f"The program printed more than {MAX_OUTPUT >> 20} MB and was ended."
@@ -33,10 +33,10 @@ _STOP_PATIENCE = 3.0  # seconds between SIGINT and SIGKILL
 _LAST_LINES = 8
 _TRACEBACK_LINE = re.compile(r'^  File "([^"\n]{1,1000})", line (\d{1,7})', re.MULTILINE)
 _KILL_ROUNDS = 50
-_SIGNAL_OFFSET = 128  # added to the number of the signal that has ended a program in namespaces
-_BLOCK = 512  # bytes of a block, in which the system counts the size of a file
+_SIGNAL_OFFSET = 128  # added to the number of the signal that ended a program in namespaces
+_BLOCK = 512  # bytes per block, the unit of file sizes on disk
 _POLL_PERIOD = 0.01  # seconds
-_CHECK_PERIOD = 0.25  # seconds between two looks at its memory and processes
+_CHECK_PERIOD = 0.25  # seconds between two checks of its memory and processes
 
 
 class Program:
@@ -44,8 +44,7 @@ class Program:
 
     Attributes:
         file: The program.
-        violation: A sentence about the limit that it has exceeded, or about why it cannot be checked; "" if there is
-            none.
+        violation: The limit that it exceeded, or the reason why it cannot be checked; "" if there is none.
     """
 
     def __init__(self, file: Path, scratch: Path, confinement: Confinement) -> None:
@@ -53,9 +52,9 @@ class Program:
 
         Args:
             file: The program.
-            scratch: A folder for its output; its folder ``home`` is for the home folders of all programs, the only ones
-                in which they can create files.
-            confinement: What it may do.
+            scratch: A folder for its output; ``home`` in it contains the home folders of all programs, the only ones in
+                which they can create files.
+            confinement: The restrictions of the program.
         """
         self.file = file
         self.violation = ""
@@ -65,11 +64,11 @@ class Program:
         self._process: subprocess.Popen[bytes] | None = None
         self._main: int | None = None  # the process that runs the student's code
         self._checked = 0.0
-        self._others: list[int] = []  # processes of the grader, such as that of the recording
+        self._others: list[int] = []  # processes of the grader, such as the recorder
         self._exit_code: int | None = None
 
     def start(self, *words: str, request: bytes = b"") -> None:
-        """Start the program with the simulated clock, or with other words after ``python``.
+        """Start the program with the simulated clock, or with other arguments of ``python``.
 
         Args:
             words: The words.
@@ -88,14 +87,14 @@ class Program:
                 stderr=log,
                 cwd=self._confinement.working_folder,
                 env=self._confinement.environment(self._home),
-                start_new_session=True,  # Ctrl-C reaches the grader only, and all its processes are one group.
+                start_new_session=True,  # Only the grader receives Ctrl-C, and all its processes are one group.
             )
 
     def run(self, seconds: float, words: Sequence[str], request: bytes) -> int:
-        """Run it with other words after ``python``, and return its exit code.
+        """Run it with other arguments of ``python``, and return its exit code.
 
         Args:
-            seconds: The most time that it may take, see Patience.
+            seconds: The time limit; see Patience.
             words: The words.
             request: The standard input.
         """
@@ -112,7 +111,7 @@ class Program:
         return -signal.SIGKILL if self._exit_code is None else self._exit_code
 
     def is_running(self) -> bool:
-        """Return whether the program runs; a program that has exceeded a limit is ended here."""
+        """Return whether the program is running; end it if it has exceeded a limit."""
         if self._process is None or self._process.poll() is not None:
             return False
         if time.monotonic() - self._checked > _CHECK_PERIOD:
@@ -130,7 +129,7 @@ class Program:
         return own if main is None else own + processes.waiting_time(main)
 
     def stop(self) -> None:
-        """End the program and all processes that it has started."""
+        """End the program and all processes that it started."""
         process = self._process
         if process is None:
             return
@@ -150,7 +149,7 @@ class Program:
                 os.kill(main, signal.SIGINT)
 
     def _find_main(self) -> int | None:
-        """Return the process of the student's code, a grandchild if it has namespaces; None before it exists."""
+        """Return the process of the student's code (a grandchild if it has namespaces); None before it exists."""
         if self._main is None and self._process is not None:
             if not self._confinement.has_namespaces:
                 self._main = self._process.pid
@@ -164,18 +163,18 @@ class Program:
         return next(iter(processes.children(self._process.pid)), None)
 
     def attempt(self) -> str:
-        """Return a sentence about a program that has tried to use solutions of the lab; "" if it has not."""
+        """Return a message if the program tried to use solutions of the lab; "" if it did not."""
         return self._confinement.attempt(self.output())
 
     def output(self) -> bytes:
-        """Return all that it has printed."""
+        """Return everything it has printed."""
         try:
             return self._log.read_bytes()
         except OSError:
             return b""
 
     def crash(self) -> str:
-        """Return a sentence about a program that ended by itself or was ended; "" if it ran until it was stopped."""
+        """Return why a program ended prematurely; "" if it ran until it was stopped."""
         if self.violation:
             return self.violation
         process = self._process
@@ -203,7 +202,7 @@ class Program:
         return self._end_of_output(4000).splitlines()[-_LAST_LINES:]
 
     def _failed_line(self) -> int | None:
-        """Return the innermost line of the program in the last traceback: its end may be in other files."""
+        """Return the innermost line of the program in the last traceback, which may end in other files."""
         _, found, traceback = self._end_of_output(40_000).rpartition("Traceback (most recent call last):")
         lines = _TRACEBACK_LINE.findall(traceback) if found else []
         return next((int(line) for name, line in reversed(lines) if Path(name).name == self.file.name), None)
@@ -233,7 +232,7 @@ class Program:
         return ""
 
     def _running(self) -> list[processes.Process]:
-        """Return the processes of the program, without those that confine it."""
+        """Return the processes of the program, except those that confine it."""
         if not self._confinement.has_namespaces:
             return processes.descendants(without=self._others)
         first = self._first_process()
@@ -244,7 +243,7 @@ class Program:
         processes.kill_group(self._process.pid)
         self._process.kill()
         self._process.wait()
-        for _ in range(_KILL_ROUNDS):  # One of them may start another one before it is killed.
+        for _ in range(_KILL_ROUNDS):  # A process may start another one before it is killed.
             left = processes.descendants(without=self._others)
             if not left:
                 break
@@ -253,7 +252,7 @@ class Program:
 
 
 def _is_larger(folder: Path, size: int) -> bool:
-    """Return whether the files below a folder are larger than a size in bytes, or too many."""
+    """Return whether the files below a folder exceed a total size in bytes or a maximum number."""
     total = count = 0
     for path, _, names in os.walk(folder):
         for name in names:

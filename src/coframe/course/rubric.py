@@ -13,7 +13,7 @@ class Criterion(NamedTuple):
 
     Attributes:
         name: The name in reports.
-        file: The file of the student that is checked.
+        file: The student's file to check.
         points: The points of all its facts.
         bonus: Whether its points are added to the 100.
     """
@@ -24,7 +24,7 @@ class Criterion(NamedTuple):
     bonus: bool = False
 
 
-# By the modules of coframe.course.criteria, in the order of the check; those after the first five are extensions.
+# By module of coframe.course.criteria, in the order of the check; all after the first five are extensions.
 RUBRIC = {
     "static": Criterion("Static transforms", "static_tf_broadcaster.py", 20),
     "dynamic": Criterion("Dynamic transforms", "dynamic_tf_broadcaster.py", 25),

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The programs of a folder as processes, whose output is printed with their names."""
+"""Run the programs of a folder as processes, with their output prefixed by their names."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ def module_program(name: str, module: str, *arguments: str) -> Program:
     return Program(name, tuple(python_command(module, *arguments)))
 
 
-# What stands for the robot: joints that move, and a lidar. Their names differ from those of a student's nodes.
+# Simulates the robot: moving joints and a lidar. Their names differ from those of a student's nodes.
 SIMULATION = (
     module_program(
         "simulated joints",
@@ -50,7 +50,7 @@ SIMULATION = (
 
 
 def programs_of(folder: Path, names: Sequence[str]) -> list[Program]:
-    """Return those of the named programs that a folder contains.
+    """Return the named programs that exist in a folder.
 
     Raises:
         CourseError: It contains none of them.
@@ -72,7 +72,7 @@ def running(programs: Sequence[Program], write: Callable[[str, str], None]) -> I
 
     Args:
         programs: The programs.
-        write: Called from other threads with the name of a program and a line of its output, or with what happened.
+        write: Called from other threads with the name of a program and a line of its output, or a status message.
     """
     processes: list[tuple[Program, subprocess.Popen[str]]] = []
     threads = []
@@ -87,7 +87,7 @@ def running(programs: Sequence[Program], write: Callable[[str, str], None]) -> I
                 text=True,
                 errors="replace",
                 env=python_environment() | {"PYTHONUNBUFFERED": "1"},
-                start_new_session=True,  # Ctrl-C reaches this process, which stops the others.
+                start_new_session=True,  # Only this process receives Ctrl-C; it stops the others.
             )
             processes.append((program, process))
             thread = threading.Thread(target=_forward, args=(program.name, process, write, stopping), daemon=True)

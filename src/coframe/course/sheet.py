@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The result of a check: facts with points, what was expected and observed, and what to do about lost points."""
+"""The result of a check: facts with points, expected and observed behaviour, and advice about lost points."""
 
 from __future__ import annotations
 
@@ -22,8 +22,8 @@ class Fact:
 
     Attributes:
         name: What is checked.
-        points: The points for it.
-        earned: The points that were earned.
+        points: The available points.
+        earned: The earned points.
         expected: What a correct solution does.
         observed: What was observed instead; "" if all points were earned.
         cause: The likely cause of lost points.
@@ -45,10 +45,10 @@ class Sheet:
 
     Attributes:
         name: The name of the criterion.
-        file: The file that is checked.
+        file: The checked file.
         bonus: Whether its points are added to the 100.
-        problem: A sentence if the program could not be checked to the end.
-        last_lines: The last lines that the program printed, if there was a problem.
+        problem: Why the program could not be checked completely; "" if it could.
+        last_lines: The last lines of the program's output, if there was a problem.
         facts: The facts.
     """
 
@@ -66,7 +66,7 @@ class Sheet:
 
     @classmethod
     def not_reached(cls, criterion: Criterion, reason: str) -> Self:
-        """Return the sheet of a criterion that the check did not reach."""
+        """Return the sheet of a criterion that was not reached."""
         sheet = cls.of(criterion)
         sheet.add_problem(f"Not checked: {reason}.")
         sheet.check(criterion.points, "the check reaches this criterion", False, expected="a grade", observed=reason)
@@ -92,16 +92,16 @@ class Sheet:
         """Add a fact.
 
         Args:
-            points: The points for it.
+            points: The available points.
             name: What is checked.
-            good: Whether it holds; a number from 0 to 1 for partial credit.
+            good: Whether it is fulfilled; a number from 0 to 1 for partial credit.
             expected: What a correct solution does.
             observed: What was observed.
-            cause: The likely cause, if it does not hold.
+            cause: The likely cause if it is not fulfilled.
             read: Where to read about it.
 
         Returns:
-            Whether the fact holds entirely.
+            Whether the fact is completely fulfilled.
         """
         share = min(1.0, max(0.0, float(good)))
         lost = share < 1.0
@@ -111,23 +111,23 @@ class Sheet:
         return not lost
 
     def add_problem(self, sentence: str) -> None:
-        """Add a sentence about what prevents a check, unless it is there or empty."""
+        """Add a reason that prevents a check, unless it is already present or empty."""
         if sentence not in self.problem:
             self.problem = f"{self.problem} {sentence}".strip()
 
     def withdraw(self, first: int, observed: str) -> None:
-        """Take the points of the facts from number `first` on, which one sentence explains.
+        """Withdraw the points of all facts from index `first` on, with one explanation.
 
         Args:
-            first: The number of the first of these facts, from 0.
-            observed: The sentence.
+            first: The index of the first of these facts.
+            observed: The explanation.
         """
         self.add_problem(observed)
         for fact in self.facts[first:]:
             fact.earned, fact.observed, fact.cause = 0.0, observed, ""
 
     def blame(self, first: int, cause: str) -> None:
-        """Name the cause of all points that were lost from fact number `first` on, counted from 0."""
+        """Set the cause of all lost points from fact index `first` on."""
         for fact in self.facts[first:]:
             if fact.earned < fact.points:
                 fact.cause = cause
@@ -139,7 +139,7 @@ class Sheet:
 
     @property
     def earned(self) -> float:
-        """The points that were earned."""
+        """The earned points."""
         return round(sum(fact.earned for fact in self.facts), 2)
 
     def as_dict(self) -> dict[str, Any]:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The parts of coframe that contain solutions of the lab: where they are, and which of them a program has opened."""
+"""Locate the parts of coframe that contain solutions of the lab, and detect which of them a program opens."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Decoys", "entry_files", "solution_folders", "solution_problem"]
 
-# Packages of other Pythons of the system, in which coframe may be installed as well.
+# Package folders of other Python installations, in which coframe may also be installed.
 _OTHER_PACKAGES: Final = (
     "/usr/lib*/python3*",
     "/usr/local/lib*/python3*",
@@ -35,7 +35,7 @@ _BUFFER = 1 << 16
 
 
 def solution_folders() -> list[str]:
-    """Return all folders with solutions, also of other installations, and where their compiled files are."""
+    """Return all folders with solutions, including other installations, and the locations of their compiled files."""
     packages = {*coframe.__path__, *(os.path.join(path, "coframe") for path in sys.path)}  # noqa: PTH118
     for pattern in _OTHER_PACKAGES:
         packages |= {*glob.glob(f"{pattern}/*-packages/coframe")}  # noqa: PTH207 - patterns for absolute paths
@@ -47,15 +47,15 @@ def solution_folders() -> list[str]:
 
 
 def entry_files(folders: list[str]) -> list[str]:
-    """Return the files of these folders that a program may read: they contain no solution, and refuse their import."""
+    """Return the readable files in these folders; they contain no solutions, and raise an error on import."""
     return [file for folder in folders if os.path.isfile(file := f"{folder}/__init__.py")]  # noqa: PTH113
 
 
 def solution_problem(name: str) -> str:
-    """Return the sentence in a grade about a program that uses one of these packages.
+    """Return the message in a report about a program that uses one of these packages.
 
     Args:
-        name: The package, or one of its files with the package in front, such as "coframe.lab/tf_listener.py".
+        name: The package, or one of its files, such as "coframe.lab/tf_listener.py".
     """
     package, _, file = name.partition("/")
     files = f"its file {file}" if file else "its files"
@@ -63,9 +63,9 @@ def solution_problem(name: str) -> str:
 
 
 class Decoys:
-    """Folders that programs find instead of those with solutions: the same names, but without their content.
+    """Folders that programs find instead of those with solutions: the same file names without their contents.
 
-    The kernel reports when one of these files is opened, by whatever way a program has found it.
+    The kernel reports when one of these files is opened, regardless of how the program found it.
 
     Attributes:
         folders: The decoy of each folder.
@@ -80,7 +80,7 @@ class Decoys:
         self.folders: dict[str, str] = {}
         self._watched: dict[int, str] = {}
         self._events: int | None = None
-        # A user can have too many of them. An import is then still reported by its exception.
+        # The limit per user may be reached. Imports are then still reported by their exception.
         with contextlib.suppress(OSError):
             self._events = c_function("inotify_init1", _NON_BLOCKING | _CLOSE_ON_EXEC)
         for number, folder in enumerate(solution_folders()):
@@ -94,7 +94,7 @@ class Decoys:
             os.close(self._events)
 
     def opened(self) -> str:
-        """Return what was opened first since the last call, such as "coframe.lab/tf_listener.py"; "" if nothing was."""
+        """Return the first file opened since the last call, such as "coframe.lab/tf_listener.py"; "" if none was."""
         found = ""
         for number, flags, name in self._read():
             if not flags & _IS_FOLDER:

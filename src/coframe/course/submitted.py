@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Files of a submission: regular files inside its folder only, no matter where their names lead."""
+"""Access files of a submission safely: only regular files inside its folder."""
 
 from __future__ import annotations
 
@@ -16,23 +16,23 @@ if TYPE_CHECKING:
 __all__ = ["MAX_BYTES", "check_outputs", "check_submitted", "is_submitted", "read_submitted"]
 
 MAX_BYTES: Final = 1 << 20  # many times the largest file of the lab
-_MAX_LISTED = 10_000  # files of a folder that are examined for a second name of a file
+_MAX_LISTED = 10_000  # maximum number of files examined for hard links
 
 
 def is_submitted(folder: Path, name: str) -> bool:
-    """Return whether a folder contains something of this name, which `check_submitted` then examines."""
+    """Return whether a folder contains an entry with this name; `check_submitted` then examines it."""
     return os.path.lexists(folder / name)
 
 
 def check_submitted(file: Path) -> Path:
-    """Check that a file of a submission belongs to it, and return the file without links.
+    """Check that a file belongs to a submission, and return its resolved path.
 
     Raises:
-        CourseError: It is not a regular file; it is a link to a file outside its folder; it has another name outside
-            of its folder, and therefore may be a file of someone else; or it is too large.
+        CourseError: It is not a regular file; it is a link to a file outside its folder; it has a hard link outside its
+            folder, so it may belong to someone else; or it is too large.
     """
     folder = file.parent.resolve()
-    real = Path(os.path.realpath(file))  # without an exception for a loop of links, which cannot be opened
+    real = Path(os.path.realpath(file))  # does not raise for a loop of links, which cannot be opened
     if not real.is_relative_to(folder):
         raise CourseError(f"{file.name} is a link to a file outside the folder.", hint="Replace it with that file.")
     try:
@@ -50,31 +50,31 @@ def check_submitted(file: Path) -> Path:
 
 
 def check_outputs(paths: Iterable[Path | None], folder: Path) -> None:
-    """Check that what is written to the folder of a student, such as a report, is not a link out of it.
+    """Check that a file to be written in a student's folder, such as a report, is not a link to the outside.
 
     Raises:
-        CourseError: It is.
+        CourseError: It is such a link.
     """
     real = folder.resolve()
     for path in filter(None, paths):
         written = Path(os.path.normpath(path.absolute()))
         is_inside = written.is_relative_to(real) or written.is_relative_to(os.path.normpath(folder.absolute()))
         if is_inside and not Path(os.path.realpath(path)).is_relative_to(real):
-            raise CourseError(f"{path} is a link to a place outside the student's folder.", hint="Remove the link.")
+            raise CourseError(f"{path} is a link to a path outside the student's folder.", hint="Remove the link.")
 
 
 def read_submitted(file: Path) -> str:
-    """Return the text of a file of a submission.
+    """Return the text of a submitted file.
 
     Raises:
-        CourseError: The grader does not read it, see `check_submitted`.
+        CourseError: The file is not accepted; see `check_submitted`.
         OSError: It cannot be read.
     """
     return read_regular(check_submitted(file), MAX_BYTES).decode("utf-8", errors="replace")
 
 
 def _names_below(folder: Path, status: os.stat_result) -> int:
-    """Return how many names a file has in a folder and below it."""
+    """Return the number of hard links of a file in and below a folder."""
     count = listed = 0
     for path, _, names in os.walk(folder):
         for name in names:

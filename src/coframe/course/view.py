@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a student's program sees of the file system: the system, Python with its packages, ROS, and its own folder."""
+"""The file system view of a student's program: the system, Python with its packages, ROS, and its own folder."""
 
 from __future__ import annotations
 
@@ -22,30 +22,30 @@ if TYPE_CHECKING:
 
 __all__ = ["View", "private_folders", "view_of"]
 
-# Folders of the system, and those in which package managers install. Devices and processes are not files of the system.
+# Folders of the system and of package managers. Devices and processes are excluded.
 _SYSTEM: Final = (
     *("/bin", "/etc", "/lib", "/lib32", "/lib64", "/opt", "/sbin", "/sys/devices/system", "/usr"),
     *("/gnu/store", "/home/linuxbrew", "/nix/store", "/snap"),
 )
-# Variables with the folders of whole installations, and with folders of packages and libraries.
+# Environment variables that list installation prefixes, and folders of packages and libraries.
 _INSTALLATIONS: Final = ("AMENT_PREFIX_PATH", "VIRTUAL_ENV")
 _PARTS: Final = ("bin", "etc", "include", "lib", "lib64", "local", "pyvenv.cfg", "share", "ssl")  # of an installation
 _FOLDERS: Final = ("LD_LIBRARY_PATH", "PYTHONPATH")
 _CONFIGURATION: Final = "/etc"
-_FOR_EVERYONE = 0o4  # the permission to read that a file gives to all users
+_FOR_EVERYONE = 0o4  # the permission bit that lets all users read a file
 _DDS_CONFIGURATION: Final = "CYCLONEDDS_URI"
 _PERSONAL: Final = ("/", "/home", "/root", "/run", "/tmp", "/var/tmp")  # noqa: S108 - they are kept out
 _MAPPED = Path("/proc/self/maps")
-_MAX_LINKS = 40  # in one path, as in the kernel
+_MAX_LINKS = 40  # maximum number of links in a path, as in the kernel
 
 
 class View(NamedTuple):
-    """What a program sees.
+    """What a program can access.
 
     Attributes:
-        entries: Absolute paths without symbolic links, sorted, and whether each can be read. The longest path above a
-            file decides about it; a file below none of them cannot be read.
-        links: Symbolic links that lead to these paths, and their targets.
+        entries: Absolute paths without symbolic links, sorted, and whether each can be read. The longest matching path
+            decides; a file below none of them cannot be read.
+        links: Symbolic links to these paths, and their targets.
     """
 
     entries: list[tuple[str, bool]]
@@ -53,10 +53,10 @@ class View(NamedTuple):
 
 
 def private_folders(folder: Path) -> list[str]:
-    """Return folders of the person who runs the check, none of which a program may read as a whole.
+    """Return private folders of the user who runs the check, which programs may not read completely.
 
     Args:
-        folder: The student's folder; the folder that contains it contains those of other students.
+        folder: The student's folder; its parent contains the folders of other students.
     """
     found = [Path(path) for path in (*_PERSONAL, tempfile.gettempdir())]
     found += [Path.cwd(), folder.resolve().parent, *_sources()]
@@ -66,15 +66,15 @@ def private_folders(folder: Path) -> list[str]:
 
 
 def view_of(folder: Path, private: Iterable[str], solutions: Iterable[str]) -> View:
-    """Return what a program sees.
+    """Return the view of a program.
 
     Args:
         folder: The folder of the program.
-        private: Folders of which only those parts can be read that are installed packages, or the folder itself.
-        solutions: Folders of which nothing can be read.
+        private: Folders in which only installed packages and the program's folder can be read.
+        solutions: Folders that cannot be read.
     """
     own = os.path.realpath(folder)
-    # A file below a folder of packages is a package, also if this process runs in that folder.
+    # A file below a package folder belongs to a package, even if this process runs in that folder.
     packages = {os.path.realpath(path) for path in sysconfig.get_paths().values()}
     hidden = {path for path in private if not any(_is_below(path, each) for each in packages)}
     installed = {os.path.realpath(path) for path in _installations()} - {*map(os.path.realpath, _PERSONAL)}
@@ -89,7 +89,7 @@ def view_of(folder: Path, private: Iterable[str], solutions: Iterable[str]) -> V
 
 
 def _without_effectless(readable: set[str], hidden: set[str]) -> list[tuple[str, bool]]:
-    """Return the entries without those that the entries above them imply."""
+    """Return the entries without redundant ones."""
     found: dict[str, bool] = {}
     for path in sorted(readable | hidden):
         is_readable = path in readable
@@ -100,7 +100,7 @@ def _without_effectless(readable: set[str], hidden: set[str]) -> list[tuple[str,
 
 
 def _is_below(path: str, folder: str) -> bool:
-    """Return whether a path is a folder, or in it."""
+    """Return whether a path is a folder or inside it."""
     return path == folder or path.startswith(folder.rstrip("/") + "/")
 
 
@@ -110,7 +110,7 @@ def _installations() -> Iterator[str]:
 
 
 def _installed_parts(path: str, private: set[str]) -> Iterator[str]:
-    """Yield an installation; only its own folders if it was made in a folder with other files, such as a project."""
+    """Yield an installation; only its own folders if it is in a folder with other files, such as a project."""
     is_system = any(_is_below(path, os.path.realpath(folder)) for folder in _SYSTEM)
     if is_system or not any(_is_below(each, path) for each in private):
         yield path
@@ -122,7 +122,7 @@ def _packages() -> Iterator[str]:
     yield from (path for path in sys.path if os.path.isabs(path))  # noqa: PTH117
     yield from _listed(_FOLDERS)
     yield from _absolute(os.environ.get(_DDS_CONFIGURATION, "").removeprefix("file://"))
-    # What the grader itself has loaded: the same packages and libraries.
+    # The packages and libraries that the grader itself has loaded.
     for module in tuple(sys.modules.values()):
         yield from _absolute(os.path.dirname(getattr(module, "__file__", None) or ""))  # noqa: PTH120
     if _MAPPED.is_file():
@@ -132,7 +132,7 @@ def _packages() -> Iterator[str]:
 
 
 def _secrets() -> Iterator[str]:
-    """Yield what not everyone may read of the configuration: the superuser may, and so could programs."""
+    """Yield configuration files that not everyone may read, because root and therefore programs could read them."""
     for path, folders, files in os.walk(_CONFIGURATION):
         for name in (*files, *folders):
             entry = os.path.join(path, name)  # noqa: PTH118 - fast, for some thousand files
@@ -155,7 +155,7 @@ def _absolute(path: str) -> Iterator[str]:
 
 
 def _links(own: str) -> Iterator[tuple[str, str]]:
-    """Yield the symbolic links in the paths by which programs find what they may read."""
+    """Yield the symbolic links in the paths through which programs find readable files."""
     found: dict[str, str] = {}
     for path in {own, sys.executable, *_installations(), *_packages()}:
         rest, place = path.split("/")[:0:-1], "/"
@@ -170,7 +170,7 @@ def _links(own: str) -> Iterator[tuple[str, str]]:
 
 
 def _sources() -> list[Path]:
-    """Return where coframe was installed from, if that was a folder or a file: it may contain the tests' solutions."""
+    """Return the folder or file from which coframe was installed, because it may contain solutions."""
     try:
         text = importlib.metadata.distribution("coframe").read_text("direct_url.json")
         address = urlparse(json.loads(text or "{}").get("url", ""))

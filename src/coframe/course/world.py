@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The simulated surroundings of a student's node: its clock, what it receives, and what it publishes."""
+"""The simulated environment of a student's node: its clock, its inputs and its outputs."""
 
 from __future__ import annotations
 
@@ -30,13 +30,13 @@ if TYPE_CHECKING:
 
 __all__ = ["MAX_MESSAGES", "STEP", "Received", "World", "stamp_of"]
 
-STEP = 10 * MILLISECOND  # of the simulated clock
+STEP = 10 * MILLISECOND  # step of the simulated clock
 _START = 1000 * SECOND
 _NOT_JOINED = "The program does not join the ROS graph: it needs rclpy.init() and a node that spins."
 _NODE = "lab_check"
 _RECORDER = "/coframe_record"  # the node of coframe record, which runs next to all programs
 _CLOCK = "/clock"
-_START_PATIENCE = 15.0  # seconds until the node of a program must have joined the graph, see Patience
+_START_PATIENCE = 15.0  # time limit for the node of a program to join the graph; see Patience
 _RESPONSE = 1.0  # seconds that a node may take for one callback, see Patience
 _MATCHING = 2.0  # seconds that a subscription may need to find a publisher, see Patience
 _MAX_MISSED = 5  # responses, after which the world does not wait for the node any more
@@ -57,7 +57,7 @@ class Received(NamedTuple):
 class World:
     """A simulated clock that advances in steps, and waits for the student's node after each step.
 
-    Therefore a grade does not depend on how fast or how busy the machine is.
+    A grade therefore does not depend on the speed or load of the machine.
 
     Attributes:
         now: The simulated time in nanoseconds.
@@ -91,11 +91,11 @@ class World:
         rclpy.shutdown()
 
     def publish(self, topic: str, message: Any, *, latched: bool = False) -> None:
-        """Publish a message; the publisher is created at the first one."""
+        """Publish a message; the publisher is created on first use."""
         if topic not in self._publishers:
             publisher = self._node.create_publisher(type(message), topic, _qos(100, latched=latched))
             self._publishers[topic] = publisher
-            # On a busy machine, the program may need many steps to find a new publisher, and would lose its messages.
+            # On a busy machine, the program may need many steps to discover a new publisher, and would miss messages.
             self.wait_until(
                 lambda: publisher.get_subscription_count() >= self._node.count_subscribers(topic), _MATCHING
             )
@@ -107,13 +107,13 @@ class World:
         self.publish("/tf_static" if static else "/tf", TFMessage(transforms=messages), latched=static)
 
     def stop_publishing(self) -> None:
-        """Destroy all publishers but that of the clock, so that latched messages do not reach the next program."""
+        """Destroy all publishers except the clock, so that latched messages do not reach the next program."""
         for publisher in self._publishers.values():
             self._node.destroy_publisher(publisher)
         self._publishers.clear()
 
     def watch(self, topic: str, message_class: Any, *, latched: bool = False) -> list[Received]:
-        """Subscribe to a topic and return the list that receives its messages, until the program is stopped."""
+        """Subscribe to a topic until the program is stopped; return the list that receives its messages."""
         received: list[Received] = []
 
         def store(message: Any) -> None:
@@ -135,7 +135,7 @@ class World:
     def publishers_of(self, topic: str) -> list[Any]:
         """Return information about the publishers of a topic in other processes.
 
-        A program can give its node the name of the world's node, so one publisher of that name is left out, not all.
+        A program can use the name of the world's node, so only one publisher with that name is excluded.
         """
         publishers = list(self._node.get_publishers_info_by_topic(topic))
         if topic == _CLOCK or topic in self._publishers:
@@ -144,7 +144,7 @@ class World:
         return publishers
 
     def intruders(self) -> dict[str, list[str]]:
-        """Return the topics of the world on which the running program has published, with the names of its nodes."""
+        """Return the topics of the world on which the running program publishes, with the names of its nodes."""
         self._find_intruders()
         return {topic: sorted(names) for topic, names in self._intruders.items()}
 
@@ -154,7 +154,7 @@ class World:
                 self._intruders.setdefault(topic, set()).update(names)
 
     def start(self, program: Program) -> None:
-        """Start a program and wait until its node has joined the graph; the program may end before."""
+        """Start a program and wait until its node has joined the graph; the program may end earlier."""
         self._program = program
         self._intruders.clear()
         self._messages_before = self._messages
@@ -194,7 +194,7 @@ class World:
         """Advance the simulated clock.
 
         Args:
-            seconds: How much, in simulated seconds.
+            seconds: The simulated time to advance, in seconds.
             each_step: Called in each step with the time in nanoseconds, before the student's node runs.
         """
         end = self.now + round(seconds * SECOND)
@@ -216,7 +216,7 @@ class World:
     def settle(self) -> None:
         """Wait until the student's node has run all callbacks that are ready, and its messages have arrived."""
         # An executor runs everything that is ready before it runs anything twice. The first response shows that it has
-        # received the clock, the second one that the timers that became ready by it have run.
+        # received the clock, the second one that the timers triggered by it have run.
         for _ in range(2):
             self._await_responses()
         if not self._probes or self._missed >= _MAX_MISSED:

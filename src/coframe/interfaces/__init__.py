@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Users' interface packages: where they are, and which definition files they have.
+"""Find users' interface packages and their definition files.
 
-A search is part of every import that fails, so these modules import little: neither NumPy nor the native core.
+Every failing import searches them, so these modules import little: neither NumPy nor the native core.
 """

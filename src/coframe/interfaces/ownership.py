@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Whether folders and files belong to the user: in a folder that all may write, such as ``/tmp``, others put theirs."""
+"""Check whether files belong to the user: others can create files in world-writable folders such as ``/tmp``."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ __all__ = ["is_own"]
 
 
 def is_own(path: Path) -> bool:
-    """Return whether a folder or file, and what a link leads to, belongs to the user or to root; report it if not.
+    """Return whether a file or folder, and the target of a link, belongs to the user or to root; report it if not.
 
-    As Git does, accept the files of the user who has become root with sudo. Windows has no such owners.
+    As in Git, files of the user who invoked sudo are accepted. Windows has no such owners.
     """
     if os.name != "posix":
         return True

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What was wrong with folders and files in a search for interface packages: one line for each, on the standard error.
+"""Report problems with files found in a search for interface packages, one line each, on standard error.
 
-The search is part of imports, so nothing is raised, and no warning, which a program can turn into an error.
+The search is part of imports, so it raises neither exceptions nor warnings, which a program can turn into errors.
 """
 
 from __future__ import annotations
@@ -13,13 +13,13 @@ from coframe._output.escaping import one_line
 
 __all__ = ["report"]
 
-MAX_PROBLEMS = 20  # of a process; a folder can have any number of them
+MAX_PROBLEMS = 20  # per process; a folder can have any number of them
 
 _reported: set[str] = set()
 
 
 def report(problem: str) -> None:
-    """Print a problem, the first time only."""
+    """Print a problem once."""
     if problem in _reported or len(_reported) >= MAX_PROBLEMS:
         return
     _reported.add(problem)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Where users' interface packages are found.
+"""The folders in which users' interface packages are found.
 
 In this order: the paths in ``COFRAME_INTERFACES``, the paths added with ``coframe interface add``, the folder of the
 program and its workspace, the source folders of ``coframe run`` and ``coframe launch`` (``COFRAME_PACKAGE_PATH``),
@@ -27,7 +27,7 @@ __all__ = ["ENVIRONMENT", "Source", "find_folder", "forget", "package_folders", 
 ENVIRONMENT = "COFRAME_INTERFACES"
 _PREFIXES = "AMENT_PREFIX_PATH"
 _PACKAGE_PATH = "COFRAME_PACKAGE_PATH"
-_MAX_FOLDERS = 5_000  # per source; a search must end, also where a link or a mistyped path leads to a whole disk
+_MAX_FOLDERS = 5_000  # per source; a search must end even if a link or a mistyped path leads to a whole disk
 _MAX_DEPTH = 8
 _SKIPPED = {"build", "install", "log", "node_modules", "__pycache__", "venv", "site-packages", "msg", "srv", "action"}
 _IGNORE_MARKERS = {"COLCON_IGNORE", "AMENT_IGNORE", "CATKIN_IGNORE"}
@@ -39,7 +39,7 @@ class Source(NamedTuple):
     """A folder in which packages are searched.
 
     Attributes:
-        origin: Why it is searched, in words for the user.
+        origin: Why it is searched, for messages.
         folder: The folder.
         depth: How many levels below the folder packages can be.
         named: Whether the user has named it: then it may belong to another user.
@@ -93,7 +93,7 @@ def find_folder(package: str) -> Path | None:
                 return source.folder
             continue
         if source.origin == _PREFIXES:
-            folder = source.folder / package  # An installation names folders after packages, and can have thousands.
+            folder = source.folder / package  # An installation names folders after packages, and can contain thousands.
             if has_definitions(folder):
                 return folder
             continue
@@ -109,7 +109,7 @@ def package_folders(source: Source) -> dict[str, Path]:
 
 
 def forget() -> None:
-    """Search again when the next package is needed, because files or settings may have changed."""
+    """Clear the cache, because files or settings may have changed."""
     _indexes.clear()
     _sources.cache_clear()
 

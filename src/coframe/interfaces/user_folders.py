@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Folders and files that coframe keeps for the user: added interface packages, and stubs for editors."""
+"""Files and folders that coframe stores for the user: added interface packages, and stubs for editors."""
 
 from __future__ import annotations
 
@@ -18,17 +18,17 @@ __all__ = ["added_paths", "set_added_paths", "settings_file", "stub_folder"]
 
 
 def settings_file() -> Path:
-    """Return the file with the paths that ``coframe interface add`` has added, one in each line."""
+    """Return the file with the paths added by ``coframe interface add``, one per line."""
     return _folder("XDG_CONFIG_HOME", "APPDATA", ".config", "Library/Application Support") / "interfaces.txt"
 
 
 def stub_folder() -> Path:
-    """Return the folder of the stubs of users' interface packages, for the settings of an editor."""
+    """Return the folder with stubs of users' interface packages, for editor settings."""
     return _folder("XDG_CACHE_HOME", "LOCALAPPDATA", ".cache", "Library/Caches") / "stubs"
 
 
 def added_paths() -> list[Path]:
-    """Return the paths that the user has added; report lines that cannot be paths, as a power loss leaves them."""
+    """Return the paths that the user added; report lines that are not paths, for example after a power loss."""
     file = settings_file()
     if not exists(file):
         return []
@@ -44,7 +44,7 @@ def added_paths() -> list[Path]:
 
 
 def set_added_paths(paths: list[Path]) -> None:
-    """Write the paths that the user has added."""
+    """Save the paths that the user added."""
     file = settings_file()
     file.parent.mkdir(parents=True, exist_ok=True)
     write_complete(file, "".join(f"{path}\n" for path in paths).encode("utf-8", "surrogateescape"))

@@ -19,7 +19,7 @@ __all__ = ["add_start", "is_search_off", "start_folders", "workspace_root"]
 
 _MAX_LEVELS = 12
 _MAX_ENTRIES = 200
-# Folders of an environment with programs and libraries, below its prefix and below `local` on Debian.
+# Folders with programs and libraries of an environment, below its prefix and, on Debian, below `local`.
 _INSTALLED = ("bin", "Scripts", "lib", "lib64", "libexec", "Lib")
 
 
@@ -27,22 +27,22 @@ _added: list[Path] = []
 
 
 def add_start(folder: Path) -> None:
-    """Let the search begin in another folder as well, as for a program in it."""
+    """Also start the search in another folder, as if a program in it were running."""
     _added.append(folder.absolute())
 
 
 def is_search_off() -> bool:
-    """Return whether -I, -P or PYTHONSAFEPATH keep Python from importing from the folder of the program."""
+    """Return whether -I, -P or PYTHONSAFEPATH prevent Python from importing from the folder of the program."""
     if sys.flags.isolated or getattr(sys.flags, "safe_path", False):
         return True
-    # Python 3.10 does not know the variable.
+    # Python 3.10 does not support the variable.
     return sys.version_info < (3, 11) and not sys.flags.ignore_environment and bool(os.environ.get("PYTHONSAFEPATH"))
 
 
 def start_folders() -> list[Path]:
-    """Return the folders from which Python imports the program: that of the script, or the current one of a session.
+    """Return the folders from which Python imports the program: that of the script, or the current folder of a session.
 
-    An installed command, such as pytest, does not import from the current folder, so it has none.
+    Installed commands such as pytest do not import from the current folder, so they have none.
     """
     return list(dict.fromkeys([*_added, *(folder for folder in _program_folders() if not _is_installed(folder))]))
 
@@ -89,7 +89,7 @@ def workspace_root(start: Path) -> Path | None:
 
 
 def _has_packages(folder: Path) -> bool:
-    """Return whether one of the first entries of a folder, or of a folder in it, is a package."""
+    """Return whether one of the first entries of a folder or its subfolders is a package."""
     children = _first_folders(folder)
     return any(
         is_file(path / "package.xml")

@@ -69,7 +69,7 @@ class DynamicFramePublisher(Node):
         self.get_logger().info("Dynamic TF broadcaster started")
 
     def change_parameters(self, parameters: list[Any]) -> SetParametersResult:
-        """Apply a new rate. The node reads its other parameters only when it starts, so their changes are refused."""
+        """Apply a new rate. Changes of other parameters are rejected, because the node reads them only at startup."""
         for parameter in parameters:
             if parameter.name == "rate" and not parameter.value > 0.0:
                 return SetParametersResult(successful=False, reason="the rate must be greater than 0 Hz")

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Run the node in the module that the first argument names; it stops when its launcher stops.
+"""Run the node in the module given by the first argument; it stops when its launcher stops.
 
-The launcher holds the other end of the standard input. It is closed when the launcher exits, even if it is killed.
+The launcher holds the other end of standard input, which is closed when the launcher exits, even if it is killed.
 """
 
 from __future__ import annotations

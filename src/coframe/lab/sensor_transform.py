@@ -78,7 +78,7 @@ class SensorTransformNode(Node):
         self.get_logger().info("Sensor transform node started")
 
     def refuse_change(self, parameters: list[Any]) -> SetParametersResult:
-        """Refuse changes of the parameters, which the node reads only when it starts."""
+        """Reject parameter changes, because the node reads its parameters only at startup."""
         for parameter in parameters:
             if parameter.name != "use_sim_time":
                 reason = f"'{parameter.name}' is read when the node starts: restart the node to change it"

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Publish the scans of a simulated lidar in a long hall with pillars, at the position of the robot.
 
-The hall has no end along x, because the robot drives on without end. It contains all kinds of invalid ranges: far away
+The hall is infinite along x, because the robot keeps driving. It contains all kinds of invalid ranges: far away
 there is no echo (infinity, see REP 117), a pane of glass gives 0, which is below the minimum range, and a mirror gives
 a range above the maximum.
 
@@ -74,7 +74,7 @@ class SimulatedLidar(Node):
         self.get_logger().info("Simulated lidar started")
 
     def change_parameters(self, parameters: list[Any]) -> SetParametersResult:
-        """Apply a new rate. The node reads its other parameters only when it starts, so their changes are refused."""
+        """Apply a new rate. Changes of other parameters are rejected, because the node reads them only at startup."""
         for parameter in parameters:
             if parameter.name == "rate" and not parameter.value > 0.0:
                 return SetParametersResult(successful=False, reason="the rate must be greater than 0 Hz")

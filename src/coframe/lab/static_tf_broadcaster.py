@@ -50,7 +50,7 @@ class StaticFramePublisher(Node):
         self.get_logger().info(f"Published {len(transforms)} static transforms")
 
     def refuse_change(self, parameters: list[Any]) -> SetParametersResult:
-        """Refuse changes of the parameters, which the node reads only when it starts."""
+        """Reject parameter changes, because the node reads its parameters only at startup."""
         for parameter in parameters:
             if parameter.name != "use_sim_time":
                 reason = f"'{parameter.name}' is read when the node starts: restart the node to change it"

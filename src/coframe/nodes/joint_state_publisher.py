@@ -37,7 +37,7 @@ class JointStatePublisher(Node):
     """Node that publishes the states of the joints of a robot periodically.
 
     Args:
-        robot: Robot to use until a description is received on `/robot_description`. None: no robot.
+        robot: Robot to use until a description is received on `/robot_description`; None for no robot.
         options: Keyword arguments of Node.
 
     Attributes:
@@ -191,7 +191,7 @@ def run(args: list[str], robot: Robot | None = None, *, domain_id: int | None = 
         options: Keyword arguments of Node.
 
     Raises:
-        RobotDescriptionError: A description is not valid, also if it is received later.
+        RobotDescriptionError: A description, including one received later, is not valid.
         ValueError: A parameter is not valid.
     """
     spin_until_shutdown(lambda: JointStatePublisher(robot, **options), args, domain_id)

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Final
 import rclpy
 from coframe.errors import CoframeError
 
-# rclpy.exceptions has these exceptions in coframe only.
+# Only coframe's rclpy.exceptions has these exceptions.
 from rclpy._rclpy_pybind11 import RCLError, UnknownROSArgsError
 from rclpy.exceptions import NameValidationException, ParameterException
 from rclpy.executors import ExternalShutdownException
@@ -23,13 +23,13 @@ if TYPE_CHECKING:
 
 __all__ = ["NODE_ERRORS", "initialized", "program", "spin_until_shutdown"]
 
-# What invalid ROS arguments, names and parameters of a node raise.
+# The exceptions for invalid ROS arguments, names and parameters of a node.
 NODE_ERRORS: Final = (NameValidationException, ParameterException, RCLError, UnknownROSArgsError)
 
 
 @contextlib.contextmanager
 def initialized(args: list[str], domain_id: int | None) -> Iterator[None]:
-    """Initialize rclpy for the time of the context. `rclpy.init` is a context manager only since Jazzy.
+    """Initialize rclpy for the duration of the context. `rclpy.init` is a context manager only since Jazzy.
 
     Args:
         args: Command line with `--ros-args`.
@@ -62,7 +62,7 @@ def program(name: str, args: list[str] | None, run: Callable[[list[str], list[st
 
     Args:
         name: Name of the program.
-        args: Command line without the name. None: that of the process.
+        args: Command line without the name; None for that of the process.
         run: Function that is called with the command line, and with the arguments that are not ROS arguments.
     """
     words = [name, *(sys.argv[1:] if args is None else args)]

@@ -126,10 +126,11 @@ class RobotStatePublisher(Node):
     def _advise(self) -> None:
         if self._prefix.startswith("/"):
             self.get_logger().warning(
-                f"The frame_prefix {self._prefix!r} begins with a slash. tf2 frame names do not, so it is removed."
+                f"The frame_prefix {self._prefix!r} begins with a slash. tf2 frame names do not, so the slash is "
+                f"removed."
             )
         elif advice := prefix_advice(self._prefix):
-            self.get_logger().warning(f"The frame_prefix is put in front as it is: {advice}")
+            self.get_logger().warning(f"The frame_prefix is used as given: {advice}")
 
     def _set_parameters(self, parameters: Sequence[Parameter[Any]]) -> SetParametersResult:
         """Apply changes of parameters, or reject all of them."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Python processes that run modules of coframe: how they are started.
+"""Start Python processes that run modules of coframe.
 
 ``python -m MODULE`` puts the current folder first on `sys.path`: a file ``json.py`` or ``types.py`` in it would be
 imported instead of the standard library's. The processes here do not import from the current folder.
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 __all__ = ["child_environment", "pass_to_children", "python_command", "python_environment"]
 
 _START = str(Path(__file__).with_name("start.py"))
-# What would make a process without a terminal wait for input, or run a file at its start or end.
+# Variables that would make a process without a terminal wait for input, or run a file at startup or exit.
 _OMITTED = ("PYTHONINSPECT", "PYTHONSTARTUP")
 _PATH = "PYTHONPATH"
 
@@ -35,7 +35,7 @@ def child_environment(base: Mapping[str, str] | None = None) -> dict[str, str]:
     """Return the environment for a process, with what `pass_to_children` has set.
 
     Args:
-        base: The variables to start from. None: those of this process. A variable that was changed in it, for example
+        base: The base environment; None for that of this process. A variable that was changed in it, for example
             by a launch file, keeps its value.
     """
     environment = dict(os.environ if base is None else base)
@@ -52,7 +52,7 @@ def python_command(module: str, *arguments: str) -> list[str]:
 
     Args:
         module: The full name of a module of coframe.
-        arguments: The words after it.
+        arguments: The arguments after it.
     """
     return [sys.executable, _START, module, *arguments]
 
@@ -61,10 +61,10 @@ def python_environment(base: Mapping[str, str] | None = None) -> dict[str, str]:
     """Return the environment for such a process.
 
     An empty element of PYTHONPATH, as in ``PYTHONPATH=/opt/packages:``, means the current folder, and is removed.
-    Relative elements become absolute, so that they name the same folders in every process.
+    Relative elements become absolute, so that they refer to the same folders in every process.
 
     Args:
-        base: The variables to start from. None: those of this process.
+        base: The base environment; None for that of this process.
     """
     environment = child_environment(base)
     for name in _OMITTED:

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The criteria of the rubric, each in a module of its own with a function `check`."""
+"""The criteria of the rubric, each in a separate module with a function `check`."""

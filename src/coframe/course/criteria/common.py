@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the criteria share: running a program, comparing poses, and reading rates."""
+"""Functions shared by the criteria: run a program, compare poses, and measure rates."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ TOLERANCE = 1e-6  # metres, and components of unit quaternions
 
 
 class Task(NamedTuple):
-    """What a criterion works with.
+    """The context of a criterion.
 
     Attributes:
         folder: The student's folder.
@@ -62,16 +62,16 @@ class Task(NamedTuple):
 
 @contextlib.contextmanager
 def run_program(task: Task, sheet: Sheet, *, wrong_topic: str = "") -> Iterator[Program | None]:
-    """Yield the program of a sheet, None if its file does not exist; stop it after the block.
+    """Yield the program of a sheet, or None if its file does not exist; stop it after the block.
 
-    Problems of the program are noted on the sheet afterwards. A program that publishes nothing, or what only the
-    simulation publishes, gets no points for the facts that were added in the block.
+    Problems of the program are then recorded on the sheet. A program that publishes nothing, or publishes on topics
+    of the simulation, gets no points for the facts added in the block.
 
     Args:
         task: The task.
         sheet: The sheet; its file is the program.
-        wrong_topic: A topic on which a program publishes by mistake. A message that is sent there only once, at the
-            start, may be lost, so a program with a publisher there is examined even if nothing has arrived.
+        wrong_topic: A topic on which a program may publish by mistake. A single message at startup may be lost, so a
+            program with a publisher there is examined even if nothing has arrived.
     """
     first = len(sheet.facts)
     file = task.folder / sheet.file
@@ -102,7 +102,7 @@ def run_program(task: Task, sheet: Sheet, *, wrong_topic: str = "") -> Iterator[
 
 
 def _silence(file: str, world: World, wrong_topic: str) -> str:
-    """Return a sentence about a program that publishes nothing; "" if it has a publisher on a wrong topic."""
+    """Return a message about a program that publishes nothing; "" if it has a publisher on a wrong topic."""
     topics = [topic for topic in world.watched_topics() if world.publishers_of(topic)]
     if wrong_topic in topics:
         return ""
@@ -113,10 +113,10 @@ def _silence(file: str, world: World, wrong_topic: str) -> str:
 
 
 def expanded_xacro(task: Task, file: Path) -> tuple[str, str]:
-    """Expand a xacro file of a student as a confined program, because it can contain any Python expression.
+    """Expand a student's xacro file as a confined program, because it can contain arbitrary Python expressions.
 
     Returns:
-        The URDF, and a sentence about an attempt to use solutions of the lab, or "".
+        The URDF, and a message about an attempt to use solutions of the lab, or "".
 
     Raises:
         CourseError: xacro fails.
@@ -125,7 +125,7 @@ def expanded_xacro(task: Task, file: Path) -> tuple[str, str]:
 
     def run(words: Sequence[str], request: bytes) -> subprocess.CompletedProcess[bytes]:
         code = program.run(MAX_SECONDS, words, request)
-        # What the file prints is in the same output; the answer is its last line.
+        # The output also contains what the file prints; the answer is its last line.
         return subprocess.CompletedProcess(words, code, program.output().rpartition(b"\n")[2])
 
     try:
@@ -138,7 +138,7 @@ def expanded_xacro(task: Task, file: Path) -> tuple[str, str]:
 
 
 def _unusable(folder: Path, name: str) -> str:
-    """Return a sentence about why a program cannot be started; "" if it can."""
+    """Return why a program cannot be started; "" if it can."""
     if not is_submitted(folder, name):
         return f"There is no file {name}."
     try:
@@ -150,7 +150,7 @@ def _unusable(folder: Path, name: str) -> str:
 
 def _intruder(world: World) -> str:
     for topic, names in world.intruders().items():
-        return f"The program publishes on {topic} (node {', '.join(names)}), which only the simulation may do."
+        return f"The program publishes on {topic} (node {', '.join(names)}), on which only the simulation may publish."
     return ""
 
 
@@ -166,7 +166,7 @@ def seconds_of(nanoseconds: int) -> float:
 
 
 def edge_of(message: Any) -> Transform:
-    """Return a TransformStamped message as a transform, as it is: the quaternion may not be a unit quaternion."""
+    """Return a TransformStamped message as a transform without normalizing its quaternion."""
     moved, turned = message.transform.translation, message.transform.rotation
     values = np.array([turned.x, turned.y, turned.z, turned.w])
     norm = float(np.linalg.norm(values))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Dynamic transforms, 25 points: the arm moves by the lab's law, or as the joint states say."""
+"""Dynamic transforms, 25 points: the arm follows the specified motion, or the joint states."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 __all__ = ["check"]
 
 _EDGES = (("base_link", "link1"), ("link1", "link2"), ("link2", "end_effector"))
-_ANGLE = 1e-3  # radians; far below a wrong amplitude, frequency or phase
+_ANGLE = 1e-3  # radians; far below the effect of a wrong amplitude, frequency or phase
 _JOINT_STATE_PERIOD = 2 * STEP
 _SETTLING = SECOND // 5
 _READ = "handbook chapter 3, static and dynamic transforms"
@@ -53,7 +53,7 @@ def check(task: Task) -> Sheet:
 
 
 def _given_angles(seconds: float) -> tuple[float, float]:
-    """Return the joint states that the check publishes: the arm swings slowly, far from the simulated motion."""
+    """Return the joint states published by the check: the arm swings slowly, far from the simulated motion."""
     return 1.2 + 0.1 * float(np.sin(seconds)), -0.9 + 0.1 * float(np.cos(seconds))
 
 
@@ -102,13 +102,13 @@ def _check_dimensions(sheet: Sheet, task: Task, received: list[Received]) -> Non
             bool(offsets) and max(offsets) <= TOLERANCE,
             expected=f"translation {list(correct)} m of {child}",
             observed=f"translation {seen}",
-            cause="swapped link lengths, or other numbers than those of the assignment (lab.json, README.md)",
+            cause="swapped link lengths, or values that differ from the assignment (lab.json, README.md)",
             read="handbook chapter 1, why frames",
         )
 
 
 def _check_law(sheet: Sheet, received: list[Received]) -> None:
-    """Check the joint angles at their stamps; the motion may begin at any time."""
+    """Check the joint angles at their stamps; the motion may start at any time."""
     good = [_follows_law(received, index) for index in (0, 1)]
     together = _common_start(received) if all(good) else False
     for index, child in enumerate(("link1", "link2")):
@@ -118,7 +118,7 @@ def _check_law(sheet: Sheet, received: list[Received]) -> None:
         fits = good[index] and (index == 0 or together or not good[0])
         sheet.check(
             2.5,
-            f"joint {index + 1} moves by its law",
+            f"joint {index + 1} follows the specified motion",
             bool(samples) and not tilted and fits,
             expected=f"a rotation about z by {law}",
             observed=_law_observation(samples, tilted),
@@ -144,7 +144,7 @@ def _law(index: int, seconds: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def _residuals(received: list[Received], index: int, starts: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the largest difference from the law, in radians, for each time at which the motion may have begun."""
+    """Return the maximum deviation from the specified motion, in radians, for each possible start time."""
     samples = _settled(_samples(received, ("link1", "link2")[index]))
     times = np.array([seconds_of(stamp_ns(each) % round(JOINT_PERIOD * SECOND)) for each in samples])
     angles = np.array([_angle(each) for each in samples])
@@ -152,7 +152,7 @@ def _residuals(received: list[Received], index: int, starts: NDArray[np.float64]
 
 
 def _settled(samples: list[Any]) -> list[Any]:
-    """Return the samples without those of the first moments, when the simulated clock jumps to its first time."""
+    """Return the samples without the initial ones, when the simulated clock jumps to its start time."""
     return [each for each in samples if stamp_ns(each) - stamp_ns(samples[0]) > _SETTLING]
 
 
@@ -182,7 +182,7 @@ def _check_times(sheet: Sheet, task: Task, received: list[Received]) -> None:
         abs(rate - wanted) <= 0.1 * wanted,
         expected=f"{wanted:g} Hz, 10 % more or less",
         observed=f"{rate:.1f} Hz",
-        cause="another period of the timer",
+        cause="a different timer period",
         read=_READ,
     )
     stamps = [stamp_ns(each) for each in _samples(received, "link1")]
@@ -193,10 +193,10 @@ def _check_times(sheet: Sheet, task: Task, received: list[Received]) -> None:
         2,
         "the stamps are the current time and increase",
         len(stamps) > 1 and increasing and late <= 5 * STEP,
-        expected="stamps of the node's clock, each later than the one before",
+        expected="stamps from the node's clock, each later than the previous one",
         observed="repeated or decreasing stamps"
         if not increasing
-        else f"stamps up to {seconds_of(late):.3g} s away from the clock"
+        else f"stamps up to {seconds_of(late):.3g} s off the clock"
         if stamps
         else "no transform",
         cause="the stamp is set once, or is the time of the system: use self.get_clock().now() for each message",
@@ -210,7 +210,7 @@ def _check_times(sheet: Sheet, task: Task, received: list[Received]) -> None:
         bool(sets[0]) and sets[0] == sets[1] == sets[2],
         expected="one stamp for the whole arm",
         observed="different stamps" if all(sets) else "no transform",
-        cause="now() is called for each transform",
+        cause="now() is called once per transform",
         read="handbook chapter 5, time, interpolation, waiting",
     )
 
@@ -220,7 +220,7 @@ def _check_joint_states(sheet: Sheet, received: list[Received]) -> None:
     followed = [_is_followed(each) for each in half if _angles(each)]
     sheet.check(
         3,
-        "the arm obeys /joint_states",
+        "the arm follows /joint_states",
         any(followed),
         expected="the angles of the last joint state",
         observed="other angles" if followed else "no transform while joint states are published",
@@ -229,7 +229,7 @@ def _check_joint_states(sheet: Sheet, received: list[Received]) -> None:
     )
     sheet.check(
         3,
-        "nothing else moves the arm at the same time",
+        "no other source moves the arm at the same time",
         bool(followed) and all(followed),
         expected="no other angles while joint states are published",
         observed=f"{followed.count(False)} of {len(followed)} messages have other angles"
@@ -249,7 +249,7 @@ def _angles(received: Received) -> dict[str, float]:
 
 
 def _is_followed(received: Received) -> bool:
-    """Return whether the angles are those of a joint state of the last 100 ms."""
+    """Return whether the angles match a joint state of the last 100 ms."""
     times = [seconds_of(received.time - age * STEP) for age in range(11)]
     found = _angles(received)
     given = [dict(zip(("link1", "link2"), _given_angles(each), strict=True)) for each in times]

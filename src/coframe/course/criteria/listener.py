@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Transform listener, 20 points: the pose of the end effector, at its own stamp, also after transforms were missing."""
+"""Transform listener, 20 points: the pose of the end effector at its own stamp, even after transforms were missing."""
 
 from __future__ import annotations
 
@@ -28,9 +28,9 @@ if TYPE_CHECKING:
 __all__ = ["check"]
 
 _TOPIC = "/end_effector_pose"
-_LATENCY = STEP  # the transforms arrive one step after their stamps, as those of a real robot arrive later
+_LATENCY = STEP  # the transforms arrive one step after their stamps, delayed as on a real robot
 _PERIOD = 2 * STEP
-# Between two samples, tf2 interpolates linearly; the arm moves on circles, and differs from that by less than this.
+# Between two samples, tf2 interpolates linearly; the arm moves on circles, which deviates by less than this.
 _INTERPOLATED = 1e-4  # metres
 _MAX_AGE = 3 * SECOND // 2  # of a transform that a listener may still use while the broadcaster is missing
 _READ = "handbook chapter 4, what lookup_transform(target, source) means"
@@ -84,7 +84,7 @@ def _check_topic(sheet: Sheet, poses: list[Received], names: list[str]) -> None:
         1.0 if good else 0.5 if poses or names == ["tf_listener"] else 0.0,
         expected=f"PoseStamped messages on {_TOPIC} from the node tf_listener",
         observed=f"{len(poses)} messages from {', '.join(names) or 'no node'}",
-        cause="publish() is never called" if names and not poses else "another topic, type or node name",
+        cause="publish() is never called" if names and not poses else "a different topic, type or node name",
         read=_READ,
     )
 
@@ -98,7 +98,7 @@ def _check_rate(sheet: Sheet, task: Task, steady: list[Received]) -> None:
         abs(rate - wanted) <= 0.1 * wanted,
         expected=f"{wanted:g} Hz, 10 % more or less",
         observed=f"{rate:.1f} Hz",
-        cause="another period of the timer, or a lookup that waits in the callback",
+        cause="a different timer period, or a lookup that blocks in the callback",
         read=_READ,
     )
 
@@ -158,4 +158,4 @@ def _cause(robot: Robot, poses: list[Received]) -> str:
     inverse = [robot.end_effector(stamp_ns(each.message)).inverse() for each in poses]
     if all(not differs(pose_of(each.message), other, 0.05) for each, other in zip(poses, inverse, strict=True)):
         return "target and source are swapped: lookup_transform('base_link', 'end_effector', ...)"
-    return "another pair of frames, or a part of the pose is not set"
+    return "wrong frames, or a part of the pose is not set"

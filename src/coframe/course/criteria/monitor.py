@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Extension 4, 10 points: a monitor that names transforms which have stopped, and frames with two parents."""
+"""Extension 4, 10 points: a monitor that reports transforms that stopped, and frames with two parents."""
 
 from __future__ import annotations
 
@@ -50,16 +50,16 @@ def check(task: Task) -> Sheet:
         is_alive = program is not None and program.is_running()
         sheet.check(
             3,
-            "it publishes nothing while there is no problem",
+            "it publishes nothing if there is no problem",
             is_alive and not healthy and bool(problems),
-            expected=f"no message on {_TOPIC} until something is wrong",
-            observed=f"{healthy} messages" if healthy else "no message, also not when there is a problem",
+            expected=f"no message on {_TOPIC} until there is a problem",
+            observed=f"{healthy} messages" if healthy else "no message, even when there is a problem",
             cause=f"a limit that is too strict: the arm is published at {task.assignment.dynamic_rate:g} Hz",
             read=_READ,
         )
         sheet.check(
             4,
-            "it names a transform that has stopped",
+            "it reports a transform that stopped",
             _names(stale, "end_effector") or _names(stale, "link1"),
             expected="a message with link1, link2 or end_effector within 3 s",
             observed=_quoted(stale),
@@ -68,11 +68,11 @@ def check(task: Task) -> Sheet:
         )
         sheet.check(
             3,
-            "it names a frame with two parents",
+            "it reports a frame with two parents",
             _names(reparented, "base_link"),
             expected="a message with base_link within 3 s",
             observed=_quoted(reparented),
-            cause="remember the parent of each child, and report another one",
+            cause="remember the parent of each child, and report a different one",
             read=_READ,
         )
     return sheet

@@ -42,7 +42,7 @@ _READ = "handbook chapter 6, sensors in the base frame"
 
 
 class _Scan(NamedTuple):
-    """A scan and the cloud that it has to become, in base_link."""
+    """A scan and the expected cloud in base_link."""
 
     message: LaserScan
     points: NDArray[np.float64]
@@ -78,7 +78,7 @@ def check(task: Task) -> Sheet:
 
 
 def _scan(robot: Robot, now: int, frame: str) -> _Scan:
-    """Return a scan with all kinds of beams without an echo, and its valid beams in base_link."""
+    """Return a scan with all kinds of invalid beams, and its valid beams in base_link."""
     angles = -math.pi + 2 * math.pi / _BEAMS * np.arange(_BEAMS)
     ranges = (3.0 + np.cos(3 * angles + now / 1e9)).astype(np.float32)
     ranges[5::17], ranges[7::23], ranges[11::29], ranges[13::31] = np.inf, np.nan, 0.02, 12.0
@@ -124,7 +124,7 @@ def _check_messages(sheet: Sheet, world: World, scans: dict[int, _Scan], clouds:
         frames == ["base_link"],
         expected="header.frame_id is base_link",
         observed=f"header.frame_id is {', '.join(map(repr, frames))}" if frames else "no clouds",
-        cause="the header of the scan is copied as a whole",
+        cause="the whole header of the scan is copied",
         read=_READ,
     )
     stamps = [stamp_ns(each.message) for each in clouds]
@@ -134,7 +134,7 @@ def _check_messages(sheet: Sheet, world: World, scans: dict[int, _Scan], clouds:
         "the clouds keep the stamps of their scans",
         kept / len(stamps) if stamps else 0.0,
         expected="header.stamp is that of the scan",
-        observed=f"{len(stamps) - kept} of {len(stamps)} clouds have another stamp" if stamps else "no clouds",
+        observed=f"{len(stamps) - kept} of {len(stamps)} clouds have a different stamp" if stamps else "no clouds",
         cause="the stamp is now(): the points were measured earlier",
         read=_READ,
     )
@@ -168,13 +168,13 @@ def _check_points(sheet: Sheet, scans: dict[int, _Scan], clouds: list[Received])
     for points, name, pairs, cause in (
         (
             4,
-            "each beam is right to 1 mm",
+            "each beam is correct to 1 mm",
             on_base,
             "the mount of the lidar is ignored, or the angles do not begin at angle_min",
         ),
         (
             3,
-            "each beam is right to 1 mm on the moving gripper",
+            "each beam is correct to 1 mm on the moving gripper",
             on_arm,
             "the lookup uses the latest transform (Time()) instead of the stamp of the scan, or a fixed frame name",
         ),
@@ -195,7 +195,7 @@ def _check_points(sheet: Sheet, scans: dict[int, _Scan], clouds: list[Received])
 
 
 def _scan_of(scans: dict[int, _Scan], received: Received) -> _Scan | None:
-    """Return the scan of a cloud: that with its stamp, or the last one before it arrived."""
+    """Return the scan of a cloud: the one with its stamp, or the last one before its arrival."""
     stamp = stamp_ns(received.message)
     if stamp in scans:
         return scans[stamp]
@@ -212,12 +212,12 @@ def _points(received: Received) -> NDArray[np.float64]:
 
 
 def _distance(scan: _Scan, points: NDArray[np.float64]) -> float:
-    """Return the largest distance of a point from its correct place, in metres; infinity if points are missing."""
+    """Return the maximum distance of a point from its correct position, in metres; infinity if points are missing."""
     finite = points[np.isfinite(points).all(axis=1)]
     if len(points) == len(scan.points):
         return float(np.linalg.norm(points - scan.points, axis=1).max()) if len(finite) == len(points) else math.inf
     if not len(finite) or not len(scan.points):
         return math.inf
-    # With other numbers of points, each correct point needs one near it.
+    # With a different number of points, each correct point needs a point near it.
     gaps = np.linalg.norm(scan.points[:, None, :] - finite[None, :, :], axis=2)
     return float(gaps.min(axis=1).max())

@@ -41,7 +41,7 @@ def check(task: Task) -> Sheet:
                 len(right) / len(_ARM),
                 expected=f"{prefix}base_link -> {prefix}link1 -> {prefix}link2 -> {prefix}end_effector",
                 observed=f"{len(right)} of 3 transforms",
-                cause="the prefix ends with a slash and stands before the parent and the child",
+                cause="the prefix ends with a slash and precedes both the parent and the child",
                 read=_READ,
             )
         bare = sorted(name for name in parents if name in {*_ARM, "base_link"})
@@ -49,7 +49,7 @@ def check(task: Task) -> Sheet:
             2,
             "no frame without a prefix is published twice",
             bool(parents) and not bare,
-            expected="only frames that both robots share, such as map, have no prefix",
+            expected="only frames shared by both robots, such as map, have no prefix",
             observed=f"frames without a prefix: {', '.join(bare)}" if bare else "no transforms",
             cause="one of the frame names has no prefix",
             read=_READ,

@@ -22,9 +22,7 @@ __all__ = ["check"]
 
 _TOPIC = "/tf_static"
 _NOT_UNIT = "0.707 is not the square root of one half: use math.sqrt(0.5)"
-_ON_TF = (
-    "TransformBroadcaster sends on /tf, where a listener that joins later misses it: use StaticTransformBroadcaster"
-)
+_ON_TF = "TransformBroadcaster sends on /tf, where late-joining listeners miss it: use StaticTransformBroadcaster"
 _LATE = 3.0  # seconds of real time in which a late listener receives stored transforms
 _READ = "handbook chapter 3, static and dynamic transforms"
 
@@ -61,7 +59,7 @@ def _by_child(received: list[Received]) -> dict[str, list[Any]]:
 
 
 def _repeated(sent: dict[str, list[Any]]) -> dict[str, list[Any]]:
-    """Return the transforms that were sent again: whether one that is sent once on /tf arrives depends on chance."""
+    """Return the transforms that were sent repeatedly; one sent only once on /tf may or may not arrive."""
     return {child: messages for child, messages in sent.items() if len(messages) > 1}
 
 
@@ -81,7 +79,7 @@ def _check_mount(sheet: Sheet, mount: Mount, messages: list[Any], missing: str) 
     is_unit = abs(norm - 1.0) <= TOLERANCE
     sheet.check(
         3,
-        f"{mount.frame} is at the right place",
+        f"{mount.frame} is at the correct position",
         1.0 if not difference and is_unit else 2 / 3 if not difference else 0.0,
         expected=f"position {list(mount.translation)} m, rotation {_rounded(mount.quaternion)} (x, y, z, w)",
         observed=difference or f"the quaternion has the length {norm:.6f} instead of 1",
@@ -105,10 +103,10 @@ def _pose_cause(messages: list[Any], mount: Mount) -> str:
         return "the transform is not sent"
     pose = edge_of(messages[-1])
     if not differs(pose, Transform(mount.translation)):
-        return "the rotation is missing: the quaternion is that of no rotation"
+        return "the rotation is missing: the quaternion is the identity"
     x, y, z, w = pose.quaternion.tolist()
     for quaternion, cause in (
-        ((y, z, w, x), "the quaternion is in the order w, x, y, z; ROS has x, y, z, w"),
+        ((y, z, w, x), "the quaternion is in the order w, x, y, z; ROS uses x, y, z, w"),
         ((-x, -y, -z, w), "the rotation is inverted"),
     ):
         if not differs(Transform(pose.translation, quaternion), Transform(mount.translation, mount.quaternion)):
@@ -116,7 +114,7 @@ def _pose_cause(messages: list[Any], mount: Mount) -> str:
     inverse = Transform(mount.translation, mount.quaternion).inverse()
     if not differs(pose, inverse):
         return "the transform is inverted: it must be the pose of the sensor relative to its parent"
-    return "other numbers than those of the assignment (lab.json, README.md)"
+    return "values that differ from the assignment (lab.json, README.md)"
 
 
 def _check_delivery(
@@ -154,7 +152,7 @@ def _check_delivery(
         len(reached) / len(frames),
         expected="all three transforms",
         observed=f"{len(reached)} of 3: {', '.join(reached) or 'none'}",
-        cause="one sendTransform call for each transform: ROS 2 Humble delivers only the last call. Send one list",
+        cause="one sendTransform call per transform: ROS 2 Humble delivers only the last call. Send one list",
         read=_READ,
     )
     most = max((len(static.get(frame, [])) for frame in frames), default=0)

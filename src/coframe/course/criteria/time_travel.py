@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Extension 2, 10 points: where the end effector was one second ago, seen from where the robot is now."""
+"""Extension 2, 10 points: where the end effector was one second ago, relative to the robot's current position."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ def check(task: Task) -> Sheet:
             abs(rate - 10.0) <= 1.0,
             expected="PoseStamped messages at 10 Hz",
             observed=f"{rate:.1f} Hz",
-            cause="another topic, or every lookup fails: keep at least 2 s in the buffer",
+            cause="a different topic, or every lookup fails: keep at least 2 s in the buffer",
             read=_READ,
         )
         frames = sorted({each.message.header.frame_id for each in poses})
@@ -52,7 +52,7 @@ def check(task: Task) -> Sheet:
             frames == ["base_link"],
             expected="header.frame_id is base_link",
             observed=", ".join(map(repr, frames)) or "no poses",
-            cause="the target of lookup_transform_full is base_link at the present time",
+            cause="the target of lookup_transform_full is base_link at the current time",
             read=_READ,
         )
         wrong = []
@@ -68,7 +68,7 @@ def check(task: Task) -> Sheet:
             bool(wrong) and not bad,
             expected="lookup_transform_full(base_link now, end_effector 1 s ago, fixed frame odom)",
             observed=f"{len(bad)} of {len(wrong)} poses are wrong: {bad[-1]}" if bad else "no poses",
-            cause="the motion of the base is ignored: odom is the fixed frame, or the stamp is not the present time",
+            cause="the motion of the base is ignored: odom is the fixed frame, or the stamp is not the current time",
             read=_READ,
         )
     return sheet

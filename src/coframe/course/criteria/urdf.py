@@ -45,7 +45,7 @@ def check(task: Task) -> Sheet:
         description is not None,
         expected="a URDF or xacro file without errors",
         observed=problem,
-        cause="coframe robot FILE prints the error with its line",
+        cause="coframe robot FILE prints the error with its line number",
         read=_READ,
     )
     _check_joints(sheet, description)
@@ -53,7 +53,7 @@ def check(task: Task) -> Sheet:
     if attempt or not names:
         sheet.withdraw(0, attempt or problem)
     elif description is not None and not description.joints:
-        sheet.withdraw(0, f"{sheet.file} describes no joint yet. Its comment describes the task.")
+        sheet.withdraw(0, f"{sheet.file} does not describe any joints yet. The comment in it describes the task.")
     return sheet
 
 
@@ -79,7 +79,7 @@ def _check_kinematics(sheet: Sheet, task: Task, description: Description | None)
         wrong.append(difference)
         sheet.check(
             points,
-            f"{frame} is at the right place for all joint angles",
+            f"{frame} is at the correct position for all joint angles",
             not difference,
             expected="the pose of the closed form for five pairs of joint angles",
             observed=difference,

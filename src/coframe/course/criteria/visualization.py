@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Visualization, 15 points: the RViz configuration shows the robot, and the complete tree really moves."""
+"""Visualization, 15 points: the RViz configuration shows the robot, and the complete tree moves."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ def check(task: Task) -> Sheet:
 
 
 def _configuration(folder: Path) -> RvizConfig | str:
-    """Return the configuration in a folder, or a sentence about what is wrong."""
+    """Return the configuration in a folder, or an error message."""
     files = sorted(path for pattern in _FILE_NAMES for path in folder.glob(pattern))
     if not files:
         return "there is no file *.rviz or rviz_config.yaml"
@@ -77,9 +77,9 @@ def _check_configuration(sheet: Sheet, config: RvizConfig | str) -> None:
         3,
         "the RViz configuration can be read",
         not problem,
-        expected="a file lab.rviz that RViz has saved",
+        expected="a file lab.rviz saved by RViz",
         observed=problem,
-        cause="a file that was edited by hand: YAML needs the right indentation",
+        cause="errors from manual editing: YAML needs correct indentation",
         read=_READ,
     )
     sheet.check(
@@ -106,7 +106,7 @@ def _check_configuration(sheet: Sheet, config: RvizConfig | str) -> None:
             read=_READ,
         )
     if not problem and not is_begun:
-        sheet.withdraw(0, "The RViz configuration shows nothing of the robot yet. Its first lines describe the task.")
+        sheet.withdraw(0, "The RViz configuration does not show the robot yet. Its first lines describe the task.")
 
 
 def _check_tree(sheet: Sheet, edges: list[Any]) -> None:
@@ -135,7 +135,7 @@ def _check_motion(sheet: Sheet, edges: list[Any]) -> None:
             moving.append(child)
     sheet.check(
         2,
-        "its frames really move",
+        "its frames move",
         len(moving) / len(_MOVING),
         expected=f"new poses of {', '.join(_MOVING)}",
         observed=f"only {', '.join(moving)} moves" if moving else "no frame moves",

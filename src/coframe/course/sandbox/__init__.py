@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What confines a student's program: one module for each mechanism of the operating system.
+"""Confine a student's program, with one module per mechanism of the operating system.
 
-`start` begins each program, in a process that has imported the standard library only. Therefore these modules import
-nothing else, and each other by relative names. `coframe.course.confinement` decides what a program may do.
+`start` starts each program, in a process that has imported only the standard library. These modules therefore import
+nothing else, and use relative imports. `coframe.course.confinement` decides what a program may do.
 """

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Functions of the C library and calls of the Linux kernel that Python does not have."""
+"""Functions of the C library and Linux system calls that Python does not provide."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ def _library() -> ctypes.CDLL:
 
 
 def c_function(name: str, *arguments: int | bytes | None) -> int:
-    """Return the result of a function of the C library, whose integers are of the type long.
+    """Call a function of the C library with integers of type long, and return its result.
 
     Raises:
-        OSError: It returns a negative number, or this system does not have it.
+        OSError: It returns a negative number, or is not available on this system.
     """
     try:
         function = _library()[name]
@@ -39,7 +39,7 @@ def c_function(name: str, *arguments: int | bytes | None) -> int:
 
 
 def system_call(number: int, *arguments: int | bytes | None) -> int:
-    """Return the result of a system call.
+    """Make a system call and return its result.
 
     Raises:
         OSError: It fails.

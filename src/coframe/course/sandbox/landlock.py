@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Restrict the files of a process with Landlock (Linux 5.13 or newer): no rights are needed for it."""
+"""Restrict file access of a process with Landlock (Linux 5.13 or newer), which needs no privileges."""
 
 from __future__ import annotations
 
@@ -16,17 +16,22 @@ if TYPE_CHECKING:
 
 __all__ = ["landlock_version", "restrict_files", "scopes_signals"]
 
-# Kernel interface of Landlock, in linux/landlock.h; the numbers of the calls are the same on all processors.
+# Kernel interface of Landlock from linux/landlock.h; the system call numbers are the same on all architectures.
 _CREATE_RULESET, _ADD_RULE, _RESTRICT_SELF = 444, 445, 446
 _VERSION_FLAG, _PATH_BENEATH = 1, 1
-_RIGHTS: Final = {1: 0x1FFF, 2: 0x3FFF, 3: 0x7FFF, 5: 0xFFFF}  # all rights on files, by the first version with them
+_RIGHTS: Final = {
+    1: 0x1FFF,
+    2: 0x3FFF,
+    3: 0x7FFF,
+    5: 0xFFFF,
+}  # all file access rights, by the version that introduced them
 _EXECUTE, _WRITE_FILE, _READ_FILE, _LIST_FOLDER = 0x1, 0x2, 0x4, 0x8
 _SCOPES: Final = 0x1 | 0x2  # abstract sockets, and signals to processes outside, from version 6 on
 _FIRST_WITH_SCOPES = 6
 
 
 def landlock_version() -> int:
-    """Return the version of Landlock of the kernel; 0 if it has none."""
+    """Return the Landlock version of the kernel; 0 if it is not supported."""
     if not sys.platform.startswith("linux"):
         return 0
     try:
@@ -36,18 +41,18 @@ def landlock_version() -> int:
 
 
 def scopes_signals() -> bool:
-    """Return whether Landlock refuses signals to processes outside."""
+    """Return whether Landlock blocks signals to outside processes."""
     return landlock_version() >= _FIRST_WITH_SCOPES
 
 
 def restrict_files(readable: Iterable[str], hidden: Iterable[str], home: str, *, shown: Iterable[str] = ()) -> None:
-    """Restrict this process, and all that it starts: it writes in its home folder only.
+    """Restrict this process and its children so that they can write only in the home folder.
 
     Args:
-        readable: Folders and files that it can read and execute.
-        hidden: What it cannot read below these folders. Only the names of these files can be listed.
-        home: Its home folder.
-        shown: Those of the hidden folders in whose places something else is visible.
+        readable: Folders and files that can be read and executed.
+        hidden: Paths below these folders that cannot be read; only their names can be listed.
+        home: The home folder.
+        shown: The hidden folders that are replaced by something else.
     """
     version = landlock_version()
     rights = _RIGHTS[max(first for first in _RIGHTS if first <= version)]
@@ -72,9 +77,9 @@ def _folders_above(path: str) -> Iterable[str]:
 
 
 def _allow_reading(ruleset: int, path: str, hidden: frozenset[str], above_hidden: set[str]) -> None:
-    """Allow reading of a file, or of all that is below a folder except what is hidden.
+    """Allow reading a file, or everything below a folder except hidden paths.
 
-    Landlock has no rule that takes a right away, so a folder above hidden files is replaced by what it contains.
+    Landlock has no deny rules, so a folder above hidden files is replaced by its entries.
     """
     if path in hidden:
         return
@@ -85,12 +90,12 @@ def _allow_reading(ruleset: int, path: str, hidden: frozenset[str], above_hidden
     _allow(ruleset, path, _LIST_FOLDER)
     with suppress(OSError), os.scandir(path) as entries:
         for entry in entries:
-            if not entry.is_symlink():  # Its target has rules of its own.
+            if not entry.is_symlink():  # Its target has its own rules.
                 _allow_reading(ruleset, entry.path, hidden, above_hidden)
 
 
 def _allow(ruleset: int, path: str, rights: int) -> None:
-    """Allow rights on a file, or on all that is below a folder; do nothing if it does not exist."""
+    """Grant rights on a file, or on everything below a folder; do nothing if it does not exist."""
     with suppress(OSError):
         file = os.open(path, os.O_PATH | os.O_CLOEXEC)
         try:

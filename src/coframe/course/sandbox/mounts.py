@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A root folder of its own for a program, in which nothing exists but what it may see."""
+"""A separate root folder for a program, which contains only what it may access."""
 
 from __future__ import annotations
 
@@ -34,15 +34,15 @@ def enter_own_root(
     decoys: Mapping[str, str],
     home: str,
 ) -> None:
-    """Make a root folder and go there; this process must have namespaces of its own for mounts and processes.
+    """Create a root folder and enter it; this process must have its own mount and process namespaces.
 
     Args:
         root: An empty folder.
         entries: Paths, sorted, and whether each can be read; the contents of the others do not exist, except for
             entries below them.
         links: Symbolic links, and their targets.
-        decoys: A folder to show instead of one that cannot be read.
-        home: The only folder in which files can be changed.
+        decoys: Replacements for folders that cannot be read.
+        home: The only writable folder.
 
     Raises:
         OSError: The system does not allow it.
@@ -57,7 +57,7 @@ def enter_own_root(
         else:
             _bind(os.devnull, root + path)
     for path, target in links:
-        with suppress(OSError):  # It exists in one of the folders above.
+        with suppress(OSError):  # It already exists in one of the folders above.
             os.makedirs(os.path.dirname(root + path), exist_ok=True)  # noqa: PTH103, PTH120
             os.symlink(target, root + path)  # noqa: PTH211
     for device in DEVICES:
@@ -77,7 +77,7 @@ def enter_own_root(
 
 
 def _bind(source: str, target: str) -> None:
-    """Make a file, or a folder with all that is mounted in it, visible at another place."""
+    """Bind-mount a file, or a folder with its submounts, at another path."""
     if os.path.isdir(source):  # noqa: PTH112 - without other imports
         os.makedirs(target, exist_ok=True)  # noqa: PTH103
     elif not os.path.lexists(target):
@@ -91,12 +91,12 @@ def _mount(source: bytes | None, target: str, kind: bytes | None, flags: int, op
 
 
 def _restrict(folder: str, flags: int) -> None:
-    """Add flags to all that is mounted at a folder or below it."""
+    """Add flags to all mounts at or below a folder."""
     with open(_MOUNTED, "rb") as mounted:  # noqa: PTH123 - without other imports
         lines = [line.split() for line in mounted]
     for fields in lines:
-        path = os.fsdecode(fields[4].decode("unicode_escape").encode("latin-1"))  # spaces are octal numbers
+        path = os.fsdecode(fields[4].decode("unicode_escape").encode("latin-1"))  # spaces are escaped as octal numbers
         if path == folder or path.startswith(folder + "/"):
-            # In a namespace of an ordinary user, the flags of a mount outside cannot be removed.
+            # In an unprivileged namespace, flags of outer mounts cannot be removed.
             kept = sum(_OPTIONS.get(option, 0) for option in fields[5].decode().split(","))
             _mount(None, path, None, _REMOUNT | _BIND | kept | flags)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Give up all privileges: a program of the superuser then has no other rights than those of the owner of a file."""
+"""Drop all privileges, so that a program run by root has only the rights of a file owner."""
 
 from __future__ import annotations
 
@@ -21,21 +21,21 @@ _CAPBSET_DROP, _SET_SECUREBITS, _CAP_AMBIENT, _SET_NO_NEW_PRIVS = 24, 28, 47, 38
 _CLEAR_ALL = 4
 _CAPABILITY_VERSION_3 = 0x20080522
 _LAST_POSSIBLE = 63
-# The user id 0 gives no capabilities, at execve and at setuid; no ambient ones; all of this is locked.
+# User ID 0 grants no capabilities at execve and setuid; no ambient capabilities; all of this is locked.
 _SECURE_BITS = 0xEF
 
 
 def drop_privileges(user: User | None = None) -> None:
-    """Drop all capabilities of this process and of the programs that it will run.
+    """Drop all capabilities of this process and of the programs it will run.
 
-    Each step fails for an ordinary user, who has none to drop.
+    Each step fails for ordinary users, who have none to drop.
 
     Args:
-        user: The user that this process becomes; None: it remains the same one.
+        user: The user to switch to; None keeps the current one.
     """
     with suppress(OSError):
         control_process(_SET_SECUREBITS, _SECURE_BITS)
-    with suppress(OSError):  # This capability does not exist, and none after it.
+    with suppress(OSError):  # This capability and all higher ones do not exist.
         for number in range(_LAST_POSSIBLE + 1):
             control_process(_CAPBSET_DROP, number)
     with suppress(OSError):
@@ -47,14 +47,14 @@ def drop_privileges(user: User | None = None) -> None:
 
 
 def forbid_tracing() -> None:
-    """Keep other processes of the same user from reading and changing this one, and those that it forks.
+    """Prevent other processes of the same user from reading or modifying this process and its forks.
 
     Raises:
-        OSError: This system does not have it.
+        OSError: This system does not support it.
     """
     control_process(_SET_DUMPABLE, 0)
 
 
 def forbid_new_privileges() -> None:
-    """Make the set-user-ID bit of files ineffective for this process and all that it starts."""
+    """Disable set-user-ID programs for this process and its children."""
     control_process(_SET_NO_NEW_PRIVS, 1)

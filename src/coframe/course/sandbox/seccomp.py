@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Refuse system calls that no node needs, with a filter in the kernel (seccomp): no rights are needed for it.
+"""Block system calls that no node needs with a kernel filter (seccomp), which needs no privileges.
 
-`REFUSED` and `CONDITIONS` are the tables of what is refused. The filter is the only protection against sockets of the
+`REFUSED` and `CONDITIONS` are the tables of blocked calls. The filter is the only protection against sockets of the
 file system, such as those of a desktop session or of Docker, which Landlock does not restrict, and against memory that
 belongs to no process.
 """
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 __all__ = ["can_filter", "refuse_system_calls"]
 
-# The numbers of a call on x86-64 and aarch64; from number 424 on they are the same, and some do not exist on aarch64.
+# System call numbers on x86-64 and aarch64; they are the same from 424 on, and some do not exist on aarch64.
 _Numbers = tuple[int, "int | None"]
 REFUSED: Final[dict[str, _Numbers]] = {
     # other processes
@@ -35,7 +35,7 @@ REFUSED: Final[dict[str, _Numbers]] = {
     "process_mrelease": (448, 448),
     "migrate_pages": (256, 238),
     "move_pages": (279, 239),
-    # memory that belongs to no process, so that no limit counts it
+    # memory that belongs to no process and is not limited
     "memfd_create": (319, 279),
     "memfd_secret": (447, 447),
     "vmsplice": (278, 75),
@@ -95,8 +95,10 @@ REFUSED: Final[dict[str, _Numbers]] = {
     "syslog": (103, 116),
     "vhangup": (153, 58),
 }
-_UNKNOWN: Final[dict[str, _Numbers]] = {"clone3": (435, 435)}  # its flags are out of reach; libraries then use clone
-_LAST_KNOWN: Final = 469  # newer calls, and those of the x32 interface, are unknown as well
+_UNKNOWN: Final[dict[str, _Numbers]] = {
+    "clone3": (435, 435)
+}  # its flags cannot be inspected; libraries fall back to clone
+_LAST_KNOWN: Final = 469  # newer calls and those of the x32 ABI are also unknown
 
 _INTERNET, _INTERNET_6, _ROUTES, _UNIX = 2, 10, 16, 1  # families of sockets
 _STREAM, _SEQUENCE, _TYPE_MASK = 1, 5, 0xF
@@ -106,11 +108,11 @@ _WHICH_PROCESS, _IO_WHICH_PROCESS = 0, 1
 _TERMINAL_INPUT, _CONSOLE = 0x5412, 0x541C
 _ALL: Final = 0xFFFFFFFF
 
-# A condition on an argument: its number, a mask, and the values that are allowed.
+# A condition on an argument: its index, a mask, and the allowed values.
 _Condition = tuple[int, int, tuple[int, ...]]
 CONDITIONS: Final[dict[str, tuple[_Numbers, tuple[_Condition, ...]]]] = {
     "socket": ((41, 198), ((0, _ALL, (_INTERNET, _INTERNET_6, _ROUTES)),)),
-    # A pair that is connected cannot reach other sockets, unless it sends datagrams.
+    # A connected pair cannot reach other sockets, unless it sends datagrams.
     "socketpair": ((53, 199), ((0, _ALL, (_UNIX,)), (1, _TYPE_MASK, (_STREAM, _SEQUENCE)))),
     "clone": ((56, 220), ((0, _NEW_NAMESPACES, (0,)),)),
     "prlimit64": ((302, 261), ((0, _ALL, (_OWN_PROCESS,)),)),
@@ -121,7 +123,7 @@ CONDITIONS: Final[dict[str, tuple[_Numbers, tuple[_Condition, ...]]]] = {
     "sched_setparam": ((142, 118), ((0, _ALL, (_OWN_PROCESS,)),)),
     "sched_setscheduler": ((144, 119), ((0, _ALL, (_OWN_PROCESS,)),)),
 }
-# Calls whose argument of this number must not be one of some values.
+# Calls for which the argument with this index must not have certain values.
 _INPUT_OF_TERMINALS: Final[tuple[_Numbers, int]] = ((16, 29), 1)  # ioctl
 SIGNALS: Final[dict[str, _Numbers]] = {
     "kill": (62, 129),
@@ -145,18 +147,18 @@ _Instruction = tuple[int, int, int, int]  # code, jump if true, jump if false, c
 
 
 def can_filter() -> bool:
-    """Return whether this system has filters for system calls, and this module knows the numbers of its processor."""
+    """Return whether this system supports seccomp filters and this module has the call numbers of its architecture."""
     if not sys.platform.startswith("linux") or os.uname().machine not in _ARCHITECTURES:
         return False
     try:
-        control_process(_SET_SECCOMP, _MODE_FILTER)  # without a filter, so that nothing changes
+        control_process(_SET_SECCOMP, _MODE_FILTER)  # tests without a filter, which changes nothing
     except OSError as error:
         return error.errno == errno.EFAULT
     return False
 
 
 def refuse_system_calls(protected: Iterable[int] = ()) -> None:
-    """Install the filter for this process and all that it starts; it must have given up new privileges.
+    """Install the filter for this process and its children; it must already have set no_new_privs.
 
     Args:
         protected: Processes that cannot be sent signals.
@@ -170,7 +172,7 @@ def refuse_system_calls(protected: Iterable[int] = ()) -> None:
 
 
 def _program(column: int, architecture: int, protected: Sequence[int]) -> list[_Instruction]:
-    """Return the filter as a program of the Berkeley Packet Filter."""
+    """Return the filter as a BPF program."""
     program = [
         (_LOAD, 0, 0, _OFFSET_ARCHITECTURE),
         (_EQUAL, 1, 0, architecture),
@@ -200,18 +202,18 @@ def _program(column: int, architecture: int, protected: Sequence[int]) -> list[_
 
 
 def _load(argument: int) -> _Instruction:
-    """Return what loads the lower half of an argument, on a processor whose numbers are little-endian."""
+    """Return the instruction that loads the lower half of an argument on a little-endian processor."""
     return (_LOAD, 0, 0, _OFFSET_ARGUMENTS + 8 * argument)
 
 
 def _only(argument: int, mask: int, values: Sequence[int]) -> list[_Instruction]:
-    """Return instructions that end with an error unless an argument has one of some values."""
+    """Return instructions that fail unless an argument has one of the given values."""
     last = len(values)
     tests = [(_EQUAL, last - position, 0, value) for position, value in enumerate(values)]
     return [_load(argument), (_AND, 0, 0, mask), *tests, _NOT_PERMITTED]
 
 
 def _all_but(argument: int, values: Sequence[int]) -> list[_Instruction]:
-    """Return instructions that end with an error if an argument has one of some values."""
+    """Return instructions that fail if an argument has one of the given values."""
     tests = [each for value in values for each in ((_EQUAL, 0, 1, value), _NOT_PERMITTED)]
     return [_load(argument), *tests, _ALLOWED]

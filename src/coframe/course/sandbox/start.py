@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Start a confined program: the last thing that happens before a student's code runs.
+"""Start a confined program, as the last step before a student's code runs.
 
-The process that runs `main` imports the standard library only. With namespaces, it has two children: the first process
-of the program's own list of processes, and the program.
+The process that runs `main` imports only the standard library. With namespaces, it has two children: the first process
+of the program's own process namespace, and the program.
 """
 
 from __future__ import annotations
@@ -19,14 +19,14 @@ from . import kernel, landlock, mounts, privileges, seccomp, users
 __all__ = ["main"]
 
 _MAX_OPEN_FILES = 256
-_MAX_TASKS = 1024  # processes and threads of all programs of a user, until the grader ends one that has too many
+_MAX_TASKS = 1024  # limit on processes and threads of all programs of a user, until the grader ends one with too many
 _NEW_MOUNTS, _NEW_COMMUNICATION, _NEW_PROCESSES = 0x20000, 0x08000000, 0x20000000
 _SET_PARENT_DEATH_SIGNAL = 1
-_SIGNAL_OFFSET = 128  # added to the number of the signal that has ended a program, as shells do
+_SIGNAL_OFFSET = 128  # added to the number of the signal that ended a program, as in shells
 
 
 def main() -> None:
-    """Confine this process by the plan in the first argument, and replace it by the program in the others.
+    """Confine this process by the plan in the first argument, and replace it with the program in the others.
 
     The plan is JSON, see `Confinement.command`.
     """
@@ -55,7 +55,7 @@ def _run_in_namespaces(plan: dict[str, Any], program: list[str]) -> NoReturn:
 
 
 def _exit_code(child: int) -> int:
-    """Wait for the end of a child and of all orphans before it, and return the exit code that shells report."""
+    """Wait for a child and reap orphans, and return its exit code as reported by shells."""
     while True:
         process, status = os.wait()
         if process == child:
@@ -64,12 +64,12 @@ def _exit_code(child: int) -> int:
 
 
 def _run(plan: dict[str, Any], program: list[str], *, visible: list[int]) -> NoReturn:
-    """Replace this process by the program.
+    """Replace this process with the program.
 
     Args:
         plan: The plan.
         program: The program and its arguments.
-        visible: The processes above this one, unless the program has a list of processes of its own.
+        visible: The ancestors of this process, unless the program has its own process namespace.
     """
     user = users.choose_user(_users(plan), _needed(plan, program), os.path.dirname(plan["home"]))  # noqa: PTH120
     if user is not None:
@@ -78,7 +78,7 @@ def _run(plan: dict[str, Any], program: list[str], *, visible: list[int]) -> NoR
     os.chdir(plan["folder"])
     is_counted = user is not None or (plan["namespaces"] and users.is_counted())
     _limit_resources(plan["limits"] | ({"NPROC": _MAX_TASKS} if is_counted else {}))
-    with suppress(OSError):  # macOS has nothing of this kind.
+    with suppress(OSError):  # macOS has no equivalent.
         privileges.forbid_new_privileges()
     if landlock.landlock_version():
         shown = plan["decoys"] if plan["namespaces"] else ()
@@ -91,16 +91,16 @@ def _run(plan: dict[str, Any], program: list[str], *, visible: list[int]) -> NoR
 
 
 def _users(plan: dict[str, Any]) -> list[users.User]:
-    """Return the users that a program of the superuser should become: one without an account, or the folder's owner.
+    """Return candidate users for a program run by root: one without an account, or the folder's owner.
 
-    Without capabilities, the superuser can read only what everyone or the superuser may read, such as no closed folder.
+    Without capabilities, root can read only files that are readable by everyone or owned by root.
     """
     status = os.stat(plan["folder"])  # noqa: PTH116 - without other imports
     return [(plan["user"], plan["user"]), (status.st_uid, status.st_gid)]
 
 
 def _needed(plan: dict[str, Any], program: list[str]) -> list[str]:
-    """Return what a user must be able to read: Python, packages, and the files of the folder."""
+    """Return the files that the user must be able to read: Python, packages, and the files of the folder."""
     with os.scandir(plan["folder"]) as entries:
         own = [entry.path for entry in entries if not entry.is_symlink()]
     return [program[0], *own, *(path for path, is_readable in plan["entries"] if is_readable)]
@@ -115,9 +115,9 @@ def _limit_resources(limits: dict[str, int]) -> None:
 
 
 def _ancestors() -> list[int]:
-    """Return the processes above this one and the leaders of their groups, which the program must not end.
+    """Return the ancestors of this process and their group leaders, which the program must not end.
 
-    A group can outlive its leader, as that of a shell that has started a program in the background.
+    A group can outlive its leader, for example if a shell starts a program in the background.
     """
     found, process = {1}, os.getppid()
     with suppress(OSError, ValueError, IndexError):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Another user for a program that the superuser starts: one who owns nothing, and whose processes the system counts."""
+"""Choose another user for a program started by root: one that owns nothing, and whose processes are counted."""
 
 from __future__ import annotations
 
@@ -11,22 +11,22 @@ if TYPE_CHECKING:
 
 __all__ = ["User", "become", "choose_user", "is_counted"]
 
-User = tuple[int, int]  # the numbers of a user and of a group
+User = tuple[int, int]  # user ID and group ID
 _SUPERUSER = 0
-_FIRST_COUNTED = (5, 14)  # the version of Linux from which on processes are counted for each user namespace
+_FIRST_COUNTED = (5, 14)  # the first Linux version that counts processes per user namespace
 _USERS = "/proc/self/uid_map"
 
 
 def choose_user(candidates: Iterable[User], readable: Iterable[str], searchable: str) -> User | None:
-    """Return the first user who has the rights that a program needs.
+    """Return the first user with the rights that a program needs.
 
     Args:
         candidates: The users.
         readable: Files and folders that the user must be able to read.
-        searchable: A folder in which the user must be able to open a folder whose name is known.
+        searchable: A folder that the user must be able to traverse.
 
     Returns:
-        The user. None: there is none, or this is not the superuser, who alone can become another user.
+        The user; None if there is none, or if this process does not run as root and therefore cannot switch users.
     """
     readable = list(readable)
     if os.getuid() != _SUPERUSER:
@@ -36,10 +36,10 @@ def choose_user(candidates: Iterable[User], readable: Iterable[str], searchable:
 
 
 def become(user: User) -> None:
-    """Become another user forever.
+    """Permanently switch to another user.
 
     Raises:
-        OSError: It is not possible, for example in the namespace of an ordinary user, which has no other users.
+        OSError: This is not possible, for example in an unprivileged user namespace, which has no other users.
     """
     number, group = user
     os.setgroups([])
@@ -48,7 +48,7 @@ def become(user: User) -> None:
 
 
 def is_counted() -> bool:
-    """Return whether the system counts the processes of this user only in this user namespace."""
+    """Return whether the system counts processes of this user per user namespace."""
     version = tuple(int(part) for part in os.uname().release.split(".")[:2] if part.isdigit())
     with open(_USERS, encoding="ascii") as users:  # noqa: PTH123 - without other imports
         has_namespace = users.read().split() != ["0", "0", "4294967295"]
