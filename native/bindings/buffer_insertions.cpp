@@ -119,7 +119,7 @@ PyObject* py_ingest(PyObject* object, PyObject* const* arguments, Py_ssize_t cou
 void add_frequent_insertions(nb::handle cls) {
   add_method(cls, "_set_values", &py_set_values,
              "_set_values($self, /, parent, child, stamp, x, y, z, qx, qy, qz, qw, static, authority)\n--\n\n"
-             "Store a transform from numbers; return 0, or the reasons for refusal as bits (see insert_texts).");
+             "Store a transform from numbers; return 0, or the reasons for rejection as bits (see insert_texts).");
   add_method(cls, "_set_plain", &py_set_plain,
              "_set_plain($self, /, parent, child, transform, stamp, static)\n--\n\n"
              "Do as _set_values() for a dynamic Transform between known frames; return None for any other case.");

@@ -167,7 +167,7 @@ class Buffer:
     def _set_rows(
         self, parent: str, child: str, stamps: Any, poses: Any, static: bool, authority: str
     ) -> tuple[int, int, int]:
-        """Do _set_values() for each row; return reasons for refusal, the number stored, and the first refused row."""
+        """Call _set_values() for each row; return rejection reasons, the number stored, and the first rejected row."""
 
     def can_transform(
         self, target: str, source: str, stamp: StampLike | None = None, *, timeout: DurationLike | None = None
@@ -243,7 +243,7 @@ class Buffer:
         static: bool,
         authority: str,
     ) -> int:
-        """Store a transform from numbers; return 0, or the reasons for refusal as bits (see insert_texts)."""
+        """Store a transform from numbers; return 0, or the reasons for rejection as bits (see insert_texts)."""
 
     def _set_plain(
         self, parent: str, child: str, transform: PublicTransform, stamp: StampLike | None, static: bool
@@ -457,7 +457,7 @@ class MessageCodec:
     ) -> None:
         """Each field is a tuple (slot, item, container, size, text_bound, dtype).
 
-        The item is the struct code of a number, an empty text for texts, or the MessageCodec of a message. The
+        The item is the struct code of a number, an empty string for strings, or the MessageCodec of a message. The
         container is 0 for a single item, 1 for an array of `size` items, 2 for a sequence of at most `size`. 0 is no
         limit. `dtype` is that of an array of numbers. `ros1_prefix` is how many bytes a message of ROS 1 has before its
         fields.

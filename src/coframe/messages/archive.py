@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The definitions of one interface package in one text.
+"""Store the definitions of an interface package in a single text.
 
 Each definition begins with a line such as ``=msg/Pose``; the lines after it are those of its file without comments.
 """

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Creation of message, service and action classes from definitions at run time.
+"""Create message, service and action classes from definitions at run time.
 
-The classes behave like the generated ones. Each is created when it is first used, together with the others of its
+The classes behave like the generated ones. Each class is created on first use, together with the others of its
 definition: a service with its request and response, an action with its goal, result, feedback and protocol.
 """
 
@@ -63,7 +63,7 @@ def create_classes(package: str, kind: str, name: str, parts: Sequence[Structure
     """
     with _lock:
         if f"{package}/{kind}/{name}" in classes:
-            return  # Another thread was faster.
+            return  # Another thread has already created it.
         for message, structure in member_messages(package, kind, name, parts).items():
             _create_message(f"{package}/{kind}/{message}", structure)
         if kind == "srv":
@@ -119,7 +119,7 @@ def _inner_classes(fields: list[Field]) -> dict[str, type]:
                 inner[class_name(type_)] = _find_inner(_ros_type(type_))
             check_limits([field.type])
         except InterfaceError:
-            raise  # It is about the inner message, and names its file.
+            raise  # The error is about the inner message, and contains its file name.
         except LookupError as error:
             raise FieldError(field.name, str(error), _ros_type(type_)) from None
         except ValueError as error:

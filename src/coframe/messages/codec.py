@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Serialization of messages to CDR as ROS 2 sends it: XCDR1 after a 4-byte encapsulation header.
 
-Messages of ROS 1 can be read as well.
+ROS 1 messages can also be read.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from coframe.messages.compiler import Plan
 
 MAX_PADDING: Final = 3
-"""The most bytes after a message that DDS adds: it sends multiples of 4 bytes."""
+"""The maximum number of padding bytes that DDS adds, because it sends multiples of 4 bytes."""
 
 M = TypeVar("M", bound=Message)
 
@@ -50,7 +50,7 @@ def serialize(message: Message) -> bytes:
 
 
 def _serialize_in_python(message: Message, cls: type[Message]) -> bytes:
-    """Serialize what the native encoder leaves, and report the errors of a message."""
+    """Serialize messages that the native encoder does not support, and report errors."""
     plan = _encodings.get(cls) or _new_encoding(cls)
     out = bytearray(LITTLE_ENDIAN_HEADER)
     try:
@@ -62,7 +62,7 @@ def _serialize_in_python(message: Message, cls: type[Message]) -> bytes:
 
 
 def deserialize(data: bytes, cls: type[M]) -> M:
-    """Return the message that the CDR bytes contain.
+    """Return the message in CDR bytes.
 
     Args:
         data: CDR of either byte order. Bytes after the end of the message are ignored, as in ROS.
@@ -90,7 +90,7 @@ def deserialize_whole(data: bytes, cls: type[M]) -> M:
 
 
 def _deserialize_in_python(data: bytes, cls: type[M], max_rest: int | None = None) -> M:
-    """Read what the native codec leaves, and report what is wrong with the bytes."""
+    """Read messages that the native codec does not support, and report invalid bytes."""
     if len(data) < HEADER_SIZE:
         raise _header_error(_message_class(cls), data)
     plan = _decodings.get((cls, data[:2])) or _new_decoding(cls, data)
@@ -108,7 +108,7 @@ def _deserialize_in_python(data: bytes, cls: type[M], max_rest: int | None = Non
 
 
 def deserialize_ros1(data: bytes, cls: type[M]) -> M:
-    """Return the message that bytes of ROS 1 contain.
+    """Return the message in ROS 1 bytes.
 
     Args:
         data: The bytes. Bytes after the end of the message are ignored.

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 __all__ = ["PARTS", "event", "member_messages"]
 
-# How many parts a definition of each kind has, which lines of "---" separate.
+# The number of parts, separated by "---", in a definition of each kind.
 PARTS = {"msg": 1, "srv": 2, "action": 3}
 
 _GOAL_ID = Field("goal_id", NamespacedType(("unique_identifier_msgs", "msg"), "UUID"), None)

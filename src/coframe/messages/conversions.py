@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Conversion of coframe's values to messages."""
+"""Convert coframe's values to messages."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The attributes of messages: which values their setters accept, convert and refuse.
+"""The attributes of messages: values that their setters accept, convert and reject.
 
-The rules and the error texts are those of Humble's generated classes. The checks are disabled by ``python -O`` and by
+The rules and error messages are those of Humble's generated classes. The checks are disabled by ``python -O`` and by
 the environment variable ``ROS_PYTHON_CHECK_FIELDS=0``.
 """
 

@@ -66,7 +66,7 @@ class HeaderPeek(NamedTuple):
 
 
 class FirstStamp(Enum):
-    """What messages of a type begin with, as far as it contains a stamp."""
+    """How messages of a type begin, if they begin with a stamp."""
 
     TIME = "a time"
     HEADER = "a header"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Values of constants and defaults in interface definitions."""
+"""Parse values of constants and defaults in interface definitions."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ def literal(text: str, type_: AbstractType) -> Any:
 
 
 def checked(value: Any, type_: AbstractType) -> Any:
-    """Return a value as messages store it, after a check that the type can hold it.
+    """Check that the type can hold a value, and return it as stored in messages.
 
     Raises:
         ValueError: The type cannot hold the value.

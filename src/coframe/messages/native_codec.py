@@ -39,7 +39,7 @@ _codecs: dict[type, _core.MessageCodec | None] = {}
 
 
 def native_codec(cls: Any) -> _core.MessageCodec | None:
-    """Return the native codec of a message class; None if it has fields that only Python code handles."""
+    """Return the native codec of a message class; None if it has fields that only Python code supports."""
     if cls.__recorded__:
         return _recorded_codec(cls)
     if cls not in _codecs:
@@ -71,7 +71,7 @@ def _field(slot: str, type_: AbstractType) -> Field:
 
 
 def _item(type_: AbstractType) -> str | _core.MessageCodec:
-    """Return the struct code of a number, the codec of a message, or an empty text for texts.
+    """Return the struct code of a number, the codec of a message, or an empty string for strings.
 
     Raises:
         TypeError: Only Python code handles this type.

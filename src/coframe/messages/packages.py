@@ -118,7 +118,7 @@ class InterfacePackage:
 
 
 def _elsewhere(ros_type: str) -> str:
-    """Return a hint at packages that have a type of the same name as one that does not exist; "" if there is none."""
+    """Return a hint about packages that contain a type with the name of a missing one; "" if there are none."""
     _, _, name = ros_type.rpartition("/")
     found = [package for package in map(shipped, shipped_names()) if package and name in package.names("msg")]
     names = " or ".join(f"{package.name}/{name}" for package in found[:3])
@@ -150,7 +150,7 @@ def load_package(name: str, folder: Path) -> InterfacePackage:
 
 
 def forget() -> None:
-    """Search packages again when they are needed next, because files or settings may have changed."""
+    """Clear the cache of packages, because files or settings may have changed."""
     _found.clear()
     sources.forget()
 
@@ -176,7 +176,7 @@ def shipped_names() -> list[str]:
 
 
 class Exports(NamedTuple):
-    """What a module needs to create its classes when they are first used."""
+    """The attributes that let a module create its classes on first use."""
 
     names: list[str]
     getattr: Callable[[str], Any]

@@ -203,7 +203,7 @@ def _parse_line(content: str, package: str, rules: Rules) -> Field | Constant:
 
 
 def shortened(text: str) -> str:
-    """Return a text for an error message: its beginning if it is long."""
+    """Truncate a text for an error message."""
     longest = 200
     return text if len(text) <= longest else f"{text[:longest]}..."
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Stub files (``.pyi``) of interface packages, from which editors and type checkers know the fields of each class."""
+"""Stub files (``.pyi``) of interface packages, which describe the fields of each class to editors and type checkers."""
 
 from __future__ import annotations
 

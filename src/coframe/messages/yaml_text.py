@@ -24,13 +24,13 @@ _RESERVED = {"true", "false", "yes", "no", "on", "off", "y", "n", "null"}
 def to_yaml(message: Any, *, max_items: int | None = None) -> str:
     """Return a message as compact YAML with comments; ``str(message)`` is its repr, as in rclpy.
 
-    No other package is needed. `rosidl_runtime_py.message_to_yaml` returns the text that ``ros2 topic echo`` prints,
+    No other package is needed. `rosidl_runtime_py.message_to_yaml` returns the output that ``ros2 topic echo`` prints,
     which has one line for each element of a sequence.
 
     Args:
         message: A message.
-        max_items: How many elements of a sequence and characters of a text to show; a comment gives the number of the
-            others. None shows everything, and the result contains the whole message.
+        max_items: Maximum number of elements of a sequence and characters of a string; a comment gives the number of
+            omitted ones. None shows everything, and the result contains the whole message.
 
     Returns:
         The text, with a line break at the end. Sequences of numbers are on one line.

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Evaluation of expressions on a recording."""
+"""Evaluate expressions on a recording."""
 
 from __future__ import annotations
 
@@ -52,19 +52,19 @@ def evaluate(
 ) -> list[Series]:
     """Return the curves of expressions.
 
-    A pose has a value at each sample of the edges between its frames. A rate is a mean over the second before each
-    message; of a topic by the receive times, of an edge by the stamps. A delay is the receive time minus the
-    stamp; in a simulation, the time of ``/clock`` at receipt minus the stamp.
+    A pose has a value at each sample of the edges between its frames. A rate is the mean over the second before each
+    message, based on receive times for a topic and on stamps for an edge. A delay is the receive time minus the stamp;
+    in a simulation, the time of ``/clock`` at receipt minus the stamp.
 
     Args:
-        expressions: Expressions, or text as for :func:`parse_expression`.
+        expressions: Expressions, or strings for :func:`parse_expression`.
         recording: The recording.
         start: The first stamp, in nanoseconds.
         stop: The last stamp, in nanoseconds.
-        progress: Called regularly with an expression, the number of messages read and their total number.
+        progress: Called regularly with an expression, the number of messages read and the total number.
 
     Raises:
-        PlotError: A text is not an expression, a topic or a field does not exist, or there are no values.
+        PlotError: An expression is invalid, a topic or field does not exist, or there are no values.
         TransformException: A frame does not exist, or the frames are not connected.
     """
     parsed = [parse_expression(each) if isinstance(each, str) else each for each in expressions]
@@ -184,7 +184,7 @@ def check_edge(expression: TimingExpression, buffer: Buffer) -> None:
     """Check that the frames are parent and child of an edge with stamps.
 
     Raises:
-        PlotError: They are not.
+        PlotError: They are not, or the edge is static.
         TransformException: A frame does not exist, or the frames are not connected.
     """
     parent, child = expression.edge or ("", "")

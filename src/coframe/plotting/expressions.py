@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The expressions that name what is plotted.
+"""The expressions that specify what to plot.
 
 There are three kinds; everything after the last dot of a pair of frames, or after the first dot of a topic, is the
 quantity:
@@ -51,7 +51,7 @@ class PoseExpression:
     """A coordinate of the pose of ``source`` relative to ``target``.
 
     Attributes:
-        text: The expression as it was written.
+        text: The expression as written.
         target: The frame in which the pose is expressed.
         source: The frame whose pose it is.
         quantity: One of ``x``, ``y``, ``z``, ``roll``, ``pitch``, ``yaw``, ``distance``.
@@ -68,7 +68,7 @@ class FieldExpression:
     """A numeric field of the messages on a topic.
 
     Attributes:
-        text: The expression as it was written.
+        text: The expression as written.
         topic: The name of the topic.
         path: The names of the fields, from the outermost one, and indices of sequences.
     """
@@ -83,7 +83,7 @@ class TimingExpression:
     """The rate or the delay of a topic or of an edge.
 
     Attributes:
-        text: The expression as it was written.
+        text: The expression as written.
         quantity: ``rate`` or ``delay``.
         topic: The name of the topic; None for an edge.
         edge: The parent and the child; None for a topic.
@@ -147,7 +147,7 @@ def _parse_topic(text: str) -> Expression:
     topic, dot, rest = text.partition(".")
     if not dot or not rest:
         raise PlotError(
-            f"{text!r} names a topic but not what to plot of it",
+            f"{text!r} contains a topic but not what to plot",
             hint=f"Add a numeric field of its messages, or one of: {', '.join(f'{topic}.{each}' for each in TIMINGS)}.",
         )
     if rest in TIMINGS:

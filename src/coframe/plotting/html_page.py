@@ -48,7 +48,7 @@ def as_html(figure: Figure) -> str:
     }
     page = folder.joinpath("page.html").read_text(encoding="utf-8")
     head, *rest = page.split("@@")
-    # Every second part is a name; what is put in is not searched for names again.
+    # Every second part is a name; inserted values are not searched for names again.
     return head + "".join(parts[part] if i % 2 == 0 else part for i, part in enumerate(rest))
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Thinning of curves with more points than a screen can show."""
+"""Thin curves with more points than a screen can show."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ __all__ = ["extremes"]
 
 
 def extremes(values: NDArray[np.float64], most: int) -> NDArray[np.intp]:
-    """Return the indices of about ``most`` values: the smallest and largest of many equal parts, so no peak is lost.
+    """Return the indices of about ``most`` values: the minimum and maximum of equal parts, so that no peak is lost.
 
     Args:
         values: (N,); NaN is a gap.

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The values of expressions: fields of one message, quantities of poses, and rates; also used for live curves."""
+"""Compute the values of expressions: message fields, pose quantities, and rates; also used for live curves."""
 
 from __future__ import annotations
 

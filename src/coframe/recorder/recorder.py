@@ -42,7 +42,7 @@ class RecorderStatistics(NamedTuple):
         waiting: The size of received messages not yet written, in bytes.
         dropped: The number of messages, by topic, that were dropped because the disk was too slow.
         missing: The topics that were requested by name and have no publisher yet.
-        refused: The topics that cannot be recorded: their type is not a ROS type, or there are too many topics.
+        refused: The topics that cannot be recorded, because their type is not a ROS type or there are too many topics.
         not_renamed: The topics whose frames get no prefix because the definition of their type is unknown.
     """
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Replacement of tf2_py and tf2_ros of a sourced ROS by coframe's."""
+"""Replace tf2_py and tf2_ros of a sourced ROS with coframe's."""
 
 from __future__ import annotations
 

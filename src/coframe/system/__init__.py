@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What this machine offers a process that joins the ROS graph, for `coframe doctor --system`."""
+"""Checks of this machine for processes that join the ROS graph, for `coframe doctor --system`."""
 
 from coframe.system.advice import advise
 from coframe.system.examination import Advice

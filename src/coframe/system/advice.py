@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What in a `SystemReport` prevents nodes from finding each other or slows them down, and what to do."""
+"""Findings about a `SystemReport`: what prevents nodes from finding each other or slows them down, and what to do."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Which Python, which packages and which ROS this process uses."""
+"""The Python, packages and ROS installation that this process uses."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ class Installation:
         packages: The versions of coframe and of the packages that it requires.
         extras: For each extra, the versions of its packages; None for those that are not installed.
         ros: The name of the sourced ROS 2, "" if its variable is not set, None if no ROS 2 is sourced.
-        foreign: The ROS packages that Python imports from elsewhere than from coframe: the folder of each.
+        foreign: The folders of ROS packages that Python does not import from coframe.
         container: Whether this process runs in a container.
     """
 

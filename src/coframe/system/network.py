@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Tests of the network as DDS uses it: a participant, multicast, ports and socket buffers.
+"""Test the network as DDS uses it: a participant, multicast, ports and socket buffers.
 
 The participant is a real one. The trace of Cyclone DDS contains which interfaces it selects; no function returns them.
 """
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
 _GROUP: Final = "239.255.0.1"  # the multicast group in which RTPS announces participants
-_PATIENCE: Final = 2.0  # seconds; much more than a datagram or a sample needs within one machine
+_PATIENCE: Final = 2.0  # seconds; much longer than a datagram or sample takes within one machine
 _REQUESTED_BUFFER: Final = 64 << 20  # bytes; more than any system grants without configuration
 
 
@@ -53,7 +53,7 @@ class Interface:
 
 @dataclass(frozen=True)
 class Probe:
-    """What a participant of this process does on the network.
+    """The network usage of a participant of this process.
 
     Attributes:
         version: The version that the library writes into its trace; empty for 0.10, which does not.
@@ -73,7 +73,7 @@ class Probe:
 
 
 def probe_participant(domain: int, environment: Mapping[str, str]) -> Probe:
-    """Join the domain with a participant of its own, exchange a message within it, and read the trace.
+    """Join the domain with a separate participant, exchange a message within it, and read the trace.
 
     Raises:
         WireError: An environment variable is invalid, or DDS cannot create the participant.
@@ -177,11 +177,11 @@ def multicast_problem(address: str) -> str:
 
 @dataclass(frozen=True)
 class Limits:
-    """What the system grants.
+    """Limits of the system.
 
     Attributes:
         default_buffer: The size of the receive buffer of a new UDP socket, in bytes.
-        largest_buffer: The largest size that a process may set, in bytes.
+        largest_buffer: The maximum size that a process may set, in bytes.
         ephemeral_ports: The first and the last port that the system gives to other sockets; None if not known.
         shared_memory: The free memory in /dev/shm in bytes, which nodes on Fast DDS use; None if there is none.
     """
@@ -193,10 +193,10 @@ class Limits:
 
 
 def limits() -> Limits:
-    """Return what the system grants."""
+    """Return the limits of the system."""
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
         default = probe.getsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF)
-        with suppress(OSError):  # macOS refuses sizes above its limit instead of granting less
+        with suppress(OSError):  # macOS rejects sizes above its limit instead of reducing them
             probe.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, _REQUESTED_BUFFER)
         largest = probe.getsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF)
     ports = None

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The report of `coframe doctor --system`: what was found, before any advice."""
+"""The report of `coframe doctor --system`: the collected data, before any advice."""
 
 from __future__ import annotations
 
@@ -25,12 +25,12 @@ if TYPE_CHECKING:
     from coframe.system.zenoh_session import ZenohProbe
     from coframe.wire.dds.library import Place
 
-_SETTLED: Final = 1.0  # seconds without a further node; the rest are found within a few round trips of the first one
+_SETTLED: Final = 1.0  # seconds without a new node; the others are found within a few round trips of the first one
 
 
 @dataclass(frozen=True)
 class LibraryReport:
-    """The DDS library: `path` and `version` are empty if there is none; `searched` has the places in their order."""
+    """The DDS library: `path` and `version` are empty if there is none; `searched` lists the places in order."""
 
     source: str
     path: str
@@ -53,7 +53,7 @@ class SystemReport:
         probe: What a DDS participant does on the network; None if it could not be created or Zenoh is selected.
         limits: What the system grants.
         nodes: The names of the other nodes that were found; None if the graph could not be joined.
-        listened: For how long nodes were searched, in seconds.
+        listened: How long nodes were searched for, in seconds.
         wire: The selected middleware and why it was selected; None if COFRAME_WIRE is invalid.
         zenoh: What a Zenoh session connects to; None if it could not be opened or DDS is selected.
         problems: What failed.
@@ -81,7 +81,7 @@ def collect(
 
     Args:
         domain: The domain ID. If None, it is ROS_DOMAIN_ID.
-        listen: How long other nodes are searched, in seconds.
+        listen: How long to search for other nodes, in seconds.
         environment: The environment variables.
     """
     attempt = Attempts()
@@ -115,7 +115,7 @@ def _library_report(environment: Mapping[str, str]) -> LibraryReport:
 
 
 def _other_nodes(domain: int, wire: str, listen: float) -> list[str]:
-    """Return the nodes that are found within this time; return early once no further ones appear."""
+    """Return the nodes that are found within this time; return early once no more appear."""
     participant = Participant.get(domain, wire)
     try:
         end = time.monotonic() + listen

@@ -16,13 +16,14 @@ _EFFECTS: Final = {
     "COFRAME_SHARED": "1: listeners of tf2_ros share the transforms with the other processes of this user",
     "COFRAME_WIRE": "the middleware: dds or zenoh",
     "COFRAME_PACKAGE_PATH": "folders with the sources of ROS packages",
-    "CYCLONEDDS_HOME": "an installation of Cyclone DDS, where the DDS library is searched with those of the system",
+    "CYCLONEDDS_HOME": "an installation of Cyclone DDS, which is searched for the DDS library together with the "
+    "system's",
     "CYCLONEDDS_URI": "configuration of Cyclone DDS; it overrides what coframe derives from the other variables",
-    "RMW_IMPLEMENTATION": "selects the middleware of ROS 2's own nodes; rmw_zenoh_cpp selects Zenoh for coframe, too",
-    "ROS_AUTOMATIC_DISCOVERY_RANGE": "how far nodes are searched: OFF, LOCALHOST, SUBNET or SYSTEM_DEFAULT",
+    "RMW_IMPLEMENTATION": "selects the middleware of ROS 2's own nodes; rmw_zenoh_cpp also selects Zenoh for coframe",
+    "ROS_AUTOMATIC_DISCOVERY_RANGE": "the range of discovery: OFF, LOCALHOST, SUBNET or SYSTEM_DEFAULT",
     "ROS_DISCOVERY_SERVER": "no effect on coframe; nodes on Fast DDS announce themselves only at this server, so that "
     "coframe does not find them",
-    "ROS_DISTRO": "the release whose form of the graph messages is published first",
+    "ROS_DISTRO": "selects the ROS 2 release whose form of graph messages is preferred",
     "ROS_DOMAIN_ID": "the domain; only processes in the same domain find each other",
     "ROS_HOME": "the folder of ROS's files, such as log files",
     "ROS_LOCALHOST_ONLY": "1: communicate on this machine only, with priority over ROS_AUTOMATIC_DISCOVERY_RANGE; 0: "
@@ -30,8 +31,8 @@ _EFFECTS: Final = {
     "ROS_LOG_DIR": "the folder of log files",
     "ROS_PYTHON_CHECK_FIELDS": "whether the types of message fields are checked when they are set",
     "ROS_STATIC_PEERS": "hosts that are contacted without multicast",
-    "ZENOH_CONFIG_OVERRIDE": "single values of the configuration of Zenoh sessions and routers",
-    "ZENOH_ROUTER_CHECK_ATTEMPTS": "how often a starting process checks whether there is a Zenoh router",
+    "ZENOH_CONFIG_OVERRIDE": "individual values of the configuration of Zenoh sessions and routers",
+    "ZENOH_ROUTER_CHECK_ATTEMPTS": "how often a starting process checks for a Zenoh router",
     "ZENOH_ROUTER_CONFIG_URI": "the configuration file of coframe router",
     "ZENOH_SESSION_CONFIG_URI": "the configuration file of Zenoh sessions",
 }

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A test of Zenoh: a session with the configuration of this environment, and what it connects to."""
+"""Test Zenoh: open a session with the configuration of this environment, and report its connections."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _VARIABLES: Final = (config.SESSION_FILE, config.OVERRIDE)
 
 @dataclass(frozen=True)
 class ZenohProbe:
-    """What a Zenoh session of this process connects to.
+    """The connections of a Zenoh session of this process.
 
     Attributes:
         version: The version of eclipse-zenoh.

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Drawings of the frames of a robot as trees: for terminals, as images, and as text for other programs.
+"""Draw the frames of a robot as trees: for terminals, as images, and as text for other programs.
 
 The package is built in layers:
 
-- A `Forest` is what is drawn: the frames in the order of drawing, each below its parent, with the figures of its
-  edges. `grow` builds it from an observation (`coframe.doctor`), live or recorded; the figures are those of
+- A `Forest` contains the frames in drawing order, each below its parent, with the statistics of its edges. `grow`
+  builds it from an observation (`coframe.doctor`), live or recorded; the statistics are those of
   `coframe.doctor.figures`.
-- `labels` formats the figures of a frame as short lines, and makes any name printable.
+- `labels` formats the statistics of a frame as short lines, and makes any name printable.
 - Each format has a module: `text` (rows for a terminal), `graphviz`, `mermaid`, `plain` (data for JSON), and `svg`,
   `pdf` and `png`, which write the boxes and lines that `layout` places.
 - `changes` compares two forests.

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Builds the forest of frames from an observation."""
+"""Build the forest of frames from an observation."""
 
 from __future__ import annotations
 
@@ -17,9 +17,9 @@ __all__ = ["grow"]
 
 
 def grow(observation: Observation) -> Forest:
-    """Return the trees as a buffer holds them at the end of the observation."""
+    """Return the trees as they are in a buffer at the end of the observation."""
     parents = {child: edge.parent for child, edge in observation.last.items()}
-    # Children are drawn in the order of their names.
+    # Children are drawn in alphabetical order.
     trees = FrameTrees.from_parents(parents, sorted(observation.frames))
     figures: dict[str, list[EdgeFigures]] = {}
     for edge in edge_figures(observation):

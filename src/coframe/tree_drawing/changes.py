@@ -23,7 +23,7 @@ class Change(NamedTuple):
         kind: ``new``, ``gone``, ``moved`` (it has another parent), ``stale``, or ``resumed`` (it is published
             again).
         frame: The frame.
-        text: A sentence without a full stop.
+        text: A description without a full stop.
     """
 
     kind: str
@@ -32,7 +32,7 @@ class Change(NamedTuple):
 
 
 def changes(before: Forest, after: Forest) -> Iterator[Change]:
-    """Yield the frames that are new, changed or gone, in the order of drawing."""
+    """Yield the frames that are new, changed or gone, in drawing order."""
     for name, frame in after.frames.items():
         old = before.frames.get(name)
         if old is None:

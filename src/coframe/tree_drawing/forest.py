@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Forest: the frames as trees, each with the figures of the edge to its parent."""
+"""Forest: the frames as trees, each with the statistics of the edge to its parent."""
 
 from __future__ import annotations
 
@@ -25,8 +25,8 @@ class Frame:
         root: The root of the tree in which it is drawn.
         depth: The number of edges up to the root.
         children: The frames that are drawn below it, by name.
-        edges: The figures of the edge from its parent, one entry per publisher.
-        other_edges: The figures of the edges from other parents. A tree can contain only one of these edges.
+        edges: The statistics of the edge from its parent, one entry per publisher.
+        other_edges: The statistics of the edges from other parents. A tree can contain only one of these edges.
         silence: How long no transform was received for the frame, if its edge is stale; else None.
     """
 
@@ -51,7 +51,7 @@ class Frame:
 
     @property
     def kind(self) -> str:
-        """The kind as which it is drawn: ``root``, ``stale``, ``static`` or ``moving``."""
+        """How it is drawn: ``root``, ``stale``, ``static`` or ``moving``."""
         if self.is_root:
             return "root"
         if self.silence is not None:
@@ -67,7 +67,7 @@ class Forest:
         start: The start of the observation, or of the recording; int64 nanoseconds.
         end: Its end.
         live: Whether it was received from the ROS graph, not read from a recording.
-        frames: The frames by name, in the order of drawing: tree after tree, parents before their children.
+        frames: The frames by name, in drawing order: tree after tree, parents before their children.
         trees: The number of frames of each tree by its root, the largest tree first.
         loops: The roots that are a frame of a loop, where no lookup in tf2 succeeds.
     """

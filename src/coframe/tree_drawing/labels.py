@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Names and figures of frames as short lines of text."""
+"""Format names and statistics of frames as short lines of text."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def figures(frame: Frame) -> list[str]:
 
 
 def alarms(frame: Frame) -> list[str]:
-    """Return what is wrong with the position of a frame: it is in a loop, is stale, or has other parents too."""
+    """Return what is wrong with the position of a frame: it is in a loop, is stale, or also has other parents."""
     found = [f"in a loop: below {shown(frame.parent)}"] if frame.is_root and frame.parent else []
     if frame.silence is not None:
         found.append(f"stale: no transform for {duration(frame.silence)}")
@@ -35,7 +35,7 @@ def alarms(frame: Frame) -> list[str]:
 
 
 def edge_figures(edge: EdgeFigures) -> list[str]:
-    """Return the figures of one publisher of an edge; a static edge has none."""
+    """Return the statistics of one publisher of an edge; a static edge has none."""
     if edge.static:
         return [f"static{_by(edge)}"]
     rate = ["published once" if edge.rate is None else f"{edge.rate:.1f} Hz"]

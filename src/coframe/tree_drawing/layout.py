@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A forest as boxes, lines and texts on a page: roots on the left, each frame to the right of its parent, no overlaps.
+"""Lay out a forest as boxes, lines and labels without overlaps: roots left, each frame to the right of its parent.
 
-Lengths are pixels of 1/96 inch, and y points down. Boxes have a margin, as the width of texts depends on the font.
+Lengths are pixels of 1/96 inch, and y points down. Boxes have a margin, because the width of text depends on the font.
 """
 
 from __future__ import annotations
@@ -75,7 +75,7 @@ class Drawing(NamedTuple):
 
 
 class _Block(NamedTuple):
-    """The texts of a frame, each line with its colour, and the size of its box."""
+    """The lines of text of a frame with their colours, and the size of its box."""
 
     name: str
     lines: list[tuple[str, str]]
@@ -138,7 +138,7 @@ def _block(frame: Frame, spell: Callable[[str], str]) -> _Block:
 
 
 def _width(text: str, size: float, bold: bool = False) -> float:
-    """Return the estimated width in a sans-serif font; most texts are narrower."""
+    """Return the estimated width in a sans-serif font; most text is narrower."""
     units = sum(2.0 if unicodedata.east_asian_width(c) in "WF" else 1.4 if c in _BROAD else 1.0 for c in text)
     return units * size * (0.62 if bold else 0.54)
 

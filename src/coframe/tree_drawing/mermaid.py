@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A forest as a flowchart of Mermaid, which code hosts draw inside Markdown."""
+"""A forest as a Mermaid flowchart, which code hosting sites draw inside Markdown."""
 
 from __future__ import annotations
 
@@ -67,6 +67,6 @@ def _ids(forest: Forest) -> dict[str, str]:
 
 
 def _escaped(text: str) -> str:
-    """Return a text in which special characters are replaced by the codes of Mermaid."""
+    """Return text with special characters replaced by Mermaid's codes."""
     text = text.replace("\\", "\N{REVERSE SOLIDUS OPERATOR}")  # Mermaid breaks lines at \\n, even if it is escaped
     return "".join(c if c.isalnum() or c in " _/.,:" else f"#{ord(c)};" for c in text)

@@ -12,7 +12,7 @@ __all__ = ["as_data"]
 
 
 def as_data(forest: Forest) -> dict[str, Any]:
-    """Return the data that ``--json`` prints, as docs/how-to/tree-diagrams.md describes it. Times are nanoseconds."""
+    """Return the data that ``--json`` prints, documented in docs/how-to/tree-diagrams.md. Times are nanoseconds."""
     return {
         "live": forest.live,
         "start_ns": forest.start,

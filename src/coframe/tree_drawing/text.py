@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A forest as rows for a terminal: branches and names in the first column, figures in the others."""
+"""A forest as rows for a terminal: branches and names in the first column, statistics in the others."""
 
 from __future__ import annotations
 
@@ -26,8 +26,8 @@ class Row(NamedTuple):
 
     Attributes:
         branches: The branches in front of the name.
-        name: The name of the frame; "" in further rows of the same frame.
-        cells: The texts of the other :data:`COLUMNS`.
+        name: The name of the frame; "" in additional rows of the same frame.
+        cells: The contents of the other :data:`COLUMNS`.
         frame: The frame of the row.
         kind: As :attr:`Frame.kind`, or ``other`` for an edge from another parent.
     """
@@ -40,7 +40,7 @@ class Row(NamedTuple):
 
 
 def rows(forest: Forest) -> Iterator[Row]:
-    """Yield the rows of tree after tree: one for each frame, and one for each further publisher of its edge."""
+    """Yield the rows of tree after tree: one for each frame, and one for each additional publisher of its edge."""
     last: list[bool] = []  # for each level down to the frame, whether it is the last child
     for frame in forest.frames.values():
         del last[max(frame.depth - 1, 0) :]
@@ -62,7 +62,7 @@ def _rows(frame: Frame, last: list[bool]) -> Iterator[Row]:
 
 
 def _branches(frame: Frame, last: list[bool]) -> tuple[str, str]:
-    """Return the branches in front of the name of a frame, and in front of its further rows."""
+    """Return the branches in front of the name of a frame, and in front of its additional rows."""
     stem = "│ " if frame.children else "  "
     if not last:
         return "", stem

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A node that logs the texts on the topic chatter."""
+"""A node that logs the strings on the topic chatter."""
 
 from __future__ import annotations
 

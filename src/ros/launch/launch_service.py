@@ -208,7 +208,7 @@ class LaunchService:
         loop = self.__loop
         names = ("SIGINT", "SIGTERM", "SIGQUIT", "SIGHUP", "SIGBREAK")
         numbers = [getattr(signal, name) for name in names if hasattr(signal, name)]
-        # nohup sets SIGHUP to be ignored, and it stays so.
+        # nohup ignores SIGHUP, which must stay ignored.
         numbers = [number for number in numbers if signal.getsignal(number) is not signal.SIG_IGN]
         handlers = SignalHandlers()
         for number in numbers:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Rules of parameter descriptors: types, read-only parameters and ranges. The texts are upstream's."""
+"""Rules of parameter descriptors: types, read-only parameters and ranges. The messages are upstream's."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Compatibility of the QoS profiles of a publisher and a subscription, with the texts of upstream's middleware."""
+"""Compatibility of the QoS profiles of a publisher and a subscription, with the messages of upstream's middleware."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ class QoSCompatibility(Enum):
         return str(self)
 
 
-# For each policy: what is weaker than requested, and the texts of the error and of the two warnings.
+# For each policy: what is weaker than requested, and the messages of the error and of the two warnings.
 _POLICIES: Final = {
     "reliability": (
         ("best_effort", "reliable"),

@@ -19,7 +19,7 @@ Exception
 │   └── ParameterUninitializedException
 └── ROSInterruptException              a shutdown interrupted a sleep
 
-The texts and arguments of the exceptions are upstream's. What coframe adds is in `hint`, which a traceback shows.
+The messages and arguments of the exceptions are upstream's. coframe adds `hint`, which a traceback shows.
 """
 
 from __future__ import annotations

@@ -58,7 +58,7 @@ class SequentialWriter:
         )
 
     def remove_topic(self, topic_with_type: TopicMetadata) -> None:
-        """Refuse further messages of a topic."""
+        """Reject more messages on a topic."""
         self.__topics.pop(topic_with_type.name, None)
 
     def write(self, topic_name: str, message: bytes, time_stamp: int, *_sequence_number: int) -> None:

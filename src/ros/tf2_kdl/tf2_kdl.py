@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Conversion and transformation of PyKDL's objects.
 
-Objects with a header are instances of subclasses, because PyKDL's own objects cannot have further attributes.
+Objects with a header are instances of subclasses, because PyKDL's own objects cannot have additional attributes.
 """
 
 from typing import Any

@@ -53,7 +53,7 @@ _NO_TIME = Time()
 class BufferCore:
     """Buffer that stores the transforms of the last seconds and answers lookups.
 
-    Names, arguments and texts are those of ROS 2's `tf2_py.BufferCore`. Times and durations are objects of rclpy or
+    Names, arguments and messages are those of ROS 2's `tf2_py.BufferCore`. Times and durations are objects of rclpy or
     messages. Time zero requests the latest transform. Lookups raise subclasses of `TransformException`.
     """
 

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: Apache-2.0
-"""ROS packages and their executables: in a sourced workspace, in source folders without a build, and built in."""
+"""Find ROS packages and their executables: in a sourced workspace, in source folders without a build, and built-in."""

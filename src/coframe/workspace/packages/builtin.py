@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The executables of ROS packages that coframe provides itself."""
+"""The executables of the ROS packages that coframe provides."""
 
 from __future__ import annotations
 

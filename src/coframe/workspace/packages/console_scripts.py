@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The console scripts that a Python package declares, read from its files without running them."""
+"""Read the console scripts that a Python package declares, without running its files."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ class PythonPackage(NamedTuple):
 
 
 def read(package: Path) -> PythonPackage:
-    """Read ``setup.py``, ``setup.cfg`` and ``pyproject.toml``; files that are missing or damaged declare nothing."""
+    """Read ``setup.py``, ``setup.cfg`` and ``pyproject.toml``; missing or damaged files are ignored."""
     scripts: dict[str, str] = {}
     files: tuple[str, ...] = ()
     root = ""
@@ -125,7 +125,7 @@ def _from_setup_arguments(arguments: dict[str, Any]) -> PythonPackage:
 
 
 def _short(value: str | list[Any]) -> Any:
-    """Return a value, None if it is longer than a file: a few lines can double a text any number of times."""
+    """Return a value; None if it is longer than a file, because a few lines can double a string any number of times."""
     return value if len(value) <= MAX_BYTES else None
 
 
@@ -134,7 +134,7 @@ def _called(function: ast.expr) -> str:
 
 
 def _value(node: ast.expr, names: dict[str, Any]) -> Any:
-    """Return the value of a literal, a name of one, or strings put together from them; None for anything else."""
+    """Return the value of a literal, a variable, or a string composed of these; None for anything else."""
     if isinstance(node, ast.Constant):
         return node.value
     if isinstance(node, ast.Name):

@@ -35,8 +35,8 @@ class Executable(NamedTuple):
     Attributes:
         package: Name of the package.
         name: Name of the executable.
-        command: The words that start it.
-        python_path: Folders to put in front of PYTHONPATH.
+        command: The command line that starts it.
+        python_path: Folders to prepend to PYTHONPATH.
     """
 
     package: str

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Search for packages by name: installations in AMENT_PREFIX_PATH, then sources, then coframe's own packages."""
+"""Find packages by name: installations in AMENT_PREFIX_PATH, then sources, then coframe's own packages."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ _SEARCHED = (
 
 
 class Package(NamedTuple):
-    """A package that was found.
+    """A found package.
 
     Attributes:
         name: Its name.
@@ -73,7 +73,7 @@ def candidates(name: str) -> Iterator[Package]:
     for folder in _all_source_folders():
         source = _below(folder).get(name)
         if source is None and folder in listed(_SOURCES) and is_dir(folder / name):
-            source = folder / name  # A folder that the user has named may contain packages without a manifest.
+            source = folder / name  # A folder specified by the user may contain packages without a manifest.
         if source is not None:
             yield Package(name, source, source.parent, "source")
     if name in builtin.EXECUTABLES:

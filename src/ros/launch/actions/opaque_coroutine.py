@@ -22,7 +22,7 @@ class OpaqueCoroutine(Action):
 
     Args:
         coroutine: The coroutine function, whose first argument is the context.
-        args: Further positional arguments.
+        args: Additional positional arguments.
         kwargs: Keyword arguments.
         ignore_context: Do not pass the context.
         condition: Run it only if this condition holds.

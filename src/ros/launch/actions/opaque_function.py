@@ -21,7 +21,7 @@ class OpaqueFunction(Action):
 
     Args:
         function: The function, whose first argument is the context.
-        args: Further positional arguments.
+        args: Additional positional arguments.
         kwargs: Keyword arguments.
         condition: Call it only if this condition holds.
     """

@@ -36,7 +36,7 @@ class Executable:
         cwd: Working directory.
         env: Environment; None for that of this process.
         additional_env: Variables to add to the environment.
-        arguments: Further words of the command.
+        arguments: Additional arguments of the command.
     """
 
     def __init__(

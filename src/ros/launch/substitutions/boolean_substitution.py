@@ -169,7 +169,7 @@ class AllSubstitution(_Several):
 
 @expose_substitution("if")
 class IfElseSubstitution(Substitution):
-    """One of two texts, depending on a truth value."""
+    """One of two strings, depending on a boolean."""
 
     def __init__(
         self,
@@ -208,6 +208,6 @@ class IfElseSubstitution(Substitution):
         return f"IfElseSubstitution({', '.join(' + '.join(each.describe() for each in part) for part in parts)})"
 
     def perform(self, context: LaunchContext) -> str:
-        """Return one of the texts."""
+        """Return one of the strings."""
         chosen = self._if_value if _truth(context, self._condition) else self._else_value
         return perform_substitutions(context, chosen)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The substitutions that compare two texts."""
+"""Substitutions that compare two strings."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ _TRUTH = {"true": True, "1": True, "false": False, "0": False}
 
 @expose_substitution("equals")
 class EqualsSubstitution(Substitution):
-    """Whether two texts are equal, also as truth values or as numbers."""
+    """Whether two strings are equal, also as booleans or numbers."""
 
     def __init__(self, left: Any, right: Any) -> None:
         self.__left = _normalized(left)
@@ -70,7 +70,7 @@ class EqualsSubstitution(Substitution):
 
 @expose_substitution("not-equals")
 class NotEqualsSubstitution(EqualsSubstitution):
-    """Whether two texts differ, also as truth values and as numbers."""
+    """Whether two strings differ, also as booleans and numbers."""
 
     def perform(self, context: LaunchContext) -> str:
         """Return ``true`` or ``false``."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The substitution of texts that are joined by a delimiter."""
+"""The substitution that joins strings with a delimiter."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ __all__ = ["StringJoinSubstitution"]
 
 
 class StringJoinSubstitution(Substitution):
-    """Texts that are joined by a delimiter."""
+    """Strings joined by a delimiter."""
 
     def __init__(self, substitutions: Iterable[SomeSubstitutionsType], delimiter: SomeSubstitutionsType = "") -> None:
         self.__substitutions = [normalize_to_list_of_substitutions(part) for part in substitutions]

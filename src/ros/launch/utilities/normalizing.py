@@ -41,7 +41,7 @@ def normalize_to_list_of_substitutions(subs: SomeSubstitutionsType) -> list[Subs
 
 
 def perform_substitutions(context: LaunchContext, subs: Iterable[Substitution]) -> str:
-    """Return the texts of substitutions, joined."""
+    """Return the joined results of substitutions."""
     return "".join(context.perform_substitution(sub) for sub in subs)
 
 

@@ -54,7 +54,7 @@ def extract_type(data_type: Any) -> tuple[Any, bool]:
 
 
 def is_instance_of(value: Any, data_type: Any, *, can_be_str: bool = False) -> bool:
-    """Return whether a value has a type such as `int` or `List[int]`; with `can_be_str`, texts do, too."""
+    """Return whether a value has a type such as `int` or `List[int]`; with `can_be_str`, strings also count."""
     if data_type is None:
         return True
     if can_be_str and (isinstance(value, str) or (isinstance(value, list) and all(isinstance(v, str) for v in value))):
@@ -110,12 +110,12 @@ def _is_uniform_list(value: Any) -> bool:
 
 
 def coerce_list(value: Iterable[str], data_type: Any = None, *, can_be_str: bool = False) -> list[Any]:
-    """Return the values of several texts."""
+    """Return the values of several strings."""
     return [coerce_to_type(item, data_type, can_be_str=can_be_str) for item in value]
 
 
 def get_typed_value(value: str | list[str], data_type: Any, *, can_be_str: bool = False) -> Any:
-    """Return the value of a text or of a list of texts as the given type."""
+    """Return the value of a string or list of strings as the given type."""
     if isinstance(value, list):
         return coerce_list(value, extract_type(data_type)[0], can_be_str=can_be_str)
     return coerce_to_type(value, data_type, can_be_str=can_be_str)

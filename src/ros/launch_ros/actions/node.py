@@ -68,7 +68,7 @@ class Node(ExecuteLocal):
         exec_name: Name of the process in the output.
         parameters: Dictionaries, files and descriptions of parameters; later ones override earlier ones.
         remappings: Pairs of names.
-        ros_arguments: Further arguments after ``--ros-args``.
+        ros_arguments: Additional arguments after ``--ros-args``.
         arguments: Arguments of the program.
         options: Keyword arguments of ExecuteProcess.
     """
