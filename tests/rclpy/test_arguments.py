@@ -283,6 +283,7 @@ def test_all_blocks_of_a_node_in_a_parameter_file_count(tmp_path):
         ("arm:\n  ros__parameters: {a: [[1], [2]]}\n", "Sequences cannot be key at line 2"),
         ("arm:\n  ros__parameters: {a: [{b: 1}]}\n", "Mappings cannot be in lists at line 2"),
         ("arm:\n  ros__parameters: {'': 1}\n", "No key at line 2"),
+        ("{}:\n  arm:\n    ros__parameters: {a: 1}\n", "Expected the name of a parameter at line 3"),
         ("ros__parameters: {a: 1}\n", "There are no node names before ros__parameters at line 1"),
         ("my-arm:\n  ros__parameters: {a: 1}\n", "'my-arm' above line 2 is not the name of a node"),
         ("a//b:\n  ros__parameters: {a: 1}\n", "'a//b' above line 2 is not the name of a node"),

@@ -232,7 +232,9 @@ class _FileReader:
             raise ValueError(f"No key at line {line}")
         if self._is_in_block:
             if self._is_new_mapping:
-                self._prefix.replace(self._parameter or name)
+                if self._parameter is None:
+                    raise ValueError(f"Expected the name of a parameter at line {line}")
+                self._prefix.replace(self._parameter)
                 self._is_new_mapping = False
             self._parameter = f"{self._prefix.text}.{name}" if self._prefix.depth else name
             self._value = _Value()
