@@ -22,7 +22,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import coframe
-from coframe.connection.shared_transforms import Source
+from coframe.connection.listener_config import ListenerConfig
+from coframe.connection.shared_transforms import open_segment
 from coframe.time import SECOND
 
 if TYPE_CHECKING:
@@ -121,7 +122,7 @@ def _takeovers(kills: int) -> list[float]:
     """Kill the receiving process again and again; return how long no newer transform could be looked up, in ms."""
     gaps = []
     with _running(3, READER, "shared") as processes:
-        segment = Source(DOMAIN, "/tf", "/tf_static", 10 * SECOND).open()  # this process only reads
+        segment = open_segment(ListenerConfig.of(domain=DOMAIN))  # this process only reads
         buffer = coframe.Buffer()
         segment.follow(buffer)
         for _ in range(kills):
