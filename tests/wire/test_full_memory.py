@@ -89,7 +89,7 @@ def test_memory_that_becomes_full_is_reported_and_known_frames_are_stored():
         while ros.buffer.lookup("map", "base0_0").stamp == first:
             publish(["base0_0"])
             time.sleep(0.01)
-        print(ros.buffer.lookup("map", "base0_0").translation.tolist(), ros._shared is not None)
+        print(ros.buffer.lookup("map", "base0_0").translation.tolist(), ros.shared)
         while len(logged) < 2:
             time.sleep(0.01)
         ros.close()
@@ -140,7 +140,7 @@ def test_transforms_that_another_program_truncates_raise_an_error(size):
         thread = threading.Thread(target=publish_all)
         thread.start()
         writer.buffer.wait("map", "base0")
-        assert writer._shared.writes
+        assert writer._receiver.transforms.writes
         program = [sys.executable, "-c", textwrap.dedent(reader)]
         process = subprocess.Popen(program, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
         process.stdout.readline()

@@ -103,7 +103,7 @@ def receiver(domain_id):
 
 def test_another_process_reads_without_a_subscription(receiver, domain_id):
     reader = Reader(domain_id)
-    assert reader("ros.shared and not ros._shared.writes")
+    assert reader("ros.shared and not ros._receiver.transforms.writes")
     assert reader("ros._participant is None")
     assert reader("ros.buffer.frame_names()") == ["base", "map"]
     assert reader("'base' in str(ros.buffer.why('map', 'base'))")
@@ -120,14 +120,14 @@ def test_another_process_reads_without_a_subscription(receiver, domain_id):
 def test_another_process_takes_over_when_the_writer_is_killed(domain_id, eventually):
     with broadcasting(domain_id) as ros:
         writer, reader = Reader(domain_id), Reader(domain_id)
-        assert writer("ros._shared.writes")
+        assert writer("ros._receiver.transforms.writes")
         stored = reader("ros.buffer.lookup('map', 'base').stamp")
         os.kill(writer.process.pid, signal.SIGKILL)
         writer.process.communicate()
         assert reader(f"ros.buffer.lookup('map', 'base', {stored}).x") == 3.0
         assert reader("ros.buffer.wait('map', 'base', time.time_ns() + 100_000_000, timeout='30s').x") == 3.0
-        eventually(lambda: reader("ros._shared.writes"))
-        assert reader("ros._shared.writer_process") == reader.process.pid
+        eventually(lambda: reader("ros._receiver.transforms.writes"))
+        assert reader("ros._receiver.transforms.writer_process") == reader.process.pid
         reader.end()
         assert ros is not None
 
@@ -192,7 +192,7 @@ def test_a_hub_receives_for_the_others(domain_id, eventually):
     options = {"domain": domain_id, "prefix": "robot1/", "keep": "map", "shared": True}
     with broadcasting(domain_id) as publisher, coframe.connect("reader", **options) as ros:
         assert ros.buffer.wait("map", "robot1/base", timeout="30s").x == 3.0
-        assert ros._shared.writer_process == hub.pid
+        assert ros._receiver.transforms.writer_process == hub.pid
         assert any("2 frames in" in line for line in iter(hub.stderr.readline, ""))
         statics = publisher.participant.static_broadcaster(publisher.node)
         publish_statics(statics, "lidar", "camera")
@@ -202,11 +202,11 @@ def test_a_hub_receives_for_the_others(domain_id, eventually):
         with coframe.connect("late", **options) as late:
             assert late.buffer.wait("robot1/base", "robot1/lidar", timeout="30s").x == 1.0
             assert "robot1/camera" not in late.buffer
-            assert late._shared.writer_process == hub.pid
+            assert late._receiver.transforms.writer_process == hub.pid
         hub.send_signal(signal.SIGINT)
         hub.communicate(timeout=30)
         assert hub.returncode == 0
-        eventually(lambda: ros._shared.writes)
+        eventually(lambda: ros._receiver.transforms.writes)
 
 
 def publish_statics(broadcaster, *children):
@@ -225,27 +225,31 @@ def test_a_late_listener_does_not_see_withdrawn_statics(receiver, statics, start
     publish_statics(statics, "lidar", "camera")
     receiver.buffer.wait("base", "camera", timeout="30s")
     same = start_reader()
-    assert same("ros._shared.writer_process") == os.getpid()
+    assert same("ros._receiver.transforms.writer_process") == os.getpid()
     publish_statics(statics, "lidar")
     receiver.buffer.wait("map", "base", receiver.buffer.lookup("map", "base").stamp + 1, timeout="30s")
     late, later = start_reader(), start_reader()
     for reader in (late, later):
         assert reader("ros.buffer.wait('base', 'lidar', timeout='30s').x") == 1.0
         assert reader("'camera' in ros.buffer.frame_names()") is False
-        assert reader("ros._shared.writer_process") == late.process.pid, "late listeners share with each other"
+        assert reader("ros._receiver.transforms.writer_process") == late.process.pid, (
+            "late listeners share with each other"
+        )
     assert same("'camera' in ros.buffer.frame_names()") is True
     publish_statics(statics, "lidar", "camera")
     receiver.buffer.wait("map", "base", receiver.buffer.lookup("map", "base").stamp + 1, timeout="30s")
-    assert start_reader()("ros._shared.writer_process") == os.getpid(), "all of the first memory is published again"
+    assert start_reader()("ros._receiver.transforms.writer_process") == os.getpid(), (
+        "all of the first memory is published again"
+    )
 
 
 def test_statics_of_a_publisher_that_has_ended_are_withdrawn(receiver, eventually):
     node = receiver.participant.add_node("/", "statics")
     publish_statics(receiver.participant.static_broadcaster(node), "lidar")
     assert receiver.buffer.wait("base", "lidar", timeout="30s").x == 1.0
-    assert not receiver._shared.outdated
+    assert not receiver._receiver.transforms.outdated
     node.close()
-    eventually(lambda: receiver._shared.outdated)
+    eventually(lambda: receiver._receiver.transforms.outdated)
     assert receiver.buffer.lookup("base", "lidar").x == 1.0
 
 
@@ -257,11 +261,11 @@ def test_statics_stay_published_when_another_process_takes_over(domain_id, start
         os.kill(writer.process.pid, signal.SIGKILL)
         writer.process.communicate()
         assert reader("ros.buffer.wait('map', 'base', time.time_ns() + 100_000_000, timeout='30s').x") == 3.0
-        eventually(lambda: reader("ros._shared.writes"))
-        assert reader("ros._shared.outdated") is False
+        eventually(lambda: reader("ros._receiver.transforms.writes"))
+        assert reader("ros._receiver.transforms.outdated") is False
         assert reader("ros.wait_for_statics('30s')")
-        assert reader("[one.settle_statics() for one in ros._shared.readers]") == [None, None]
-        assert reader("ros._shared.outdated") is False
+        assert reader("[one.settle_statics() for one in ros._receiver.transforms.readers]") == [None, None]
+        assert reader("ros._receiver.transforms.outdated") is False
 
 
 def hub_status(domain, *, code):
@@ -284,7 +288,7 @@ def test_status_of_the_receiving_process(domain_id, start_reader, caplog, monkey
         with coframe.connect("reader", domain=domain_id, shared=True) as ros:
             os.kill(process, signal.SIGSTOP)
             try:
-                eventually(lambda: ros._shared.writer_is_suspended)
+                eventually(lambda: ros._receiver.transforms.writer_is_suspended)
                 sentence = f"Process {process}, which receives the shared transforms, is suspended: no new transforms"
                 assert sentence in hub_status(domain_id, code=1)
                 eventually(lambda: sentence in caplog.text)
@@ -335,7 +339,7 @@ def test_memory_of_programs_that_have_ended_is_removed(tmp_path, domain_id, monk
     used = _core.Segment.open(str(folder), "232-used", 10**10)
     assert len(memory_of(232, folder)) == 2
     with coframe.connect("one", domain=domain_id, shared=True) as ros:
-        assert ros._shared.writes
+        assert ros._receiver.transforms.writes
         assert [file.name.startswith("232-used") for file in memory_of(232, folder)] == [True]
     used.close()
 

@@ -1,19 +1,16 @@
 # SPDX-License-Identifier: Apache-2.0
 """`coframe.connect()`: a node with a buffer that receives transforms, and with publishers and subscriptions."""
 
-# ruff: noqa: SLF001 - Sharing requires private members of the buffer.
-
 from __future__ import annotations
 
 import logging
 import threading
 import time
-import weakref
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 from coframe import _core
 from coframe.connection.listener_config import ListenerConfig
-from coframe.connection.shared_transforms import SharedTransforms
+from coframe.connection.receivers import Request, SharedReceiver, open_receiver
 from coframe.connection.tf_publishers import TfPublisher, publishers_of
 from coframe.errors import DecodeError, WireError
 from coframe.time import MILLISECOND, SECOND, duration_ns
@@ -30,10 +27,10 @@ if TYPE_CHECKING:
 
     from typing_extensions import Self
 
+    from coframe.connection.receivers import Receiver
     from coframe.messages.message import Message
     from coframe.viewer import Viewer
     from coframe.wire.endpoints import GraphNode, Publisher, Subscription
-    from coframe.wire.tf_reader import TfReader
 
 _logger = logging.getLogger("coframe.wire")
 
@@ -171,10 +168,12 @@ class Connection:
         self._closing = threading.RLock()
         self._closed = False
         self._subscriptions: list[MessageSubscription[Any]] = []
-        self._readers: list[TfReader] = []
-        self._shared = self._share() if shared else None
-        if self._shared is None:
-            self._receive()
+        self._receiver: Receiver | None = None
+        try:
+            self._receiver = open_receiver(self._request(shared=shared))
+        except BaseException:
+            self.close()
+            raise
 
     @property
     def participant(self) -> Participant:
@@ -189,7 +188,7 @@ class Connection:
     @property
     def shared(self) -> bool:
         """Whether the buffer reads transforms that one process receives for all processes."""
-        return self._shared is not None
+        return self._receiver is not None and self._receiver.shared
 
     def publisher(self, topic: str, message_type: type[M], qos: QoS | int | None = None) -> MessagePublisher[M]:
         """Create a publisher on a topic.
@@ -245,13 +244,19 @@ class Connection:
 
     def publishers(self) -> list[TfPublisher]:
         """Return the publishers from which transforms were received, including those that have left."""
-        participant, readers = self._receiver()
-        return [publisher for reader in readers for publisher in publishers_of(participant, reader)]
+        receiver = self._receiver
+        if receiver is None:
+            return []
+        participant = receiver.participant
+        return [publisher for reader in receiver.readers for publisher in publishers_of(participant, reader)]
 
     def awaited_statics(self) -> list[str]:
         """Return the nodes whose publishers of static transforms have not delivered anything yet."""
-        participant, readers = self._receiver()
-        awaited = {writer for reader in readers if reader.static for writer in reader.awaited_writers()}
+        receiver = self._receiver
+        if receiver is None:
+            return []
+        participant = receiver.participant
+        awaited = {writer for reader in receiver.readers if reader.static for writer in reader.awaited_writers()}
         return sorted(participant.writer_node(writer) or "an unnamed node" for writer in awaited)
 
     def wait_for_statics(self, timeout: float | str = STATICS_TIMEOUT) -> bool:
@@ -292,10 +297,8 @@ class Connection:
             self._closed = True
         for subscription in self._subscriptions:
             subscription.close()
-        if self._shared is not None:
-            self.buffer._on_local_change(None)
-            self.buffer._stop_following()
-            self._shared.leave()
+        if self._receiver is not None:
+            self._receiver.close()
         if self._participant is not None:
             self._node.close()
             self._participant.close()
@@ -323,55 +326,19 @@ class Connection:
                 self._participant = participant
             return self._participant, self._node
 
-    def _receive(self) -> None:
-        """Subscribe to the transforms."""
-        participant, node = self._join()
-        try:
-            self._readers = [
-                participant.tf_reader(
-                    node, topic, self.buffer, static=static, authority=None, renaming=self.config.renaming
-                )
-                for topic, static in zip(self.config.topics, (False, True), strict=True)
-            ]
-        except BaseException:
-            self.close()
-            raise
-
-    def _share(self) -> SharedTransforms | None:
-        """Let the buffer read the transforms that one process receives for all; return None if that is impossible."""
-        try:
-            shared = SharedTransforms.join(self.config)
-        except _core.SegmentError as error:
-            _logger.warning("The transforms are not shared with other processes: %s", error)
-            return None
-        shared.follow(self.buffer)
-        method = weakref.WeakMethod(self._receive_alone)
-
-        def receive_alone() -> None:
-            receive = method()
-            if receive is not None:
-                receive()
-
-        self.buffer._on_local_change(receive_alone)
-        return shared
+    def _request(self, *, shared: bool) -> Request:
+        return Request(self.config, self.buffer, self._join, self._receive_alone, shared)
 
     def _receive_alone(self) -> None:
         """Stop sharing and detach the buffer, because the program changes it."""
         with self._closing:
-            shared, self._shared = self._shared, None
-            if shared is None or self._closed:
+            receiver = self._receiver
+            if self._closed or not isinstance(receiver, SharedReceiver):
                 return
             _logger.info("The buffer no longer shares its transforms with other processes, because it was changed.")
-            self.buffer._stop_following()
-            self._receive()
-            shared.leave()
-
-    def _receiver(self) -> tuple[Participant, list[TfReader]]:
-        """Return the subscriptions to the transforms in this process."""
-        shared = self._shared
-        if shared is None:
-            return self.participant, self._readers
-        return shared.participant or self.participant, shared.readers
+            receiver.detach()
+            self._receiver = open_receiver(self._request(shared=False))
+            receiver.leave()
 
     def _check(self, topic: Any, message_type: Any) -> None:
         if self._closed:
