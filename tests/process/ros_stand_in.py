@@ -14,11 +14,12 @@ import re
 import shutil
 from pathlib import Path
 
+import coframe
 from coframe.workspace import ros_folders
 
 THEIRS = "theirs"  # the package with the copies of coframe.messages and coframe.wire
 _OTHER = ("tf2_geometry_msgs", "sensor_msgs_py")
-_CHECK = re.compile(r"^from coframe import ros_side\n|^ros_side\.check\(.*\)\n", re.MULTILINE)
+_CHECK = re.compile(r"^from coframe\.workspace import ros_side\n|^ros_side\.check\(.*\)\n", re.MULTILINE)
 _MODULES = re.compile(r"\bcoframe\.(messages|wire)\b")
 _CLASS_MODULE = 'cls.__module__ = ".".join(cls.ROS_TYPE.split("/")[:-1])'
 _PRIVATE = "_Coframe__"
@@ -27,9 +28,9 @@ _RCL_ERROR = re.compile(r"\bRCLError\b")
 
 def make(folder: Path) -> None:
     """Write the packages of the stand-in into a folder."""
-    coframe = Path(ros_folders.__file__).parent
+    library = Path(coframe.__file__).parent
     for part in ("messages", "wire"):
-        shutil.copytree(coframe / part, folder / THEIRS / part, ignore=shutil.ignore_patterns("__pycache__"))
+        shutil.copytree(library / part, folder / THEIRS / part, ignore=shutil.ignore_patterns("__pycache__"))
     for package in (*ros_folders.PACKAGES, *_OTHER):
         shutil.copytree(
             ros_folders.ros_folder() / package, folder / package, ignore=shutil.ignore_patterns("__pycache__")
