@@ -32,7 +32,7 @@ _Names = TypeVar("_Names")
 _TF_TYPE = "tf2_msgs/msg/TFMessage"
 _DISCOVERY = 0.6  # seconds: the longest discovery of topics or frames
 _UNCHANGED = 0.2  # seconds without a new name, after which the known names are complete
-_MAX_BYTES = 200 << 20  # bytes: reading more takes longer than typing the name
+_MAX_BYTES = 200 << 20  # bytes; reading more would take longer than typing the name
 
 
 def _silent(complete: Callable[..., _Names]) -> Callable[..., _Names | list[str]]:

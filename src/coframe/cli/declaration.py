@@ -33,7 +33,7 @@ class Argument(click.Argument):
 
     def __init__(self, names: list[str], *, help: str | Callable[[], str] = "", **attributes: Any) -> None:  # noqa: A002 - click's name
         super().__init__(names, **attributes)
-        self.help: Any = help  # click before 8.5 has none.
+        self.help: Any = help  # Not available before click 8.5.
 
 
 def argument(name: str, **attributes: Any) -> Callable[[Declared], Declared]:

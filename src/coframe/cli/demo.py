@@ -160,7 +160,7 @@ def _robot() -> Robot | None:
 
 
 def _duplicate_nodes(ros: Connection, nodes: Launcher) -> list[str]:
-    """Return a warning if nodes of the same names run elsewhere: with two publishers, the arm flickers."""
+    """Return a warning if nodes with the same names are already running: with two publishers, the arm flickers."""
     counts = Counter(name for _, name in ros.participant.nodes())
     duplicates = [name for name in nodes.names if counts[name] > 1]
     if not duplicates:

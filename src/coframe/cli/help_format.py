@@ -33,7 +33,7 @@ def write_description(command: click.Command, formatter: click.HelpFormatter) ->
 
 
 def write_arguments(command: click.Command, ctx: click.Context, formatter: click.HelpFormatter) -> None:
-    """Write the arguments of a command with their texts."""
+    """Write the arguments of a command with their help texts."""
     rows = [(_whole_name(each), _text(each)) for each in _arguments(command, ctx)]
     write_section(formatter, "Arguments", rows)
 

@@ -41,7 +41,7 @@ if TYPE_CHECKING:
 __all__ = ["monitor"]
 
 _MIN_ROWS = 5
-_OTHER_LINES = 12  # of the screen: titles, a chain, and some publishers
+_OTHER_LINES = 12  # lines reserved on the screen for titles, a chain, and publishers
 _BROADCASTERS = "\nAll Broadcasters:"
 
 

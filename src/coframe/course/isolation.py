@@ -31,8 +31,8 @@ __all__ = [
     "limit_disk",
 ]
 
-_VARIABLE: Final = "COFRAME_ISOLATED"  # set in processes that have a network of their own
-# Domains for grades without a network of their own. The ports of those above 101 may be in use by other sockets.
+_VARIABLE: Final = "COFRAME_ISOLATED"  # set in processes that have their own network
+# Domains for grades without their own network. The ports of domains above 101 may be used by other sockets.
 _MIN_DOMAIN, _DOMAINS = 51, 50
 _SIOCGIFFLAGS, _SIOCSIFFLAGS = 0x8913, 0x8914
 _UP_AND_MULTICAST = 0x1 | 0x1000

@@ -11,7 +11,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Patience"]
 
-_MAX_FACTOR = 4  # times the limit, after which it is over in any case
+_MAX_FACTOR = 4  # multiple of the limit after which time is up in any case
 
 
 class Patience:

@@ -157,7 +157,7 @@ class Sheet:
 
 
 def _shortened(text: str) -> str:
-    """Return a text of a submission, such as the name of a frame, that may be too long to be read."""
+    """Truncate untrusted text from a submission, such as a frame name."""
     return text if len(text) <= _MAX_OBSERVATION_LENGTH else f"{text[:_MAX_OBSERVATION_LENGTH]} ..."
 
 

@@ -39,12 +39,12 @@ _CLOCK = "/clock"
 _START_PATIENCE = 15.0  # time limit for the node of a program to join the graph; see Patience
 _RESPONSE = 1.0  # seconds that a node may take for one callback, see Patience
 _MATCHING = 2.0  # seconds that a subscription may need to find a publisher, see Patience
-_MAX_MISSED = 5  # responses, after which the world does not wait for the node any more
-MAX_MESSAGES = 1000  # of a program in one step; with the highest rate of the lab, it publishes one
-_TOO_MANY = "The program publishes without a pause and was ended: it needs a timer."
-_GRAPH_PERIOD = 25 * STEP  # between two looks at the publishers of the world's topics
-_QUIET = 0.002  # seconds of real time without a message, after which all messages of a step have arrived
-_WITHOUT_RESPONSES = 0.01  # seconds of real time for each step, for a node that does not respond
+_MAX_MISSED = 5  # responses after which the world stops waiting for the node
+MAX_MESSAGES = 1000  # per program and step; at the highest rate of the lab, it publishes one
+_TOO_MANY = "The program publishes without pausing and was ended: it needs a timer."
+_GRAPH_PERIOD = 25 * STEP  # seconds between two checks of the publishers of the world's topics
+_QUIET = 0.002  # seconds of real time without a message after which a step is complete
+_WITHOUT_RESPONSES = 0.01  # seconds of real time per step for a node that does not respond
 
 
 class Received(NamedTuple):

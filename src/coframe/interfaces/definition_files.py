@@ -26,7 +26,7 @@ __all__ = [
 ]
 
 KINDS = ("msg", "srv", "action")
-MAX_BYTES = 1 << 18  # of one file; the largest of public packages have 20 000
+MAX_BYTES = 1 << 18  # per file; the largest ones in public packages have 20 000
 PACKAGE_NAME = re.compile(r"[a-z](?:_?[a-z0-9])*")
 _NAME_ELEMENT = re.compile(r"<name>\s*([\w-]+)\s*</name>")
 

@@ -41,8 +41,8 @@ class Source(NamedTuple):
     Attributes:
         origin: Why it is searched, for messages.
         folder: The folder.
-        depth: How many levels below the folder packages can be.
-        named: Whether the user has named it: then it may belong to another user.
+        depth: How many levels below the folder packages are searched.
+        named: Whether the user specified it, in which case it may belong to another user.
         package: The name of the package in the folder; "": the folder contains packages.
     """
 

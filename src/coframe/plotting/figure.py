@@ -24,8 +24,8 @@ __all__ = ["COLOURS", "FIGURE_FORMATS", "Figure", "Series", "figure_format"]
 FIGURE_FORMATS = ("svg", "png", "html")
 # Each has a contrast of at least 3.5 with a white and with a dark background.
 COLOURS = ("#2f7de1", "#d9542b", "#1f9a5b", "#a45ee0", "#a17a12", "#d6497f", "#128f9e", "#7b7f87")
-MAX_DRAWN_VALUE = 1e300  # The programs that draw compute differences of values, which would be infinite.
-_EARLIEST_DATE = 1_000_000_000 * SECOND  # Earlier stamps are those of simulations.
+MAX_DRAWN_VALUE = 1e300  # Plotting libraries compute differences of values, which could otherwise overflow.
+_EARLIEST_DATE = 1_000_000_000 * SECOND  # Earlier stamps are assumed to come from simulations.
 
 
 @dataclass(frozen=True, eq=False)

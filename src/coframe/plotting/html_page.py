@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 __all__ = ["MAX_POINTS", "as_html"]
 
-MAX_POINTS = 50_000  # per curve; a browser draws more too slowly
+MAX_POINTS = 50_000  # per curve; drawing more would be slow in a browser
 
 
 def as_html(figure: Figure) -> str:

@@ -174,7 +174,8 @@ def _nodes(report: SystemReport) -> Iterator[Advice]:
             "note",
             f"No other node was found in domain {report.domain} within {report.listened:g} s.",
             "Check for each missing node that it runs; that it has the same ROS_DOMAIN_ID; that its range and yours "
-            "include each other; that it uses DDS (RMW_IMPLEMENTATION); and that no firewall or container separates them.",
+            "include each other; that it uses DDS (RMW_IMPLEMENTATION); and that no firewall or container separates "
+            "them.",
         )
         if report.installation.container:
             yield Advice(

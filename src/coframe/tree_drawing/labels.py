@@ -18,7 +18,7 @@ _MAX_LISTED_EDGES = 5
 
 
 def figures(frame: Frame) -> list[str]:
-    """Return the figures of the edge to the parent of a frame by publisher, for the first publishers of many."""
+    """Return the statistics of the edge to a frame's parent by publisher, for at most a few publishers."""
     found = [line for edge in frame.edges[:_MAX_LISTED_EDGES] for line in edge_figures(edge)]
     more = len(frame.edges) - _MAX_LISTED_EDGES
     return [*found, f"and {count(more, 'more publisher')}"] if more > 0 else found

@@ -25,7 +25,7 @@ _INCH = 96.0  # pixels of the drawing
 _DENSITY = 192.0  # pixels of the image per inch: sharp on any screen
 _MAX_SIDE = 16_000.0  # Pixels of the image; matplotlib supports 2**16, at a memory of 4 bytes per pixel.
 _MAX_PIXELS = 100e6
-# The texts are laid out for Helvetica; matplotlib's own font, DejaVu Sans, is wider.
+# The layout is for Helvetica; matplotlib's default font, DejaVu Sans, is wider.
 _FONT_SCALE = 0.92
 _CORNER = 4.0
 _FONT = "DejaVu Sans"

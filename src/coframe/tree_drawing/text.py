@@ -18,7 +18,7 @@ __all__ = ["COLUMNS", "Row", "rows"]
 
 COLUMNS = ("frame", "publisher", "Hz", "jitter ms", "delay ms", "p99 ms", "age ms")
 _MAX_INDENTED_LEVELS = 24
-"""The deepest indentation; frames below it have the same one, with their depth as a number."""
+"""The maximum indentation; deeper frames have the same one, with their depth as a number."""
 
 
 class Row(NamedTuple):

@@ -29,7 +29,7 @@ _COMMANDS = (
 )
 _ALIASES = {"wtf": "doctor"}
 _EXTENSIONS = "Packages extend coframe by entry points, such as those of the group coframe.commands."
-# Commands of ros2 that coframe does not have, with what to do instead.
+# Commands of ros2 that coframe does not have, and what to do instead.
 _ABSENT = {
     "component": "C++ components cannot be loaded. Start the node as a process: ros2 run PACKAGE EXECUTABLE.",
     "multicast": "coframe doctor shows whether nodes are discovered.",

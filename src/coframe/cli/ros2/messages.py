@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 __all__ = ["MessageStream", "field_of", "message_filter"]
 
-_MAX_WAIT = 1.0  # seconds; so that Ctrl-C is handled soon on every system
+_MAX_WAIT = 1.0  # seconds; short, so that Ctrl-C is handled promptly on every system
 
 
 class MessageStream:

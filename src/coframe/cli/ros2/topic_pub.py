@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
 __all__ = ["pub"]
 
-_MAX_PERIOD = 1e9  # seconds; Python cannot sleep for more than nine times as long
+_MAX_PERIOD = 1e9  # seconds; close to the longest time that Python can sleep
 _POLL = 0.1  # seconds between two looks for matching subscriptions, as in ros2cli
 
 

@@ -13,9 +13,9 @@ if TYPE_CHECKING:
 
 __all__ = ["read_values", "yaml_value"]
 
-_WIDTH = 60  # characters of an invalid text that are shown
+_WIDTH = 60  # number of characters of an invalid text to show
 _MAX_EXAMPLE_LENGTH = 150
-# The reasons of the YAML parser (C and Python), and what they mean for the user.
+# Error messages of the YAML parsers (C and Python), and what they mean for the user.
 _REASONS = {
     "found unexpected ':'": "a space is missing after the colon",
     "',' or '}'": "a comma or } is missing, or a string with special characters has no quotes",

@@ -32,7 +32,7 @@ _LATENCY = STEP  # the transforms arrive one step after their stamps, delayed as
 _PERIOD = 2 * STEP
 # Between two samples, tf2 interpolates linearly; the arm moves on circles, which deviates by less than this.
 _INTERPOLATED = 1e-4  # metres
-_MAX_AGE = 3 * SECOND // 2  # of a transform that a listener may still use while the broadcaster is missing
+_MAX_AGE = 3 * SECOND // 2  # age of a transform that a listener may still use while the broadcaster is missing
 _READ = "handbook chapter 4, what lookup_transform(target, source) means"
 
 
