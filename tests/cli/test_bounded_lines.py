@@ -8,7 +8,7 @@ import sys
 import pytest
 
 from coframe._files.bounded_lines import MAX_LINES, LineLimit
-from coframe.wire.warn_once import LAST_WARNING, MAX_WARNINGS, WarnOnce
+from coframe._output.warn_once import LAST_WARNING, MAX_WARNINGS, WarnOnce
 
 REPORT = "... {} more lines not shown, because more than 2000 arrived in a second"
 FLOOD = r"""
@@ -95,5 +95,5 @@ def test_warnings_with_names_of_the_network_end_after_a_limit_with_a_sentence():
     shown = []
     warn = WarnOnce(shown.append)
     for number in range(3 * MAX_WARNINGS):
-        warn(f"key {number}", f"a warning about node {number}")
+        warn(f"a warning about node {number}", f"key {number}")
     assert shown[MAX_WARNINGS - 1 :] == [f"a warning about node {MAX_WARNINGS - 1}", LAST_WARNING]

@@ -25,6 +25,7 @@ from coframe.errors import RecordingError
 from coframe.frame_names import absolute, belongs, renaming
 from coframe.messages import deserialize, find, serialize
 from coframe.messages.conversions import to_transform_stamped
+from coframe.type_names import TF_MESSAGE
 
 if TYPE_CHECKING:
     import os
@@ -35,7 +36,6 @@ if TYPE_CHECKING:
 
 __all__ = ["RepairReport", "repair"]
 
-_TF = "tf2_msgs/msg/TFMessage"
 _PLURAL = re.compile(r"\b(messages|transforms|names)\b")  # nouns that are counted in messages
 _PROGRESS_STEP = 1000  # messages between two calls of the progress function
 _STATIC_QOS = OfferedQos(1, transient_local=True)
@@ -233,7 +233,7 @@ class _Repair:
         )
         names = FrameNames.of(channel, converted.type, self._recording.types)
         frames = names if names and names.exist else None
-        return _Route(topic, converted.convert, frames, rename, converted.type == _TF)
+        return _Route(topic, converted.convert, frames, rename, converted.type == TF_MESSAGE)
 
     def _repaired(self, channel: Channel, route: _Route, data: bytes) -> bytes | None:
         """Return the repaired message; None if it is damaged."""
@@ -258,7 +258,7 @@ class _Repair:
 
     def _without_rejected(self, channel: Channel, data: bytes) -> bytes:
         """Return a TFMessage without transforms that tf2 rejects, and without static transforms of moving frames."""
-        message = deserialize(data, find(_TF))
+        message = deserialize(data, find(TF_MESSAGE))
         good = [transform for transform in message.transforms if _is_accepted(transform)]
         if rejected := len(message.transforms) - len(good):
             self._count(channel, "invalid transforms removed, which tf2 rejects", rejected)
@@ -268,7 +268,7 @@ class _Repair:
             if len(fixed) < len(good):
                 self._count(channel, "static transforms of moving frames removed", len(good) - len(fixed))
             good = fixed
-        return data if len(good) == len(message.transforms) else serialize(find(_TF)(transforms=good))
+        return data if len(good) == len(message.transforms) else serialize(find(TF_MESSAGE)(transforms=good))
 
     def _write_statics_first(self, added: list[TransformStamped]) -> None:
         """Write the static transforms that were recorded late and those to be added, at the start of the recording."""
@@ -279,7 +279,7 @@ class _Repair:
         known = self._known()
         if new := [transform for transform in added if self._rename(transform.child_frame_id) not in known]:
             topic = self._robot.tf_static_topic
-            default = Channel(topic, _TF, "cdr", offered_qos=to_yaml([_STATIC_QOS]))
+            default = Channel(topic, TF_MESSAGE, "cdr", offered_qos=to_yaml([_STATIC_QOS]))
             channel = next((each for each in self._routes if absolute(each.topic) == topic), default)
             route = self._route(channel)
             if route is not None:
@@ -295,7 +295,7 @@ class _Repair:
         return {self._rename(edge.child) for buffer in of_robot for edge in buffer.edges() if edge.parent}
 
     def _write_statics(self, channel: Channel, route: _Route, transforms: list[TransformStamped], what: str) -> None:
-        message = self._corrected(channel, route, serialize(find(_TF)(transforms=transforms)))
+        message = self._corrected(channel, route, serialize(find(TF_MESSAGE)(transforms=transforms)))
         self._writer.write(route.topic, message, self._recording.start, publisher=what)
         self._count(channel, what, len(transforms))
 
@@ -305,7 +305,7 @@ class _Repair:
         early: set[tuple[str, str]] = set()
         for channel, received, data in self._recording.in_order(filter(is_static, self._recording.topics)):
             converted = cdr_conversion(channel, self._recording.types)
-            if converted is None or converted.type != _TF:
+            if converted is None or converted.type != TF_MESSAGE:
                 continue
             known = found.setdefault(channel.topic, (channel, {}))[1]
             for transform in decode_transforms(converted.convert, data):

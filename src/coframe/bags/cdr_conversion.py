@@ -13,6 +13,7 @@ from coframe.messages.definition import AbstractNestedType, NamespacedType
 from coframe.messages.definition_texts import recorded_definition
 from coframe.messages.registry import class_of
 from coframe.messages.schema_classes import known_class
+from coframe.type_names import TF_MESSAGE
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -118,7 +119,7 @@ def decode_transforms(convert: Callable[[bytes], bytes], data: bytes) -> list[Tr
         convert: The function of :func:`cdr_conversion`.
         data: The message as recorded.
     """
-    kind: Any = find("tf2_msgs/msg/TFMessage")
+    kind: Any = find(TF_MESSAGE)
     try:
         return list(deserialize(convert(data), kind).transforms)
     except (DecodeError, ValueError):  # The damage is reported when the message itself is read.

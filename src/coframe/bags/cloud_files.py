@@ -17,6 +17,7 @@ from coframe.errors import RecordingError
 from coframe.messages import find, serialize
 from coframe.messages.definition_texts import definition_of
 from coframe.sensors.thinning import thinned
+from coframe.type_names import POINT_CLOUD
 
 if TYPE_CHECKING:
     import os
@@ -29,7 +30,6 @@ if TYPE_CHECKING:
 __all__ = ["CLOUD_FORMATS", "write_clouds"]
 
 CLOUD_FORMATS = ("ply", "pcd", "npz", "npy", "mcap")
-_TYPE = "sensor_msgs/msg/PointCloud2"
 _MAX_DIGITS = 20  # space in the header for the count, which is known only at the end
 _NPY_HEAD = 12  # bytes before the text of NumPy's header
 
@@ -277,9 +277,9 @@ class _BagTopic:
         self._writer = writer
         self._channel = writer.add_channel(
             topic,
-            _TYPE,
+            POINT_CLOUD,
             encoding="cdr",
-            definition=definition_of(_TYPE),
+            definition=definition_of(POINT_CLOUD),
             definition_format="ros2msg",
             metadata={},
         )
@@ -300,7 +300,7 @@ _DATATYPES = {"i1": 1, "u1": 2, "i2": 3, "u2": 4, "i4": 5, "u4": 6, "f4": 7, "f8
 def message_of(cloud: Cloud) -> Any:
     """Return a PointCloud2 with float32 coordinates, which other tools expect."""
     points = _cast(cloud.points, {"i8": "<f8", "u8": "<f8"}, xyz="<f4")
-    message, field = find(_TYPE)(), find("sensor_msgs/msg/PointField")
+    message, field = find(POINT_CLOUD)(), find("sensor_msgs/msg/PointField")
     message.header.frame_id = cloud.frame
     message.header.stamp.sec, message.header.stamp.nanosec = divmod(cloud.stamp, time.SECOND)
     message.height, message.width = 1, len(points)

@@ -13,6 +13,7 @@ from coframe.sensors import deskew, project_scan, transform_cloud
 from coframe.sensors.layout import field_of
 from coframe.sensors.point_times import TIME_FIELDS, UNITS, times_in
 from coframe.sensors.thinning import thinned
+from coframe.type_names import LASER_SCAN, POINT_CLOUD
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -24,7 +25,6 @@ if TYPE_CHECKING:
 
 __all__ = ["Cloud", "Clouds"]
 
-_CLOUD, _SCAN = "sensor_msgs/msg/PointCloud2", "sensor_msgs/msg/LaserScan"
 _SCAN_FIELDS = {"intensity", "index"}
 _MIN_PENDING = 1_000_000  # points to gather before they are thinned
 
@@ -99,8 +99,8 @@ class Clouds:
         self._stamps = recording.stamps(topic)  # Raises if the topic does not exist.
         self.topic = topic if topic in recording.topics else f"/{topic}"
         self._type = recording.topics[self.topic].type
-        if self._type not in {_CLOUD, _SCAN}:
-            others = [name for name, other in recording.topics.items() if other.type in {_CLOUD, _SCAN}]
+        if self._type not in {POINT_CLOUD, LASER_SCAN}:
+            others = [name for name, other in recording.topics.items() if other.type in {POINT_CLOUD, LASER_SCAN}]
             raise RecordingError(
                 f"{self.topic} has type {self._type}, not PointCloud2 or LaserScan",
                 hint=f"Topics with points: {', '.join(others) or 'none'}.",
@@ -111,7 +111,7 @@ class Clouds:
         self._time_field, self._time_unit = _field_and_unit(point_times)
         self._fixed = fixed
         self._fields = None if fields is None else [name for name in fields if name not in {"x", "y", "z"}]
-        if self._type == _SCAN and (unknown := set(self._fields or ()) - _SCAN_FIELDS):
+        if self._type == LASER_SCAN and (unknown := set(self._fields or ()) - _SCAN_FIELDS):
             known = ", ".join(sorted(_SCAN_FIELDS))
             raise ValueError(f"Scans have no field named {', '.join(sorted(unknown))}. Known fields: {known}.")
         self._reset()
@@ -178,7 +178,7 @@ class Clouds:
         try:
             message = recorded.message
             frame = self._recording.frame(str(message.header.frame_id))
-            points, times = self._scan(message) if self._type == _SCAN else self._points(message, recorded.stamp)
+            points, times = self._scan(message) if self._type == LASER_SCAN else self._points(message, recorded.stamp)
             finite = np.isfinite(points["x"]) & np.isfinite(points["y"]) & np.isfinite(points["z"])
             self._count(self.points_skipped, "have no finite coordinates", np.count_nonzero(~finite))
             points, times = points[finite], times[finite] if times is not None else None

@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING, NamedTuple
 from coframe.bags.transforms import is_static
 from coframe.errors import DecodeError
 from coframe.messages import deserialize, find
+from coframe.type_names import TF_MESSAGE
 
 if TYPE_CHECKING:
     from collections.abc import Hashable, Iterable
 
 __all__ = ["LatchedMessage", "LatchedMessages", "LatchedSpace"]
 
-_TF = "tf2_msgs/msg/TFMessage"
 MAX_MESSAGES = 10_000
 MAX_BYTES = 64 << 20
 
@@ -68,7 +68,7 @@ class LatchedMessages:
     """
 
     def __init__(self, topic: str, ros_type: str, space: LatchedSpace) -> None:
-        self._is_static = is_static(topic) and ros_type == _TF
+        self._is_static = is_static(topic) and ros_type == TF_MESSAGE
         self._space = space
         self._messages: dict[int, LatchedMessage] = {}
         self._last: dict[Hashable, int] = {}  # the number of the last message that describes a frame or a publisher
@@ -107,7 +107,9 @@ class LatchedMessages:
         """Return what a message describes: its child frames, or its publisher."""
         if self._is_static:
             try:
-                frames = frozenset(transform.child_frame_id for transform in deserialize(data, find(_TF)).transforms)
+                frames = frozenset(
+                    transform.child_frame_id for transform in deserialize(data, find(TF_MESSAGE)).transforms
+                )
             except DecodeError:
                 frames = frozenset()
             if frames:

@@ -12,6 +12,7 @@ import numpy as np
 from coframe import _core, time
 from coframe.messages.encapsulation import HEADER_SIZE, byte_order
 from coframe.messages.tf_columns import TransformColumns, tf_columns
+from coframe.type_names import TF_MESSAGE, TF_MESSAGES_OF_ROS1
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -233,11 +234,10 @@ def _varint(data: Any, position: int) -> tuple[int, int]:
 
 # By encoding and type. In CDR, foxglove_msgs/FrameTransforms has the layout of a TFMessage.
 _DECODINGS: dict[tuple[str, str], Callable[[bytes | memoryview], Iterator[_Stamped]] | str] = {
-    ("cdr", "tf2_msgs/TFMessage"): "cdr",
+    ("cdr", TF_MESSAGE.replace("/msg/", "/")): "cdr",
     ("cdr", "foxglove_msgs/FrameTransforms"): "cdr",
     ("cdr", "foxglove_msgs/FrameTransform"): _foxglove_cdr,
-    ("ros1", "tf2_msgs/TFMessage"): "ros1",
-    ("ros1", "tf/tfMessage"): "ros1",
+    **{("ros1", name): "ros1" for name in TF_MESSAGES_OF_ROS1},
     ("protobuf", "foxglove.FrameTransform"): _protobuf_one,
     ("protobuf", "foxglove.FrameTransforms"): _protobuf_many,
     ("json", "foxglove.FrameTransform"): _json_one,

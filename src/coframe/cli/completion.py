@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from coframe.bags.formats import is_recording
+from coframe.type_names import TF_MESSAGE
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -29,7 +30,6 @@ __all__ = [
 ]
 
 _Names = TypeVar("_Names")
-_TF_TYPE = "tf2_msgs/msg/TFMessage"
 _DISCOVERY = 0.6  # seconds: the longest discovery of topics or frames
 _UNCHANGED = 0.2  # seconds without a new name, after which the known names are complete
 _MAX_BYTES = 200 << 20  # bytes; reading more would take longer than typing the name
@@ -121,7 +121,7 @@ def complete_live_topics(_ctx: click.Context, _parameter: click.Parameter, incom
 def complete_tf_topics(ctx: click.Context, _parameter: click.Parameter, incomplete: str) -> list[str]:
     """Return the topics of transforms on the ROS graph that begin with a text."""
     topics = _live_topics(ctx.params.get("domain"))
-    return sorted(name for name, types in topics.items() if _TF_TYPE in types and name.startswith(incomplete))
+    return sorted(name for name, types in topics.items() if TF_MESSAGE in types and name.startswith(incomplete))
 
 
 def _live_topics(domain: int | None) -> dict[str, list[str]]:

@@ -42,6 +42,7 @@ from coframe.doctor.rendering.plain import as_data
 from coframe.doctor.rendering.text import headline
 from coframe.messages import find
 from coframe.time import SECOND, stamp_ns
+from coframe.type_names import TF_MESSAGE
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
@@ -56,7 +57,6 @@ __all__ = ["why"]
 _NAMES = "[BAG] TARGET SOURCE"
 # The connection receives static transforms at about the same time as the doctor's node, which waits for them first.
 _SECOND_LISTENER = 0.5  # seconds
-_TF_TYPE = "tf2_msgs/msg/TFMessage"
 _ASCII = str.maketrans("├└│─", "+`|-")
 _STYLES = {"error": "bold red", "warning": "yellow", "note": "cyan"}
 
@@ -236,7 +236,7 @@ def _other_topics(found: Explanation, ros: Connection) -> Iterator[str]:
         return
     for topic, publishers in sorted(ros.participant.published().items()):
         types = {endpoint.ros_type for endpoint in publishers.values()}
-        if _TF_TYPE in types and topic not in ros.config.topics:
+        if TF_MESSAGE in types and topic not in ros.config.topics:
             option = "--tf-static-topic" if topic.endswith("static") else "--tf-topic"
             yield f"transforms are also published on {topic}: coframe why ... {option} {shlex.quote(topic)}"
 

@@ -30,6 +30,7 @@ from coframe.messages.header_peek import HEADER_BYTES, opens_with_header, peek_h
 from coframe.messages.slices import Slices
 from coframe.messages.tf_columns import tf_columns
 from coframe.time import SECOND
+from coframe.type_names import TF_MESSAGE
 from coframe.wire.names import full_name
 from coframe.wire.participant import Participant
 from coframe.wire.qos import TF, TF_STATIC_READER, QoS
@@ -47,7 +48,6 @@ if TYPE_CHECKING:
 
 __all__ = ["LiveObserver"]
 
-TF_TYPE = "tf2_msgs/msg/TFMessage"
 _ANY_PUBLISHER = QoS(depth=100, reliable=False)  # matches every publisher
 _LATCHED = QoS(depth=10, transient_local=True)
 _WHOLE_MESSAGE = 16 << 20  # bytes; enough for a description, a joint state or a log message
@@ -171,7 +171,7 @@ class LiveObserver:
         try:
             self._node = self._participant.add_node(node_namespace, node_name)
             self._transforms = {
-                topic: (self._subscribe(topic, TF_TYPE, qos, _WHOLE_MESSAGE), static)
+                topic: (self._subscribe(topic, TF_MESSAGE, qos, _WHOLE_MESSAGE), static)
                 for topic, qos, static in zip(config.topics, (TF, TF_STATIC_READER), (False, True), strict=True)
             }
         except BaseException:
@@ -404,7 +404,7 @@ class LiveObserver:
         facts = {
             topic: TopicFacts(
                 topic,
-                TF_TYPE,
+                TF_MESSAGE,
                 self._collector.messages.get(topic, 0),
                 self._endpoints(self._participant.publishers(topic)),
                 self._endpoints(self._participant.subscribers(topic)),

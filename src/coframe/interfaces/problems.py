@@ -10,18 +10,21 @@ import sys
 from contextlib import suppress
 
 from coframe._output.escaping import one_line
+from coframe._output.warn_once import WarnOnce
 
 __all__ = ["report"]
 
 MAX_PROBLEMS = 20  # per process; a folder can have any number of them
 
-_reported: set[str] = set()
+
+def _print(problem: str) -> None:
+    with suppress(OSError, ValueError, AttributeError):  # The standard error is closed, or there is none.
+        sys.stderr.write(f"coframe: {one_line(problem)}\n")
+
+
+_print_once = WarnOnce(_print, MAX_PROBLEMS, "")
 
 
 def report(problem: str) -> None:
     """Print a problem once."""
-    if problem in _reported or len(_reported) >= MAX_PROBLEMS:
-        return
-    _reported.add(problem)
-    with suppress(OSError, ValueError, AttributeError):  # The standard error is closed, or there is none.
-        sys.stderr.write(f"coframe: {one_line(problem)}\n")
+    _print_once(problem)

@@ -26,6 +26,7 @@ from coframe.messages.limits import MAX_DEPTH, MAX_RECORDED_FIELDS
 from coframe.messages.message import Message
 from coframe.messages.parser import Field, Structure
 from coframe.messages.registry import class_of, find
+from coframe.type_names import TF_MESSAGE, TF_MESSAGES_OF_ROS1
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -38,7 +39,7 @@ _CLASS_COST = 20  # fields that take as much memory as a class without fields
 _HEADER = "std_msgs/msg/Header"
 _SEQUENCE_NUMBER = Field("seq", BasicType("uint32"), None)
 # Names of ROS 1 for types with another name in ROS 2.
-_ALIASES = {"tf/msg/tfMessage": "tf2_msgs/msg/TFMessage"}
+_ALIASES = {name.replace("/", "/msg/"): TF_MESSAGE for name in TF_MESSAGES_OF_ROS1}
 
 
 def known_class(ros_type: str) -> Any:

@@ -12,6 +12,7 @@ from coframe.bags.transforms import is_static
 from coframe.errors import WireError
 from coframe.frame_names import absolute
 from coframe.messages import deserialize, find
+from coframe.type_names import TF_MESSAGE
 from coframe.wire.qos import QoS
 
 if TYPE_CHECKING:
@@ -26,7 +27,6 @@ if TYPE_CHECKING:
 
 __all__ = ["TopicPublishers"]
 
-_TF = "tf2_msgs/msg/TFMessage"
 _DEPTH = 100  # messages that a publisher keeps until they are delivered
 # Replaces "keep all", so that one hanging subscription does not block the replay, and larger depths, because a latched
 # publisher stores that many messages.
@@ -137,7 +137,7 @@ class TopicPublishers:
                 key = (channel.topic, channel.type)
                 channels.setdefault(key, channel)
                 offers.setdefault(key, []).extend(QoS(*profile) for profile in from_yaml(channel.offered_qos))
-        transforms_first = sorted(channels.items(), key=lambda item: item[0][1] != _TF)
+        transforms_first = sorted(channels.items(), key=lambda item: item[0][1] != TF_MESSAGE)
         for number, (key, channel) in enumerate(transforms_first):
             if number >= MAX_TOPICS:
                 self._channels[key] = None
@@ -162,7 +162,7 @@ class TopicPublishers:
             return None
         ros_type, convert = converted.type, self._renamed(channel, converted.type, converted.convert)
         topic = self._remap.get(absolute(channel.topic), channel.topic)
-        if is_static(channel.topic) and ros_type == _TF:
+        if is_static(channel.topic) and ros_type == TF_MESSAGE:
             writer = self._participant.static_broadcaster(self._node, topic)
             self._statics[channel.topic] = writer
             return _ChannelPublisher(_send_function(writer), convert, latched=True)
@@ -191,7 +191,7 @@ class TopicPublishers:
 
 
 def _send_function(writer: StaticBroadcaster) -> Callable[[bytes], None]:
-    kind = find(_TF)
+    kind = find(TF_MESSAGE)
     return lambda data: writer.send(deserialize(data, kind).transforms)
 
 

@@ -9,16 +9,17 @@ import time
 from typing import TYPE_CHECKING, NamedTuple
 
 from coframe import _core
+from coframe._output.warn_once import WarnOnce
 from coframe.connection.tf_publishers import TfPublisher, publisher_state, tf_publisher
 from coframe.errors import WireError
 from coframe.frame_names import kept, renaming
 from coframe.tf_relay.robots import Robot, topic_of_kind
 from coframe.tf_relay.status import NotRelayed, RelayedEdge, RelayedRobot
 from coframe.time import MILLISECOND, SECOND
+from coframe.type_names import TF_MESSAGE
 from coframe.wire.participant import Participant
 from coframe.wire.qos import TF_STATIC_WRITER, QoS
 from coframe.wire.tf_reader import WriterStatistics
-from coframe.wire.warn_once import WarnOnce
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator
@@ -35,7 +36,6 @@ _logger = logging.getLogger("coframe.wire")
 
 _CHECK_PERIOD = 500 * MILLISECOND
 _BATCH = 100  # messages
-_TF_TYPE = "tf2_msgs/msg/TFMessage"
 # The first message is forwarded at once. Messages that arrive within this time after it are collected and written
 # together, which reduces the number of wake-ups and writes with many robots.
 _COLLECTION_TIME = 0.005  # seconds
@@ -219,14 +219,14 @@ class Relay:
 
     def _input(self, topic: str, static: bool) -> _Input:
         qos = _STATIC_READER_QOS if static else _READER_QOS
-        reader = self.participant.raw_subscription(self.node, topic, _TF_TYPE, qos, on_data=self._event)
+        reader = self.participant.raw_subscription(self.node, topic, TF_MESSAGE, qos, on_data=self._event)
         return _Input(topic, static, reader, [])
 
     def _output(self, topic: str, static: bool) -> _Output:
         from coframe.messages.registry import find  # noqa: PLC0415 - `import coframe` must be cheap
 
         qos = TF_STATIC_WRITER if static else _WRITER_QOS
-        message_type = find(_TF_TYPE)
+        message_type = find(TF_MESSAGE)
         publisher = self.participant.publisher(self.node, topic, message_type, qos, user_data=_USER_DATA)
         native = _core.Relay(True, 0) if static else _core.Relay(False, self._period, self._max_error)
         return _Output(topic, native, publisher, [])
@@ -280,7 +280,7 @@ class Relay:
             output.publisher.write(message)
         except WireError as error:
             if not self._closed:
-                self._warn_once(output.topic, f"{error} {error.hint}")
+                self._warn_once(f"{error} {error.hint}", output.topic)
 
     def _is_relay(self, topic: str, writer: int) -> bool:
         """Return whether a writer belongs to a relay, whose transforms must not be relayed again."""
@@ -292,9 +292,9 @@ class Relay:
             if self._relay_writers[writer]:
                 node = self.participant.writer_node(writer) or "another program"
                 self._warn_once(
-                    f"relay {topic} {node}",
                     f"{node} on {topic} is a relay. Its transforms are not relayed again, to avoid an endless loop. "
                     "Read the robots' own topics instead.",
+                    f"relay {topic} {node}",
                 )
         return self._relay_writers[writer]
 
@@ -327,19 +327,19 @@ class Relay:
             for publisher, not_relayed in received:
                 children = [edge.child for edge in edges if edge.robot == robot and edge.node == publisher.node]
                 if problem := publisher.clock_problem(children):
-                    self._warn_once(f"clock {publisher.node} {publisher.topic}", f"{robot}: {problem}")
+                    self._warn_once(f"{robot}: {problem}", f"clock {publisher.node} {publisher.topic}")
                 for problem in publisher.naming_problems + not_relayed.problems(
                     f"{publisher.node} on {publisher.topic}"
                 ):
-                    self._warn_once(problem, problem)
+                    self._warn_once(problem)
             self._report_state(robot, publisher_state(publisher for publisher, _ in received))
         for edge in edges:
             if edge.conflicting_robot:
                 self._warn_once(
-                    f"conflict {edge.child} {edge.conflicting_robot}",
                     f"{edge.robot} and {edge.conflicting_robot} both publish a transform to {edge.child!r}. The one of "
                     f"{edge.robot} was first and is used ({edge.node} on {edge.source}). Give each robot its own "
                     "prefix, or stop one of the publishers.",
+                    f"conflict {edge.child} {edge.conflicting_robot}",
                 )
 
     def _report_state(self, robot: str, state: str) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from coframe.type_names import TF_MESSAGE
 from coframe.wire import names
 from coframe.wire.backend import QueueLimits
 from coframe.wire.batch_subscription import MAX_QUEUED_BYTES, BatchSubscription
@@ -13,7 +14,6 @@ from coframe.wire.names import Endpoint
 from coframe.wire.qos import TF, TF_STATIC_READER, QoS
 from coframe.wire.service_endpoints import ServicePublisher, ServiceSubscription
 from coframe.wire.tf_reader import NO_AUTHORITY, TfReader
-from coframe.wire.type_hashes import TF_MESSAGE
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -4,11 +4,12 @@
 from __future__ import annotations
 
 import time
+from functools import partial
 from typing import TYPE_CHECKING
 
+from coframe._output.warn_once import WarnOnce
 from coframe.wire import names
 from coframe.wire.foreign_services import foreign_services_text
-from coframe.wire.warn_once import LAST_WARNING, MAX_WARNINGS
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -122,9 +123,8 @@ class MismatchMonitor:
 
     def __init__(self, graph: Graph, warn: Callable[[str], None]) -> None:
         self._graph = graph
-        self._warn = warn
+        self._warn_once = WarnOnce(warn)
         self._suspects: dict[tuple[bytes, bytes, str], float] = {}  # (own, peer, reason): time of discovery
-        self._warned: set[tuple[str | bytes, str | bytes, str]] = set()
 
     @property
     def waiting(self) -> bool:
@@ -143,21 +143,18 @@ class MismatchMonitor:
                 about = own.guid
             unnamed: bytes = peer.guid[:_PREFIX_SIZE] if reason == "services" else peer.guid
             key = (about, node or unnamed, reason)
-            if key in self._warned or (about, unnamed, reason) in self._warned or len(self._warned) > MAX_WARNINGS:
+            if self._warn_once.knows(key) or self._warn_once.knows((about, unnamed, reason)):
                 continue
             suspect = (own.guid, peer.guid, reason)
             since = suspects.get(suspect, now)
             if now - since < self._GRACE_PERIOD and (node is None or reason == "other"):
                 self._suspects[suspect] = since
                 continue
-            self._warned.add(key)
             text = mismatch_text(own, peer, node, reason, self._graph.foreign_services(peer.guid))
-            if len(self._warned) > MAX_WARNINGS:
-                text = LAST_WARNING
             if own.on_mismatch is None or reason == "services":
-                self._warn(text)
+                self._warn_once(text, key)
             else:
-                own.on_mismatch(_policy(own) if reason == "other" else reason, text)
+                self._warn_once(text, key, partial(own.on_mismatch, _policy(own) if reason == "other" else reason))
 
     def _pairs(self, endpoints: list[LocalEndpoint]) -> Iterator[tuple[LocalEndpoint, DiscoveredEndpoint, str]]:
         own_guids = {endpoint.guid for endpoint in endpoints}

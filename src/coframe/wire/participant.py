@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, ClassVar
 
 from coframe import _core
 from coframe._output.escaping import printable
+from coframe._output.warn_once import WarnOnce
 from coframe.errors import WireError
 from coframe.frame_names import naming_problems
 from coframe.time import SECOND
@@ -27,7 +28,6 @@ from coframe.wire.rejected_transforms import RejectedTransformMonitor
 from coframe.wire.static_broadcaster import SharedStaticPublisher, StaticBroadcaster
 from coframe.wire.system_clock import clock_fault
 from coframe.wire.tf_reader import TfReader
-from coframe.wire.warn_once import WarnOnce
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -212,7 +212,7 @@ class Participant(EndpointFactory, GraphQueries):
                 self._rejections.check(readers)
                 self._warn_of_naming_problems(readers)
                 if (fault := clock_fault()) is not None:  # The clock was changed while the process was running.
-                    self._warn_once("clock", f"{fault} {fault.hint}")
+                    self._warn_once(f"{fault} {fault.hint}", "clock")
             except Exception:
                 # A warning callback raised, or an endpoint was closed in the meantime.
                 if not self._closing:
@@ -226,7 +226,7 @@ class Participant(EndpointFactory, GraphQueries):
                 node = self._graph.writer_node(statistics.writer) or "an unnamed node"
                 examples = statistics.slashed, statistics.prefixed, statistics.plain
                 for problem in naming_problems(f"{node} on {topic}", *examples):
-                    self._warn_once(problem, problem)
+                    self._warn_once(problem)
 
     def _graph_changed(self) -> None:
         with self._lock:
@@ -235,7 +235,7 @@ class Participant(EndpointFactory, GraphQueries):
             event.set()
         with self._lock:
             warning = self._session.adapt()
-        self._warn_once("middleware", warning)
+        self._warn_once(warning, "middleware")
         with self._lock:
             without_parameters = [node for node in self._nodes if not node.has_parameters]
         self._parameter_services.serve(without_parameters, self._graph.by_topic(writers=True))

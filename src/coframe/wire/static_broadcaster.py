@@ -12,6 +12,7 @@ import threading
 from typing import TYPE_CHECKING, Any
 
 from coframe.errors import WireError
+from coframe.type_names import TF_MESSAGE
 from coframe.wire.qos import TF_STATIC_WRITER
 
 if TYPE_CHECKING:
@@ -53,7 +54,7 @@ class SharedStaticPublisher:
         with self._lock:
             member = StaticBroadcaster(self, node)
             if self._publisher is None:
-                message_type = find("tf2_msgs/msg/TFMessage")
+                message_type = find(TF_MESSAGE)
                 self._publisher = self._participant.publisher(node, self._topic, message_type, TF_STATIC_WRITER)
             else:
                 self._publisher.share(node)
@@ -90,9 +91,7 @@ class SharedStaticPublisher:
                     if owner is not member or child in new
                 }
             self._transforms |= new
-            message = find("tf2_msgs/msg/TFMessage")(
-                transforms=[transform for _, transform in self._transforms.values()]
-            )
+            message = find(TF_MESSAGE)(transforms=[transform for _, transform in self._transforms.values()])
             self._publisher.write(serialize(message))
 
     def leave(self, member: StaticBroadcaster) -> None:
@@ -145,7 +144,7 @@ class StaticBroadcaster:
         from coframe.messages.codec import deserialize  # noqa: PLC0415 - importing coframe.wire must be cheap
         from coframe.messages.registry import find  # noqa: PLC0415
 
-        message = deserialize(cdr, find("tf2_msgs/msg/TFMessage"))
+        message = deserialize(cdr, find(TF_MESSAGE))
         self._shared.send(self, message.transforms, replace_all=True)
 
     def publish(self, codec: object, message: Any) -> bool:

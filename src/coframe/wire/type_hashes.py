@@ -3,7 +3,8 @@
 
 from __future__ import annotations
 
-TF_MESSAGE = "tf2_msgs/msg/TFMessage"
+from coframe.type_names import TF_MESSAGE
+
 # Imported on demand, because computing a hash imports message classes, which pure transform listeners do not need.
 TF_MESSAGE_HASH = "RIHS01_e369d0f05a23ae52508854b66f6aa0437f3449d652e8cbf22d5abe85d020f087"
 

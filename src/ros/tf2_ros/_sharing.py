@@ -11,6 +11,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from coframe._core import SegmentError
+from coframe._output.warn_once import WarnOnce
 from coframe.connection.listener_config import ListenerConfig
 from coframe.connection.shared_transforms import SharedTransforms
 from coframe.wire.qos import TF, TF_STATIC_READER
@@ -25,7 +26,7 @@ if TYPE_CHECKING:
     from tf2_ros._subscriptions import Request
 
 _logger = logging.getLogger("coframe.wire")
-_logged: set[str] = set()
+_warn_once = WarnOnce(_logger.warning)
 
 
 def share(request: Request) -> Sharing | None:
@@ -74,12 +75,6 @@ def _is_enabled() -> bool:
             f"COFRAME_SHARED is {value!r}, which has no effect. Set it to 1 to share transforms with other processes."
         )
     return value == "1"
-
-
-def _warn_once(text: str) -> None:
-    if text not in _logged:
-        _logged.add(text)
-        _logger.warning(text)
 
 
 class Sharing:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from coframe._output.formatting import duration, listed
 from coframe.doctor.finding import Finding, Severity
 from coframe.time import SECOND
+from coframe.type_names import TF_MESSAGE
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -36,7 +37,6 @@ _REGULAR = {
 # nodes publish a pose only on an event, so this is a note.
 _COMPUTED = "geometry_msgs/msg/PoseStamped"
 _EVENT = re.compile("cmd|command|goal|desired|target|request|map|debug|trigger|snapshot|initial|click")
-_TRANSFORMS = "tf2_msgs/msg/TFMessage"
 
 
 def find(observation: Observation) -> Iterator[Finding]:
@@ -70,7 +70,7 @@ def _is_promised(observation: Observation, facts: TopicFacts) -> bool:
     """Return whether messages are published regularly on a topic that has publishers."""
     if not facts.publishers or all(endpoint.transient_local for endpoint in facts.publishers):
         return False  # latched messages are published once, whenever there is something new
-    if facts.type == _TRANSFORMS:
+    if facts.type == TF_MESSAGE:
         # robot_state_publisher publishes on /tf only if the robot has movable joints.
         return not len(observation.transforms)
     name = facts.name.lower()
@@ -86,7 +86,7 @@ def _receives_transforms(observation: Observation, facts: TopicFacts) -> bool:
     listeners = {
         endpoint.node
         for topic in observation.topics.values()
-        if topic.type == _TRANSFORMS
+        if topic.type == TF_MESSAGE
         for endpoint in topic.subscribers
     }
     return any(endpoint.node in listeners for endpoint in facts.publishers if endpoint.node)

@@ -6,6 +6,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from coframe._output.formatting import count, duration, listed, seconds
+from coframe.type_names import is_tf_message
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -62,10 +63,7 @@ def _summary(report: Report) -> Iterator[tuple[str, str]]:
 
 def _elsewhere(seen: Observation) -> str:
     """Return the other topics with transforms, or what to check."""
-    # The type is tf/tfMessage in ROS 1.
-    topics = [
-        topic.name for topic in seen.topics.values() if topic.type.lower().endswith("/tfmessage") and topic.messages
-    ]
+    topics = [topic.name for topic in seen.topics.values() if is_tf_message(topic.type) and topic.messages]
     if topics:
         return f"; there are transforms on {listed(topics)}"
     return ". Is a broadcaster running in the same ROS domain?" if seen.live else ""

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 from action_msgs.msg import GoalStatus, GoalStatusArray
 from action_msgs.srv import CancelGoal
+from coframe._output.warn_once import WarnOnce
 from coframe.errors import DecodeError
 from coframe.messages import codec
 from rclpy.action._names import CANCEL_GOAL, FEEDBACK, FEEDBACK_QOS, GET_RESULT, SEND_GOAL, STATUS, resolve_action_name
@@ -133,7 +134,7 @@ class ActionClient:
         self.__ended: deque[bytes] = deque()  # the goals that have ended and whose feedback is still passed on
         self.__status_cdr: bytes | None = None
         self.__known_statuses: dict[bytes, int] = {}
-        self.__has_warned = False
+        self.__warn_once = WarnOnce(node.get_logger().warning)
 
         name, parts = resolve_action_name(node, action_name, "action client"), action_type.Impl
         # Internal callbacks run no user code, so they do not need to wait for callbacks of the user's group.
@@ -297,11 +298,8 @@ class ActionClient:
         try:
             statuses = codec.deserialize(cdr, GoalStatusArray).status_list
         except DecodeError as error:
-            if not self.__has_warned:
-                self.__has_warned = True
-                self._node.get_logger().warning(
-                    f"Ignoring damaged messages with the status of goals of the action {self._action_name}: {error}"
-                )
+            text = f"Ignoring damaged messages with the status of goals of the action {self._action_name}: {error}"
+            self.__warn_once(text, "status")
             return self.__known_statuses
         self.__known_statuses = {_key(goal.goal_info.goal_id): goal.status for goal in statuses}
         return self.__known_statuses

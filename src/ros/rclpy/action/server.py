@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 from action_msgs.msg import GoalInfo, GoalStatus
 from action_msgs.srv import CancelGoal
+from coframe._output.warn_once import WarnOnce
 from rclpy.action._goal_handle import GoalEvent, ServerGoalHandle, can_be_cancelled
 from rclpy.action._names import (
     CANCEL_GOAL,
@@ -153,7 +154,7 @@ class ActionServer:
         self.__is_destroyed = False
         self.__goals: dict[bytes, ServerGoalHandle] = {}
         self.__expiries: deque[tuple[float, bytes]] = deque()  # of the finished goals
-        self.__warned: set[str] = set()
+        self.__warn_once = WarnOnce(node.get_logger().warning)
         self.__to_execute: deque[tuple[Callable[[ServerGoalHandle], Any], ServerGoalHandle]] = deque()
 
         name, parts = resolve_action_name(node, action_name, "action server"), action_type.Impl
@@ -265,11 +266,6 @@ class ActionServer:
     def __is_below_limits(self, size: int) -> bool:
         stored = sum(goal._Coframe__size for goal in self.__goals.values())
         return not self.__goals or (len(self.__goals) < MAX_GOALS and stored + size <= MAX_GOAL_BYTES)
-
-    def __warn_once(self, text: str) -> None:
-        if text not in self.__warned:
-            self.__warned.add(text)
-            self._node.get_logger().warning(text)
 
     async def __is_accepted(self, goal: Any) -> bool:
         response = await _call(self.__goal_callback, goal)

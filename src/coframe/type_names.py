@@ -1,0 +1,19 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Names of message types that several parts of coframe use."""
+
+from __future__ import annotations
+
+from typing import Final
+
+__all__ = ["LASER_SCAN", "POINT_CLOUD", "TF_MESSAGE", "TF_MESSAGES_OF_ROS1", "is_tf_message"]
+
+TF_MESSAGE: Final = "tf2_msgs/msg/TFMessage"
+# ROS 1 has two names for it; the second one is that of its first package.
+TF_MESSAGES_OF_ROS1: Final = ("tf2_msgs/TFMessage", "tf/tfMessage")
+POINT_CLOUD: Final = "sensor_msgs/msg/PointCloud2"
+LASER_SCAN: Final = "sensor_msgs/msg/LaserScan"
+
+
+def is_tf_message(ros_type: str) -> bool:
+    """Return whether a type, named as in ROS 1 or in ROS 2, is that of the messages with transforms."""
+    return ros_type.replace("/msg/", "/") in TF_MESSAGES_OF_ROS1
