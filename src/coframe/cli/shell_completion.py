@@ -26,6 +26,9 @@ __all__ = ["install", "script"]
 MAX_BYTES: Final = 1 << 20  # of a configuration file
 MAX_ANCESTORS: Final = 10  # processes between the shell and this one
 _ZSH_LINES: Final = ("fpath+=~/.zfunc; autoload -Uz compinit; compinit", "zstyle ':completion:*' menu select")
+# zsh runs a file of ~/.zfunc at each TAB. The script of click completes at the first one; at the second it only
+# registers its function, so that nothing would be completed before the third.
+_ZSH_END: Final = '\n[[ $zsh_eval_context[-1] == shfunc ]] && {function} "$@"\n'
 _SHELLS: Final = ("bash", "zsh", "fish")
 
 
@@ -60,7 +63,8 @@ def _script(shell: str, ctx: click.Context) -> str:
     completion = get_completion_class(shell)
     if completion is None:
         raise LookupError(shell)
-    return completion(ctx.command, {}, program, f"_{program.upper()}_COMPLETE").source()
+    source = completion(ctx.command, {}, program, f"_{program.upper()}_COMPLETE")
+    return source.source() + (_ZSH_END.format(function=source.func_name) if shell == "zsh" else "")
 
 
 def _add_lines(file: Path, lines: tuple[str, ...]) -> None:
