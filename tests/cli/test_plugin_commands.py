@@ -118,7 +118,7 @@ def test_the_help_lists_slow_and_broken_commands_without_their_import(coframe):
     ("name", "sentence"),
     [
         ("absent", "cannot be loaded: ModuleNotFoundError: No module named 'robot_absent'."),
-        ("number", "is not a command of click, but 7."),
+        ("number", "is not a click command, but 7."),
     ],
 )
 def test_a_command_that_cannot_be_loaded_ends_with_one_sentence(coframe, name, sentence):

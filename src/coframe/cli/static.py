@@ -49,7 +49,8 @@ Options:
   --tf-static-topic TOPIC  Topic of the static transforms, e.g.
                            /robot1/tf_static. [default: /tf_static]
   --tf-topic TOPIC         Accepted for uniformity; has no effect.
-  --prefix PREFIX          Prefix for all frame names, including the slash, e.g. robot1/.
+  --prefix PREFIX          Prefix for all frame names, including the slash, e.g.
+                           robot1/.
   --keep FRAMES            Shared frames that get no prefix, e.g. map,world.
   --ros-args -r __node:=NAME -r __ns:=/NAMESPACE -r /tf_static:=TOPIC
                            Names of the node and of the topic.
