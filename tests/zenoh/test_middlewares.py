@@ -2,6 +2,8 @@
 """The middleware is chosen in code, and one process may use all of them."""
 
 import os
+import time
+from pathlib import Path
 
 import pytest
 
@@ -81,3 +83,20 @@ def test_the_doctor_examines(wire: str, zenoh_domain: int) -> None:
     assert report.wire == (wire, "COFRAME_WIRE is set")
     assert (report.probe is not None, report.zenoh is not None) == (wire == "dds", wire == "zenoh")
     assert report.nodes is not None
+
+
+@pytest.mark.parametrize("wire", WIRES)
+def test_relays_and_recorders_over(wire: str, zenoh_domain: int, tmp_path: Path) -> None:
+    with coframe.relay("robot1,robot2", prefix_each=True, domain=zenoh_domain, wire=wire) as relay:
+        assert relay.participant.wire == wire
+    with (
+        coframe.connect("talker", domain=zenoh_domain, wire=wire) as ros,
+        coframe.record(tmp_path / "run", domain=zenoh_domain, wire=wire) as recorder,
+    ):
+        publisher = ros.publisher("/news", STRING)
+        deadline = time.monotonic() + 20
+        while not recorder.statistics.messages and time.monotonic() < deadline:
+            publisher.publish(STRING(data="x"))
+            time.sleep(0.05)
+    with coframe.open_bag(tmp_path / "run") as recording:
+        assert recording.topics["/news"].messages > 0

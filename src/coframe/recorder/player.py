@@ -58,6 +58,7 @@ class Player:
         clock: float | None,
         delay: float,
         domain: int | None,
+        wire: str | None,
         names: _core.Renaming | None,
     ) -> None:
         self.recording = recording
@@ -70,7 +71,7 @@ class Player:
         self._error: Exception | None = None
         self._closing = threading.Lock()
         self._closed = False
-        self._participant = Participant.get(domain)
+        self._participant = Participant.get(domain, wire)
         try:
             self._node = self._participant.add_node("/", "coframe_play")
             self._publishers = TopicPublishers(self._participant, self._node, recording, topics, remap, names)
@@ -216,6 +217,7 @@ def play(
     clock: float | None = None,
     delay: str | int | timedelta = "1s",
     domain: int | None = None,
+    wire: str | None = None,
     prefix: str = "",
     keep: Iterable[str] = (),
 ) -> Player:
@@ -236,6 +238,7 @@ def play(
             If None, /clock is replayed like any other topic.
         delay: The time before the first message, such as "1s", in which subscriptions can match.
         domain: The ROS domain, 0 to 232. If None, it is ROS_DOMAIN_ID, or 0 if that is not set.
+        wire: The middleware, "dds" or "zenoh"; see :func:`coframe.connect`.
         prefix: A prefix for the frames in all messages, used as given: ``robot1/`` turns ``base_link`` into
             ``robot1/base_link``.
         keep: The frames that are shared by robots and get no prefix: ``["map"]``.
@@ -267,6 +270,7 @@ def play(
             clock=clock,
             delay=duration_ns(delay) / SECOND,
             domain=domain,
+            wire=wire,
             names=names,
         )
     except BaseException:

@@ -71,6 +71,7 @@ class Recorder:
         domain: int | None,
         backlog: int,
         on_topic: Callable[[str, str], None],
+        wire: str | None = None,
         frames: FrameRenamer | None = None,
     ) -> None:
         self.writer = writer
@@ -83,7 +84,7 @@ class Recorder:
         self._stopping = False
         self._closing = threading.Lock()
         self._qos: dict[tuple[str, str], tuple[OfferedQos, ...]] = {}
-        self._participant = Participant.get(domain)
+        self._participant = Participant.get(domain, wire)
         try:
             self._node = self._participant.add_node("/", "coframe_record")
             self._data, self._graph = _core.Event(), _core.Event()
@@ -213,6 +214,7 @@ def record(
     regex: str | None = None,
     exclude: str | None = None,
     domain: int | None = None,
+    wire: str | None = None,
     compression: str = "zstd",
     max_size: int | None = None,
     max_duration: str | int | timedelta | None = None,
@@ -234,6 +236,7 @@ def record(
         regex: A regular expression. Topics whose full name matches it are recorded as well.
         exclude: A regular expression. Topics whose full name matches it are not recorded.
         domain: The ROS domain, 0 to 232. If None, it is ROS_DOMAIN_ID, or 0 if that is not set.
+        wire: The middleware, "dds" or "zenoh"; see :func:`coframe.connect`.
         compression: ``zstd``, ``lz4`` or ``none``.
         max_size: The size in bytes after which a new file is started. If None, there is no limit.
         max_duration: The duration after which a new file is started, such as "10min". If None, there is no limit.
@@ -260,10 +263,12 @@ def record(
     names = renaming(prefix, keep)
     frames = None if names is None else FrameRenamer(names, tf_topic, tf_static_topic)
     folder = datetime.now().astimezone().strftime("rosbag2_%Y_%m_%d-%H_%M_%S") if path is None else path
-    participant = Participant.get(domain)  # before the folder is created, because it can fail
+    participant = Participant.get(domain, wire)  # before the folder is created, because it can fail
     try:
         writer = Writer(folder, compression=compression, max_size=max_size, max_duration=max_duration)
         callback = on_topic or (lambda _topic, _type: None)
-        return Recorder(writer, topic_filter, domain=domain, backlog=backlog, on_topic=callback, frames=frames)
+        return Recorder(
+            writer, topic_filter, domain=domain, wire=wire, backlog=backlog, on_topic=callback, frames=frames
+        )
     finally:
         participant.close()

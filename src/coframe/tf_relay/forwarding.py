@@ -100,6 +100,7 @@ class Relay:
         max_error: MaxError | None,
         split: bool,
         domain: int | None,
+        wire: str | None,
         node_name: str,
         warn: Callable[[str], None] | None,
     ) -> None:
@@ -116,7 +117,7 @@ class Relay:
         self._states = {robot.name: "waiting" for robot in robots}
         self._closed = False
         self._closing = threading.Lock()
-        self.participant = Participant.get(domain)
+        self.participant = Participant.get(domain, wire)
         try:
             self.node = self.participant.add_node("/", node_name)
             self._inputs = [

@@ -31,6 +31,7 @@ def relay(
     max_error: str | tuple[float, float] | None = None,
     split: bool = False,
     domain: int | None = None,
+    wire: str | None = None,
     node_name: str = "coframe_relay",
     warn: Callable[[str], None] | None = None,
 ) -> Relay:
@@ -61,6 +62,7 @@ def relay(
         split: Whether to read the common topic and write to the robots' topics. Each robot receives the frames that
             begin with its prefix, without the prefix, and the shared frames.
         domain: The ROS domain, 0 to 232. If None, it is ROS_DOMAIN_ID, or 0 if that is not set.
+        wire: The middleware, "dds" or "zenoh"; see :func:`coframe.connect`.
         node_name: The name of the relay's node.
         warn: Called with each warning, on the thread of the relay: clocks that differ, robots that are
             gone, frames that two robots publish, invalid frame names. If None, warnings go to the logger
@@ -91,6 +93,7 @@ def relay(
         max_error=max_error,
         split=split,
         domain=domain,
+        wire=wire,
         node_name=node_name,
         warn=warn,
     )
