@@ -22,7 +22,7 @@ FULL = 0.95 * WINDOW * RATE_HZ * TRANSFORMS
 
 
 def main(seconds: float) -> None:
-    # Use only the loopback interface, and a domain of its own.
+    # Use only the loopback interface and a separate domain.
     os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "LOCALHOST"
     os.environ.setdefault("ROS_DOMAIN_ID", str(100 + os.getpid() % 100))
     doctor = start("-m", "coframe.cli", "doctor", "--watch", "--json")

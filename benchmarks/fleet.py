@@ -186,7 +186,7 @@ def outcome(buffer: "coframe.Buffer", sent: int, cpu: float) -> Outcome:
 
 
 def main(*arguments: str) -> None:
-    # Use only the loopback interface, and a domain of its own.
+    # Use only the loopback interface and a separate domain.
     os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "LOCALHOST"
     os.environ.setdefault("ROS_DOMAIN_ID", str(100 + os.getpid() % 100))
     what, *rest = arguments

@@ -299,7 +299,7 @@ def _python() -> list[str]:
 def main(quantity: str, contender: str, kind: str, seconds: str, address: str = "", processor: str = "") -> None:
     if quantity == "send":
         send_messages(contender, kind, float(seconds), address, processor)
-    # Use only the loopback interface, and a domain of its own.
+    # Use only the loopback interface and a separate domain.
     os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "LOCALHOST"
     os.environ.setdefault("ROS_DOMAIN_ID", str(100 + os.getpid() % 100))
     if contender == "cyclonedds":

@@ -2,7 +2,7 @@
 """Many robots on Zenoh, one router, one listener: processor time, latency and lost messages.
 
 The robots are simulated by a few processes. Each robot has a node and a publisher of /tf, whose messages contain the
-transforms of its frames. The router is in a process of its own; this process subscribes to /tf and stores the
+transforms of its frames. The router is in a separate process; this process subscribes to /tf and stores the
 transforms in a buffer:
 
     python -m benchmarks.router_load 100 20 50 10       # robots, frames of each, Hz, seconds

@@ -4,7 +4,7 @@
     python -m benchmarks.shared [READERS] [KILLS]
 
 A broadcaster publishes 10 transforms at 1 kHz. READERS processes (50) look one up at 10 Hz in shared transforms, one
-process in those of a listener of its own, and READERS further processes in a buffer that they have filled: the programs
+process in those of its own listener, and READERS further processes in a buffer that they have filled: the programs
 themselves. What the others use more is the cost of listening, in per cent of one core. All run at the same time, so
 that the ratio does not depend on what else the machine does. The memory is what a reader has of its own (USS) beyond
 such a program. Then KILLS times (20) the process that receives is killed.

@@ -268,7 +268,7 @@ def main(quantity: str, name: str, seconds: str, argument: str = "") -> None:
     if quantity == "talk":
         talk(name, float(seconds), argument)
         return
-    # Use only the loopback interface, and a domain of its own.
+    # Use only the loopback interface and a separate domain.
     os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "LOCALHOST"
     os.environ.setdefault("ROS_DOMAIN_ID", str(100 + os.getpid() % 100))
     processor = leave_processor()

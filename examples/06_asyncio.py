@@ -11,7 +11,7 @@ SECOND = 1_000_000_000
 
 
 async def publish(buffer: coframe.Buffer) -> None:
-    """Insert one transform every 20 ms, as a subscription would do in a thread of its own."""
+    """Insert one transform every 20 ms, as a subscription would do in a dedicated thread."""
     for step in range(1, 6):
         await asyncio.sleep(0.02)
         buffer.set("odom", "base_link", coframe.Transform([0.1 * step, 0.0, 0.0]), step * SECOND)

@@ -43,7 +43,7 @@ def main() -> int:
 def read_words() -> list[Word]:
     """Read the word list.
 
-    The file is read line by line because Python 3.10 has no TOML parser: each value stands on a line of its own.
+    The file is read line by line because Python 3.10 has no TOML parser: each value stands on its own line.
     """
     words: list[Word] = []
     for block in WORD_LIST.read_text(encoding="utf-8").split("[[word]]")[1:]:

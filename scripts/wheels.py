@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Build, repair and test a wheel for each Python, each step in an environment of its own.
+"""Build, repair and test a wheel for each Python, each step in a separate environment.
 
     python scripts/wheels.py [--out dist] [--no-tests] [PYTHON ...]
     python scripts/wheels.py --sdist

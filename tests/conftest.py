@@ -16,7 +16,7 @@ import pytest
 # Shells start background jobs with Ctrl-C ignored, and children would inherit that: tests are about Ctrl-C, too.
 signal.signal(signal.SIGINT, signal.default_int_handler)
 
-# Test processes that run side by side each have domains of their own.
+# Test processes that run side by side each have their own domains.
 _WORKERS = int(os.environ.get("PYTEST_XDIST_WORKER_COUNT", "1"))
 _worker = int(os.environ.get("PYTEST_XDIST_WORKER", "gw0").removeprefix("gw"))
 # The ports of higher domains are in the range from which the system takes ports for other sockets.

@@ -227,7 +227,7 @@ def test_reference_contains_every_public_name():
 
 
 def public_modules():
-    # Where coframe is installed for editing, its path also has the folder above, in which it is once more.
+    # Where coframe is installed for editing, its path also has the folder above, in which it appears again.
     folder = str(Path(coframe.__file__).parent)
     names = [module.name for module in pkgutil.walk_packages([folder], "coframe.")]
     return [name for name in names if not re.search(r"generated|__main__|\.ros\b|_core|\.lab\b", name)]

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The wheel in environments of its own, in each layout in which people install it.
+"""The wheel in separate environments, in each layout in which people install it.
 
-Set COFRAME_TEST_WHEEL to test a wheel that exists already; otherwise one is built.
+Set COFRAME_TEST_WHEEL to test an existing wheel; otherwise one is built.
 """
 
 import os

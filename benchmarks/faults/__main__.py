@@ -5,7 +5,7 @@ make faults                         all faults; ends with a table, and with exit
 make faults ARGS="loss_30 disk"     the faults whose name contains one of these words
 make faults ARGS="--list"           their names and promises
 
-It runs in network and mount namespaces of its own, which need root or unprivileged user namespaces. Nothing outside
+It runs in its own network and mount namespaces, which need root or unprivileged user namespaces. Nothing outside
 them is changed.
 """
 

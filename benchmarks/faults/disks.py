@@ -83,7 +83,7 @@ def _recording() -> Iterator[Path]:
 
 
 def _fails_with_a_sentence(name: str, options: str, reason: str, *, fill: bool = False) -> Measurement:
-    """Run a command on a disk with a fault; it must end with a sentence that names the path and the reason."""
+    """Run a command on a disk with a fault; it must end with an error message that names the path and the reason."""
     with _recording() as bag, _disk(options) as disk:
         if fill:
             _fill(disk)
@@ -127,7 +127,7 @@ for _name in _COMMANDS:
     CASES.append(Case(f"disk_read_only_{_name}", _PROMISE, _read_only))
 
 
-@case("disk_full_record", "the recording ends with a sentence and exit code 1; what was written can be read")
+@case("disk_full_record", "the recording ends with an error message and exit code 1; what was written can be read")
 def _record_to_full_disk() -> Measurement:
     with _disk("size=256k") as disk, processes() as started:
         talker = started.node("talker", ROBOTS[0], RATE)

@@ -29,7 +29,7 @@ IDLE = """
 import os, sys, time
 from coframe.wire import Participant
 for number in range(int(sys.argv[1])):
-    time.sleep(1e-4 * number**2)  # all others get to know it, and answer it: without pauses, they keep a machine busy
+    time.sleep(1e-4 * number**2)  # all others discover it, and answer it: without pauses, they keep a machine busy
     reading, writing = os.pipe()
     if os.fork() == 0:
         os.close(reading)
@@ -59,7 +59,7 @@ def _limited(started: Processes, descriptors: int, *command: str) -> Program:
     return started.start("sh", "-c", f'ulimit -n {descriptors} && exec "$@"', "sh", *command)
 
 
-@case("few_descriptors", "with 10 to 48 file descriptors, commands work or end with a sentence, without a traceback")
+@case("few_descriptors", "with 10 to 48 file descriptors, commands work or end with an error message, not a traceback")
 def _few_descriptors() -> Measurement:
     results = []
     bad = []
@@ -78,7 +78,7 @@ def _few_descriptors() -> Measurement:
             errors = program.errors()
             if code not in (0, 1) or "Traceback" in errors or (code and "coframe: " not in errors):
                 bad.append(f"{descriptors} descriptors: exit code {code}: {errors.strip()[-200:]}")
-    text = f"{results.count(0)} of {len(_DESCRIPTORS)} worked, {results.count(1)} ended with a sentence"
+    text = f"{results.count(0)} of {len(_DESCRIPTORS)} worked, {results.count(1)} ended with an error message"
     return Measurement("; ".join([text, *bad]), not bad)
 
 

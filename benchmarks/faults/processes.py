@@ -86,7 +86,7 @@ class Program:
 
 
 class Processes:
-    """Starts processes in a domain of their own; closes them all at the end."""
+    """Starts processes in their own domain; closes them all at the end."""
 
     def __init__(self, environment: dict[str, str]) -> None:
         own = {"ROS_DOMAIN_ID": str(next(_domains)), "PYTHONUNBUFFERED": "1", "NO_COLOR": "1"}

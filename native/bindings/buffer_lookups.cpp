@@ -97,7 +97,7 @@ PyObject* lookup_cached_path(BufferObject& self, PlainQuery& query, PyObject* ta
 }
 
 // Returns the transform or sets the exception of the failed lookup. Returns nullptr without an exception if a frame
-// does not exist any more.
+// no longer exists.
 PyObject* lookup_by_walking(BufferObject& self, PlainQuery& query, PyObject* target, PyObject* source) {
   if (!self.core->knows(query.target) || !self.core->knows(query.source)) return nullptr;
   Pose pose;

@@ -27,7 +27,7 @@ class PoseTable {
  public:
   PoseTable(nb::handle_t<BufferObject> buffer, nb::str fixed, nb::list frames, nb::list roots)
       : buffer_(nb::borrow(buffer)), self_(nb::cast<BufferObject&>(buffer)) {
-    if (frames.size() != roots.size()) throw nb::value_error("roots must be as many as there are frames");
+    if (frames.size() != roots.size()) throw nb::value_error("roots must have as many items as frames");
     rows_.reserve(frames.size());
     for (std::size_t i = 0; i < frames.size(); ++i) {
       const bool is_apart = !roots[i].is_none();

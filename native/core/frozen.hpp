@@ -16,7 +16,7 @@ namespace coframe {
 // Returns the table: names, authorities, counts, and the number of samples of each frame. The tree must not change
 // meanwhile.
 std::string frozen_table(const Tree& tree);
-// Returns the number of chunks of all dynamic frames. Each frame starts with a chunk of its own.
+// Returns the number of chunks of all dynamic frames. Each frame starts with its own chunk.
 std::uint64_t frozen_chunk_count(const Tree& tree);
 // Returns the bytes of some of these chunks; fewer at the end.
 std::string frozen_chunks(const Tree& tree, std::uint64_t first, std::uint64_t count);

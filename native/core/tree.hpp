@@ -99,7 +99,7 @@ class Tree {
   // The methods below are for the only writer.
 
   AuthorityId authority(std::string_view name);
-  // Adds a frame of another tree, with an empty history; returns nullptr if the name exists already.
+  // Adds a frame of another tree, with an empty history; returns nullptr if the name already exists.
   Frame* restore_frame(std::string_view name);
   HistoryContext context() {
     TreeData& tree = data();

@@ -61,9 +61,9 @@ class TransformStore {
   void name_writer(Writer writer, const std::string& authority);
   // Forgets a writer that has disappeared.
   void forget_writer(Writer writer);
-  // Static transforms of a writer that no longer exists are not published any more, unless another one publishes them.
+  // Static transforms of a writer that no longer exists are no longer published, unless another one publishes them.
   void writer_left(Writer writer);
-  // Those that the buffer contained before, and that have not been received, are not published any more.
+  // Those that the buffer contained before, and that have not been received, are no longer published.
   void settle_statics();
 
   // Returns the statistics of all writers.

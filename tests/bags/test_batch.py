@@ -142,7 +142,7 @@ print(json.dumps(results))
 
 @pytest.mark.slow
 def test_a_cluster_of_ray(bags, tmp_path, network):
-    """Ray starts a cluster on a network of its own; one of the recordings kills its worker."""
+    """Ray starts a cluster on a separate network; one of the recordings kills its worker."""
     pytest.importorskip("ray", reason="Ray is not installed (pip install ray)")
     deadly = recordings.write_mcap(bags[0].with_name("deadly.mcap"))
     command = network.command(sys.executable, "-c", RAY, tmp_path / "out", *bags, deadly)
@@ -151,7 +151,7 @@ def test_a_cluster_of_ray(bags, tmp_path, network):
     assert ended.returncode == 0, ended.stderr
     *results, dead = (
         QueryResult(*values) for values in json.loads(ended.stdout.splitlines()[-1])
-    )  # Ray prints lines of its own
+    )  # Ray prints its own lines
     assert_complete(bags, results, tmp_path / "out")
     assert dead.error.startswith("Ray reports: ")
 

@@ -53,7 +53,7 @@ def test_times_keep_their_nanoseconds(bag, text, stamp):
 
 
 def test_end_is_the_latest_common_time(tmp_path):
-    """Each transform is a message of its own, so one edge always ends before the recording does."""
+    """Each transform is its own message, so one edge always ends before the recording does."""
     rows = [
         ("/tf", START + i, recordings.cdr("odom", "base", coframe.Transform([i, 0, 0]), START + i)) for i in range(3)
     ]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Commands that call services of a node on Fast DDS end with a sentence that names it."""
+"""Commands that call services of a node on Fast DDS end with an error message that names it."""
 
 from collections.abc import Iterator
 

@@ -152,7 +152,7 @@ def test_every_public_name_has_a_docstring(name):
 
 
 def test_public_names_report_coframe_as_their_module():
-    """In a process of its own: importing tf2_py sets the module of tf2's exceptions to tf2."""
+    """In a separate process: importing tf2_py sets the module of tf2's exceptions to tf2."""
     code = """
 import traceback, coframe
 for name in coframe.__all__:

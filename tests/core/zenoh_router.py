@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A Zenoh router in a process of its own, for tests."""
+"""A Zenoh router in a separate process, for tests."""
 
 import socket
 import subprocess

@@ -37,7 +37,7 @@ def only(examine):
 
 
 class Inside:
-    """Runs Python in a network namespace of its own, isolated from other tests."""
+    """Runs Python in its own network namespace, isolated from other tests."""
 
     def __init__(self, network):
         self._network = network

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Each example of an extension is installed as a distribution of its own, and works as coframe's own parts do."""
+"""Each example of an extension is installed as its own distribution, and works as coframe's own parts do."""
 
 import json
 import os
@@ -288,7 +288,7 @@ def test_messages_of_any_number_are_read_from_a_temporary_file(tmp_path, monkeyp
         assert [topic.messages for topic in recording.topics.values()] == [1667, 1667, 1666]
         assert [each.message.data for each in recording.messages("/topic1")] == list(range(1, 5000, 3))
         assert recording.message_at("/topic2", START + 4000).message.data == 3998
-        assert recording.problems == ["a.numbers: messages with an invalid time of receipt"]
+        assert recording.problems == ["a.numbers: messages with an invalid receive time"]
         with Writer(tmp_path / "copy") as writer:
             topics = {name: writer.add_topic(name, "std_msgs/msg/Int32") for name in recording.topics}
             for channel, received, data in recording.in_order():

@@ -88,7 +88,7 @@ def test_each_command_ends_with_a_sentence(tmp_path, monkeypatch, words, file, k
 
 
 def test_a_batch_reports_each_recording(tmp_path, monkeypatch):
-    """It reads each one in a process of its own."""
+    """It reads each one in a separate process."""
     monkeypatch.chdir(tmp_path)
     for kind in COMMAND_KINDS:
         (tmp_path / kind).mkdir()
@@ -101,7 +101,7 @@ def test_a_batch_reports_each_recording(tmp_path, monkeypatch):
 
 
 def test_a_pipe_on_purpose_gets_the_way_out():
-    """A shell passes the output of another program as a pipe without a name."""
+    """A shell passes the output of another program as an unnamed pipe."""
     command = [sys.executable, "-m", "coframe.cli", "bag", "info", "/dev/stdin"]
     done = subprocess.run(command, input="content", capture_output=True, text=True, timeout=30, check=False)
     assert done.returncode == 1

@@ -32,7 +32,7 @@ ALL = [*NATIVE, *PYTHON, *UNGUIDED]
 
 MAX_MEMORY = 1024  # MB
 MAX_SECONDS = 5  # per input
-# A xacro file is expanded in a process of its own, which coframe ends after 20 s.
+# A xacro file is expanded in a separate process, which coframe ends after 20 s.
 SLOW = {"xacro": 25}
 MAX_INPUT_BYTES = {"frozen": 60_000, "frozen_file": 60_000, "sqlite": 30_000}  # bytes of an input; 8000 for others
 MAX_CORPUS_BYTES = 90_000  # bytes of a corpus in the repository

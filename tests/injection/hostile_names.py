@@ -32,7 +32,7 @@ def problems(output, *, is_data=False, is_text=False):
         if control := [character for character in line if not character.isprintable()]:
             found.append(f"{control[:5]} in {line[:300]!r}")
         if "forged line" in line and "two" not in line and not is_text:
-            found.append(f"a line of its own: {line[:300]!r}")
+            found.append(f"a separate line: {line[:300]!r}")
         if len(line) > MAX_LINE_LENGTH and not is_data:
             found.append(f"a line of {len(line)} characters: {line[:300]!r}")
     return found

@@ -47,7 +47,7 @@ def run(network, folder: Path, python: str, environment: dict[str, str], name: s
 
 
 def run_all(network, folder: Path, python: str, environment: dict[str, str]) -> dict[str, str]:
-    """Return the outputs of all programs, which run in domains of their own."""
+    """Return the outputs of all programs, which run in their own domains."""
     programs = [*names(folder), "bad"]
     with ThreadPoolExecutor(PARALLEL) as pool:
         outputs = pool.map(

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Launch and parameter files that would need any time or memory end with one sentence."""
+"""Launch and parameter files that would need any time or memory end with an error message."""
 
 import sys
 from pathlib import Path

@@ -91,7 +91,7 @@ launch:
 
 
 @pytest.fixture
-def workspace(tmp_path, domain_id):  # noqa: ARG001 - the nodes have a domain of their own
+def workspace(tmp_path, domain_id):  # noqa: ARG001 - the nodes have their own domain
     package = tmp_path / "ws" / "src" / "demo_pkg"
     files = {
         "package.xml": "<package><name>demo_pkg</name></package>",

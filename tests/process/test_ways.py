@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Which way a listener of tf2_ros receives transforms: each row of the table, in a process of its own."""
+"""Which way a listener of tf2_ros receives transforms: each row of the table, in a separate process."""
 
 import os
 import subprocess

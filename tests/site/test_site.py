@@ -58,7 +58,7 @@ class Opened:
         self.tab.keyboard.type(words)
         results = self.tab.locator(".md-search-result__link")
         results.first.wait_for(timeout=60_000)
-        # The list is complete when it does not change any more.
+        # The list is complete when it no longer changes.
         self.tab.wait_for_function(
             """() => {
                 const text = document.querySelector(".md-search__output").innerText

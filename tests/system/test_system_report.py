@@ -36,7 +36,7 @@ def run(command, **environment):
 
 
 def examine(network, *options, **environment):
-    """Run the command in a network of its own; return its exit code and its data."""
+    """Run the command in its own network; return its exit code and its data."""
     result = run(network.command(*COMMAND, "--json", "--duration", "0.3s", *options), **environment)
     assert result.stderr == ""
     return result.returncode, json.loads(result.stdout)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The programs of the official tutorials, written by us from their description, in a workspace that is never built.
 
-They run as a user runs them: `coframe run`, `coframe launch` and the commands of ros2, each in a process of its own.
+They run as a user runs them: `coframe run`, `coframe launch` and the commands of ros2, each in a separate process.
 """
 
 import os
@@ -22,7 +22,7 @@ PATIENCE = 40.0  # seconds; the machine may be busy
 
 
 class Terminal:
-    """Runs commands in a workspace, in a network of its own."""
+    """Runs commands in a workspace, in its own network."""
 
     def __init__(self, network, folder):
         self._network = network

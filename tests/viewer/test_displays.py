@@ -208,7 +208,7 @@ def test_time_travel_shows_the_messages_of_that_time(ros, robot, view, open_tab)
     np.testing.assert_allclose(shown.payload, [2.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0])
     origin = int(tab.last["hello"]["origin"])
     tab.send("time", mode="at", at=robot - 2 * SECOND - origin)
-    tab.wait("shapes", lambda received: received.payload[0] == 1.0)  # the newest one may be shown once more before
+    tab.wait("shapes", lambda received: received.payload[0] == 1.0)  # the newest one may be shown again before
     tab.send("time", mode="at", at=robot - 9 * SECOND - origin)
     assert tab.wait("display")["text"] == "no message before this time"
     tab.send("time", mode="at", at=robot - 2 * SECOND - origin)

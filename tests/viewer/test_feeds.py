@@ -115,4 +115,4 @@ def test_the_state_of_an_unpublished_topic_is_sent_once(client, socket):
     assert socket.take() == ["display"]
     client.state.subscribe(1, "/scan", None)
     client.update(100.5)
-    assert socket.take() == ["display"], "a new subscription has a state of its own"
+    assert socket.take() == ["display"], "a new subscription has its own state"

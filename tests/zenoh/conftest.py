@@ -21,7 +21,7 @@ from coframe.wire import GraphNode, Participant
 
 @pytest.fixture(scope="session")
 def router() -> Iterator[Router]:
-    """A router on a port of its own. Tests have domains of their own."""
+    """A router on its own port. Tests have their own domains."""
     started = Router()
     yield started
     started.close()

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/** The panels beside the scene; a script of its own, which is loaded when the first of them opens. */
+/** The panels beside the scene; a separate script, which is loaded when the first of them opens. */
 
 import { Dock } from "./dock/dock";
 import { LogPane } from "./log/pane";

@@ -19,7 +19,7 @@ class OdometryLog(RecordingFormat):
     suffixes = (".odom",)
 
     def messages(self, path: Path) -> Iterator[tuple[str, int, Message]]:
-        """Yield topic, time of receipt in nanoseconds, and message."""
+        """Yield topic, receive time in nanoseconds, and message."""
         for line in path.read_text(encoding="utf-8").splitlines():
             seconds, x, y, yaw = map(float, line.split())
             stamp = round(seconds * 1e9)

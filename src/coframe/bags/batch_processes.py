@@ -23,7 +23,7 @@ __all__ = ["run_jobs"]
 def run_jobs(jobs: Sequence[tuple[Any, ...]], workers: int) -> Iterator[tuple[tuple[Any, ...], Any]]:
     """Call `coframe.bags.batch.query_recording` for each job in worker processes.
 
-    A job whose process dies is run once more, because concurrent jobs may have used the memory.
+    A job whose process dies is run again, because concurrent jobs may have used the memory.
 
     Args:
         jobs: The arguments of each call.

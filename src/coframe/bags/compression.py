@@ -55,7 +55,7 @@ def unpack(compression: str, data: bytes | memoryview, size: int) -> bytes:
     open_ = _OPENERS[compression]()
     try:
         unpacked: bytes = open_(data).read(size)
-    except Exception as error:  # noqa: BLE001 - each library has exceptions of its own
+    except Exception as error:  # noqa: BLE001 - each library has its own exceptions
         unpacked = _undamaged(open_(data), size)
         if not unpacked:
             raise DamagedError(f"{compression} reports: {error}") from None

@@ -54,7 +54,7 @@ class Contents:
         closing: Closes the files.
         types: The types of the messages.
         index: Where each message is.
-        received_span: The first and last time of receipt; None without messages.
+        received_span: First and last receive time; None without messages.
     """
 
     path: Path

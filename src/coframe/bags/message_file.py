@@ -58,7 +58,7 @@ class _Pending(NamedTuple):
 
 
 class MessageFile(Storage):
-    """Reads all messages once, and keeps their bytes in a temporary file without a name.
+    """Reads all messages once, and keeps their bytes in an unnamed temporary file.
 
     The position of a message is its number in the order of the format.
     """
@@ -99,7 +99,7 @@ class MessageFile(Storage):
                 self._channels[channel] = None
                 time = _integer(received)
                 if time is None:
-                    self.add_problem("messages with an invalid time of receipt")
+                    self.add_problem("messages with an invalid receive time")
                 else:
                     yield channel, time, bytes(data)
         except Exception as error:  # noqa: BLE001 - formats are plug-ins, and files may be damaged
@@ -139,7 +139,7 @@ class MessageFile(Storage):
 
 
 def _integer(received: Any) -> int | None:
-    """Return a time of receipt in nanoseconds; None if it is not one."""
+    """Return a receive time in nanoseconds; None if it is not one."""
     try:
         time = received.__index__()  # NumPy's integers have it, and floats do not
     except AttributeError:

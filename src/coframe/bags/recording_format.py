@@ -27,8 +27,8 @@ class FileWriter(Protocol):
 
     Attributes:
         counts: Number of flushed messages by channel.
-        start: First time of receipt of the flushed messages, in nanoseconds; 0 if there are none.
-        end: Last time of receipt of the flushed messages, in nanoseconds; 0 if there are none.
+        start: First receive time of the flushed messages, in nanoseconds; 0 if there are none.
+        end: Last receive time of the flushed messages, in nanoseconds; 0 if there are none.
     """
 
     counts: list[int]
@@ -102,7 +102,7 @@ class RecordingFormat:
         return ""
 
     def messages(self, path: Path) -> Iterator[tuple[str, int, Message]]:
-        """Yield the messages of a file, in any order: topic, time of receipt in nanoseconds, and message.
+        """Yield the messages of a file, in any order: topic, receive time in nanoseconds, and message.
 
         Messages are instances of ROS's classes, such as ``geometry_msgs.msg.PoseStamped`` or the class that
         ``coframe.messages.find("tf2_msgs/msg/TFMessage")`` returns. Raise any exception where the file is damaged: the
@@ -114,7 +114,7 @@ class RecordingFormat:
         raise NotImplementedError(f"{type(self).__name__} does not define messages(path)")
 
     def serialized_messages(self, path: Path) -> Iterator[tuple[Channel, int, bytes]]:
-        """Yield the messages of a file as bytes, instead of :meth:`messages`: channel, time of receipt and bytes.
+        """Yield the messages of a file as bytes, instead of :meth:`messages`: channel, receive time and bytes.
 
         Args:
             path: The file.

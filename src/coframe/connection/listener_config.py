@@ -73,7 +73,7 @@ class ListenerConfig:
             tf_static_topic: The topic of static transforms. If None, it is /tf_static in the namespace.
             prefix: The prefix of the frames in the buffer.
             keep: The frames without a prefix.
-            cache: The length of the cache: a text such as "10s", nanoseconds or a timedelta. If None, everything is
+            cache: The length of the cache: a string such as "10s", nanoseconds or a timedelta. If None, everything is
                 kept.
             domain: The ROS domain. If None, it is ROS_DOMAIN_ID, or 0 if that is not set.
             wire: The middleware. If None, the selected one; see `coframe.wire.selection`.

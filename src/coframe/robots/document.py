@@ -66,7 +66,7 @@ class Element:
         return (child for child in self.children if child.tag == tag)
 
     def one(self, tag: str) -> Element | None:
-        """Return the first child element with a tag; None if there is none. Further ones cause a warning."""
+        """Return the first child element with a tag; None if there is none. Others cause a warning."""
         found = self.all(tag)
         first = next(found, None)
         if (second := next(found, None)) is not None:

@@ -3,7 +3,7 @@
 
 A call may name it (`coframe.connect(wire="zenoh")`), and so may the command line of a process (``--wire zenoh``).
 Otherwise the environment decides; see `select`. Connections of one process may use different middlewares: each
-middleware and domain has a participant of its own.
+middleware and domain has its own participant.
 """
 
 from __future__ import annotations

@@ -21,7 +21,7 @@ class LaunchDescription(LaunchDescriptionEntity):
 
     Args:
         initial_entities: The first entities.
-        deprecated_reason: Why this description should not be used any more.
+        deprecated_reason: Why this description should no longer be used.
     """
 
     def __init__(

@@ -287,7 +287,7 @@ class Node(_node_endpoints.Node):
         if frequency <= 0:
             raise ValueError("frequency must be > 0")
         self._Coframe__entities.check_not_destroyed()
-        # A group of its own, so that the callbacks of the node do not delay the end of a period.
+        # Its own group, so that the callbacks of the node do not delay the end of a period.
         timer = self.create_timer(1 / frequency, _do_nothing, ReentrantCallbackGroup(), clock)
         rate = self._Coframe__entities.add(Rate(timer, context=self.context))
         self.__timers_of_rates[rate] = timer

@@ -24,7 +24,7 @@ class TypeHash:
 
     @classmethod
     def from_text(cls, text: str | None) -> TypeHash:
-        """Return the hash that a text such as `RIHS01_df66...` describes, or an unknown hash for any other text."""
+        """Return the hash that a string such as `RIHS01_df66...` describes, or an unknown hash for any other text."""
         prefix, _, digits = (text or "").partition("_")
         if not prefix.startswith("RIHS") or len(digits) != 2 * _LENGTH:
             return cls()

@@ -45,7 +45,7 @@ class SequentialWriter:
             raise RuntimeError(str(error)) from error
 
     def create_topic(self, topic_with_type: TopicMetadata) -> None:
-        """Add a topic; a topic that exists already stays as it is."""
+        """Add a topic; a topic that already exists stays as it is."""
         if topic_with_type.name in self.__topics:
             return
         qos = topic_with_type.offered_qos_profiles

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""One node in a process of its own, for all tests of this folder, and the command line in this process."""
+"""One node in a separate process, for all tests of this folder, and the command line in this process."""
 
 import os
 import subprocess
@@ -17,7 +17,7 @@ from coframe.cli.app import app
 
 @pytest.fixture(scope="session")
 def graph():
-    """The node of graph_program.py, in a domain of its own."""
+    """The node of graph_program.py, in its own domain."""
     # A domain that the fixture domain_id does not use.
     environment = {"ROS_DOMAIN_ID": str(97 + os.getpid() % 4), "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
     program = subprocess.Popen(

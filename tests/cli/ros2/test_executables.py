@@ -77,7 +77,7 @@ def test_rviz2_opens_the_viewer(execute):
 
 
 def test_executables_are_added_and_removed(tmp_path):
-    """In an environment of its own; an existing executable of a real ROS is not touched."""
+    """In a separate environment; an existing executable of a real ROS is not touched."""
     environment = tmp_path / "environment"
     subprocess.run([sys.executable, "-m", "venv", "--without-pip", environment], check=True)
     python = environment / "bin" / "python"

@@ -233,7 +233,7 @@ def demo(tmp_path_factory) -> Iterator[Demo]:
 
 
 def _address(process, output):
-    """Return the address, which the demo prints in a line of its own."""
+    """Return the address, which the demo prints on its own line."""
     deadline = time.monotonic() + START_TIMEOUT
     while time.monotonic() < deadline and process.poll() is None:
         lines = output.read_text(errors="replace").splitlines()

@@ -486,7 +486,7 @@ export interface SceneNode {
   problem: string;
 }
 
-/** The ids of nodes that do not exist any more. */
+/** The ids of nodes that no longer exist. */
 export interface RemovedNodes {
   type: "nodes_removed";
   ids: number[];
@@ -517,7 +517,7 @@ export interface Widget {
   visible: boolean;
 }
 
-/** The ids of widgets that do not exist any more. */
+/** The ids of widgets that no longer exist. */
 export interface RemovedWidgets {
   type: "widgets_removed";
   ids: number[];

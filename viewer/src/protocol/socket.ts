@@ -77,7 +77,7 @@ export class SocketSource implements MessageSource {
     }
   }
 
-  /** Whether the page and the server use the same protocol; reloads the page or explains why it cannot go on. */
+  /** Whether the page and the server use the same protocol; reloads the page or explains why it cannot continue. */
   private matches(version: unknown): boolean {
     const verdict = compareVersion(version, sessionStorage);
     if (verdict === "current") return true;

@@ -179,7 +179,7 @@ export class NodesView {
   private placeOne(place: Place, framePoses: FramePoses): string {
     const { outer, inner, current } = place;
     const above = this.above(place.name);
-    // A node in a frame of its own is not inside the node above it, but is hidden with it.
+    // A node in its own frame is not inside the node above it, but is hidden with it.
     const inside = current?.node.frame === null ? (above?.inner ?? this.object) : this.object;
     if (outer.parent !== inside) inside.add(outer);
     outer.visible = this.isShown(place);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/** Additional views of the scene next to the main one, each with a camera of its own. */
+/** Additional views of the scene next to the main one, each with its own camera. */
 
 import type * as THREE from "three";
 import { fillSelect, h, iconButton, select } from "../util/dom";

@@ -50,7 +50,7 @@ DISCOVERY = NonNegativeDuration("0.4s")  # ros2cli waits 0.5 s without its daemo
 AT_ONCE = NonNegativeDuration("0s")
 # Fast DDS may take seconds to announce an endpoint, so commands wait longer for a specific name than for a list.
 PATIENCE = 3.0  # seconds
-_PERIOD = 0.02  # seconds between two looks at the graph
+_PERIOD = 0.02  # seconds between two checks of the graph
 
 _warned: set[str] = set()  # the warnings that were printed
 

@@ -119,7 +119,7 @@ def _gaps(edges: list[Edge]) -> Finding:
         f"a gap of {duration(int(worst.intervals.max()))}; the usual period is {duration(worst.period)}{_all(edges)}; "
         "tf2 interpolates across the gap",
         "Find out what delayed the publisher: a blocking callback (time.sleep, a service call), an overloaded "
-        "processor, or a lossy network. Give its timer a thread of its own (MultiThreadedExecutor).",
+        "processor, or a lossy network. Give its timer a dedicated thread (MultiThreadedExecutor).",
         int(np.unique(worst.stamp)[row]),
     )
 

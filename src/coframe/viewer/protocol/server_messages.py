@@ -480,7 +480,7 @@ class SceneNode(TypedDict):
 
 
 class RemovedNodes(TypedDict):
-    """The ids of nodes that do not exist any more."""
+    """The ids of nodes that no longer exist."""
 
     type: Literal["nodes_removed"]
     ids: list[int]
@@ -512,7 +512,7 @@ class Widget(TypedDict):
 
 
 class RemovedWidgets(TypedDict):
-    """The ids of widgets that do not exist any more."""
+    """The ids of widgets that no longer exist."""
 
     type: Literal["widgets_removed"]
     ids: list[int]

@@ -62,7 +62,7 @@ class ClickEvent:
 
 
 class NodeHandle:
-    """A node of the scene; may be used by any thread.
+    """A node of the scene; thread-safe.
 
     Args:
         store: All nodes.
@@ -140,7 +140,7 @@ class NodeHandle:
     def on_click(self, callback: C) -> C:
         """Call a function with a :class:`ClickEvent` for each click on this node; usable as a decorator.
 
-        Callbacks of one viewer run in a thread of their own, one after another. Exceptions are logged.
+        Callbacks of one viewer run in a dedicated thread, one after another. Exceptions are logged.
 
         Raises:
             SceneError: The node was removed.

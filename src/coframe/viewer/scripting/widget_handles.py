@@ -49,7 +49,7 @@ class WidgetEvent:
 
 
 class WidgetHandle:
-    """A widget of the page; may be used by any thread.
+    """A widget of the page; thread-safe.
 
     Args:
         store: All widgets.
@@ -119,7 +119,7 @@ class ButtonHandle(WidgetHandle):
     def on_click(self, callback: C) -> C:
         """Call a function with a :class:`WidgetEvent` when the button is pressed; usable as a decorator.
 
-        Callbacks of one viewer run in a thread of their own, one after another. Exceptions are logged.
+        Callbacks of one viewer run in a dedicated thread, one after another. Exceptions are logged.
 
         Raises:
             SceneError: The widget was removed.
@@ -131,7 +131,7 @@ class _ValueHandle(WidgetHandle):
     def on_update(self, callback: C) -> C:
         """Call a function with a :class:`WidgetEvent` when a user changes the value; usable as a decorator.
 
-        Values that the program assigns call nothing. Callbacks of one viewer run in a thread of their own, one after
+        Values that the program assigns call nothing. Callbacks of one viewer run in a dedicated thread, one after
         another; a callback that is slower than its slider skips values. Exceptions are logged.
 
         Raises:

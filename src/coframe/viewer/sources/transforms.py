@@ -19,7 +19,7 @@ def buffer_of_transform(transform: Transform) -> Buffer:
     """Return a buffer with a transform, or with a batch: a motion if it has stamps, otherwise one frame for each.
 
     Args:
-        transform: The transform; frames without a name are named "target" and "source".
+        transform: The transform; unnamed frames are called "target" and "source".
 
     Raises:
         ViewerError: A batch without stamps has too many transforms.

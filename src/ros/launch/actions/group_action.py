@@ -28,7 +28,7 @@ __all__ = ["GroupAction"]
 
 @expose_action("group")
 class GroupAction(Action):
-    """Visit actions in a scope of their own, by default.
+    """Visit actions in their own scope, by default.
 
     Args:
         actions: The actions.

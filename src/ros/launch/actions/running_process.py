@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A child process in a group of its own: its start, its output, and signals to the whole group."""
+"""A child process in its own group: its start, its output, and signals to the whole group."""
 
 from __future__ import annotations
 

@@ -101,7 +101,7 @@ class _ScreenHandler(logging.Handler):
 
 
 class ProcessOutput:
-    """The two streams of a process: complete lines go to the screen, to launch.log and to files of their own.
+    """The two streams of a process: complete lines go to the screen, to launch.log and to their own files.
 
     Args:
         name: Name of the process, the prefix of its lines on the screen.
