@@ -12,13 +12,13 @@ import sys
 from pathlib import Path
 from typing import NamedTuple
 
-from coframe.messages import archive
+from coframe.messages import _archive as archive
+from coframe.messages._constructors import default_assignments
+from coframe.messages._fields import number_of
+from coframe.messages._parser import Field, Structure, parse
+from coframe.messages._stubs import field_hint, parameter_hint, stub, value_type
 from coframe.messages.compounds import PARTS, member_messages
-from coframe.messages.constructors import default_assignments
 from coframe.messages.definition import Array, NamespacedType
-from coframe.messages.fields import number_of
-from coframe.messages.parser import Field, Structure, parse
-from coframe.messages.stubs import field_hint, parameter_hint, stub, value_type
 
 ROOT = Path(__file__).resolve().parents[1]
 INTERFACES = ROOT / "interfaces"
@@ -213,7 +213,7 @@ class Module:
         if any(": Iterable[" in text or ": Sequence[" in text for text in classes):
             lines += "    from collections.abc import Iterable\n\n"
         if self.names["hints"]:
-            lines += "    " + _import_line("coframe.messages.hints", self.names["hints"])
+            lines += "    " + _import_line("coframe.messages._hints", self.names["hints"])
         return lines
 
     def public_text(self) -> str:

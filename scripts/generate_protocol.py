@@ -16,11 +16,11 @@ import textwrap
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, get_args, is_typeddict
 
-from coframe.viewer.displays.row import FIXED_FRAME, ChoiceOption, ColorOption, FlagOption, NumberOption, TextOption
+from coframe.viewer.displays._row import FIXED_FRAME, ChoiceOption, ColorOption, FlagOption, NumberOption, TextOption
 from coframe.viewer.displays.rows import DISPLAYS, MAX_AUTOMATIC_DISPLAYS
 from coframe.viewer.protocol import binary_messages, client_messages, common, replay_block, server_messages
-from coframe.viewer.protocol.layout import BinaryField, binary_fields
-from coframe.viewer.protocol.limits import Clamp
+from coframe.viewer.protocol._layout import BinaryField, binary_fields
+from coframe.viewer.protocol._limits import Clamp
 from coframe.viewer.protocol.schema import (
     Array,
     Field,
@@ -42,7 +42,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
     from enum import IntEnum
 
-    from coframe.viewer.displays.row import DisplayRow, Option
+    from coframe.viewer.displays._row import DisplayRow, Option
 
 ROOT = Path(__file__).resolve().parents[1]
 TYPESCRIPT = ROOT / "viewer/src/generated/protocol.ts"

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Write the chapters of the handbook as notebooks for those who read them in the repository.
 
-`coframe lab handbook -o FOLDER` writes the same notebooks; src/coframe/course/notebooks.py says what becomes a cell.
+`coframe lab handbook -o FOLDER` writes the same notebooks; src/coframe/course/_notebooks.py says what becomes a cell.
 
 Example:
     python scripts/handbook_notebooks.py            write docs/handbook/notebooks/*.ipynb
@@ -13,7 +13,7 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
-from coframe.course.notebooks import notebook
+from coframe.course._notebooks import notebook
 
 HANDBOOK = Path(__file__).resolve().parents[1] / "docs" / "handbook"
 FOLDER = HANDBOOK / "notebooks"

@@ -27,7 +27,7 @@ from PIL import Image
 from playwright.sync_api import sync_playwright
 
 import coframe
-from coframe.course.notebooks import cells
+from coframe.course._notebooks import cells
 from coframe.viewer import Viewer
 
 if TYPE_CHECKING:

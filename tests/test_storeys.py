@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Each package of the repository is in one storey of the import contract: programs, ROS packages or library."""
 
+import ast
 import re
 from pathlib import Path
 
@@ -43,3 +44,48 @@ def test_no_module_imports_a_name_from_the_face_of_coframe():
     face = re.compile(r"^\s*from coframe import (?!_core\b|time\b|quaternion\b|frame_names\b|errors\b)\w", re.MULTILINE)
     sources = [path for path in (ROOT / "src").rglob("*.py") if path != ROOT / "src" / "coframe" / "__init__.py"]
     assert [path.relative_to(ROOT).as_posix() for path in sources if face.search(path.read_text())] == []
+
+
+# Each module of these packages is one of many of a kind, which a table or a search finds by its name.
+KINDS = re.compile(
+    r"coframe\.(cli|lab|nodes|ros2|doctor\.checks|viewer\.displays\.kinds|messages\.generated"
+    r"|course\.(criteria|faults|sandbox|templates))\b"
+)
+
+
+@pytest.fixture(scope="module")
+def imports():
+    """The modules that import each module of coframe."""
+    files = {path: _module(path) for path in (ROOT / "src").rglob("*.py")}
+    found = {name: set() for name in files.values() if name.startswith("coframe.")}
+    for path, importer in files.items():
+        for name in _imported(path.read_text(encoding="utf-8")) & found.keys():
+            found[name].add(importer)
+    return found
+
+
+def _module(path):
+    parts = path.relative_to(ROOT / "src").with_suffix("").parts
+    return ".".join(parts).removesuffix(".__init__")
+
+
+def _imported(source):
+    names = set()
+    for node in ast.walk(ast.parse(source)):
+        if isinstance(node, ast.Import):
+            names |= {one.name for one in node.names}
+        elif isinstance(node, ast.ImportFrom) and node.module:
+            names |= {node.module, *(f"{node.module}.{one.name}" for one in node.names)}
+    return names
+
+
+def test_a_private_module_is_imported_only_in_its_own_package(imports):
+    wrong = {
+        (name, importer)
+        for name, importers in imports.items()
+        for importer in importers
+        if (parts := re.match(r"(.*?)\._", name))
+        and parts[1] != "coframe"
+        and not f"{importer}.".startswith(f"{parts[1]}.")
+    }
+    assert not wrong

@@ -22,7 +22,7 @@ const REPLAY_HEAD =
   `style-src 'unsafe-inline'; img-src data: blob:; connect-src data: blob:">`;
 
 /**
- * Writes replay.html: the page with a policy that forbids all requests. src/coframe/viewer/replay/template.py replaces the
+ * Writes replay.html: the page with a policy that forbids all requests. src/coframe/viewer/replay/_template.py replaces the
  * words between percent signs by page.js, its hash and viewer.css, so that a replay is a single file that opens from disk.
  */
 function replayPage(): Plugin {

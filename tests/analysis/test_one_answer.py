@@ -13,7 +13,7 @@ from coframe.cli.monitor import _data, _tables
 from coframe.cli.tree_table import tree_table
 from coframe.connection.tf_publishers import TfPublisher
 from coframe.doctor import Observation, diagnose
-from coframe.doctor.transforms import Transforms
+from coframe.doctor._transforms import Transforms
 from coframe.tree_drawing import grow
 from coframe.tree_drawing.labels import alarms
 from coframe.viewer.scene.scene import Scene

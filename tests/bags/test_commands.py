@@ -157,7 +157,8 @@ def test_hint_names_edges_without_a_common_time(tmp_path, stamps, at, text):
 
 
 def test_ctrl_c_before_completion_exits_with_130(bag, tmp_path, monkeypatch):
-    from coframe.bags import bag_repair, contents
+    from coframe.bags import _bag_repair as bag_repair
+    from coframe.bags import _contents as contents
 
     def interrupted(*_arguments):
         raise KeyboardInterrupt

@@ -16,8 +16,8 @@ from rosbags.rosbag2 import CompressionMode, StoragePlugin
 
 import coframe
 from coframe.bags import OfferedQos
+from coframe.bags._offered_qos import to_yaml
 from coframe.bags.namespaces import TransformChoice
-from coframe.bags.offered_qos import to_yaml
 from coframe.doctor import observe_recording
 
 RANGE_OF_IRON = b"""std_msgs/Header header

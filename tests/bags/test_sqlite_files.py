@@ -352,7 +352,7 @@ def test_journals_that_are_not_regular_files(tmp_path, kind):
 def test_a_copy_that_does_not_fit_is_not_made(tmp_path, monkeypatch):
     path = killed_recorder(tmp_path, "WAL")
     (tmp_path / "run.db3-shm").unlink()
-    monkeypatch.setattr("coframe.bags.sqlite_database.MAX_RECOVERED", 1000)
+    monkeypatch.setattr("coframe.bags._sqlite_database.MAX_RECOVERED", 1000)
     found, problems = messages_of(path)
     assert found == COUNT + 1
     assert "1000 is the limit for recovery" in problems[0]

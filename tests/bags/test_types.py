@@ -246,7 +246,7 @@ def test_ten_thousand_different_definitions_take_little_memory_and_time(tmp_path
 
 
 def test_definitions_have_limits_together(tmp_path, monkeypatch):
-    from coframe.bags import recorded_types
+    from coframe.bags import _recorded_types as recorded_types
     from coframe.messages import schema_classes
 
     many_definitions(tmp_path / "a.mcap", 20)

@@ -27,9 +27,11 @@ from rosbags.interfaces import QosDurability
 from rosbags.rosbag2 import Reader
 
 import coframe
-from coframe.bags import OfferedQos, Writer, from_yaml, latched_messages, mcap_writer
-from coframe.bags.mcap_writer import McapWriter
-from coframe.bags.offered_qos import to_yaml
+from coframe.bags import OfferedQos, Writer, from_yaml
+from coframe.bags import _latched_messages as latched_messages
+from coframe.bags import _mcap_writer as mcap_writer
+from coframe.bags._mcap_writer import McapWriter
+from coframe.bags._offered_qos import to_yaml
 
 COMPRESSIONS = ("none", "zstd", "lz4")
 

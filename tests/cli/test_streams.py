@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 import recordings
 
-from coframe.course.view import view_of
+from coframe.course._view import view_of
 from coframe.wire.dds.library import places
 from coframe.workspace.packages.folders import listed
 

@@ -16,7 +16,7 @@ import numpy as np
 import pytest
 
 import coframe
-from coframe.buffer import frozen_file
+from coframe.buffer import _frozen_file as frozen_file
 
 SECOND = 1_000_000_000
 SPAN = (SECOND, 20 * SECOND)

@@ -16,11 +16,11 @@ from grades import SOLUTION  # of this folder
 
 import coframe
 from coframe.course import confinement as confinement_module
+from coframe.course._confinement import Confinement, protection_problem
+from coframe.course._view import private_folders, view_of
 from coframe.course.checking import check_folder
-from coframe.course.confinement import Confinement, protection_problem
 from coframe.course.isolation import isolated_command, isolation_problem
 from coframe.course.sandbox.landlock import landlock_version
-from coframe.course.view import private_folders, view_of
 
 pytestmark = pytest.mark.skipif(
     bool(isolation_problem()) or not landlock_version(), reason="needs namespaces, Landlock and seccomp"
@@ -293,7 +293,7 @@ USES = {
     "import": "from coframe.lab.static_tf_broadcaster import main; print('SOLUTION')",
     "caught import": "try: import coframe.lab.tf_listener; print('SOLUTION')\nexcept ImportError: pass",
     "silent import": "try: import coframe.lab.tf_listener; print('SOLUTION')\nexcept Exception: pass",
-    "criteria": "from coframe.course.motion import joint_angles; print('SOLUTION')",
+    "criteria": "from coframe.course._motion import joint_angles; print('SOLUTION')",
     "importlib": "import importlib; importlib.import_module('coframe.' + 'la' + 'b.tf_listener'); print('SOLUTION')",
     "runpy": "import runpy; runpy.run_module('coframe.lab.tf_listener'); print('SOLUTION')",
     "reading": "import coframe; print('SOLUTION', open({package!r} + '/lab/tf_listener.py').read())",
@@ -322,7 +322,7 @@ def test_solutions_in_coframe_cannot_be_used_and_attempts_are_reported(use, prog
 
 
 def test_other_installations_and_compiled_files_are_hidden(tmp_path, monkeypatch):
-    from coframe.course.solutions import solution_folders
+    from coframe.course._solutions import solution_folders
 
     (tmp_path / "packages" / "coframe" / "lab").mkdir(parents=True)
     monkeypatch.syspath_prepend(tmp_path / "packages")

@@ -7,7 +7,7 @@ import sys
 
 import pytest
 
-from coframe.course import faulty_node
+from coframe.course import _faulty_node as faulty_node
 
 COFRAME = (sys.executable, "-m", "coframe.cli")
 CODES = dict(enumerate(("TF014", "TF014", "TF008", "TF014", "TF003", "TF013", "TF023", "TF023", "TF023", "TF026"), 1))

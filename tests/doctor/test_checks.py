@@ -16,10 +16,10 @@ from runs import MS, SECOND, Offered, Run, rpy, stamp_message, yaw
 
 from coframe.analysis.missing_edges import missing_edge
 from coframe.doctor import Observation, Severity, codes, diagnose, observe_recording
-from coframe.doctor.diagnosis import all_checks
-from coframe.doctor.edge import Edge
-from coframe.doctor.flicker import flicker
-from coframe.doctor.transforms import Transforms
+from coframe.doctor._diagnosis import all_checks
+from coframe.doctor._edge import Edge
+from coframe.doctor._flicker import flicker
+from coframe.doctor._transforms import Transforms
 from coframe.messages import find
 
 URDF = """<robot name="r"><link name="base_link"/><link name="lidar"/><link name="wheel"/>

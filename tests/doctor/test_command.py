@@ -15,9 +15,9 @@ from runs import Run
 
 from coframe.cli.app import app
 from coframe.doctor import Observation, codes, diagnose
-from coframe.doctor.observation import Endpoint, TopicFacts
+from coframe.doctor._transforms import Transforms
+from coframe.doctor.observation import ObservedEndpoint, TopicFacts
 from coframe.doctor.rendering.sarif import as_sarif
-from coframe.doctor.transforms import Transforms
 
 
 def command(*arguments):
@@ -105,7 +105,9 @@ def faulty(live):
         names=("base_link", "lidar", "self"),
         publishers=("/mounts",),
     )
-    tf_static = TopicFacts("/tf_static", "tf2_msgs/msg/TFMessage", 2, (Endpoint("/mounts", transient_local=False),))
+    tf_static = TopicFacts(
+        "/tf_static", "tf2_msgs/msg/TFMessage", 2, (ObservedEndpoint("/mounts", transient_local=False),)
+    )
     return Observation(live, START, START + 10**9, transforms, topics={"/tf_static": tf_static})
 
 

@@ -7,8 +7,8 @@ import tracemalloc
 
 import numpy as np
 
-from coframe.doctor.transform_rows import TransformRows
-from coframe.doctor.transforms import Transforms
+from coframe.doctor._transform_rows import TransformRows
+from coframe.doctor._transforms import Transforms
 
 ROWS = 50  # per batch
 

@@ -87,7 +87,7 @@ def test_a_check_runs_in_the_viewer(run, camera):
     program = """
 import sys, time
 from coframe.doctor import page
-from coframe.viewer.findings import FindingsWatcher
+from coframe.viewer._findings import FindingsWatcher
 from coframe.viewer.sources.recorded import RecordedSource
 import coframe
 with coframe.open_bag(sys.argv[1]) as recording:
@@ -280,7 +280,7 @@ def test_messages_of_any_number_are_read_from_a_temporary_file(tmp_path, monkeyp
             yield "/topic0", -1, kind(data=0)
 
     monkeypatch.setattr(formats, "formats", lambda: (*formats.BUILT_IN, Numbers()))
-    from coframe.bags import file_discovery
+    from coframe.bags import _file_discovery as file_discovery
 
     monkeypatch.setattr(file_discovery, "formats", formats.formats)
     (tmp_path / "a.numbers").touch()

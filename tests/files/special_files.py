@@ -100,7 +100,8 @@ def readers() -> dict[str, Reader]:
     from coframe.viewer.rviz.config import RvizConfig
     from coframe.wire.dds.config import cyclone_config
     from coframe.wire.zenoh.config import session_config
-    from coframe.workspace.packages import console_scripts, folders
+    from coframe.workspace.packages import _console_scripts as console_scripts
+    from coframe.workspace.packages import folders
     from launch import LaunchContext
     from launch.invalid_launch_file_error import InvalidLaunchFileError
     from launch.launch_description_sources import get_launch_description_from_any_launch_file

@@ -34,9 +34,9 @@ def empty(tmp_path):
 
 class TestView:
     def test_a_fixed_frame_given_by_hand_beats_the_rviz_file(self):
+        from coframe.viewer._state import ViewerState
         from coframe.viewer.rviz.config import RvizConfig
         from coframe.viewer.sources.source import BufferSource
-        from coframe.viewer.state import ViewerState
 
         text = "Visualization Manager: {Class: '', Global Options: {Fixed Frame: base_link, Frame Rate: 30}}"
         state = ViewerState(BufferSource(coframe.Buffer(), "", "buffer"), fixed="world", rviz=RvizConfig.parse(text))

@@ -16,8 +16,8 @@ import coframe
 from coframe.analysis.missing_edges import MissingEdge
 from coframe.cli.app import app
 from coframe.doctor import Observation, codes, diagnose, observe_recording, page
-from coframe.doctor.observation import Endpoint, TopicFacts
-from coframe.doctor.transforms import Transforms
+from coframe.doctor._transforms import Transforms
+from coframe.doctor.observation import ObservedEndpoint, TopicFacts
 from coframe.errors import PackageError
 from coframe.messages import find
 from coframe.robots import Packages
@@ -385,7 +385,7 @@ def test_rate_below_that_of_the_scans_that_need_it(findings, rate, scans, child,
     ],
 )
 def test_topic_that_never_publishes(topic, kind, messages, seconds, latched, found):
-    publishers = (Endpoint("/driver", transient_local=latched),)
+    publishers = (ObservedEndpoint("/driver", transient_local=latched),)
     facts = TopicFacts(topic, kind, messages, publishers, observed=seconds * SECOND)
     empty = Transforms.joined([], ())
     report = diagnose(Observation(True, START, START + 10 * SECOND, empty, topics={topic: facts}))

@@ -137,8 +137,8 @@ def sensor_messages() -> Callable[[bytes], object]:
 def definitions() -> Callable[[bytes], object]:
     """Parse the definitions of interfaces: .msg, .srv, .action and .idl."""
     from coframe.errors import InterfaceError
-    from coframe.messages.idl import parse_idl
-    from coframe.messages.parser import parse
+    from coframe.messages._idl import parse_idl
+    from coframe.messages._parser import parse
 
     def run(data: bytes) -> None:
         text = data[1:].decode("utf-8", "replace")
@@ -155,9 +155,9 @@ def definitions() -> Callable[[bytes], object]:
 def schemas() -> Callable[[bytes], object]:
     """Read the definition of a recorded message, and decode a message by it: the text, a NUL, and the bytes."""
     import coframe
-    from coframe.bags.decoding import decoder
-    from coframe.bags.problems import Problems
-    from coframe.bags.recorded_types import RecordedTypes
+    from coframe.bags._decoding import decoder
+    from coframe.bags._problems import Problems
+    from coframe.bags._recorded_types import RecordedTypes
     from coframe.bags.storage import Channel
     from coframe.messages import Message, serialize
 
@@ -187,8 +187,8 @@ def schemas() -> Callable[[bytes], object]:
 @target
 def discovery() -> Callable[[bytes], object]:
     """Decode what other participants publish about themselves."""
-    from coframe.wire.dds.discovery_info import decode_info, encode_info
-    from coframe.wire.dds.user_data import type_hash_of
+    from coframe.wire.dds._discovery_info import decode_info, encode_info
+    from coframe.wire.dds._user_data import type_hash_of
     from coframe.wire.names import any_ros_name, full_name, ros_type
 
     def run(data: bytes) -> None:
@@ -209,7 +209,7 @@ def discovery() -> Callable[[bytes], object]:
 def _recording(suffix: str) -> Callable[[bytes], object]:
     """Return a target that reads a recording as `bag info`, `doctor` and the conversions do."""
     import coframe
-    from coframe.bags.offered_qos import from_yaml
+    from coframe.bags._offered_qos import from_yaml
     from coframe.doctor import diagnose, observe_recording
 
     def read(path: Path) -> None:
@@ -257,7 +257,7 @@ def ros1_bag() -> Callable[[bytes], object]:
 def repair() -> Callable[[bytes], object]:
     """Repair an MCAP file; the result can be read."""
     import coframe
-    from coframe.bags.bag_repair import repair as repair_bag
+    from coframe.bags._bag_repair import repair as repair_bag
 
     def run(data: bytes) -> None:
         folder = _scratch()
@@ -279,7 +279,7 @@ def metadata() -> Callable[[bytes], object]:
     import recordings
 
     import coframe
-    from coframe.bags.offered_qos import from_yaml
+    from coframe.bags._offered_qos import from_yaml
 
     folder = _scratch() / "walk"
     recordings.write_rosbag2(folder, rows=recordings.messages()[:6])
@@ -390,9 +390,9 @@ def mesh_names() -> Callable[[bytes], object]:
 def viewer_messages() -> Callable[[bytes], object]:
     """Send messages of a client to the viewer, one per line."""
     import coframe
+    from coframe.viewer._state import ViewerState
     from coframe.viewer.clients.client import Client
     from coframe.viewer.sources.source import BufferSource
-    from coframe.viewer.state import ViewerState
 
     buffer = coframe.Buffer(None)
     buffer.set("odom", "base", coframe.Transform([1, 2, 3], [0, 0, 0, 1]), 1_000_000_000)
@@ -443,9 +443,9 @@ def viewer_messages() -> Callable[[bytes], object]:
 def viewer_socket() -> Callable[[bytes], object]:
     """Send bytes to the viewer's port: HTTP requests and WebSockets."""
     import coframe
+    from coframe.viewer._state import ViewerState
     from coframe.viewer.server.server import ViewerServer
     from coframe.viewer.sources.source import BufferSource
-    from coframe.viewer.state import ViewerState
 
     buffer = coframe.Buffer(None)
     buffer.set("odom", "base", coframe.Transform([1, 2, 3], [0, 0, 0, 1]), 1_000_000_000)

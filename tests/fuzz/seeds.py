@@ -23,9 +23,9 @@ from rosbags.rosbag1.writer import Writer as Rosbag1Writer
 
 import coframe
 from coframe import _core
-from coframe.bags.offered_qos import OfferedQos, to_yaml
+from coframe.bags._offered_qos import OfferedQos, to_yaml
 from coframe.messages import find, serialize
-from coframe.wire.dds.discovery_info import NodeInfo, encode_info
+from coframe.wire.dds._discovery_info import NodeInfo, encode_info
 
 
 def part(data: bytes) -> bytes:

@@ -12,6 +12,7 @@ from rosbags.interfaces import Nodetype
 from rosbags.typesys import Stores, get_typestore
 
 from coframe.messages import find
+from coframe.messages._parser import parse
 from coframe.messages.definition import (
     Array,
     BasicType,
@@ -21,7 +22,6 @@ from coframe.messages.definition import (
     UnboundedSequence,
     UnboundedString,
 )
-from coframe.messages.parser import parse
 
 ROOT = Path(__file__).resolve().parents[2]
 INTERFACES = ROOT / "interfaces"

@@ -10,7 +10,7 @@ import time
 import pytest
 
 from coframe.errors import PackageError
-from coframe.workspace.packages import console_scripts
+from coframe.workspace.packages import _console_scripts as console_scripts
 from coframe.workspace.packages.executables import executables, find_executable
 from coframe.workspace.packages.finding import find_package, source_folders, use_sources_near
 from std_msgs.msg import String

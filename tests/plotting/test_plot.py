@@ -14,8 +14,8 @@ from runs import MS, SECOND, START, Run
 import coframe
 from coframe.cli.app import app
 from coframe.plotting import Figure, PlotError, Series, evaluate
-from coframe.plotting.figure import COLOURS, MAX_DRAWN_VALUE
-from coframe.plotting.html_page import MAX_POINTS, as_html
+from coframe.plotting._figure import COLOURS, MAX_DRAWN_VALUE
+from coframe.plotting._html_page import MAX_POINTS, as_html
 from coframe.plotting.values import coordinate
 
 LATENCY = 20 * MS

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """The queue of messages that are not on the disk yet."""
 
-from coframe.recorder.message_queue import MessageQueue, ReceivedMessage, Source
+from coframe.recorder._message_queue import MessageQueue, MessageSource, ReceivedMessage
 
-TF = Source("/tf", "tf2_msgs/msg/TFMessage", latched=False)
-STATIC = Source("/tf_static", "tf2_msgs/msg/TFMessage", latched=True)
+TF = MessageSource("/tf", "tf2_msgs/msg/TFMessage", latched=False)
+STATIC = MessageSource("/tf_static", "tf2_msgs/msg/TFMessage", latched=True)
 
 
 def message(source, received, size=800):

@@ -13,8 +13,8 @@ import coframe
 from coframe.bags import OfferedQos, Writer
 from coframe.cli.app import app
 from coframe.messages import deserialize, find, serialize
-from coframe.recorder import topic_publishers
-from coframe.recorder.playback_clock import PlaybackClock
+from coframe.recorder import _topic_publishers as topic_publishers
+from coframe.recorder._playback_clock import PlaybackClock
 from coframe.wire import QoS
 
 STRING, CLOCK = "std_msgs/msg/String", "rosgraph_msgs/msg/Clock"

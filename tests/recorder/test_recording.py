@@ -11,10 +11,11 @@ import coframe
 from coframe.bags import Writer, from_yaml
 from coframe.frame_names import renaming
 from coframe.messages import find, serialize
-from coframe.recorder import Recorder, topic_subscriptions
-from coframe.recorder.frame_renaming import FrameRenamer
-from coframe.recorder.message_queue import Source
-from coframe.recorder.topic_subscriptions import TopicFilter
+from coframe.recorder import Recorder
+from coframe.recorder import _topic_subscriptions as topic_subscriptions
+from coframe.recorder._frame_renaming import FrameRenamer
+from coframe.recorder._message_queue import MessageSource
+from coframe.recorder._topic_subscriptions import TopicFilter
 from coframe.wire import QoS
 
 STRING, TF_MESSAGE = find("std_msgs/msg/String"), find("tf2_msgs/msg/TFMessage")
@@ -207,7 +208,7 @@ def test_a_topic_with_two_unknown_types_is_reported_once():
     frames = FrameRenamer(renaming("robot1/"), "/robot1/tf", "/robot1/tf_static")
     for kind in ("my_pkg/msg/Unknown", "my_pkg/msg/Other"):
         for topic in ("/robot1/raw", "/robot1/b", "/robot2/raw"):
-            assert frames.renamed(Source(topic, kind, latched=False), b"bytes") == b"bytes"
+            assert frames.renamed(MessageSource(topic, kind, latched=False), b"bytes") == b"bytes"
     assert list(frames.not_renamed) == ["/robot1/raw", "/robot1/b"]
 
 

@@ -14,8 +14,8 @@ import pytest
 pytest.importorskip("dds_library", reason="the command joins the graph")
 
 from coframe.system import advise, collect
+from coframe.system._variables import variables
 from coframe.system.network import Interface
-from coframe.system.variables import variables
 from coframe.wire.dds import library, participants
 
 COMMAND = [sys.executable, "-c", "from coframe.cli import main; main()", "doctor", "--system"]

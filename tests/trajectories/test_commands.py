@@ -42,7 +42,7 @@ def test_trajectories_are_written_in_every_format(bag, tmp_path, kind):
 
 def test_a_trajectory_of_several_batches(bag, tmp_path, monkeypatch):
     run("trajectory", bag, "odom", "base", "-o", tmp_path / "one.csv", "--rate", "100")
-    monkeypatch.setattr("coframe.bags.trajectory_query.BATCH", 7)
+    monkeypatch.setattr("coframe.bags._trajectory_query.BATCH", 7)
     code, _, _ = run("trajectory", bag, "odom", "base", "-o", tmp_path / "many.csv", "--rate", "100")
     assert code == 0
     assert (tmp_path / "one.csv").read_text() == (tmp_path / "many.csv").read_text()

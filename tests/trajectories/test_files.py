@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 
 import coframe
-from coframe.trajectories import READABLE_FORMATS, TrajectoryError, read_trajectory, reading, write_trajectory
+from coframe.trajectories import READABLE_FORMATS, TrajectoryError, read_trajectory, write_trajectory
+from coframe.trajectories import _reading as reading
 
 START = 1_700_000_000_123_456_789
 

@@ -9,9 +9,9 @@ from recordings import START
 from runs import SECOND, Run
 
 from coframe.doctor import Observation
-from coframe.doctor.transforms import Transforms
+from coframe.doctor._transforms import Transforms
 from coframe.tree_drawing import changes, grow
-from coframe.tree_drawing.layout import Box, draw
+from coframe.tree_drawing._layout import Box, draw
 
 
 def moving(run, parent, child, seconds, start=0, rate=10):

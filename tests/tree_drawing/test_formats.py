@@ -8,8 +8,8 @@ from xml.etree import ElementTree
 
 import pytest
 
+from coframe.tree_drawing._layout import Box, draw
 from coframe.tree_drawing.graphviz import as_graphviz
-from coframe.tree_drawing.layout import Box, draw
 from coframe.tree_drawing.mermaid import as_markdown, as_mermaid
 from coframe.tree_drawing.pdf import as_pdf
 from coframe.tree_drawing.plain import as_data

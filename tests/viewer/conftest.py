@@ -18,7 +18,7 @@ from websockets.sync.client import connect
 import coframe
 from coframe.viewer.displays.rows import DISPLAYS
 from coframe.viewer.protocol import binary_messages, client_messages, server_messages
-from coframe.viewer.protocol.layout import Layout
+from coframe.viewer.protocol._layout import Layout
 from coframe.viewer.protocol.schema import record
 
 TIMEOUT = 20.0  # Seconds; the machine may be busy.

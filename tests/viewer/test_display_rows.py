@@ -20,8 +20,8 @@ import recordings
 import coframe
 from coframe.messages import find, serialize
 from coframe.viewer.displays import CannotDrawError
-from coframe.viewer.displays.renderers import each_message
-from coframe.viewer.displays.row import DisplayRow, NumberOption
+from coframe.viewer.displays._renderers import each_message
+from coframe.viewer.displays._row import DisplayRow, NumberOption
 from coframe.viewer.displays.rows import DISPLAY_OF_TYPE, DISPLAYS
 from coframe.viewer.replay.export import export_replay
 from coframe.viewer.robots.robot_message import make_mesh_table

@@ -8,9 +8,9 @@ import pytest
 pytest.importorskip("websockets", reason="the viewer needs websockets")
 
 import coframe
+from coframe.viewer._state import ViewerState
 from coframe.viewer.clients.client import Client
 from coframe.viewer.sources.source import BufferSource
-from coframe.viewer.state import ViewerState
 
 SECOND = 1_000_000_000
 READY = '{"type":"ready"}'
@@ -41,8 +41,8 @@ def buffer():
 
 @pytest.fixture
 def viewer(buffer, monkeypatch):
-    monkeypatch.setattr("coframe.viewer.state.STRUCTURE_PERIOD", 0.0)
-    monkeypatch.setattr("coframe.viewer.state.STRUCTURE_SHARE", 1e9)
+    monkeypatch.setattr("coframe.viewer._state.STRUCTURE_PERIOD", 0.0)
+    monkeypatch.setattr("coframe.viewer._state.STRUCTURE_SHARE", 1e9)
     state = ViewerState(BufferSource(buffer), fixed="map")
     yield state
     state.close()

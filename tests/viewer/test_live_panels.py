@@ -142,7 +142,7 @@ def test_log_messages_from_before_and_after_are_received(domain_id, ros, view, o
 
 @pytest.mark.usefixtures("robot")
 def test_connections_beyond_the_limit_of_the_graph_are_counted(ros, view, open_tab, monkeypatch):
-    monkeypatch.setattr("coframe.viewer.panels.node_graph.MAX_LINKS", 3)
+    monkeypatch.setattr("coframe.viewer.panels._node_graph.MAX_LINKS", 3)
     tab = open_tab(view(ros))
     tab.send("graph", shown=True)
     graph = tab.wait("graph", lambda graph: graph["text"])

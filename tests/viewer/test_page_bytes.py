@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from coframe.viewer.replay.template import replay_template
+from coframe.viewer.replay._template import replay_template
 
 ROOT = Path(__file__).parents[2]
 STATIC = Path("src/coframe/viewer/static")

@@ -16,8 +16,8 @@ import coframe
 from coframe.messages import find
 from coframe.plotting import evaluate
 from coframe.plotting.thinning import extremes
+from coframe.viewer.panels._ring import Ring
 from coframe.viewer.panels.message_fields import message_rows
-from coframe.viewer.panels.ring import Ring
 
 EVIL = "<img src=x onerror=alert(1)>"
 

@@ -11,7 +11,7 @@ from typing import get_args
 import pytest
 
 from coframe.viewer.protocol import binary_messages, client_messages, server_messages
-from coframe.viewer.protocol.layout import Layout
+from coframe.viewer.protocol._layout import Layout
 from coframe.viewer.protocol.requests import BadRequestError, parse_request
 from coframe.viewer.protocol.schema import record
 from coframe.viewer.protocol.version import PROTOCOL_VERSION
@@ -115,7 +115,7 @@ def test_invalid_requests_are_rejected_with_the_name_of_the_field(text, message)
 
 def test_every_request_has_a_handler():
     pytest.importorskip("websockets", reason="the viewer needs websockets")
-    from coframe.viewer.clients import requests
+    from coframe.viewer.clients import _requests as requests
 
     answered = {*requests._HANDLERS, client_messages.Ready}
     assert answered == set(get_args(client_messages.ClientMessage))

@@ -14,8 +14,8 @@ import pytest
 
 import coframe
 from coframe.messages import find
+from coframe.viewer._page_files import STATIC
 from coframe.viewer.displays import Options
-from coframe.viewer.page_files import STATIC
 from coframe.viewer.replay.displays import ReplayDisplay, ReplayTimes, record_displays
 from coframe.viewer.sources.topic_messages import StampedMessage
 

@@ -19,10 +19,10 @@ from websockets.exceptions import ConnectionClosed, InvalidStatus
 from websockets.sync.client import connect
 
 import coframe
-from coframe.viewer.server.http import AccessPolicy
+from coframe.viewer._state import ViewerState
+from coframe.viewer.server._http import AccessPolicy
 from coframe.viewer.server.server import ViewerServer
 from coframe.viewer.sources.source import BufferSource
-from coframe.viewer.state import ViewerState
 
 SECOND = 1_000_000_000
 

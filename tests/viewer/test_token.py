@@ -11,8 +11,8 @@ from websockets.exceptions import InvalidStatus
 from websockets.sync.client import connect
 
 import coframe
-from coframe.viewer.server import connections
-from coframe.viewer.server.http import AccessPolicy
+from coframe.viewer.server import _connections as connections
+from coframe.viewer.server._http import AccessPolicy
 
 
 @pytest.fixture

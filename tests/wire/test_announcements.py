@@ -11,7 +11,7 @@ import pytest
 WAIT = """
 import socket, sys, time
 from coframe.wire import Participant
-from coframe.wire.dds.announcements import participant_user_data
+from coframe.wire.dds._announcements import participant_user_data
 
 DOMAIN = 1
 receiver = socket.socket(type=socket.SOCK_DGRAM)

@@ -6,7 +6,8 @@ import sys
 import pytest
 
 import coframe
-from coframe.connection import receivers, shared_transforms
+from coframe.connection import _receivers as receivers
+from coframe.connection import shared_transforms
 
 # For each way: the argument of `coframe.connect`, and the class.
 CASES = {"shared": (True, receivers.SharedReceiver), "own": (False, receivers.OwnReceiver)}

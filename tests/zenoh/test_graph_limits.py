@@ -6,7 +6,8 @@ import pytest
 from coframe.errors import WireError
 from coframe.messages import find
 from coframe.wire import Participant, QoS
-from coframe.wire.zenoh import graph, token_limits
+from coframe.wire.zenoh import _graph as graph
+from coframe.wire.zenoh import _token_limits as token_limits
 
 STRING = find("std_msgs/msg/String")
 

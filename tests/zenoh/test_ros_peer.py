@@ -11,7 +11,7 @@ from coframe.messages import codec, find
 from coframe.wire import QoS, request_header
 from coframe.wire.qos import TF_STATIC_WRITER
 from coframe.wire.request_header import RequestHeader
-from coframe.wire.zenoh import services
+from coframe.wire.zenoh import _services as services
 
 STRING = find("std_msgs/msg/String")
 TF_MESSAGE = find("tf2_msgs/msg/TFMessage")

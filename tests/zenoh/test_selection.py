@@ -34,7 +34,7 @@ def test_without_a_dds_library_zenoh_is_used_if_it_is_installed(
     monkeypatch: pytest.MonkeyPatch, installed: bool, wire: str
 ) -> None:
     monkeypatch.setattr("coframe.wire.dds.library.places", lambda _: iter([Place("the system", "/usr/lib", None)]))
-    monkeypatch.setattr("coframe.wire.zenoh.library.is_installed", lambda: installed)
+    monkeypatch.setattr("coframe.wire.zenoh._library.is_installed", lambda: installed)
     assert selection.select({}).wire == wire
 
 

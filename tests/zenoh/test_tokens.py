@@ -9,12 +9,13 @@ from hypothesis import strategies as st
 
 pytest.importorskip("xxhash", reason="Zenoh's identifiers need xxhash")
 
+from coframe.wire._type_hashes import type_hash_of_name
 from coframe.wire.names import Endpoint
 from coframe.wire.qos import INFINITE, SENSOR, TF, TF_STATIC_WRITER, QoS
-from coframe.wire.type_hashes import type_hash_of_name
-from coframe.wire.zenoh import keys, tokens
-from coframe.wire.zenoh.large_types import has_unbounded_bytes
-from coframe.wire.zenoh.qos_text import decode_qos, encode_qos
+from coframe.wire.zenoh import _keys as keys
+from coframe.wire.zenoh import _tokens as tokens
+from coframe.wire.zenoh._large_types import has_unbounded_bytes
+from coframe.wire.zenoh._qos_text import decode_qos, encode_qos
 
 STRING_HASH = "RIHS01_df668c740482bbd48fb39d76a70dfd4bd59db1288021743503259e948f6b1a18"
 # Tokens of rmw_zenoh_cpp, and the identifiers that its own routine computes from them.

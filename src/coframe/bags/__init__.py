@@ -5,18 +5,18 @@ import importlib
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from coframe.bags.bag_repair import RepairReport, repair
+    from coframe.bags._bag_repair import RepairReport, repair
+    from coframe.bags._cloud_files import CLOUD_FORMATS, write_clouds
+    from coframe.bags._clouds import Cloud, Clouds
+    from coframe.bags._mcap_writer import COMPRESSIONS
+    from coframe.bags._offered_qos import OfferedQos, from_yaml
+    from coframe.bags._recording_format import RecordingFormat
+    from coframe.bags._trajectory_query import TrajectoryQuery
+    from coframe.bags._writer import Writer
     from coframe.bags.batch import QueryResult, query_recording, query_recordings
-    from coframe.bags.cloud_files import CLOUD_FORMATS, write_clouds
-    from coframe.bags.clouds import Cloud, Clouds
-    from coframe.bags.mcap_writer import COMPRESSIONS
-    from coframe.bags.offered_qos import OfferedQos, from_yaml
-    from coframe.bags.recording import RecordedMessage, Recording, Topic, open_bag
-    from coframe.bags.recording_format import RecordingFormat
+    from coframe.bags.recording import RecordedMessage, RecordedTopic, Recording, open_bag
     from coframe.bags.summary import EdgeSummary, SensorSummary, Summary, TreeSummary, summarize
     from coframe.bags.time_points import parse_time_point
-    from coframe.bags.trajectory_query import TrajectoryQuery
-    from coframe.bags.writer import Writer
     from coframe.errors import RecordingError
     from coframe.trajectories import FORMATS, format_of, write_trajectory
 
@@ -30,13 +30,13 @@ __all__ = [
     "OfferedQos",
     "QueryResult",
     "RecordedMessage",
+    "RecordedTopic",
     "Recording",
     "RecordingError",
     "RecordingFormat",
     "RepairReport",
     "SensorSummary",
     "Summary",
-    "Topic",
     "TrajectoryQuery",
     "TreeSummary",
     "Writer",
@@ -54,34 +54,34 @@ __all__ = [
 
 # Names are imported on first use: completions and help texts need the suffixes in `formats`, without NumPy.
 _MODULES = {
-    "CLOUD_FORMATS": "coframe.bags.cloud_files",
-    "COMPRESSIONS": "coframe.bags.mcap_writer",
-    "Cloud": "coframe.bags.clouds",
-    "Clouds": "coframe.bags.clouds",
+    "CLOUD_FORMATS": "coframe.bags._cloud_files",
+    "COMPRESSIONS": "coframe.bags._mcap_writer",
+    "Cloud": "coframe.bags._clouds",
+    "Clouds": "coframe.bags._clouds",
     "EdgeSummary": "coframe.bags.summary",
     "FORMATS": "coframe.trajectories",
-    "OfferedQos": "coframe.bags.offered_qos",
+    "OfferedQos": "coframe.bags._offered_qos",
     "QueryResult": "coframe.bags.batch",
     "RecordedMessage": "coframe.bags.recording",
     "Recording": "coframe.bags.recording",
     "RecordingError": "coframe.errors",
-    "RecordingFormat": "coframe.bags.recording_format",
-    "RepairReport": "coframe.bags.bag_repair",
+    "RecordingFormat": "coframe.bags._recording_format",
+    "RepairReport": "coframe.bags._bag_repair",
     "SensorSummary": "coframe.bags.summary",
     "Summary": "coframe.bags.summary",
-    "Topic": "coframe.bags.recording",
-    "TrajectoryQuery": "coframe.bags.trajectory_query",
+    "RecordedTopic": "coframe.bags.recording",
+    "TrajectoryQuery": "coframe.bags._trajectory_query",
     "TreeSummary": "coframe.bags.summary",
-    "Writer": "coframe.bags.writer",
+    "Writer": "coframe.bags._writer",
     "format_of": "coframe.trajectories",
-    "from_yaml": "coframe.bags.offered_qos",
+    "from_yaml": "coframe.bags._offered_qos",
     "open_bag": "coframe.bags.recording",
     "parse_time_point": "coframe.bags.time_points",
     "query_recording": "coframe.bags.batch",
     "query_recordings": "coframe.bags.batch",
-    "repair": "coframe.bags.bag_repair",
+    "repair": "coframe.bags._bag_repair",
     "summarize": "coframe.bags.summary",
-    "write_clouds": "coframe.bags.cloud_files",
+    "write_clouds": "coframe.bags._cloud_files",
     "write_trajectory": "coframe.trajectories",
 }
 

@@ -21,7 +21,7 @@ import numpy as np
 from coframe._files.complete_files import write_complete
 from coframe._files.regular_files import open_regular, read_regular
 from coframe._process.optional_imports import pip_install
-from coframe.bags.batch_processes import run_jobs
+from coframe.bags._batch_processes import run_jobs
 from coframe.bags.recording import open_chosen
 from coframe.errors import RecordingError
 from coframe.trajectories.formats import POSE_COLUMNS
@@ -29,7 +29,7 @@ from coframe.trajectories.formats import POSE_COLUMNS
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
 
-    from coframe.bags.trajectory_query import TrajectoryQuery
+    from coframe.bags._trajectory_query import TrajectoryQuery
     from coframe.transform.transform import Transform
 
 __all__ = ["ENGINES", "QueryResult", "query_recording", "query_recordings"]

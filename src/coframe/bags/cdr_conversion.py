@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from coframe.bags.recorded_types import UnknownTypeError
+from coframe.bags._recorded_types import UnknownTypeError
 from coframe.errors import DecodeError
 from coframe.messages import Message, deserialize, find, serialize
 from coframe.messages.codec import deserialize_ros1
@@ -18,7 +18,7 @@ from coframe.type_names import TF_MESSAGE
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from coframe.bags.recorded_types import RecordedTypes
+    from coframe.bags._recorded_types import RecordedTypes
     from coframe.bags.storage import Channel
     from coframe.messages.generated.geometry_msgs.msg import TransformStamped
 

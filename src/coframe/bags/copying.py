@@ -11,12 +11,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 from coframe._output.formatting import count
+from coframe.bags._offered_qos import from_yaml
+from coframe.bags._recorded_types import RecordedTypes
+from coframe.bags._writer import Writer
 from coframe.bags.cdr_conversion import cdr_conversion, copied_definition
-from coframe.bags.offered_qos import from_yaml
-from coframe.bags.recorded_types import RecordedTypes
 from coframe.bags.recording import open_bag
 from coframe.bags.transforms import is_static
-from coframe.bags.writer import Writer
 
 if TYPE_CHECKING:
     import os

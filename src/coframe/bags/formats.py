@@ -14,14 +14,14 @@ from typing import TYPE_CHECKING, Any, Final
 
 from coframe._files.existence import is_file
 from coframe._process.plugins import load_plugins
-from coframe.bags.recording_format import RecordingFormat, bare_name
+from coframe.bags._recording_format import RecordingFormat, bare_name
 from coframe.interfaces.problems import report
 
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from coframe.bags.problems import Problems
-    from coframe.bags.recording_format import FileWriter
+    from coframe.bags._problems import Problems
+    from coframe.bags._recording_format import FileWriter
     from coframe.bags.storage import Storage
 
 __all__ = [
@@ -56,13 +56,13 @@ class Mcap(RecordingFormat):
 
     def open(self, path: Path, problems: Problems) -> Storage:
         """Open a file."""
-        from coframe.bags.mcap_file import McapStorage  # noqa: PLC0415 - see the base class
+        from coframe.bags._mcap_file import McapStorage  # noqa: PLC0415 - see the base class
 
         return McapStorage(path, problems)
 
     def create(self, path: Path, compression: str) -> FileWriter:
         """Create a file with compressed chunks."""
-        from coframe.bags.mcap_writer import McapWriter  # noqa: PLC0415 - see the base class
+        from coframe.bags._mcap_writer import McapWriter  # noqa: PLC0415 - see the base class
 
         return McapWriter(path, compression)
 
@@ -77,13 +77,13 @@ class Sqlite(RecordingFormat):
 
     def open(self, path: Path, problems: Problems) -> Storage:
         """Open a file."""
-        from coframe.bags.sqlite_file import SqliteStorage  # noqa: PLC0415 - see the base class
+        from coframe.bags._sqlite_file import SqliteStorage  # noqa: PLC0415 - see the base class
 
         return SqliteStorage(path, problems)
 
     def create(self, path: Path, compression: str) -> FileWriter:
         """Create a file; it is not compressed."""
-        from coframe.bags.sqlite_writer import SqliteWriter  # noqa: PLC0415 - see the base class
+        from coframe.bags._sqlite_writer import SqliteWriter  # noqa: PLC0415 - see the base class
 
         del compression
         return SqliteWriter(path)
@@ -107,7 +107,7 @@ class Ros1(RecordingFormat):
 
     def open(self, path: Path, problems: Problems) -> Storage:
         """Open a file."""
-        from coframe.bags.ros1_file import Ros1Storage  # noqa: PLC0415 - see the base class
+        from coframe.bags._ros1_file import Ros1Storage  # noqa: PLC0415 - see the base class
 
         return Ros1Storage(path, problems)
 

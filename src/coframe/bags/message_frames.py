@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from coframe.bags.recorded_types import UnknownTypeError
+from coframe.bags._recorded_types import UnknownTypeError
 from coframe.messages import deserialize, serialize
 from coframe.messages.definition import AbstractNestedType, NamespacedType, UnboundedString
 from coframe.messages.registry import class_of
@@ -14,7 +14,7 @@ from coframe.messages.schema_classes import known_class
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from coframe.bags.recorded_types import RecordedTypes
+    from coframe.bags._recorded_types import RecordedTypes
     from coframe.bags.storage import Channel
 
 __all__ = ["FrameNames"]

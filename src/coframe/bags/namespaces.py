@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from coframe import _core
-    from coframe.bags.problems import Problems
+    from coframe.bags._problems import Problems
     from coframe.bags.storage import Channel
     from coframe.buffer import EdgeInfo
     from coframe.messages.slices import Slices

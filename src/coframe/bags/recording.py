@@ -13,11 +13,11 @@ import numpy as np
 from coframe import time
 from coframe._output import html_tables
 from coframe._output.formatting import count
-from coframe.bags.contents import read_contents
-from coframe.bags.decoding import decoder
+from coframe.bags._contents import read_contents
+from coframe.bags._decoding import decoder
+from coframe.bags._recorded_message import RecordedMessage, RecordedTopic
+from coframe.bags._table import edge_table
 from coframe.bags.namespaces import TransformChoice, main_span
-from coframe.bags.recorded_message import RecordedMessage, Topic
-from coframe.bags.table import edge_table
 from coframe.errors import DecodeError
 
 if TYPE_CHECKING:
@@ -27,13 +27,13 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
     from typing_extensions import Self
 
-    from coframe.bags.contents import Contents
+    from coframe.bags._contents import Contents
     from coframe.bags.storage import Channel
     from coframe.messages.slices import Slices
     from coframe.time import StampLike
     from coframe.viewer import Viewer
 
-__all__ = ["RecordedMessage", "Recording", "Topic", "open_bag"]
+__all__ = ["RecordedMessage", "RecordedTopic", "Recording", "open_bag"]
 
 
 def open_bag(

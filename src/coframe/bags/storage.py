@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, BinaryIO, NamedTuple
 
 from coframe._files.regular_files import open_regular
-from coframe.bags.compression import MAX_UNPACKED_BYTES, DamagedError
+from coframe.bags._compression import MAX_UNPACKED_BYTES, DamagedError
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -20,8 +20,8 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from coframe.bags.problems import Problems
-    from coframe.bags.recording_format import RecordingFormat
+    from coframe.bags._problems import Problems
+    from coframe.bags._recording_format import RecordingFormat
     from coframe.messages.slices import Slices
 
 __all__ = ["MAX_DAMAGED_PLACES", "Batch", "Channel", "ChunkedStorage", "Storage", "next_chunk"]

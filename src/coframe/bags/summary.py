@@ -11,7 +11,7 @@ from coframe.analysis.tree import FrameTrees
 from coframe.errors import TransformException
 
 if TYPE_CHECKING:
-    from coframe.bags.recording import Recording, Topic
+    from coframe.bags.recording import RecordedTopic, Recording
     from coframe.buffer import Buffer, EdgeInfo
 
 __all__ = ["EdgeSummary", "SensorSummary", "Summary", "TreeSummary", "summarize"]
@@ -80,7 +80,7 @@ class Summary(NamedTuple):
     start: int
     end: int
     span: tuple[int, int]
-    topics: list[Topic]
+    topics: list[RecordedTopic]
     trees: list[TreeSummary]
     edges: list[EdgeSummary]
     sensors: list[SensorSummary]
@@ -120,7 +120,7 @@ def _edge(edge: EdgeInfo) -> EdgeSummary:
     return EdgeSummary(edge.parent, edge.child, edge.static, *facts)
 
 
-def _sensor(recording: Recording, topic: Topic, trees: FrameTrees) -> SensorSummary | None:
+def _sensor(recording: Recording, topic: RecordedTopic, trees: FrameTrees) -> SensorSummary | None:
     """Return the summary of a sensor topic; None if its messages have no frame or cannot be decoded."""
     frame = recording.frame(recording.first_frame(topic.name))
     if not frame:

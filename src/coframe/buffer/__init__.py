@@ -5,8 +5,8 @@
 for transforms, and `edge_info` describes frames and edges.
 """
 
+from coframe.buffer._waiting import CallbackHandle
 from coframe.buffer.buffer import Buffer
 from coframe.buffer.edge_info import EdgeInfo, FrameInfo
-from coframe.buffer.waiting import CallbackHandle
 
 __all__ = ["Buffer", "CallbackHandle", "EdgeInfo", "FrameInfo"]

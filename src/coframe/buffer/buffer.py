@@ -7,11 +7,12 @@ import sys
 from typing import TYPE_CHECKING, Any
 
 from coframe import _core, errors, time
-from coframe.buffer import frozen_file, many_lookups
+from coframe.buffer import _frozen_file as frozen_file
+from coframe.buffer import _many_lookups as many_lookups
+from coframe.buffer._storing import check_not_frozen, check_single, rejected, rows_of, stamp_of
+from coframe.buffer._waiting import CallbackHandle, timed_out, transform_or_timeout
 from coframe.buffer.dispatcher import Dispatcher
 from coframe.buffer.edge_info import FrameInfo, edge_infos, edge_table
-from coframe.buffer.storing import check_not_frozen, check_single, rejected, rows_of, stamp_of
-from coframe.buffer.waiting import CallbackHandle, timed_out, transform_or_timeout
 from coframe.errors import TransformException
 
 if TYPE_CHECKING:

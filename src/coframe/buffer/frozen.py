@@ -11,8 +11,8 @@ from typing import Any, BinaryIO
 
 from coframe import _core
 from coframe.buffer import Buffer
+from coframe.buffer._frozen_file import BLOCK_SIZE, damaged, opened, read_header
 from coframe.buffer.dispatcher import Dispatcher
-from coframe.buffer.frozen_file import BLOCK_SIZE, damaged, opened, read_header
 
 __all__ = ["FrozenBuffer", "load"]
 

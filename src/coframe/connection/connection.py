@@ -9,8 +9,8 @@ import time
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 from coframe import _core
+from coframe.connection._receivers import Request, SharedReceiver, open_receiver
 from coframe.connection.listener_config import ListenerConfig
-from coframe.connection.receivers import Request, SharedReceiver, open_receiver
 from coframe.connection.tf_publishers import TfPublisher, publishers_of
 from coframe.errors import DecodeError, WireError
 from coframe.time import MILLISECOND, SECOND, duration_ns
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
     from typing_extensions import Self
 
-    from coframe.connection.receivers import Receiver
+    from coframe.connection._receivers import Receiver
     from coframe.messages.message import Message
     from coframe.viewer import Viewer
     from coframe.wire.endpoints import GraphNode, Publisher, Subscription

@@ -14,11 +14,11 @@ from typing import IO, TYPE_CHECKING, Any
 
 from coframe._files.temporary_folders import temporary_folder
 from coframe._process.python_children import python_command
+from coframe.course._sheet import GradeReport, Sheet
+from coframe.course._view import private_folders
 from coframe.course.folders import file_names
 from coframe.course.isolation import isolated_command, isolated_environment, isolation_problem
 from coframe.course.rubric import CRITERIA, RUBRIC
-from coframe.course.sheet import Report, Sheet
-from coframe.course.view import private_folders
 from coframe.errors import CourseError
 
 if TYPE_CHECKING:
@@ -78,7 +78,7 @@ def check_folder(
         }
         with log.open("wb") as errors:
             process = subprocess.Popen(  # noqa: S603 - this Python, with arguments of ours
-                isolated_command(python_command("coframe.course.grading", json.dumps(job))),
+                isolated_command(python_command("coframe.course._grading", json.dumps(job))),
                 stdin=subprocess.DEVNULL,
                 stdout=subprocess.PIPE,
                 stderr=errors,
@@ -114,7 +114,7 @@ def _report(folder: Path, results: _Results, missing: Sequence[str], reason: str
         names = ", ".join(RUBRIC[name].name for name in missing)
         notices.append(f"{_upper(reason)} and was ended before these criteria: {names}. The other points count.")
     sheets = results.sheets + [Sheet.not_reached(RUBRIC[name], reason) for name in missing]
-    return Report(str(folder.resolve()), results.variant, sheets, notices).as_dict()
+    return GradeReport(str(folder.resolve()), results.variant, sheets, notices).as_dict()
 
 
 def submissions(folder: Path) -> dict[str, Path]:

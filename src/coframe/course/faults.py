@@ -33,14 +33,14 @@ def _node(name: str, *parameters: str, title: str = "") -> Program:
 
 
 def _faulty(fault: str, name: str) -> Program:
-    """Return a node of the lab with a fault from coframe.course.faulty_node."""
-    return module_program(name, "coframe.course.faulty_node", fault, name)
+    """Return a node of the lab with a fault from coframe.course._faulty_node."""
+    return module_program(name, "coframe.course._faulty_node", fault, name)
 
 
 _STATIC, _DYNAMIC = _node("static_tf_broadcaster"), _node("dynamic_tf_broadcaster")
 _LISTENER, _SENSOR = _node("tf_listener"), _node("sensor_transform")
 _LIDAR = _node("simulated_lidar", "fixed_frame:=base_link")
-_DESCRIPTION = module_program("robot_description", "coframe.course.description")  # the doctor compares with it
+_DESCRIPTION = module_program("robot_description", "coframe.course._description")  # the doctor compares with it
 _JOINTS = _node("dynamic_tf_broadcaster", "publish_joint_states:=true", title="joint_driver")
 _HALF = 0.5**0.5
 

@@ -9,7 +9,7 @@ import shutil
 from pathlib import Path
 from typing import NamedTuple
 
-from coframe.course.notebooks import notebook
+from coframe.course._notebooks import notebook
 from coframe.errors import CourseError
 
 __all__ = ["Chapter", "chapters", "contents", "terminal_text", "write_pages"]

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Final
 
 from coframe._files.temporary_folders import temporary_folder
 from coframe._process.python_children import python_environment
-from coframe.course.confinement import Confinement, passed_variables, protection_problem
+from coframe.course._confinement import Confinement, passed_variables, protection_problem
 from coframe.course.sandbox.kernel import c_function
 
 if TYPE_CHECKING:

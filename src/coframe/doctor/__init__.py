@@ -24,9 +24,9 @@ Example:
     'Separate trees'
 """
 
+from coframe.doctor._diagnosis import Report, SensorFacts, diagnose
+from coframe.doctor._finding import Finding, Severity
 from coframe.doctor.codes import Page, codes, page
-from coframe.doctor.diagnosis import Report, SensorFacts, diagnose
-from coframe.doctor.finding import Finding, Severity
 from coframe.doctor.observation import Observation
 from coframe.doctor.recorded import observe_recording
 

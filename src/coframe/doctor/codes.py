@@ -12,7 +12,7 @@ import re
 from pathlib import Path
 from typing import NamedTuple
 
-from coframe.doctor.plugin_checks import plugin_checks
+from coframe.doctor._plugin_checks import plugin_checks
 
 __all__ = ["Page", "built_in_codes", "codes", "page"]
 

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from coframe.doctor.transform_rows import TransformRows
-from coframe.doctor.transforms import Transforms, numbered
+from coframe.doctor._transform_rows import TransformRows
+from coframe.doctor._transforms import Transforms, numbered
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

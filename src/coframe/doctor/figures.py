@@ -13,7 +13,7 @@ from coframe.time import SECOND
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from coframe.doctor.edge import Edge
+    from coframe.doctor._edge import Edge
     from coframe.doctor.observation import Observation
 
 __all__ = ["ChainFigures", "EdgeFigures", "PublisherFigures", "chain_figures", "edge_figures", "publisher_figures"]

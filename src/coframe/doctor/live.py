@@ -13,14 +13,14 @@ import numpy as np
 
 from coframe._process.freed_memory import return_freed_blocks
 from coframe.connection.listener_config import ListenerConfig
+from coframe.doctor._joints import joint_states
 from coframe.doctor.collector import Collector
-from coframe.doctor.joints import joint_states
 from coframe.doctor.observation import (
-    Clock,
-    Endpoint,
-    JointStates,
-    LogLine,
     Observation,
+    ObservedClock,
+    ObservedEndpoint,
+    ObservedJointStates,
+    ObservedLogLine,
     Sensor,
     TopicFacts,
 )
@@ -42,7 +42,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
     from typing_extensions import Self
 
-    from coframe.doctor.transforms import Transforms
+    from coframe.doctor._transforms import Transforms
     from coframe.wire.batch_subscription import BatchSubscription, MessageBatch
     from coframe.wire.graph import EndpointInfo
 
@@ -260,7 +260,7 @@ class LiveObserver:
             clock=self._clock(start),
             travel=self._delays_by_node(),
             log=tuple(
-                LogLine(_node_of_logger(message.name), message.msg, arrived)
+                ObservedLogLine(_node_of_logger(message.name), message.msg, arrived)
                 for arrived, message in self._decoded("rcl_interfaces/msg/Log")
                 if arrived >= start
             ),
@@ -388,7 +388,7 @@ class LiveObserver:
     def _decoded(self, ros_type: str) -> list[tuple[int, Any]]:
         return [pair for topic in self._topics.values() if topic.type == ros_type for pair in topic.decoded]
 
-    def _clock(self, start: int) -> Clock | None:
+    def _clock(self, start: int) -> ObservedClock | None:
         received = [
             (arrived, message.clock.sec * SECOND + message.clock.nanosec)
             for arrived, message in self._decoded("rosgraph_msgs/msg/Clock")
@@ -397,7 +397,7 @@ class LiveObserver:
         if not received:
             return None
         arrived, stamp = np.array(received, dtype=np.int64).T
-        return Clock(arrived, stamp)
+        return ObservedClock(arrived, stamp)
 
     def _facts(self) -> dict[str, TopicFacts]:
         now = time.monotonic_ns()
@@ -421,10 +421,10 @@ class LiveObserver:
             )
         return facts
 
-    def _endpoints(self, endpoints: Iterable[EndpointInfo]) -> tuple[Endpoint, ...]:
+    def _endpoints(self, endpoints: Iterable[EndpointInfo]) -> tuple[ObservedEndpoint, ...]:
         """Return the endpoints with a known node. Others are not ROS programs, or are not fully discovered yet."""
         return tuple(
-            Endpoint(full_name(endpoint.namespace, endpoint.node), endpoint.qos.transient_local)
+            ObservedEndpoint(full_name(endpoint.namespace, endpoint.node), endpoint.qos.transient_local)
             for endpoint in endpoints
             if not endpoint.node.startswith("_NODE_NAME_UNKNOWN")
         )
@@ -462,7 +462,7 @@ def _sensors(topic: _Topic, start: int, rename: Callable[[str], str], node_of: C
     ]
 
 
-def _joints(topic: _Topic, start: int) -> JointStates:
+def _joints(topic: _Topic, start: int) -> ObservedJointStates:
     messages = [message for arrived, message in topic.decoded if arrived >= start]
     stamps = [message.header.stamp.sec * SECOND + message.header.stamp.nanosec for message in messages]
     return joint_states(topic.name, stamps, messages)

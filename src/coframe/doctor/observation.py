@@ -15,8 +15,8 @@ import numpy as np
 from coframe.analysis.clocks import clock_of, group_by_clock
 from coframe.analysis.liveness import is_stale
 from coframe.analysis.tree import FrameTrees
-from coframe.doctor.edge import Edge
-from coframe.doctor.transforms import Transforms, bare
+from coframe.doctor._edge import Edge
+from coframe.doctor._transforms import Transforms, bare
 from coframe.time import SECOND
 
 if TYPE_CHECKING:
@@ -26,14 +26,24 @@ if TYPE_CHECKING:
 
     from coframe.analysis.clocks import ClockName
 
-__all__ = ["NEVER", "Clock", "Endpoint", "JointStates", "LogLine", "Observation", "Sensor", "TopicFacts", "Transforms"]
+__all__ = [
+    "NEVER",
+    "Observation",
+    "ObservedClock",
+    "ObservedEndpoint",
+    "ObservedJointStates",
+    "ObservedLogLine",
+    "Sensor",
+    "TopicFacts",
+    "Transforms",
+]
 
 DEFAULT_CACHE = 10 * SECOND
 NEVER = np.iinfo(np.int64).max
 
 
 @dataclass(frozen=True)
-class Endpoint:
+class ObservedEndpoint:
     """A publisher or a subscription.
 
     Attributes:
@@ -56,8 +66,8 @@ class TopicFacts:
     name: str
     type: str
     messages: int
-    publishers: tuple[Endpoint, ...] = ()
-    subscribers: tuple[Endpoint, ...] = ()
+    publishers: tuple[ObservedEndpoint, ...] = ()
+    subscribers: tuple[ObservedEndpoint, ...] = ()
     observed: int = 0
 
 
@@ -83,7 +93,7 @@ class Sensor:
 
 
 @dataclass(frozen=True, eq=False)
-class JointStates:
+class ObservedJointStates:
     """Joint states: (N,) stamps, and the (N,) positions of each joint, NaN where a message does not contain it."""
 
     topic: str
@@ -92,7 +102,7 @@ class JointStates:
 
 
 @dataclass(frozen=True, eq=False)
-class Clock:
+class ObservedClock:
     """Simulated time: the arrival times of the messages on /clock, and the times in them; (N,) each."""
 
     arrived: NDArray[np.int64]
@@ -109,7 +119,7 @@ class Clock:
 
 
 @dataclass(frozen=True)
-class LogLine:
+class ObservedLogLine:
     """A message of a node on /rosout."""
 
     node: str
@@ -158,10 +168,10 @@ class Observation:
     topics: dict[str, TopicFacts] = field(default_factory=dict)
     sensors: tuple[Sensor, ...] = ()
     descriptions: tuple[str, ...] = ()
-    joint_states: tuple[JointStates, ...] = ()
-    clock: Clock | None = None
+    joint_states: tuple[ObservedJointStates, ...] = ()
+    clock: ObservedClock | None = None
     travel: dict[str, NDArray[np.int64]] = field(default_factory=dict)
-    log: tuple[LogLine, ...] = ()
+    log: tuple[ObservedLogLine, ...] = ()
     cache: int = DEFAULT_CACHE
     unread: tuple[str, ...] = ()
     link_name: Callable[[str], str] = str

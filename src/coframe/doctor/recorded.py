@@ -12,15 +12,15 @@ from coframe.bags import from_yaml
 from coframe.bags.namespaces import TransformChoice, namespace_of
 from coframe.bags.recording import open_chosen
 from coframe.bags.transforms import ingest_for, is_static
+from coframe.doctor._joints import joint_states
 from coframe.doctor.collector import Collector
-from coframe.doctor.joints import joint_states
 from coframe.doctor.observation import (
     DEFAULT_CACHE,
-    Clock,
-    Endpoint,
-    JointStates,
-    LogLine,
     Observation,
+    ObservedClock,
+    ObservedEndpoint,
+    ObservedJointStates,
+    ObservedLogLine,
     Sensor,
     TopicFacts,
 )
@@ -163,22 +163,22 @@ class _Facts:
         ]
         self.log = tuple(line for name in self._of_type(_LOGS) for line in self._lines(name))
 
-    def _publishers(self, topic: str) -> tuple[Endpoint, ...]:
+    def _publishers(self, topic: str) -> tuple[ObservedEndpoint, ...]:
         """Return the publishers of a static transform topic: only their QoS, because recordings have no node names."""
         if not is_static(topic):
             return ()
         channels = (channel for channel in self._recording.channels() if channel.topic == topic)
         offers = (offered for channel in channels for offered in from_yaml(channel.offered_qos))
-        return tuple(dict.fromkeys(Endpoint("", offered.transient_local) for offered in offers))
+        return tuple(dict.fromkeys(ObservedEndpoint("", offered.transient_local) for offered in offers))
 
     def _of_type(self, types: set[str]) -> list[str]:
         return [topic.name for topic in self.topics.values() if topic.type in types]
 
-    def _clock(self) -> Clock | None:
+    def _clock(self) -> ObservedClock | None:
         if "/clock" not in self._of_type({"rosgraph_msgs/msg/Clock"}):
             return None
         arrived, stamp = self._recording.received("/clock"), self._recording.stamps("/clock")
-        return Clock(arrived, stamp) if len(stamp) else None
+        return ObservedClock(arrived, stamp) if len(stamp) else None
 
     def _decoded(self, topic: str, most: int) -> Iterator[Any]:
         """Yield the first messages of a topic; damaged ones are reported as problems of the recording.
@@ -202,7 +202,7 @@ class _Facts:
         stamps, received = self._recording.stamps(topic), self._recording.received(topic)
         return Sensor(topic, facts.type, self._recording.frame(frame.lstrip("/")), stamps, received)
 
-    def _joints(self, topic: str) -> JointStates | None:
+    def _joints(self, topic: str) -> ObservedJointStates | None:
         """Return the joint states of a topic; None if its messages have other fields."""
         if not self._recording.may_have_header(topic):
             return None
@@ -213,8 +213,8 @@ class _Facts:
         except (AttributeError, TypeError, ValueError, OverflowError):
             return None
 
-    def _lines(self, topic: str) -> Iterator[LogLine]:
+    def _lines(self, topic: str) -> Iterator[ObservedLogLine]:
         received = self._recording.received(topic)
         for arrived, message in zip(received.tolist(), self._decoded(topic, _MAX_DECODED), strict=False):
             if hasattr(message, "name") and hasattr(message, "msg"):
-                yield LogLine(str(message.name), str(message.msg), arrived)
+                yield ObservedLogLine(str(message.name), str(message.msg), arrived)

@@ -14,15 +14,15 @@ import os
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
+from coframe.interfaces._installed import installed_packages
 from coframe.interfaces.definition_files import has_definitions, is_own_package, package_name
-from coframe.interfaces.installed import installed_packages
 from coframe.interfaces.user_folders import added_paths
 from coframe.interfaces.workspace import is_search_off, start_folders, workspace_root
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
-__all__ = ["ENVIRONMENT", "Source", "find_folder", "forget", "package_folders", "sources"]
+__all__ = ["ENVIRONMENT", "InterfaceFolder", "find_folder", "forget", "package_folders", "sources"]
 
 ENVIRONMENT = "COFRAME_INTERFACES"
 _PREFIXES = "AMENT_PREFIX_PATH"
@@ -35,7 +35,7 @@ _IGNORE_MARKERS = {"COLCON_IGNORE", "AMENT_IGNORE", "CATKIN_IGNORE"}
 _indexes: dict[tuple[Path, int], dict[str, Path]] = {}
 
 
-class Source(NamedTuple):
+class InterfaceFolder(NamedTuple):
     """A folder in which packages are searched.
 
     Attributes:
@@ -53,7 +53,7 @@ class Source(NamedTuple):
     package: str = ""
 
 
-def sources() -> list[Source]:
+def sources() -> list[InterfaceFolder]:
     """Return all folders in which packages are searched, in order."""
     if is_search_off():
         return _installed()
@@ -61,25 +61,25 @@ def sources() -> list[Source]:
     return [*_sources(tuple(start_folders()), *variables), *_installed()]
 
 
-def _installed() -> list[Source]:
+def _installed() -> list[InterfaceFolder]:
     return [
-        Source(f"installed package {each.distribution}", each.folder, 0, package=each.name)
+        InterfaceFolder(f"installed package {each.distribution}", each.folder, 0, package=each.name)
         for each in installed_packages()
     ]
 
 
 @functools.lru_cache(maxsize=16)
-def _sources(starts: tuple[Path, ...], given: str, package_path: str, prefixes: str) -> list[Source]:
-    found = [Source(ENVIRONMENT, path, _MAX_DEPTH) for path in _paths(given)]
-    found += [Source("coframe interface add", path, _MAX_DEPTH) for path in added_paths()]
+def _sources(starts: tuple[Path, ...], given: str, package_path: str, prefixes: str) -> list[InterfaceFolder]:
+    found = [InterfaceFolder(ENVIRONMENT, path, _MAX_DEPTH) for path in _paths(given)]
+    found += [InterfaceFolder("coframe interface add", path, _MAX_DEPTH) for path in added_paths()]
     for start in starts:
-        found.append(Source("folder of the program", start, 1, named=False))
+        found.append(InterfaceFolder("folder of the program", start, 1, named=False))
         root = workspace_root(start)
         if root is not None:
-            found.append(Source("workspace", root, _MAX_DEPTH, named=False))
-    found += [Source(_PACKAGE_PATH, path, _MAX_DEPTH, named=False) for path in _paths(package_path)]
-    found += [Source(_PREFIXES, path / "share", 1) for path in _paths(prefixes)]
-    first: dict[tuple[Path, int], Source] = {}
+            found.append(InterfaceFolder("workspace", root, _MAX_DEPTH, named=False))
+    found += [InterfaceFolder(_PACKAGE_PATH, path, _MAX_DEPTH, named=False) for path in _paths(package_path)]
+    found += [InterfaceFolder(_PREFIXES, path / "share", 1) for path in _paths(prefixes)]
+    first: dict[tuple[Path, int], InterfaceFolder] = {}
     for source in found:
         first.setdefault((source.folder, source.depth), source)
     return list(first.values())
@@ -103,7 +103,7 @@ def find_folder(package: str) -> Path | None:
     return None
 
 
-def package_folders(source: Source) -> dict[str, Path]:
+def package_folders(source: InterfaceFolder) -> dict[str, Path]:
     """Return the folder of each interface package in a source, by its name."""
     return dict(_index(source))
 
@@ -118,7 +118,7 @@ def _paths(text: str) -> list[Path]:
     return [Path(path).absolute() for path in text.split(os.pathsep) if path]
 
 
-def _index(source: Source) -> dict[str, Path]:
+def _index(source: InterfaceFolder) -> dict[str, Path]:
     if source.package:
         return {source.package: source.folder}
     key = (source.folder, source.depth)

@@ -8,10 +8,10 @@ Example:
     std_msgs.msg.String(data='hello')
 """
 
+from coframe.messages._yaml_text import to_yaml
 from coframe.messages.codec import deserialize, serialize
 from coframe.messages.message import Action, Message, Service
 from coframe.messages.registry import find
-from coframe.messages.yaml_text import to_yaml
 
 __all__ = ["Action", "Message", "Service", "deserialize", "find", "serialize", "to_yaml"]
 

@@ -11,16 +11,16 @@ import struct
 from typing import TYPE_CHECKING, Any, Final, TypeVar
 
 from coframe.errors import DecodeError
-from coframe.messages.decoding import decoding
+from coframe.messages._decoding import decoding
+from coframe.messages._encoding import encoding
 from coframe.messages.encapsulation import BYTE_ORDERS, HEADER_SIZE, LITTLE_ENDIAN_HEADER
-from coframe.messages.encoding import encoding
 from coframe.messages.message import Message
 from coframe.messages.native_codec import native_codec
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from coframe.messages.compiler import Plan
+    from coframe.messages._compiler import Plan
 
 MAX_PADDING: Final = 3
 """The maximum number of padding bytes that DDS adds, because it sends multiples of 4 bytes."""

@@ -5,8 +5,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from coframe.messages._parser import Field, Structure
 from coframe.messages.definition import BasicType, BoundedSequence, NamespacedType
-from coframe.messages.parser import Field, Structure
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

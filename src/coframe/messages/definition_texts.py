@@ -6,6 +6,7 @@ from __future__ import annotations
 import functools
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from coframe.messages._parser import parse
 from coframe.messages.compounds import event, member_messages
 from coframe.messages.definition import (
     AbstractNestedType,
@@ -19,12 +20,11 @@ from coframe.messages.definition import (
     NamespacedType,
 )
 from coframe.messages.packages import find_package, is_generated, shipped
-from coframe.messages.parser import parse
 from coframe.messages.registry import class_of, find
 
 if TYPE_CHECKING:
+    from coframe.messages._parser import Structure
     from coframe.messages.message import Message
-    from coframe.messages.parser import Structure
     from coframe.messages.schema_classes import ResolvedSchema
 
 __all__ = ["definition_of", "recorded_definition"]

@@ -9,10 +9,10 @@ from typing import Any, ClassVar
 import numpy as np
 
 from coframe._output import html_tables
+from coframe.messages._fields import CHECKED, Check, attribute, constructor_conversion, number_of
+from coframe.messages._yaml_text import to_yaml
 from coframe.messages.definition import AbstractSequence, AbstractType, describe
-from coframe.messages.fields import CHECKED, Check, attribute, constructor_conversion, number_of
 from coframe.messages.registry import classes
-from coframe.messages.yaml_text import to_yaml
 
 
 class MessageType(type):

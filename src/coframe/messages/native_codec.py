@@ -8,6 +8,8 @@ import struct
 from typing import TYPE_CHECKING, Any
 
 from coframe import _core
+from coframe.messages._fields import number_of
+from coframe.messages._layout import CODES, ros1_prefix
 from coframe.messages.definition import (
     AbstractNestedType,
     AbstractSequence,
@@ -19,8 +21,6 @@ from coframe.messages.definition import (
     BoundedString,
     NamespacedType,
 )
-from coframe.messages.fields import number_of
-from coframe.messages.layout import CODES, ros1_prefix
 from coframe.messages.registry import class_of
 
 if TYPE_CHECKING:

@@ -13,12 +13,13 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from coframe.interfaces import sources
 from coframe.interfaces.definition_files import Definition, definitions_in, read
-from coframe.messages import archive, registry
+from coframe.messages import _archive as archive
+from coframe.messages import registry
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
-    from coframe.messages.parser import Structure
+    from coframe.messages._parser import Structure
 
 __all__ = [
     "Exports",
@@ -74,9 +75,9 @@ class InterfacePackage:
             KeyError: The package does not have it.
         """
         from coframe.errors import InterfaceError  # noqa: PLC0415 - until a class is used, none of these is needed
+        from coframe.messages._idl import parse_idl  # noqa: PLC0415
+        from coframe.messages._parser import check_message_name, parse  # noqa: PLC0415
         from coframe.messages.compounds import PARTS  # noqa: PLC0415
-        from coframe.messages.idl import parse_idl  # noqa: PLC0415
-        from coframe.messages.parser import check_message_name, parse  # noqa: PLC0415
 
         definition = self.definition(kind, name)
         try:
@@ -98,7 +99,7 @@ class InterfacePackage:
             InterfaceError: The definition, or one that it uses, is invalid.
         """
         from coframe.errors import InterfaceError  # noqa: PLC0415
-        from coframe.messages.class_factory import FieldError, create_classes  # noqa: PLC0415
+        from coframe.messages._class_factory import FieldError, create_classes  # noqa: PLC0415
 
         if f"{kind}/{name}" not in self._definitions:
             name = name.partition("_")[0]

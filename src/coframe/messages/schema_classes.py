@@ -10,8 +10,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from coframe.errors import InterfaceError
-from coframe.messages.class_factory import class_name, new_message_class
-from coframe.messages.class_limits import check_limits
+from coframe.messages._class_factory import class_name, new_message_class
+from coframe.messages._class_limits import check_limits
+from coframe.messages._parser import Field, Structure
 from coframe.messages.definition import (
     AbstractNestedType,
     AbstractType,
@@ -24,7 +25,6 @@ from coframe.messages.definition import (
 )
 from coframe.messages.limits import MAX_DEPTH, MAX_RECORDED_FIELDS
 from coframe.messages.message import Message
-from coframe.messages.parser import Field, Structure
 from coframe.messages.registry import class_of, find
 from coframe.type_names import TF_MESSAGE, TF_MESSAGES_OF_ROS1
 

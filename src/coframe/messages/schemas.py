@@ -11,11 +11,11 @@ import re
 from typing import NamedTuple
 
 from coframe.errors import InterfaceError
+from coframe.messages._idl import parse_recorded_idl
+from coframe.messages._parser import Rules, Structure, parse_structure, shortened
 from coframe.messages.compounds import PARTS, event, member_messages
 from coframe.messages.definition import NamespacedType
-from coframe.messages.idl import parse_recorded_idl
 from coframe.messages.limits import MAX_DEFINITION, MAX_TYPES
-from coframe.messages.parser import Rules, Structure, parse_structure, shortened
 
 __all__ = ["IDL_FORMATS", "Schema", "parse_schema", "ros_name"]
 

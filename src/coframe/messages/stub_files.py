@@ -6,7 +6,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from coframe.errors import InterfaceError
-from coframe.messages.stubs import stub
+from coframe.messages._stubs import stub
 
 if TYPE_CHECKING:
     from pathlib import Path

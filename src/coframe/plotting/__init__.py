@@ -2,6 +2,7 @@
 """Plots over time of poses, fields of messages, rates and delays, as SVG, PNG and interactive HTML."""
 
 from coframe.errors import PlotError
+from coframe.plotting._figure import FIGURE_FORMATS, Figure, Series, figure_format
 from coframe.plotting.evaluation import evaluate
 from coframe.plotting.expressions import (
     FieldExpression,
@@ -9,7 +10,6 @@ from coframe.plotting.expressions import (
     TimingExpression,
     parse_expression,
 )
-from coframe.plotting.figure import FIGURE_FORMATS, Figure, Series, figure_format
 
 __all__ = [
     "FIGURE_FORMATS",

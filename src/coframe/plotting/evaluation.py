@@ -13,6 +13,7 @@ from coframe.analysis.clocks import clock_of
 from coframe.bags.transforms import ingest_for
 from coframe.errors import DecodeError, PlotError
 from coframe.messages.slices import Slices
+from coframe.plotting._figure import Series
 from coframe.plotting.expressions import (
     Expression,
     FieldExpression,
@@ -20,7 +21,6 @@ from coframe.plotting.expressions import (
     TimingExpression,
     parse_expression,
 )
-from coframe.plotting.figure import Series
 from coframe.plotting.values import NoElementError, axis_title, coordinate, field_value, rates
 from coframe.time import SECOND
 

@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING, Any
 
 from coframe._process.optional_imports import importing_matplotlib, pip_install
 from coframe.errors import PlotError
-from coframe.plotting.figure import COLOURS
+from coframe.plotting._figure import COLOURS
 
 if TYPE_CHECKING:
-    from coframe.plotting.figure import Figure
+    from coframe.plotting._figure import Figure
 
 __all__ = ["as_image", "check_installed"]
 

@@ -4,7 +4,7 @@
 It connects `bags`, which reads and writes files, with `wire`, which communicates with the graph.
 """
 
-from coframe.recorder.player import MAX_RATE, Player, play
+from coframe.recorder._player import MAX_RATE, Player, play
 from coframe.recorder.recorder import Recorder, RecorderStatistics, record
 
 __all__ = ["MAX_RATE", "Player", "Recorder", "RecorderStatistics", "play", "record"]

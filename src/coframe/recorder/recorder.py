@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING, NamedTuple
 from coframe import _core
 from coframe.bags import OfferedQos, RecordingError, Writer
 from coframe.frame_names import renaming
-from coframe.recorder.frame_renaming import FrameRenamer
-from coframe.recorder.message_queue import MessageQueue, ReceivedMessage
-from coframe.recorder.topic_subscriptions import TopicFilter, TopicSubscriptions
+from coframe.recorder._frame_renaming import FrameRenamer
+from coframe.recorder._message_queue import MessageQueue, ReceivedMessage
+from coframe.recorder._topic_subscriptions import TopicFilter, TopicSubscriptions
 from coframe.time import MILLISECOND
 from coframe.wire.participant import Participant
 

@@ -8,8 +8,9 @@
 """
 
 from coframe.errors import PackageError, RobotDescriptionError
+from coframe.robots._packages import Packages
+from coframe.robots._robot import Robot
 from coframe.robots.files import expand_xacro, load
-from coframe.robots.packages import Packages
 from coframe.robots.parts import (
     Box,
     Capsule,
@@ -17,7 +18,7 @@ from coframe.robots.parts import (
     Cylinder,
     Inertial,
     Joint,
-    Limits,
+    JointLimits,
     Link,
     Material,
     Mesh,
@@ -25,7 +26,6 @@ from coframe.robots.parts import (
     Sphere,
     Visual,
 )
-from coframe.robots.robot import Robot
 from coframe.robots.urdf import parse_urdf
 
 __all__ = [
@@ -35,7 +35,7 @@ __all__ = [
     "Cylinder",
     "Inertial",
     "Joint",
-    "Limits",
+    "JointLimits",
     "Link",
     "Material",
     "Mesh",

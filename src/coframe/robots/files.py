@@ -16,14 +16,14 @@ from typing import TYPE_CHECKING, Any
 from coframe._files.regular_files import check_regular, read_regular, reading_hint
 from coframe._process.optional_imports import pip_install
 from coframe.errors import RobotDescriptionError
-from coframe.robots.document import MAX_BYTES
+from coframe.robots._document import MAX_BYTES
 from coframe.robots.urdf import parse_urdf
 from coframe.robots.xacro_process import MAX_OUTPUT, MAX_SECONDS
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping, Sequence
 
-    from coframe.robots.robot import Robot
+    from coframe.robots._robot import Robot
 
 __all__ = ["expand_xacro", "load", "run_xacro"]
 

@@ -12,8 +12,8 @@ from coframe.errors import RobotDescriptionError
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
+    from coframe.robots._robot import Robot
     from coframe.robots.parts import Joint
-    from coframe.robots.robot import Robot
 
 __all__ = ["FreeJoint", "JointStateFields", "JointStates"]
 

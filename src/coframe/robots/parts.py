@@ -17,8 +17,8 @@ __all__ = [
     "Geometry",
     "Inertial",
     "Joint",
+    "JointLimits",
     "JointType",
-    "Limits",
     "Link",
     "Material",
     "Mesh",
@@ -142,7 +142,7 @@ class Link:
 
 
 @dataclass(frozen=True)
-class Limits:
+class JointLimits:
     """The limits of a joint, in rad, rad/s and Nm or in m, m/s and N; None for limits that are not given.
 
     The soft limits are those of a safety controller, which stops the joint before the hard limits.
@@ -187,7 +187,7 @@ class Joint:
     child: str
     origin: Transform
     axis: Vector
-    limits: Limits | None = None
+    limits: JointLimits | None = None
     mimic: Mimic | None = None
 
     @property

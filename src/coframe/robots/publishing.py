@@ -10,7 +10,7 @@ from coframe.time import MILLISECOND
 if TYPE_CHECKING:
     from collections.abc import Collection, Sequence
 
-    from coframe.robots.robot import Robot
+    from coframe.robots._robot import Robot
     from coframe.transform.transform import Transform
 
 __all__ = ["StatePublisher"]

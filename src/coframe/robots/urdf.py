@@ -8,16 +8,16 @@ import re
 from typing import TYPE_CHECKING, get_args
 
 from coframe.errors import RobotDescriptionError
-from coframe.robots import document
-from coframe.robots.parts import Joint, JointType, Limits, Mimic
-from coframe.robots.robot import Robot
-from coframe.robots.shapes import Materials, origin, parse_link
-from coframe.robots.structure import ordered, without_faulty_mimics
+from coframe.robots import _document as document
+from coframe.robots._robot import Robot
+from coframe.robots._shapes import Materials, origin, parse_link
+from coframe.robots._structure import ordered, without_faulty_mimics
+from coframe.robots.parts import Joint, JointLimits, JointType, Mimic
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from coframe.robots.document import Element
+    from coframe.robots._document import Element
     from coframe.robots.parts import Vector
 
 __all__ = ["parse_urdf"]
@@ -188,7 +188,7 @@ def _axis(joint: Element, name: str, kind: JointType) -> Vector:
     return x / length, y / length, z / length
 
 
-def _limits(joint: Element, name: str, kind: JointType) -> Limits | None:
+def _limits(joint: Element, name: str, kind: JointType) -> JointLimits | None:
     element, safety = joint.one("limit"), joint.one("safety_controller")
     if element is None and kind in _NEEDS_LIMITS:
         joint.fail(
@@ -206,7 +206,7 @@ def _limits(joint: Element, name: str, kind: JointType) -> Limits | None:
         if lower > upper:
             element.fail(f"joint {name!r} has the lower limit {lower:g} above the upper limit {upper:g}")
     soft_lower, soft_upper = (_given(safety, part) for part in ("soft_lower_limit", "soft_upper_limit"))
-    return Limits(lower, upper, effort, velocity, soft_lower, soft_upper)
+    return JointLimits(lower, upper, effort, velocity, soft_lower, soft_upper)
 
 
 def _given(element: Element | None, attribute: str, *, required: bool = False) -> float | None:

@@ -32,7 +32,7 @@ def _answer(request: Mapping[str, Any]) -> dict[str, Any]:
     from coframe._files.regular_files import read_regular_text  # noqa: PLC0415
 
     def find(name: str) -> str:
-        from coframe.robots.packages import Packages  # noqa: PLC0415
+        from coframe.robots._packages import Packages  # noqa: PLC0415
 
         return str(Packages(request["path"], request["packages"]).find(name))
 

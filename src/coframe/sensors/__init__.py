@@ -5,9 +5,9 @@
 converts a laser scan to points.
 """
 
+from coframe.sensors._deskewing import deskew
+from coframe.sensors._scans import ScanPoints, project_scan
 from coframe.sensors.clouds import transform_cloud
-from coframe.sensors.deskewing import deskew
-from coframe.sensors.scans import ScanPoints, project_scan
 
 __all__ = ["ScanPoints", "deskew", "project_scan", "transform_cloud"]
 

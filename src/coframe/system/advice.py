@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Final
 
-from coframe.system.examination import Advice
+from coframe.system._examination import Advice
 from coframe.system.examinations import examination_of
 from coframe.wire import selection
 

@@ -5,13 +5,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Final
 
-from coframe.system import dds_examination, zenoh_examination
-from coframe.system.examination import Examination, Examined
+from coframe.system import _dds_examination as dds_examination
+from coframe.system import _zenoh_examination as zenoh_examination
+from coframe.system._examination import Examination, Examined
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
-    from coframe.system.examination import Attempts
+    from coframe.system._examination import Attempts
     from coframe.system.report import SystemReport
     from coframe.wire.selection import Selection
 

@@ -176,7 +176,7 @@ def multicast_problem(address: str) -> str:
 
 
 @dataclass(frozen=True)
-class Limits:
+class SocketLimits:
     """Limits of the system.
 
     Attributes:
@@ -192,7 +192,7 @@ class Limits:
     shared_memory: int | None
 
 
-def limits() -> Limits:
+def limits() -> SocketLimits:
     """Return the limits of the system."""
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
         default = probe.getsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF)
@@ -207,4 +207,4 @@ def limits() -> Limits:
     with suppress(OSError, AttributeError):  # no os.statvfs on Windows
         free = os.statvfs("/dev/shm")  # noqa: S108 - it is measured, not written
         memory = free.f_bavail * free.f_frsize
-    return Limits(default, largest, ports, memory)
+    return SocketLimits(default, largest, ports, memory)

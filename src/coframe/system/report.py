@@ -9,11 +9,11 @@ import time
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Final
 
-from coframe.system.examination import Attempts
+from coframe.system._examination import Attempts
+from coframe.system._installation import Installation, installation
+from coframe.system._variables import Variable, variables
 from coframe.system.examinations import examination_of
-from coframe.system.installation import Installation, installation
-from coframe.system.network import Limits, Probe, limits
-from coframe.system.variables import Variable, variables
+from coframe.system.network import Probe, SocketLimits, limits
 from coframe.wire import domains, selection
 from coframe.wire.dds import config, library
 from coframe.wire.participant import Participant
@@ -21,8 +21,8 @@ from coframe.wire.participant import Participant
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from coframe.system.examination import Problem
-    from coframe.system.zenoh_session import ZenohProbe
+    from coframe.system._examination import Problem
+    from coframe.system._zenoh_session import ZenohProbe
     from coframe.wire.dds.library import Place
 
 _SETTLED: Final = 1.0  # seconds without a new node; the others are found within a few round trips of the first one
@@ -64,7 +64,7 @@ class SystemReport:
     library: LibraryReport
     domain: int | None
     discovery: str | None
-    limits: Limits
+    limits: SocketLimits
     nodes: list[str] | None
     listened: float
     wire: selection.Selection | None

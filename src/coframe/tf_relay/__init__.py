@@ -8,9 +8,9 @@
 - `starting`: the function `relay`.
 """
 
-from coframe.tf_relay.forwarding import Relay
-from coframe.tf_relay.max_error import MaxError
+from coframe.tf_relay._forwarding import Relay
+from coframe.tf_relay._max_error import MaxError
+from coframe.tf_relay._status import NotRelayed, RelayedEdge, RelayedRobot
 from coframe.tf_relay.starting import relay
-from coframe.tf_relay.status import NotRelayed, RelayedEdge, RelayedRobot
 
 __all__ = ["MaxError", "NotRelayed", "Relay", "RelayedEdge", "RelayedRobot", "relay"]

@@ -5,9 +5,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from coframe.tf_relay.forwarding import Relay
-from coframe.tf_relay.max_error import MaxError
-from coframe.tf_relay.robots import choose_robots, qualified
+from coframe.tf_relay._forwarding import Relay
+from coframe.tf_relay._max_error import MaxError
+from coframe.tf_relay._robots import choose_robots, qualified
 from coframe.time import SECOND
 
 if TYPE_CHECKING:

@@ -2,9 +2,9 @@
 """Trajectory files (TUM, KITTI, EuRoC, CSV), and the comparison of an estimated trajectory with a reference."""
 
 from coframe.errors import TrajectoryError
-from coframe.trajectories.alignment import ALIGNMENTS, Alignment, align
-from coframe.trajectories.association import associate
-from coframe.trajectories.comparison import (
+from coframe.trajectories._alignment import ALIGNMENTS, Alignment, align
+from coframe.trajectories._association import associate
+from coframe.trajectories._comparison import (
     Comparison,
     Delta,
     PoseErrors,
@@ -12,8 +12,8 @@ from coframe.trajectories.comparison import (
     compare_trajectories,
     parse_delta,
 )
+from coframe.trajectories._reading import READABLE_FORMATS, read_trajectory
 from coframe.trajectories.formats import FORMATS, format_of, write_trajectory
-from coframe.trajectories.reading import READABLE_FORMATS, read_trajectory
 
 __all__ = [
     "ALIGNMENTS",

@@ -13,7 +13,7 @@ from coframe import _core, quaternion
 from coframe._output import html_tables
 from coframe.errors import FrameMismatchException, InvalidArgumentException
 from coframe.time import stamp_ns
-from coframe.transform.covariance import transform_covariance
+from coframe.transform._covariance import transform_covariance
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence

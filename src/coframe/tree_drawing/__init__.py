@@ -12,9 +12,9 @@ The package is built in layers:
 - `changes` compares two forests.
 """
 
-from coframe.tree_drawing.build import grow
+from coframe.tree_drawing._build import grow
+from coframe.tree_drawing._forest import Forest, Frame
 from coframe.tree_drawing.changes import Change, changes
-from coframe.tree_drawing.forest import Forest, Frame
 
 __all__ = ["Change", "Forest", "Frame", "changes", "grow"]
 

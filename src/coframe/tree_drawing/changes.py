@@ -11,7 +11,7 @@ from coframe._output.formatting import duration
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from coframe.tree_drawing.forest import Forest, Frame
+    from coframe.tree_drawing._forest import Forest, Frame
 
 __all__ = ["Change", "changes"]
 

@@ -10,7 +10,7 @@ from coframe._output.formatting import count, duration, listed
 
 if TYPE_CHECKING:
     from coframe.doctor.figures import EdgeFigures
-    from coframe.tree_drawing.forest import Forest, Frame
+    from coframe.tree_drawing._forest import Forest, Frame
 
 __all__ = ["alarms", "edge_figures", "figures", "summary"]
 

@@ -12,7 +12,7 @@ from coframe.tree_drawing.labels import alarms, figures, summary
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from coframe.tree_drawing.forest import Forest
+    from coframe.tree_drawing._forest import Forest
 
 __all__ = ["MAX_EDGES", "as_markdown", "as_mermaid"]
 

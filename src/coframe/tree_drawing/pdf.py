@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING
 import pydyf
 
 from coframe._output.escaping import shown
-from coframe.tree_drawing.layout import Box, Line, draw
+from coframe.tree_drawing._layout import Box, Line, draw
 
 if TYPE_CHECKING:
-    from coframe.tree_drawing.forest import Forest
-    from coframe.tree_drawing.layout import Label
+    from coframe.tree_drawing._forest import Forest
+    from coframe.tree_drawing._layout import Label
 
 __all__ = ["as_pdf"]
 

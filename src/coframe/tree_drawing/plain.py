@@ -6,7 +6,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from coframe.tree_drawing.forest import Forest, Frame
+    from coframe.tree_drawing._forest import Forest, Frame
 
 __all__ = ["as_data"]
 

@@ -11,13 +11,13 @@ from matplotlib.font_manager import FontProperties, findfont, get_font
 from matplotlib.lines import Line2D
 from matplotlib.patches import FancyBboxPatch
 
-from coframe.tree_drawing.layout import Box, Line, draw
+from coframe.tree_drawing._layout import Box, Line, draw
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from coframe.tree_drawing.forest import Forest
-    from coframe.tree_drawing.layout import Label
+    from coframe.tree_drawing._forest import Forest
+    from coframe.tree_drawing._layout import Label
 
 __all__ = ["as_png"]
 

@@ -6,11 +6,11 @@ from __future__ import annotations
 from html import escape
 from typing import TYPE_CHECKING
 
-from coframe.tree_drawing.layout import Box, Line, draw
+from coframe.tree_drawing._layout import Box, Line, draw
 
 if TYPE_CHECKING:
-    from coframe.tree_drawing.forest import Forest
-    from coframe.tree_drawing.layout import Label
+    from coframe.tree_drawing._forest import Forest
+    from coframe.tree_drawing._layout import Label
 
 __all__ = ["as_svg"]
 

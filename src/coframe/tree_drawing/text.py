@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from coframe.doctor.figures import EdgeFigures
-    from coframe.tree_drawing.forest import Forest, Frame
+    from coframe.tree_drawing._forest import Forest, Frame
 
 __all__ = ["COLUMNS", "Row", "rows"]
 

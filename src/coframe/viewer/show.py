@@ -16,7 +16,8 @@ from coframe.connection.connection import Connection
 from coframe.errors import ViewerError
 from coframe.robots import load
 from coframe.transform.transform import Transform
-from coframe.viewer.notebook import replay_frame, suitable_inline, viewer_frame
+from coframe.viewer._notebook import replay_frame, suitable_inline, viewer_frame
+from coframe.viewer._state import ViewerState
 from coframe.viewer.replay.export import export_replay
 from coframe.viewer.robots.joints import JOINT_STATES
 from coframe.viewer.robots.robot_message import make_mesh_table
@@ -25,7 +26,6 @@ from coframe.viewer.scripting.gui_api import GuiApi
 from coframe.viewer.scripting.scene_api import SceneApi
 from coframe.viewer.sources.source import BufferSource
 from coframe.viewer.sources.transforms import buffer_of_transform
-from coframe.viewer.state import ViewerState
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from typing_extensions import Self
 
     from coframe.robots import Robot
-    from coframe.viewer.notebook import Inline
+    from coframe.viewer._notebook import Inline
     from coframe.viewer.sources.source import Mode, ViewerSource
 
 __all__ = ["Viewer", "show", "start_viewer"]

@@ -12,7 +12,7 @@ from coframe.wire.endpoints import LocalEndpoint
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from coframe.wire.backend import BackendTap
+    from coframe.wire._backend import BackendTap
     from coframe.wire.endpoints import GraphNode
     from coframe.wire.names import Endpoint
     from coframe.wire.qos import QoS

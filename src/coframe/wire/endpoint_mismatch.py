@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from coframe._output.warn_once import WarnOnce
 from coframe.wire import names
-from coframe.wire.foreign_services import foreign_services_text
+from coframe.wire._foreign_services import foreign_services_text
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator

@@ -15,7 +15,7 @@ from coframe.wire.system_clock import clock_fault
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from coframe.wire.backend import BackendEndpoint, BackendReader, BackendWriter
+    from coframe.wire._backend import BackendEndpoint, BackendReader, BackendWriter
     from coframe.wire.graph import Graph
     from coframe.wire.names import Endpoint
     from coframe.wire.participant import Participant

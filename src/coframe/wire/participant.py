@@ -18,13 +18,13 @@ from coframe.errors import WireError
 from coframe.frame_names import naming_problems
 from coframe.time import SECOND
 from coframe.wire import domains, names, selection
-from coframe.wire.endpoint_factory import EndpointFactory
+from coframe.wire._endpoint_factory import EndpointFactory
+from coframe.wire._graph_queries import GraphQueries
+from coframe.wire._ignored_messages import IgnoredMessageMonitor
+from coframe.wire._parameter_services import ParameterServices
+from coframe.wire._rejected_transforms import RejectedTransformMonitor
 from coframe.wire.endpoint_mismatch import MismatchMonitor
 from coframe.wire.endpoints import GraphNode, LocalEndpoint
-from coframe.wire.graph_queries import GraphQueries
-from coframe.wire.ignored_messages import IgnoredMessageMonitor
-from coframe.wire.parameter_services import ParameterServices
-from coframe.wire.rejected_transforms import RejectedTransformMonitor
 from coframe.wire.static_broadcaster import SharedStaticPublisher, StaticBroadcaster
 from coframe.wire.system_clock import clock_fault
 from coframe.wire.tf_reader import TfReader

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from coframe import _core
-    from coframe.wire.backend import Middleware, Session
+    from coframe.wire._backend import Middleware, Session
 
 VARIABLE: Final = "COFRAME_WIRE"
 RMW_VARIABLE: Final = "RMW_IMPLEMENTATION"

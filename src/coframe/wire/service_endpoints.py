@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from coframe.errors import WireError
 from coframe.wire import names, request_header
+from coframe.wire._foreign_services import foreign_services_text
 from coframe.wire.endpoints import RawPublisher, Sample, Subscription
-from coframe.wire.foreign_services import foreign_services_text
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from coframe.wire.backend import BackendServiceReader, BackendWriter
+    from coframe.wire._backend import BackendServiceReader, BackendWriter
     from coframe.wire.endpoints import GraphNode, LocalEndpoint
     from coframe.wire.graph import DiscoveredEndpoint, Graph
     from coframe.wire.names import Endpoint

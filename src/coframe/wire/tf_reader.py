@@ -12,7 +12,7 @@ from coframe.wire.endpoints import LocalEndpoint
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from coframe.wire.backend import BackendTfReader
+    from coframe.wire._backend import BackendTfReader
     from coframe.wire.endpoints import GraphNode, Sample
     from coframe.wire.graph import Graph
     from coframe.wire.names import Endpoint

@@ -18,7 +18,7 @@ import time
 from pathlib import Path
 
 from coframe._process.signal_handlers import clear_handled_interrupt
-from coframe.workspace import interface_imports
+from coframe.workspace import _interface_imports as interface_imports
 
 __all__ = ["LAUNCHER", "main"]
 

@@ -10,7 +10,7 @@ import sys
 from pathlib import Path
 from typing import Final
 
-from coframe.workspace import interface_imports
+from coframe.workspace import _interface_imports as interface_imports
 from coframe.workspace.ros_folders import foreign_packages, imported_packages, is_coframes
 
 TF2_PACKAGES: Final = ("tf2_py", "tf2_ros")

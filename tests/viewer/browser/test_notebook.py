@@ -20,8 +20,8 @@ import recordings
 from PIL import Image
 
 import coframe
-from coframe.viewer import notebook
-from coframe.viewer.notebook import suitable_inline
+from coframe.viewer import _notebook as notebook
+from coframe.viewer._notebook import suitable_inline
 
 sync_api = pytest.importorskip("playwright.sync_api", reason="the browser tests need playwright")
 

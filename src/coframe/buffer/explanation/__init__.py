@@ -14,7 +14,7 @@ Example:
     (False, 'odom -> base', 'too_new', 500000000)
 """
 
-from coframe.buffer.explanation.explaining import explain
-from coframe.buffer.explanation.facts import ChainEdge, Explanation
+from coframe.buffer.explanation._explaining import explain
+from coframe.buffer.explanation._facts import ChainEdge, Explanation
 
 __all__ = ["ChainEdge", "Explanation", "explain"]

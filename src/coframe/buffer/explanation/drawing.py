@@ -13,7 +13,7 @@ from coframe.analysis.liveness import stale_limit, usual_gap
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
-    from coframe.buffer.explanation.facts import ChainEdge, Explanation
+    from coframe.buffer.explanation._facts import ChainEdge, Explanation
 
 __all__ = ["draw", "draw_html", "remark", "verdict"]
 

@@ -12,7 +12,7 @@ from coframe._output.formatting import count, listed
 from coframe.cli.declaration import PATH, Command, argument
 from coframe.cli.output import fail, printable, warn
 from coframe.errors import InterfaceError
-from coframe.interfaces.sources import ENVIRONMENT, Source, package_folders, sources
+from coframe.interfaces.sources import ENVIRONMENT, InterfaceFolder, package_folders, sources
 from coframe.interfaces.user_folders import added_paths, set_added_paths, settings_file, stub_folder
 from coframe.interfaces.workspace import add_start
 from coframe.messages.packages import forget, load_package, shipped_names
@@ -76,7 +76,7 @@ def add(path: Path) -> None:
     folder = path.expanduser().absolute()
     if not folder.is_dir():
         fail(f"no folder {folder}")
-    found = package_folders(Source("", folder, 8))
+    found = package_folders(InterfaceFolder("", folder, 8))
     if not found:
         fail(
             f"no package with .msg, .srv, .action or .idl files in {folder}",
@@ -146,7 +146,7 @@ def _search_from(folder: Path | None) -> None:
     add_start(folder.expanduser())
 
 
-def _packages_in(source: Source) -> dict[str, Path]:
+def _packages_in(source: InterfaceFolder) -> dict[str, Path]:
     return dict(sorted(package_folders(source).items()))
 
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from coframe.course.program import Program
+from coframe.course._program import Program
 from coframe.course.submitted import check_submitted, is_submitted
 from coframe.errors import CoframeError, CourseError
 from coframe.robots.files import expand_xacro
@@ -21,10 +21,10 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
     from pathlib import Path
 
+    from coframe.course._confinement import Confinement
+    from coframe.course._sheet import Sheet
+    from coframe.course._world import Received, World
     from coframe.course.assignment import Assignment
-    from coframe.course.confinement import Confinement
-    from coframe.course.sheet import Sheet
-    from coframe.course.world import Received, World
 
 __all__ = [
     "TOLERANCE",

@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from coframe.course._motion import JOINT_PERIOD
+from coframe.course._sheet import Sheet
+from coframe.course._world import STEP, stamp_of
 from coframe.course.criteria.common import TOLERANCE, Task, mean_rate, run_program, seconds_of, stamp_ns
-from coframe.course.motion import JOINT_PERIOD
 from coframe.course.rubric import RUBRIC
-from coframe.course.sheet import Sheet
-from coframe.course.world import STEP, stamp_of
 from coframe.time import SECOND
 from sensor_msgs.msg import JointState
 from tf2_msgs.msg import TFMessage
@@ -20,7 +20,7 @@ from tf2_msgs.msg import TFMessage
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from coframe.course.world import Received, World
+    from coframe.course._world import Received, World
 
 __all__ = ["check"]
 

@@ -5,6 +5,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from coframe.course._motion import SimulatedRobot
+from coframe.course._sheet import Sheet
+from coframe.course._world import STEP
 from coframe.course.criteria.common import (
     TOLERANCE,
     Task,
@@ -15,15 +18,12 @@ from coframe.course.criteria.common import (
     seconds_of,
     stamp_ns,
 )
-from coframe.course.motion import Robot
 from coframe.course.rubric import RUBRIC
-from coframe.course.sheet import Sheet
-from coframe.course.world import STEP
 from coframe.time import SECOND
 from geometry_msgs.msg import PoseStamped
 
 if TYPE_CHECKING:
-    from coframe.course.world import Received
+    from coframe.course._world import Received
 
 __all__ = ["check"]
 
@@ -40,7 +40,7 @@ def check(task: Task) -> Sheet:
     """Check ``tf_listener.py``."""
     sheet = Sheet.of(RUBRIC["listener"])
     world = task.world
-    robot = Robot(task.assignment)
+    robot = SimulatedRobot(task.assignment)
 
     def publish(now: int) -> None:
         if now % _PERIOD == 0:
@@ -103,7 +103,7 @@ def _check_rate(sheet: Sheet, task: Task, steady: list[Received]) -> None:
     )
 
 
-def _check_poses(sheet: Sheet, robot: Robot, poses: list[Received]) -> None:
+def _check_poses(sheet: Sheet, robot: SimulatedRobot, poses: list[Received]) -> None:
     frames = sorted({each.message.header.frame_id for each in poses})
     sheet.check(
         3,
@@ -126,18 +126,18 @@ def _check_poses(sheet: Sheet, robot: Robot, poses: list[Received]) -> None:
     )
 
 
-def _difference(robot: Robot, received: Received) -> str:
+def _difference(robot: SimulatedRobot, received: Received) -> str:
     stamp = stamp_ns(received.message)
     at_sample = (stamp + _LATENCY) % _PERIOD == 0
     return differs(pose_of(received.message), robot.end_effector(stamp), TOLERANCE if at_sample else _INTERPOLATED)
 
 
-def _right_at_other_time(robot: Robot, poses: list[Received]) -> bool:
+def _right_at_other_time(robot: SimulatedRobot, poses: list[Received]) -> bool:
     """Return whether all poses are right at an earlier time instead of at their stamps."""
     return all(_true_time(robot, each) is not None for each in poses)
 
 
-def _true_time(robot: Robot, received: Received) -> int | None:
+def _true_time(robot: SimulatedRobot, received: Received) -> int | None:
     pose = pose_of(received.message)
     for age in range(0, _MAX_AGE, STEP):
         moment = received.time - age
@@ -146,7 +146,7 @@ def _true_time(robot: Robot, received: Received) -> int | None:
     return None
 
 
-def _cause(robot: Robot, poses: list[Received]) -> str:
+def _cause(robot: SimulatedRobot, poses: list[Received]) -> str:
     if not poses:
         return "see the facts above"
     if _right_at_other_time(robot, poses):

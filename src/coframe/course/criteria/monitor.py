@@ -5,16 +5,16 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from coframe.course._motion import SimulatedRobot
+from coframe.course._sheet import Sheet
 from coframe.course.criteria.common import Task, run_program
-from coframe.course.motion import Robot
 from coframe.course.rubric import RUBRIC
-from coframe.course.sheet import Sheet
 from coframe.time import SECOND
 from coframe.transform.transform import Transform
 from std_msgs.msg import String
 
 if TYPE_CHECKING:
-    from coframe.course.world import Received
+    from coframe.course._world import Received
 
 __all__ = ["check"]
 
@@ -26,7 +26,7 @@ def check(task: Task) -> Sheet:
     """Check ``tf_monitor.py``."""
     sheet = Sheet.of(RUBRIC["monitor"])
     world = task.world
-    robot = Robot(task.assignment)
+    robot = SimulatedRobot(task.assignment)
     period = round(SECOND / task.assignment.dynamic_rate)
 
     def publish(now: int, *, arm: bool = True, second_parent: bool = False) -> None:

@@ -10,11 +10,11 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from coframe.course._motion import SimulatedRobot
+from coframe.course._sheet import Sheet
+from coframe.course._world import STEP, stamp_of
 from coframe.course.criteria.common import Task, run_program, stamp_ns
-from coframe.course.motion import Robot
 from coframe.course.rubric import RUBRIC
-from coframe.course.sheet import Sheet
-from coframe.course.world import STEP, stamp_of
 from coframe.errors import CoframeError
 from coframe.sensors.layout import field_of
 from coframe.transform.transform import Transform
@@ -23,7 +23,7 @@ from sensor_msgs.msg import LaserScan, PointCloud2
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from coframe.course.world import Received, World
+    from coframe.course._world import Received, World
 
 __all__ = ["check"]
 
@@ -52,7 +52,7 @@ def check(task: Task) -> Sheet:
     """Check ``sensor_transform.py``."""
     sheet = Sheet.of(RUBRIC["sensor"])
     world = task.world
-    robot = Robot(task.assignment)
+    robot = SimulatedRobot(task.assignment)
     scans: dict[int, _Scan] = {}
 
     def publish(now: int) -> None:
@@ -77,7 +77,7 @@ def check(task: Task) -> Sheet:
     return sheet
 
 
-def _scan(robot: Robot, now: int, frame: str) -> _Scan:
+def _scan(robot: SimulatedRobot, now: int, frame: str) -> _Scan:
     """Return a scan with all kinds of invalid beams, and its valid beams in base_link."""
     angles = -math.pi + 2 * math.pi / _BEAMS * np.arange(_BEAMS)
     ranges = (3.0 + np.cos(3 * angles + now / 1e9)).astype(np.float32)

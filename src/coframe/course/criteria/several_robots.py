@@ -6,13 +6,13 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from coframe.analysis.tree import FrameTrees
+from coframe.course._sheet import Sheet
 from coframe.course.criteria.common import Task, edge_of, run_program
 from coframe.course.rubric import RUBRIC
-from coframe.course.sheet import Sheet
 from tf2_msgs.msg import TFMessage
 
 if TYPE_CHECKING:
-    from coframe.course.world import Received
+    from coframe.course._world import Received
 
 __all__ = ["check"]
 

@@ -7,16 +7,16 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from coframe.course._sheet import Sheet
 from coframe.course.criteria.common import TOLERANCE, Task, differs, edge_of, run_program
 from coframe.course.rubric import RUBRIC
-from coframe.course.sheet import Sheet
 from coframe.transform.transform import Transform
 from rclpy.qos import DurabilityPolicy, ReliabilityPolicy
 from tf2_msgs.msg import TFMessage
 
 if TYPE_CHECKING:
+    from coframe.course._world import Received
     from coframe.course.assignment import Mount
-    from coframe.course.world import Received
 
 __all__ = ["check"]
 

@@ -3,11 +3,11 @@
 
 from __future__ import annotations
 
+from coframe.course._motion import SimulatedRobot
+from coframe.course._sheet import Sheet
+from coframe.course._world import STEP
 from coframe.course.criteria.common import Task, differs, mean_rate, pose_of, run_program, stamp_ns
-from coframe.course.motion import Robot
 from coframe.course.rubric import RUBRIC
-from coframe.course.sheet import Sheet
-from coframe.course.world import STEP
 from coframe.time import SECOND
 from geometry_msgs.msg import PoseStamped
 
@@ -24,7 +24,7 @@ def check(task: Task) -> Sheet:
     """Check ``time_travel.py``."""
     sheet = Sheet.of(RUBRIC["time_travel"])
     world = task.world
-    robot = Robot(task.assignment)
+    robot = SimulatedRobot(task.assignment)
 
     def publish(now: int) -> None:
         if now % _PERIOD == 0:

@@ -5,10 +5,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from coframe.course._motion import SimulatedRobot
+from coframe.course._sheet import Sheet
 from coframe.course.criteria.common import Task, differs, expanded_xacro
-from coframe.course.motion import Robot
 from coframe.course.rubric import RUBRIC
-from coframe.course.sheet import Sheet
 from coframe.course.submitted import is_submitted, read_submitted
 from coframe.errors import CoframeError
 from coframe.robots.urdf import parse_urdf
@@ -71,7 +71,7 @@ def _check_joints(sheet: Sheet, description: Description | None) -> None:
 
 
 def _check_kinematics(sheet: Sheet, task: Task, description: Description | None) -> None:
-    robot = Robot(task.assignment)
+    robot = SimulatedRobot(task.assignment)
     wrong: list[str] = []
     frames = {"end_effector": 3.0, **{mount.frame: 1.0 for mount in task.assignment.mounts}}
     for frame, points in frames.items():
@@ -88,7 +88,7 @@ def _check_kinematics(sheet: Sheet, task: Task, description: Description | None)
         )
 
 
-def _difference(robot: Robot, description: Description | None, frame: str) -> str:
+def _difference(robot: SimulatedRobot, description: Description | None, frame: str) -> str:
     if description is None:
         return "no description"
     mounts = {mount.source: mount for mount in robot.mounts()}

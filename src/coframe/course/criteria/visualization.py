@@ -6,9 +6,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from coframe.analysis.tree import FrameTrees
+from coframe.course._sheet import Sheet
 from coframe.course.criteria.common import Task, edge_of, run_program
 from coframe.course.rubric import RUBRIC
-from coframe.course.sheet import Sheet
 from coframe.course.submitted import read_submitted
 from coframe.errors import CourseError, ViewerError
 from coframe.viewer.rviz.config import RvizConfig

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from coframe._output.formatting import count, quoted
-from coframe.doctor.finding import Finding, Severity
+from coframe.doctor._finding import Finding, Severity
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

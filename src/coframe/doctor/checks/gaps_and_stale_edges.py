@@ -10,14 +10,14 @@ import numpy as np
 from coframe._output.formatting import duration, listed
 from coframe.analysis.liveness import median_interval, stamp_intervals, usual_gap
 from coframe.analysis.static_command import static_command
-from coframe.doctor.edge import publishers_of
-from coframe.doctor.finding import Finding, Severity
+from coframe.doctor._edge import publishers_of
+from coframe.doctor._finding import Finding, Severity
 from coframe.time import MILLISECOND, SECOND
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from coframe.doctor.edge import Edge
+    from coframe.doctor._edge import Edge
     from coframe.doctor.observation import Observation
 
 __all__ = ["CODE", "find"]

@@ -7,17 +7,17 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from coframe.doctor.finding import Finding, Severity
-from coframe.doctor.quaternion_causes import likely_cause
-from coframe.doctor.transforms import NORM_TOLERANCE
+from coframe.doctor._finding import Finding, Severity
+from coframe.doctor._quaternion_causes import likely_cause
+from coframe.doctor._transforms import NORM_TOLERANCE
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from numpy.typing import NDArray
 
+    from coframe.doctor._transforms import Transforms
     from coframe.doctor.observation import Observation
-    from coframe.doctor.transforms import Transforms
 
 __all__ = ["CODE", "find"]
 

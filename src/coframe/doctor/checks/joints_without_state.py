@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from coframe._output.formatting import listed
-from coframe.doctor.finding import Finding, Severity
-from coframe.doctor.robot_model import model
+from coframe.doctor._finding import Finding, Severity
+from coframe.doctor._robot_model import model
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -9,13 +9,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from coframe._output.formatting import duration
-from coframe.doctor.finding import Finding, Severity
+from coframe.doctor._finding import Finding, Severity
 from coframe.time import MILLISECOND
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from coframe.doctor.observation import LogLine, Observation
+    from coframe.doctor.observation import Observation, ObservedLogLine
 
 __all__ = ["CODE", "find"]
 
@@ -54,7 +54,7 @@ def find(observation: Observation) -> Iterator[Finding]:
 def _logged_errors(observation: Observation) -> Iterator[Finding]:
     """Yield lookups that still fail at the end; during startup, some lookups always fail."""
     middle = observation.start + observation.duration // 2
-    by_kind: dict[tuple[str, int], list[LogLine]] = {}
+    by_kind: dict[tuple[str, int], list[ObservedLogLine]] = {}
     for line in observation.log:
         for number, (pattern, _) in enumerate(_FAILURES):
             if pattern.search(line.text):

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from coframe._output.formatting import quoted, times
-from coframe.doctor.edge import publishers_of
-from coframe.doctor.finding import Finding, Severity
+from coframe.doctor._edge import publishers_of
+from coframe.doctor._finding import Finding, Severity
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

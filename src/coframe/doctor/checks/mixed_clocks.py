@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 from coframe._output.formatting import duration, listed, seconds
 from coframe.analysis.clocks import SAME_CLOCK
-from coframe.doctor.edge import publishers_of
-from coframe.doctor.finding import Finding, Severity
+from coframe.doctor._edge import publishers_of
+from coframe.doctor._finding import Finding, Severity
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from coframe.analysis.static_command import static_command
-from coframe.doctor.edge import angles_between
-from coframe.doctor.finding import Finding, Severity
-from coframe.doctor.robot_model import model
+from coframe.doctor._edge import angles_between
+from coframe.doctor._finding import Finding, Severity
+from coframe.doctor._robot_model import model
 from coframe.transform.transform import Transform
 
 if TYPE_CHECKING:
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from coframe.doctor.edge import Edge
+    from coframe.doctor._edge import Edge
     from coframe.doctor.observation import Observation
     from coframe.robots import Robot
 

@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from coframe._output.formatting import duration
-from coframe.doctor.finding import Finding, Severity
+from coframe.doctor._finding import Finding, Severity
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from coframe.doctor.edge import Edge
-    from coframe.doctor.observation import JointStates, Observation
+    from coframe.doctor._edge import Edge
+    from coframe.doctor.observation import Observation, ObservedJointStates
 
 __all__ = ["CODE", "find"]
 
@@ -69,7 +69,7 @@ def _old(edge: Edge, cache: int) -> Iterator[Finding]:
         )
 
 
-def _repeated_states(states: JointStates) -> Iterator[Finding]:
+def _repeated_states(states: ObservedJointStates) -> Iterator[Finding]:
     order = np.argsort(states.stamp, kind="stable")
     repeated = np.flatnonzero(np.diff(states.stamp[order]) == 0)
     if len(repeated) < _MIN_REPETITIONS:

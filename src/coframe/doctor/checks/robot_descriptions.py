@@ -6,8 +6,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from coframe._output.formatting import listed
-from coframe.doctor.finding import Finding, Severity
-from coframe.doctor.robot_model import parsed
+from coframe.doctor._finding import Finding, Severity
+from coframe.doctor._robot_model import parsed
 from coframe.errors import PackageError, RobotDescriptionError
 from coframe.robots import Mesh, Packages
 

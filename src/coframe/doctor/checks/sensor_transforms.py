@@ -11,7 +11,7 @@ import numpy as np
 from coframe._output.formatting import count, duration, listed
 from coframe.analysis.missing_edges import BASE_FRAMES, estimator_advice, is_sensor_frame
 from coframe.analysis.static_command import static_command
-from coframe.doctor.finding import Finding, Severity
+from coframe.doctor._finding import Finding, Severity
 from coframe.doctor.observation import NEVER
 from coframe.time import MILLISECOND
 

@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING
 
 from coframe._output.formatting import count, listed
 from coframe.analysis.missing_edges import missing_edge, unknown_mount
-from coframe.doctor.edge import publishers_of
-from coframe.doctor.finding import Finding, Severity
+from coframe.doctor._edge import publishers_of
+from coframe.doctor._finding import Finding, Severity
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from coframe.doctor.edge import Edge
+    from coframe.doctor._edge import Edge
     from coframe.doctor.observation import Observation
 
 __all__ = ["CODE", "find"]

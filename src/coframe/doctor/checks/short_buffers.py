@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from coframe._output.formatting import duration
-from coframe.doctor.finding import Finding, Severity
+from coframe.doctor._finding import Finding, Severity
 from coframe.time import SECOND
 
 if TYPE_CHECKING:

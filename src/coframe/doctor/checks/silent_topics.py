@@ -7,7 +7,7 @@ import re
 from typing import TYPE_CHECKING
 
 from coframe._output.formatting import duration, listed
-from coframe.doctor.finding import Finding, Severity
+from coframe.doctor._finding import Finding, Severity
 from coframe.time import SECOND
 from coframe.type_names import TF_MESSAGE
 

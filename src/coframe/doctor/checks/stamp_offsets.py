@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from coframe._output.formatting import duration
-from coframe.doctor.finding import Finding, Severity
+from coframe.doctor._finding import Finding, Severity
 from coframe.time import MILLISECOND, SECOND
 
 if TYPE_CHECKING:
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from coframe.doctor.edge import Edge
+    from coframe.doctor._edge import Edge
     from coframe.doctor.observation import Observation
 
 __all__ = ["CODE", "find"]

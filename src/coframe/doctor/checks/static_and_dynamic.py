@@ -6,8 +6,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from coframe._output.formatting import times
-from coframe.doctor.edge import publishers_of
-from coframe.doctor.finding import Finding, Severity
+from coframe.doctor._edge import publishers_of
+from coframe.doctor._finding import Finding, Severity
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from coframe._output.formatting import duration, listed, times
-from coframe.doctor.finding import Finding, Severity
+from coframe.doctor._finding import Finding, Severity
 from coframe.time import SECOND
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from coframe.doctor.edge import Edge
+    from coframe.doctor._edge import Edge
     from coframe.doctor.observation import Observation
 
 __all__ = ["CODE", "find"]

@@ -10,12 +10,12 @@ import numpy as np
 
 from coframe import quaternion
 from coframe.analysis.static_command import static_command
-from coframe.doctor.finding import Finding, Severity
+from coframe.doctor._finding import Finding, Severity
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from coframe.doctor.edge import Edge
+    from coframe.doctor._edge import Edge
     from coframe.doctor.observation import Observation
 
 __all__ = ["CODE", "find"]

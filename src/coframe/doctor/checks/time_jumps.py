@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from coframe._output.formatting import duration, listed, times
-from coframe.doctor.edge import publishers_of
-from coframe.doctor.finding import Finding, Severity
+from coframe.doctor._edge import publishers_of
+from coframe.doctor._finding import Finding, Severity
 from coframe.time import SECOND
 
 if TYPE_CHECKING:

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any
 from coframe.doctor.codes import page
 
 if TYPE_CHECKING:
-    from coframe.doctor.diagnosis import Report
-    from coframe.doctor.finding import Finding
+    from coframe.doctor._diagnosis import Report
+    from coframe.doctor._finding import Finding
 
 __all__ = ["as_data"]
 

@@ -7,14 +7,14 @@ from typing import TYPE_CHECKING, Any
 from urllib.parse import quote
 
 import coframe
+from coframe.doctor._finding import Severity
 from coframe.doctor.codes import codes, page
-from coframe.doctor.finding import Severity
 
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from coframe.doctor.diagnosis import Report
-    from coframe.doctor.finding import Finding
+    from coframe.doctor._diagnosis import Report
+    from coframe.doctor._finding import Finding
 
 __all__ = ["as_sarif"]
 

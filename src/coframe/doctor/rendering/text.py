@@ -11,8 +11,8 @@ from coframe.type_names import is_tf_message
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from coframe.doctor.diagnosis import Report, SensorFacts
-    from coframe.doctor.finding import Finding
+    from coframe.doctor._diagnosis import Report, SensorFacts
+    from coframe.doctor._finding import Finding
     from coframe.doctor.observation import Observation
 
 __all__ = ["lines"]

@@ -14,9 +14,9 @@ import math
 from collections import deque
 from typing import TYPE_CHECKING, Protocol
 
-from coframe.viewer.clients.feeds import FRAMES, HELLO, TOPICS, make_feeds
-from coframe.viewer.clients.requests import handle
-from coframe.viewer.clients.state import ClientState
+from coframe.viewer.clients._feeds import FRAMES, HELLO, TOPICS, make_feeds
+from coframe.viewer.clients._requests import handle
+from coframe.viewer.clients._state import ClientState
 from coframe.viewer.protocol.client_messages import Ready
 from coframe.viewer.protocol.encoding import encode
 from coframe.viewer.protocol.requests import BadRequestError, parse_request
@@ -25,9 +25,9 @@ from coframe.viewer.protocol.server_messages import Problem
 if TYPE_CHECKING:
     from collections.abc import Hashable
 
+    from coframe.viewer._state import ViewerState
     from coframe.viewer.protocol.client_messages import ClientMessage
     from coframe.viewer.protocol.server_messages import ServerMessage
-    from coframe.viewer.state import ViewerState
 
 __all__ = ["Client", "Socket"]
 

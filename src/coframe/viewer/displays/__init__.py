@@ -3,6 +3,6 @@
 
 from __future__ import annotations
 
-from coframe.viewer.displays.drawing import CannotDrawError, Drawing, Options
+from coframe.viewer.displays._drawing import CannotDrawError, Drawing, Options
 
 __all__ = ["CannotDrawError", "Drawing", "Options"]

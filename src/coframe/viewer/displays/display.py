@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
     from coframe.buffer.buffer import Buffer
     from coframe.viewer.displays import Drawing, Options
-    from coframe.viewer.displays.renderers import MeshUrl, Renderer
+    from coframe.viewer.displays._renderers import MeshUrl, Renderer
     from coframe.viewer.protocol.common import DisplayState
     from coframe.viewer.sources.topic_messages import StampedMessage, TopicMessages
 

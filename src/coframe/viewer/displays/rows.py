@@ -9,16 +9,16 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from coframe.viewer.displays import kinds
-from coframe.viewer.displays.drawing import CannotDrawError
-from coframe.viewer.displays.renderers import each_message
-from coframe.viewer.displays.row import DisplayRow
+from coframe.viewer.displays._drawing import CannotDrawError
+from coframe.viewer.displays._renderers import each_message
+from coframe.viewer.displays._row import DisplayRow
 from coframe.viewer.protocol.server_messages import DisplayTopic
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
-    from coframe.viewer.displays.drawing import Drawing, Options
-    from coframe.viewer.displays.renderers import MeshUrl, Renderer
+    from coframe.viewer.displays._drawing import Drawing, Options
+    from coframe.viewer.displays._renderers import MeshUrl, Renderer
     from coframe.viewer.sources.topic_messages import TopicMessages
 
 __all__ = ["DISPLAYS", "DISPLAY_OF_TYPE", "MAX_AUTOMATIC_DISPLAYS", "displayable", "make_renderer"]

@@ -12,7 +12,7 @@ from coframe.errors import CoframeError
 from coframe.plotting import evaluate
 from coframe.plotting.thinning import extremes
 from coframe.plotting.values import axis_title
-from coframe.viewer.panels.ring import Points
+from coframe.viewer.panels._ring import Points
 
 if TYPE_CHECKING:
     from concurrent.futures import Executor, Future

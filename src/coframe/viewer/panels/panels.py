@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING
 from coframe.viewer.panels.own_messages import OwnMessages
 
 if TYPE_CHECKING:
-    from coframe.viewer.panels.curve_store import CurveStore
-    from coframe.viewer.panels.log import Log
-    from coframe.viewer.panels.node_graph import NodeGraphWatcher
+    from coframe.viewer.panels._curve_store import CurveStore
+    from coframe.viewer.panels._log import Log
+    from coframe.viewer.panels._node_graph import NodeGraphWatcher
     from coframe.viewer.sources.source import ViewerSource
 
 __all__ = ["Panels"]
@@ -36,7 +36,7 @@ class Panels:
     def curves(self) -> CurveStore:
         """The curves."""
         if self._curves is None:
-            from coframe.viewer.panels.curve_store import CurveStore  # noqa: PLC0415
+            from coframe.viewer.panels._curve_store import CurveStore  # noqa: PLC0415
 
             self._curves = CurveStore(self._source)
         return self._curves
@@ -45,7 +45,7 @@ class Panels:
     def log(self) -> Log:
         """The log."""
         if self._log is None:
-            from coframe.viewer.panels.log import Log  # noqa: PLC0415
+            from coframe.viewer.panels._log import Log  # noqa: PLC0415
 
             self._log = Log(self._source, self._own_messages)
         return self._log
@@ -54,7 +54,7 @@ class Panels:
     def graph(self) -> NodeGraphWatcher:
         """The graph of nodes and topics."""
         if self._graph is None:
-            from coframe.viewer.panels.node_graph import NodeGraphWatcher  # noqa: PLC0415
+            from coframe.viewer.panels._node_graph import NodeGraphWatcher  # noqa: PLC0415
 
             self._graph = NodeGraphWatcher(self._source)
         return self._graph

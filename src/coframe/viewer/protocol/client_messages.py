@@ -9,6 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Annotated, ClassVar, Literal, TypeAlias, TypedDict
 
+from coframe.viewer.protocol._limits import Clamp, Range
 from coframe.viewer.protocol.common import (
     AxisName,
     ColorBy,
@@ -24,7 +25,6 @@ from coframe.viewer.protocol.common import (
     Unit,
     Variances,
 )
-from coframe.viewer.protocol.limits import Clamp, Range
 
 MAX_BINS = 2000
 MAX_KEPT_MESSAGES = 1000

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from typing import Annotated, Any, Literal, TypeAlias, TypedDict
 
-from coframe.viewer.protocol.limits import Range
+from coframe.viewer.protocol._limits import Range
 
 JsonObject: TypeAlias = dict[str, Any]
 Vector: TypeAlias = tuple[float, float, float]

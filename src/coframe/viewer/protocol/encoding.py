@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from coframe.viewer.protocol._layout import Layout
 from coframe.viewer.protocol.binary_messages import (
     NO_FRAME,
     BinaryKind,
@@ -24,7 +25,6 @@ from coframe.viewer.protocol.binary_messages import (
     NodeHeader,
     ShapesHeader,
 )
-from coframe.viewer.protocol.layout import Layout
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence

@@ -16,7 +16,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal, Protocol, Union, get_args, get_origin, get_type_hints
 
 from coframe.errors import CoframeError
-from coframe.viewer.protocol.limits import Clamp, Range
+from coframe.viewer.protocol._limits import Clamp, Range
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

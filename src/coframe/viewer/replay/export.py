@@ -7,9 +7,9 @@ import time
 from typing import TYPE_CHECKING
 
 from coframe.time import SECOND
+from coframe.viewer._page_files import STATIC
 from coframe.viewer.displays import Options
 from coframe.viewer.displays.rows import DISPLAYS, MAX_AUTOMATIC_DISPLAYS, displayable
-from coframe.viewer.page_files import STATIC
 from coframe.viewer.replay.displays import ImmediateExecutor, ReplayDisplay
 from coframe.viewer.replay.page import (
     FRAME_TIMEOUT,

@@ -15,9 +15,9 @@ from coframe.time import SECOND
 from coframe.viewer.protocol.encoding import relative_to
 from coframe.viewer.protocol.replay_block import ReplayBlock
 from coframe.viewer.protocol.server_messages import RobotModel, TreeFrame
+from coframe.viewer.replay._nodes import record_nodes
+from coframe.viewer.replay._template import replay_template
 from coframe.viewer.replay.displays import ReplayTimes, no_progress, packed, record_displays
-from coframe.viewer.replay.nodes import record_nodes
-from coframe.viewer.replay.template import replay_template
 from coframe.viewer.robots.meshes import MESH_TYPES, MeshError
 from coframe.viewer.scene.scene import LocalOrigin, Scene
 from coframe.viewer.scene.statistics import frame_rows

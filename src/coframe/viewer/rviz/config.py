@@ -11,9 +11,9 @@ from coframe._files.regular_files import read_regular_text, reading_hint
 from coframe.errors import ViewerError
 from coframe.viewer.displays.rows import DISPLAYS
 from coframe.viewer.protocol.server_messages import RvizConfiguration, RvizGlobalOptions, UnknownRvizPart
-from coframe.viewer.rviz.reading import MAX_FILE_BYTES, read_yaml, yaml_module
-from coframe.viewer.rviz.tools import merge_tools, read_tools
-from coframe.viewer.rviz.values import OWN_KEYS, is_number, plain, plain_class, set_topic, topic_of, update
+from coframe.viewer.rviz._reading import MAX_FILE_BYTES, read_yaml, yaml_module
+from coframe.viewer.rviz._tools import merge_tools, read_tools
+from coframe.viewer.rviz._values import OWN_KEYS, is_number, plain, plain_class, set_topic, topic_of, update
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence

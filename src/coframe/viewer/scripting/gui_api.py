@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from coframe.viewer.scripting import arguments
+from coframe.viewer.scripting import _arguments as arguments
 from coframe.viewer.scripting.errors import SceneError
 from coframe.viewer.scripting.widget_handles import (
     ButtonHandle,

@@ -9,16 +9,16 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import numpy as np
 
 from coframe.transform.transform import Transform
-from coframe.viewer.scripting import arguments
-from coframe.viewer.scripting.colors import color_of, flat_colors_of
-from coframe.viewer.scripting.errors import SceneError
-from coframe.viewer.scripting.geometry import (
+from coframe.viewer.scripting import _arguments as arguments
+from coframe.viewer.scripting._colors import color_of, flat_colors_of
+from coframe.viewer.scripting._geometry import (
     Geometry,
     image_geometry,
     lines_geometry,
     mesh_geometry,
     points_geometry,
 )
+from coframe.viewer.scripting.errors import SceneError
 
 if TYPE_CHECKING:
     from collections.abc import Callable

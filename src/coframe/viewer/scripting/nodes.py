@@ -18,8 +18,8 @@ if TYPE_CHECKING:
 
     from coframe.viewer.protocol.client_messages import ClickNode
     from coframe.viewer.protocol.common import NodeKind, Pose, Vector
+    from coframe.viewer.scripting._geometry import Geometry
     from coframe.viewer.scripting.callbacks import CallbackThread
-    from coframe.viewer.scripting.geometry import Geometry
 
 __all__ = ["IDENTITY", "MAX_NODES", "MAX_NODE_BYTES", "NodeRecord", "NodeStore"]
 

@@ -7,10 +7,9 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from coframe._output.formatting import did_you_mean, quoted
 from coframe.time import stamp_ns
-from coframe.viewer.scripting import arguments
-from coframe.viewer.scripting.colors import color_of
-from coframe.viewer.scripting.errors import SceneError
-from coframe.viewer.scripting.geometry import (
+from coframe.viewer.scripting import _arguments as arguments
+from coframe.viewer.scripting._colors import color_of
+from coframe.viewer.scripting._geometry import (
     box_mesh,
     image_geometry,
     lines_geometry,
@@ -18,6 +17,7 @@ from coframe.viewer.scripting.geometry import (
     points_geometry,
     sphere_mesh,
 )
+from coframe.viewer.scripting.errors import SceneError
 from coframe.viewer.scripting.node_handles import (
     FrameHandle,
     ImageHandle,

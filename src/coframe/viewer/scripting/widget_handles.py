@@ -7,7 +7,7 @@ import threading
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Generic, TypeVar, cast
 
-from coframe.viewer.scripting import arguments
+from coframe.viewer.scripting import _arguments as arguments
 from coframe.viewer.scripting.errors import SceneError
 from coframe.viewer.scripting.widgets import nearest_step
 

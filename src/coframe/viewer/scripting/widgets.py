@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from coframe.viewer.protocol.server_messages import Widget
-from coframe.viewer.scripting.arguments import MAX_TEXT
+from coframe.viewer.scripting._arguments import MAX_TEXT
 from coframe.viewer.scripting.errors import SceneError
 from coframe.viewer.scripting.records import Record, RecordStore
 

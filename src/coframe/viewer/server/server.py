@@ -16,13 +16,13 @@ from urllib.parse import parse_qsl, unquote, urlencode, urlsplit
 
 from coframe._files.regular_files import read_regular
 from coframe.errors import PlotError, ViewerError
-from coframe.viewer.page_files import STATIC
+from coframe.viewer._page_files import STATIC
 from coframe.viewer.replay.page import ReplayContent, replay_page
 from coframe.viewer.robots.meshes import MAX_MESH_BYTES, MESH_TYPES, MeshError
-from coframe.viewer.server.connections import Connections
-from coframe.viewer.server.http import AccessPolicy, file_response, page_file, response, text_response
-from coframe.viewer.server.scheduler import ClientScheduler
-from coframe.viewer.server.websocket import WebSocket
+from coframe.viewer.server._connections import Connections
+from coframe.viewer.server._http import AccessPolicy, file_response, page_file, response, text_response
+from coframe.viewer.server._scheduler import ClientScheduler
+from coframe.viewer.server._websocket import WebSocket
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from typing_extensions import Self
     from websockets.http11 import Request, Response
 
-    from coframe.viewer.state import ViewerState
+    from coframe.viewer._state import ViewerState
 
 __all__ = ["DEFAULT_PORT", "ViewerServer"]
 

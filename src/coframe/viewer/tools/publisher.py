@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from coframe.errors import ViewerError
 from coframe.time import SECOND
-from coframe.viewer.tools.graph_clock import GraphClock
+from coframe.viewer.tools._graph_clock import GraphClock
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

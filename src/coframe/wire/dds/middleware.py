@@ -12,11 +12,11 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from coframe import _core
-    from coframe.wire.backend import Session
+    from coframe.wire._backend import Session
 
 
 class DdsMiddleware:
-    """Cyclone DDS. Implements `coframe.wire.backend.Middleware`."""
+    """Cyclone DDS. Implements `coframe.wire._backend.Middleware`."""
 
     variables = (library.VARIABLE,)
 

@@ -7,7 +7,7 @@ import socket
 
 from coframe import _core
 from coframe.errors import WireError
-from coframe.wire import descriptors
+from coframe.wire import _descriptors as descriptors
 from coframe.wire.dds import config
 
 _DESCRIPTORS = 16  # Cyclone DDS opens about 8, and more for each network interface; it crashes if none are left.

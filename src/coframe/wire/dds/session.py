@@ -9,12 +9,12 @@ from typing import TYPE_CHECKING, TypeVar
 from coframe import _core
 from coframe.errors import WireError
 from coframe.wire.dds import config, library, participants
-from coframe.wire.dds.announcements import Announcements, participant_user_data
-from coframe.wire.dds.discovery_info import ADAPTS, TOPIC, choose_gid_size, encode_info, gid_size, unseen_text
-from coframe.wire.dds.graph import DdsGraph
+from coframe.wire.dds._announcements import Announcements, participant_user_data
+from coframe.wire.dds._discovery_info import ADAPTS, TOPIC, choose_gid_size, encode_info, gid_size, unseen_text
+from coframe.wire.dds._graph import DdsGraph
+from coframe.wire.dds._user_data import endpoint_user_data
+from coframe.wire.dds._vendors import SERVICE_PARTITIONS, uses_service_partitions
 from coframe.wire.dds.topics import create_topic
-from coframe.wire.dds.user_data import endpoint_user_data
-from coframe.wire.dds.vendors import SERVICE_PARTITIONS, uses_service_partitions
 from coframe.wire.qos import GRAPH_WRITER, QoS
 from coframe.wire.system_clock import clock_fault
 
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from coframe.buffer.buffer import Buffer
-    from coframe.wire.backend import QueueLimits
+    from coframe.wire._backend import QueueLimits
     from coframe.wire.endpoints import GraphNode
     from coframe.wire.graph import NodeInfo
     from coframe.wire.names import Endpoint
@@ -34,14 +34,14 @@ _GRAPH_TYPE = "rmw_dds_common::msg::dds_::ParticipantEntitiesInfo_"
 
 
 class DdsServiceReader(_core.Reader):
-    """A reader of requests or replies. Implements `coframe.wire.backend.BackendServiceReader`."""
+    """A reader of requests or replies. Implements `coframe.wire._backend.BackendServiceReader`."""
 
     def reject(self, header: RequestHeader) -> None:
         """Do nothing: DDS stores no requests."""
 
 
 class DdsSession:
-    """A DDS participant. Implements `coframe.wire.backend.Session`.
+    """A DDS participant. Implements `coframe.wire._backend.Session`.
 
     Args:
         domain: The domain ID.

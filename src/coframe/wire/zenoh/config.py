@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 from coframe._files.regular_files import UnsuitableFileError, check_regular, reading_hint
 from coframe.errors import WireError
-from coframe.wire.zenoh import library
+from coframe.wire.zenoh import _library as library
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

@@ -10,7 +10,8 @@ import time
 from typing import TYPE_CHECKING, Final
 
 from coframe.errors import WireError
-from coframe.wire.zenoh import config, library
+from coframe.wire.zenoh import _library as library
+from coframe.wire.zenoh import config
 
 if TYPE_CHECKING:
     import zenoh

@@ -5,17 +5,17 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from coframe.wire.zenoh import library
+from coframe.wire.zenoh import _library as library
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from coframe import _core
-    from coframe.wire.backend import Session
+    from coframe.wire._backend import Session
 
 
 class ZenohMiddleware:
-    """Zenoh in the conventions of rmw_zenoh_cpp. Implements `coframe.wire.backend.Middleware`."""
+    """Zenoh in the conventions of rmw_zenoh_cpp. Implements `coframe.wire._backend.Middleware`."""
 
     variables = ()
 
@@ -36,7 +36,7 @@ class ZenohMiddleware:
     def join(self, domain: int, changed: _core.Event) -> Session:
         """Open a session in a domain."""
         library.load()
-        from coframe.wire.zenoh.session import ZenohSession  # noqa: PLC0415 - the selection must be cheap
+        from coframe.wire.zenoh._session import ZenohSession  # noqa: PLC0415 - the selection must be cheap
 
         return ZenohSession(domain, changed)
 

@@ -12,8 +12,8 @@ import time
 from typing import TYPE_CHECKING, Final
 
 from coframe.errors import WireError
+from coframe.wire.zenoh import _library as library
 from coframe.wire.zenoh import config as configuration
-from coframe.wire.zenoh import library
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence

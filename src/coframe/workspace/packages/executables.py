@@ -12,7 +12,8 @@ from coframe._files.regular_files import open_regular, read_regular_text
 from coframe._output.formatting import did_you_mean
 from coframe._process.python_children import python_command, python_environment
 from coframe.errors import PackageError
-from coframe.workspace.packages import builtin, console_scripts
+from coframe.workspace.packages import _builtin as builtin
+from coframe.workspace.packages import _console_scripts as console_scripts
 from coframe.workspace.packages.finding import Package, candidates, find_package
 from coframe.workspace.packages.folders import crawl
 

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from coframe._files.existence import is_dir, is_file, resolved
 from coframe._output.formatting import did_you_mean
 from coframe.errors import PackageError
-from coframe.workspace.packages import builtin
+from coframe.workspace.packages import _builtin as builtin
 from coframe.workspace.packages.folders import crawl, listed, named, package_around, package_name
 
 if TYPE_CHECKING:

@@ -5,7 +5,7 @@ import std_msgs.msg
 from collections.abc import Iterable
 from typing import Final, TypeAlias
 
-from coframe.messages.hints import NumberArray, NumberSequence
+from coframe.messages._hints import NumberArray, NumberSequence
 from coframe.messages.message import Action, Message, Service
 
 __all__ = ["GoalID", "GoalStatus", "GoalStatusArray"]

@@ -8,7 +8,7 @@ import trajectory_msgs.msg
 from collections.abc import Iterable
 from typing import Final, TypeAlias
 
-from coframe.messages.hints import NumberArray, NumberSequence
+from coframe.messages._hints import NumberArray, NumberSequence
 from coframe.messages.message import Action, Message, Service
 
 __all__ = ["AdmittanceControllerState", "DynamicInterfaceGroupValues", "DynamicJointState", "GripperCommand", "InterfaceValue", "JointComponentTolerance", "JointControllerState", "JointJog", "JointTolerance", "JointTrajectoryControllerState", "MecanumDriveControllerState", "MultiDOFCommand", "MultiDOFStateStamped", "PidState", "SingleDOFState", "SingleDOFStateStamped", "SteeringControllerStatus"]

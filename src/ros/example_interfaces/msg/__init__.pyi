@@ -3,7 +3,7 @@ import numpy as np
 from collections.abc import Iterable
 from typing import Final, TypeAlias
 
-from coframe.messages.hints import NumberArray, NumberSequence
+from coframe.messages._hints import NumberArray, NumberSequence
 from coframe.messages.message import Action, Message, Service
 
 __all__ = ["Bool", "Byte", "ByteMultiArray", "Char", "Empty", "Float32", "Float32MultiArray", "Float64", "Float64MultiArray", "Int16", "Int16MultiArray", "Int32", "Int32MultiArray", "Int64", "Int64MultiArray", "Int8", "Int8MultiArray", "MultiArrayDimension", "MultiArrayLayout", "String", "UInt16", "UInt16MultiArray", "UInt32", "UInt32MultiArray", "UInt64", "UInt64MultiArray", "UInt8", "UInt8MultiArray", "WString"]

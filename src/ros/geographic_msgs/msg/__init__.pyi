@@ -6,7 +6,7 @@ import unique_identifier_msgs.msg
 from collections.abc import Iterable
 from typing import Final, TypeAlias
 
-from coframe.messages.hints import NumberArray, NumberSequence
+from coframe.messages._hints import NumberArray, NumberSequence
 from coframe.messages.message import Action, Message, Service
 
 __all__ = ["BoundingBox", "GeoPath", "GeoPoint", "GeoPointStamped", "GeoPose", "GeoPoseStamped", "GeoPoseWithCovariance", "GeoPoseWithCovarianceStamped", "GeographicMap", "GeographicMapChanges", "KeyValue", "MapFeature", "RouteNetwork", "RoutePath", "RouteSegment", "WayPoint"]

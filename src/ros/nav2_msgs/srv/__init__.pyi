@@ -7,7 +7,7 @@ import std_msgs.msg
 from collections.abc import Iterable
 from typing import Final, TypeAlias
 
-from coframe.messages.hints import NumberArray, NumberSequence
+from coframe.messages._hints import NumberArray, NumberSequence
 from coframe.messages.message import Action, Message, Service
 
 __all__ = ["ClearCostmapAroundRobot", "ClearCostmapExceptRegion", "ClearEntireCostmap", "DynamicEdges", "GetCostmap", "IsPathValid", "LoadMap", "ManageLifecycleNodes", "SaveMap", "SetInitialPose", "SetRouteGraph"]

@@ -4,7 +4,7 @@ import type_description_interfaces.msg
 from collections.abc import Iterable
 from typing import Final, TypeAlias
 
-from coframe.messages.hints import NumberArray, NumberSequence
+from coframe.messages._hints import NumberArray, NumberSequence
 from coframe.messages.message import Action, Message, Service
 
 __all__ = ["GetTypeDescription"]

@@ -14,7 +14,7 @@ from coframe.messages.generated.std_msgs.msg import Header
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from coframe.messages.hints import NumberArray
+    from coframe.messages._hints import NumberArray
 
 
 class Vector3(Message):

@@ -17,7 +17,7 @@ from coframe.messages.generated.std_msgs.msg import Header
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from coframe.messages.hints import NumberArray, NumberSequence
+    from coframe.messages._hints import NumberArray, NumberSequence
 
 
 class BatteryState(Message):

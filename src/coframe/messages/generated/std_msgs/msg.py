@@ -13,7 +13,7 @@ from coframe.messages.generated.builtin_interfaces.msg import Time
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from coframe.messages.hints import NumberSequence
+    from coframe.messages._hints import NumberSequence
 
 
 class Bool(Message):

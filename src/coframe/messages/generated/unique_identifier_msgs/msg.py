@@ -13,7 +13,7 @@ from coframe.messages.message import Message
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from coframe.messages.hints import NumberArray
+    from coframe.messages._hints import NumberArray
 
 
 class UUID(Message):

@@ -16,7 +16,7 @@ from coframe.messages.generated.std_msgs.msg import ColorRGBA, Header
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from coframe.messages.hints import NumberSequence
+    from coframe.messages._hints import NumberSequence
 
 
 class ImageMarker(Message):

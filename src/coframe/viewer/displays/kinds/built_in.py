@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from coframe.viewer.displays.row import (
+from coframe.viewer.displays._row import (
     FIXED_FRAME,
     ChoiceOption,
     ColorOption,

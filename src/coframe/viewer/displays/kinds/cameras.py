@@ -5,9 +5,9 @@ from __future__ import annotations
 
 from typing import Any, Literal, TypedDict
 
-from coframe.viewer.displays.drawing import NO_NUMBERS, Drawing, Options, drawing_of_shapes, finite_all, header_of
-from coframe.viewer.displays.renderers import each_message
-from coframe.viewer.displays.row import ColorOption, DisplayRow, NumberOption
+from coframe.viewer.displays._drawing import NO_NUMBERS, Drawing, Options, drawing_of_shapes, finite_all, header_of
+from coframe.viewer.displays._renderers import each_message
+from coframe.viewer.displays._row import ColorOption, DisplayRow, NumberOption
 
 __all__ = ["CAMERA_INFO", "CameraShape", "draw_camera"]
 

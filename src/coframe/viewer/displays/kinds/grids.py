@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 
 from coframe.time import stamp_ns
-from coframe.viewer.displays.drawing import CannotDrawError, Drawing, Options, pose_row
-from coframe.viewer.displays.renderers import each_message
-from coframe.viewer.displays.row import ChoiceOption, DisplayRow, FlagOption, NumberOption
+from coframe.viewer.displays._drawing import CannotDrawError, Drawing, Options, pose_row
+from coframe.viewer.displays._renderers import each_message
+from coframe.viewer.displays._row import ChoiceOption, DisplayRow, FlagOption, NumberOption
 from coframe.viewer.protocol.encoding import encode_grid
 
 __all__ = ["MAP", "draw_grid"]

@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 
 from coframe.time import stamp_ns
-from coframe.viewer.displays.drawing import CannotDrawError, Drawing, Options
-from coframe.viewer.displays.renderers import each_message
-from coframe.viewer.displays.row import ChoiceOption, DisplayRow, FlagOption, NumberOption, Option
+from coframe.viewer.displays._drawing import CannotDrawError, Drawing, Options
+from coframe.viewer.displays._renderers import each_message
+from coframe.viewer.displays._row import ChoiceOption, DisplayRow, FlagOption, NumberOption, Option
 from coframe.viewer.protocol.binary_messages import ImageFormat
 from coframe.viewer.protocol.encoding import encode_image
 

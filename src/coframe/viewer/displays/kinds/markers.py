@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypedDict
 import numpy as np
 
 from coframe.time import SECOND, stamp_ns
-from coframe.viewer.displays.drawing import CannotDrawError, Drawing, Options, finite, pose_row, rgba_of
-from coframe.viewer.displays.renderers import MeshUrl, NewMessages
-from coframe.viewer.displays.row import DisplayRow
+from coframe.viewer.displays._drawing import CannotDrawError, Drawing, Options, finite, pose_row, rgba_of
+from coframe.viewer.displays._renderers import MeshUrl, NewMessages
+from coframe.viewer.displays._row import DisplayRow
 from coframe.viewer.protocol.common import PayloadRows  # noqa: TC001 - the protocol evaluates annotations
 from coframe.viewer.protocol.encoding import encode_shapes
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 
 from typing import Any, Literal, TypedDict
 
-from coframe.viewer.displays.drawing import Drawing, Options, drawing_of_shapes, header_of, pose_row, pose_rows
-from coframe.viewer.displays.renderers import each_message
-from coframe.viewer.displays.row import ChoiceOption, ColorOption, DisplayRow, NumberOption
+from coframe.viewer.displays._drawing import Drawing, Options, drawing_of_shapes, header_of, pose_row, pose_rows
+from coframe.viewer.displays._renderers import each_message
+from coframe.viewer.displays._row import ChoiceOption, ColorOption, DisplayRow, NumberOption
 from coframe.viewer.protocol.common import PayloadRows  # noqa: TC001 - the protocol evaluates annotations
 
 __all__ = ["PATH", "PathShape", "draw_path"]

@@ -10,9 +10,9 @@ import numpy as np
 from coframe.sensors import project_scan
 from coframe.sensors.layout import field_of, grid_of
 from coframe.time import stamp_ns
-from coframe.viewer.displays.drawing import CannotDrawError, Drawing, Options
-from coframe.viewer.displays.renderers import each_message
-from coframe.viewer.displays.row import ChoiceOption, ColorOption, DisplayRow, FlagOption, NumberOption, Option
+from coframe.viewer.displays._drawing import CannotDrawError, Drawing, Options
+from coframe.viewer.displays._renderers import each_message
+from coframe.viewer.displays._row import ChoiceOption, ColorOption, DisplayRow, FlagOption, NumberOption, Option
 from coframe.viewer.protocol.client_messages import MAX_POINTS
 from coframe.viewer.protocol.encoding import encode_cloud
 

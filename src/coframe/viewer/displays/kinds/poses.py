@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections import deque
 from typing import TYPE_CHECKING, Any, Literal, TypedDict
 
-from coframe.viewer.displays.drawing import (
+from coframe.viewer.displays._drawing import (
     Drawing,
     Options,
     PoseRow,
@@ -16,8 +16,8 @@ from coframe.viewer.displays.drawing import (
     pose_row,
     pose_rows,
 )
-from coframe.viewer.displays.renderers import MeshUrl, NewMessages, each_message
-from coframe.viewer.displays.row import ChoiceOption, ColorOption, DisplayRow, FlagOption, NumberOption
+from coframe.viewer.displays._renderers import MeshUrl, NewMessages, each_message
+from coframe.viewer.displays._row import ChoiceOption, ColorOption, DisplayRow, FlagOption, NumberOption
 from coframe.viewer.protocol.common import PayloadRows  # noqa: TC001 - the protocol evaluates annotations
 
 if TYPE_CHECKING:

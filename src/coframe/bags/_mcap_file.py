@@ -1,0 +1,257 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Reader for MCAP files, including damaged and unfinished ones; the format is described at https://mcap.dev/spec."""
+
+from __future__ import annotations
+
+import struct
+import sys
+import zlib
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from coframe import _core
+from coframe.bags._compression import MAX_UNPACKED_BYTES, DamagedError, unpack
+from coframe.bags.formats import MCAP
+from coframe.bags.storage import MAX_DAMAGED_PLACES, Batch, Channel, ChunkedStorage, next_chunk
+from coframe.messages.schemas import ros_name
+from coframe.messages.slices import Slices
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Generator, Iterator
+    from pathlib import Path
+
+    from coframe.bags._problems import Problems
+
+__all__ = ["McapStorage"]
+
+_FOOTER, _SCHEMA, _CHANNEL, _MESSAGE, _CHUNK, _CHUNK_INDEX, _DATA_END = 0x02, 0x03, 0x04, 0x05, 0x06, 0x08, 0x0F
+_LAST_OPCODE = 0x0F  # opcodes from 0x80 are reserved for applications
+_RECORD = struct.Struct("<BQ")  # opcode, length
+_MESSAGE_RECORD = struct.Struct("<BQHIQQ")  # opcode, length, channel, sequence, log time, publish time
+_CHUNK_HEAD = struct.Struct("<QQQI")  # first and last log time, unpacked size, its CRC or 0
+_BLOCK = 4 << 20  # bytes to read at once from records outside chunks
+_FOOTER_RECORD = struct.Struct("<BQQQI")  # opcode, length, start of the summary, of its offsets, CRC
+_CRC_AND_MAGIC = 4 + len(MCAP.magic)  # bytes at the end of the file that the CRC of the summary does not cover
+
+
+class McapStorage(ChunkedStorage):
+    """An MCAP file."""
+
+    format = MCAP
+
+    def __init__(self, path: Path, problems: Problems) -> None:
+        super().__init__(path, problems)
+        self._schemas: dict[int, tuple[str, str, bytes]] = {}
+        self._channels: dict[int, Channel] = {}
+
+    def channels(self) -> list[Channel]:
+        """Return the channels found so far."""
+        return list(self._channels.values())
+
+    def batches(self, wanted: Callable[[Channel], bool], progress: Callable[[int], object]) -> Iterator[Batch]:
+        """Yield all messages in file order, including the bytes of unwanted ones, because chunks contain both."""
+        del wanted
+        done = 0
+        for offset, opcode, end in self._walk(self._read_summary()):
+            if opcode == _CHUNK:
+                yield from self._chunk_batches(offset)
+                progress(end)
+            elif opcode in {_SCHEMA, _CHANNEL, _MESSAGE} and offset >= done:
+                if end - offset > MAX_UNPACKED_BYTES:
+                    self.add_problem(f"the record at byte {offset} claims to have {end - offset} bytes")
+                    continue
+                data = self.bytes_at(offset, max(end - offset, _BLOCK))
+                done = offset + (yield from self._inner(data, offset))
+                progress(done)
+        progress(self.size)
+
+    def _walk(self, chunks: list[int]) -> Iterator[tuple[int, int, int]]:
+        """Yield offset, opcode and end of each record of the data section; continue at the next chunk after damage."""
+        offset, damaged = len(MCAP.magic), 0
+        while (head := self.bytes_at(offset, _RECORD.size)) and len(head) == _RECORD.size:
+            opcode, length = _RECORD.unpack(head)
+            end = offset + _RECORD.size + length
+            is_intact = _is_record(opcode) and end <= self.size
+            if is_intact and opcode in {_DATA_END, _FOOTER}:
+                self._check_footer(offset if opcode == _FOOTER else end)
+                return
+            damaged += not is_intact
+            later = None if is_intact or damaged > MAX_DAMAGED_PLACES else next_chunk(chunks, offset)
+            if later is not None:
+                self.add_problem(f"bytes {offset} to {later} are damaged")
+                end = later
+            elif is_intact or opcode == _CHUNK:
+                yield offset, opcode, min(end, self.size)
+            else:
+                break
+            offset = end
+        end = min(offset, self.size)
+        self.add_problem(f"truncated at byte {end} of {self.size}; the recorder may have been killed")
+
+    def _read_summary(self) -> list[int]:
+        """Read the channels in the summary at the end of the file; return the offsets of the chunks it lists."""
+        tail = self.bytes_at(self.size - _FOOTER_RECORD.size - len(MCAP.magic), _FOOTER_RECORD.size)
+        if len(tail) < _FOOTER_RECORD.size:
+            return []
+        opcode, _, start, _, crc = _FOOTER_RECORD.unpack(tail)
+        if opcode != _FOOTER or not 0 < start < self.size or self.size - start > MAX_UNPACKED_BYTES:
+            return []
+        summary = self.bytes_at(start, self.size - start)
+        if crc and zlib.crc32(summary[:-_CRC_AND_MAGIC]) != crc:  # A recorder may have been killed while writing it.
+            return []
+        chunks, position = [], 0
+        while position + _RECORD.size <= len(summary):
+            opcode, length = _RECORD.unpack_from(summary, position)
+            content = summary[position + _RECORD.size : position + _RECORD.size + length]
+            if opcode == _CHUNK_INDEX:
+                chunks.append(int.from_bytes(content[16:24], "little"))
+            elif opcode in {_SCHEMA, _CHANNEL}:
+                self._define(opcode, content)
+            position += _RECORD.size + length
+        return sorted(chunk for chunk in chunks if 0 < chunk < self.size)
+
+    def _check_footer(self, data_end: int) -> None:
+        """Report a footer that does not match the end of the data."""
+        tail = self.bytes_at(self.size - _FOOTER_RECORD.size - len(MCAP.magic), _FOOTER_RECORD.size)
+        if len(tail) < _FOOTER_RECORD.size or tail[0] != _FOOTER:
+            self.add_problem("the footer is missing; the recorder may have been killed")
+            return
+        start = _FOOTER_RECORD.unpack(tail)[2]
+        if start not in {0, data_end}:
+            self.add_problem(
+                f"the footer is damaged: it says that the summary begins at byte {start}, but the data end at byte "
+                f"{data_end}"
+            )
+
+    def _chunk_batches(self, offset: int) -> Iterator[Batch]:
+        base = self.add_chunk(offset)
+        try:
+            data = self.unpack_chunk(offset)
+        except DamagedError as error:
+            self.add_problem(f"the chunk at byte {offset} cannot be unpacked: {error}")
+            return
+        done = yield from self._inner(data, base)
+        if done < len(data):
+            self.add_problem(f"{len(data) - done} bytes inside a chunk are damaged or missing")
+
+    def unpack_chunk(self, offset: int) -> bytes:
+        """Return the records of the chunk at an offset of the file."""
+        opcode, length = _RECORD.unpack(self.bytes_at(offset, _RECORD.size))
+        assert opcode == _CHUNK
+        chunk = memoryview(self.bytes_at(offset + _RECORD.size, min(length, self.size - offset - _RECORD.size)))
+        try:
+            _, _, size, crc = _CHUNK_HEAD.unpack_from(chunk)
+            compression, start = _text(chunk, _CHUNK_HEAD.size)
+        except (struct.error, ValueError):
+            raise DamagedError("its header is damaged or truncated") from None
+        self.compressions.add(compression or "none")
+        packed = chunk[start + 8 :]
+        self.check_budget(offset, len(packed), size)
+        data = unpack(compression, packed, size)
+        if crc and zlib.crc32(data) != crc:
+            self.add_problem(f"the chunk at byte {offset} is damaged: its checksum does not match")
+        return data
+
+    def _inner(self, data: bytes, base: int) -> Generator[Batch, None, int]:
+        """Yield the messages in a sequence of records; return the number of bytes that were read.
+
+        Args:
+            data: The records.
+            base: Added to an offset in ``data`` to get a position.
+        """
+        *columns, definitions, done = _core.mcap_records(data)
+        for opcode, start, end in definitions:
+            self._define(opcode, data[start:end])
+        channels = np.frombuffer(columns[0], dtype=np.uint16)
+        times, records, starts, ends = (np.frombuffer(column, dtype=np.uint64) for column in columns[1:])
+        for number in np.unique(channels).tolist() if len(channels) > 1 else channels.tolist():
+            channel = self._channels.get(number)
+            rows = (channels == number) & (times < _TOO_LATE)
+            if channel is None:
+                self.add_problem(f"messages of channel {number}, which is not defined", int(np.count_nonzero(rows)))
+            else:
+                messages = Slices(data, starts[rows], ends[rows])
+                yield Batch(channel, times[rows].astype(np.int64), records[rows] + np.uint64(base), messages)
+        if (times >= _TOO_LATE).any():
+            self.add_problem("messages with an invalid receive time", int(np.count_nonzero(times >= _TOO_LATE)))
+        return done
+
+    def payload(self, source: bytes | None, offset: int) -> bytes | memoryview:
+        """Return the message in the record at an offset."""
+        if source is None:
+            source, start = self.bytes_at(offset, _RECORD.size), 0
+            if len(source) == _RECORD.size:
+                source = self.bytes_at(offset, _RECORD.size + _RECORD.unpack(source)[1])
+        else:
+            start = offset
+        if len(source) < start + _MESSAGE_RECORD.size:
+            raise DamagedError("the message no longer exists")
+        return memoryview(source)[
+            start + _MESSAGE_RECORD.size : start + _RECORD.size + _RECORD.unpack_from(source, start)[1]
+        ]
+
+    def _define(self, opcode: int, data: bytes) -> None:
+        """Read a schema or a channel unless it is already known; the summary and later chunks repeat them."""
+        identifier = int.from_bytes(data[:2], "little")
+        if opcode == _CHANNEL and identifier in self._channels:
+            return
+        try:
+            if opcode == _SCHEMA:
+                known = self._schemas.get(identifier)
+                if known is not None and known[2] and data.endswith(known[2]):
+                    return
+                name, position = _text(data, 2)
+                kind, position = _text(data, position)
+                name, kind = sys.intern(name), sys.intern(kind)  # Tens of thousands of schemas can have the same name.
+                (length,) = struct.unpack_from("<I", data, position)
+                self._schemas[identifier] = (name, kind, data[position + 4 : position + 4 + length])
+                return
+            number, schema = struct.unpack_from("<HH", data)
+            topic, position = _text(data, 4)
+            encoding, position = _text(data, position)
+            encoding = sys.intern(encoding)
+            offered_qos = _entry(data, position, "offered_qos_profiles")
+        except (struct.error, ValueError, IndexError):
+            self.add_problem("the definition of a channel is damaged")
+            return
+        name, kind, definition = self._schemas.get(schema, ("", "", b""))
+        if encoding in {"cdr", "ros1"}:
+            name = _ros_type(name)
+        self._channels[number] = Channel(topic, name, encoding, definition, kind, offered_qos)
+
+
+_TOO_LATE = np.uint64(1 << 63)
+
+
+def _ros_type(name: str) -> str:
+    """Return the full name of a message type, whose form differs in DDS and ROS 1."""
+    try:
+        return name if "/msg/" in name else sys.intern(ros_name(name))
+    except ValueError:
+        return name
+
+
+def _is_record(opcode: int) -> bool:
+    return 0 < opcode <= _LAST_OPCODE or opcode >= 0x80
+
+
+def _entry(data: bytes, position: int, wanted: str) -> str:
+    """Return a value of the map of strings at a position; "" if the key is missing."""
+    end = min(position + 4 + int.from_bytes(data[position : position + 4], "little"), len(data))
+    position += 4
+    while position < end:
+        key, position = _text(data, position)
+        value, position = _text(data, position)
+        if key == wanted:
+            return value
+    return ""
+
+
+def _text(data: bytes | memoryview, position: int) -> tuple[str, int]:
+    """Return the length-prefixed string at a position, and the offset of its end."""
+    (length,) = struct.unpack_from("<I", data, position)
+    end = position + 4 + length
+    if end > len(data):
+        raise ValueError("a string is longer than its record")
+    return bytes(data[position + 4 : end]).decode("utf-8", "replace"), end

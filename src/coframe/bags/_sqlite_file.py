@@ -1,0 +1,175 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Reader for rosbag2's SQLite files of all schema versions."""
+
+from __future__ import annotations
+
+import sqlite3
+import threading
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from coframe.bags._compression import MAX_UNPACKED_BYTES, DamagedError
+from coframe.bags._sqlite_database import DAMAGE, Database
+from coframe.bags.formats import SQLITE
+from coframe.bags.storage import Batch, Channel, Storage
+from coframe.messages.slices import Slices
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+    from pathlib import Path
+
+    from coframe.bags._problems import Problems
+
+__all__ = ["SqliteStorage"]
+
+_BATCH_SIZE = 2000  # rows
+_BATCH_BYTES = 64 << 20
+# Querying type and size does not read the data. The value is NULL for data of a wrong type or size.
+_DATA, _SIZE = (
+    f"CASE WHEN typeof(data) = 'blob' AND length(data) <= {MAX_UNPACKED_BYTES} THEN {value} END"
+    for value in ("data", "length(data)")
+)
+
+
+class SqliteStorage(Storage):
+    """A ``.db3`` file; the position of a message is its row ID."""
+
+    format = SQLITE
+
+    def __init__(self, path: Path, problems: Problems) -> None:
+        super().__init__(path, problems)
+        self._lock = threading.Lock()
+        self._database = Database(path, self.add_problem)
+        self._channels: dict[int, Channel] = {}
+        # Rows that share pages have more data than the file.
+        self._bytes_left = self._database.size
+
+    def channels(self) -> list[Channel]:
+        """Return the channels found so far."""
+        return list(self._channels.values())
+
+    def batches(self, wanted: Callable[[Channel], bool], progress: Callable[[int], object]) -> Iterator[Batch]:
+        """Yield the messages of the wanted channels with their bytes, then the others without bytes."""
+        try:
+            self._channels = self._read_channels()
+            total = self._database.last_row("messages")
+        except DAMAGE as error:
+            self.add_problem(f"the database cannot be read: {error}")
+            return
+        if total is None:
+            return
+        with_data = [number for number, channel in self._channels.items() if wanted(channel)]
+        without_data = [number for number in self._channels if number not in with_data]
+        for numbers, column in ((with_data, _DATA), (without_data, _SIZE)):
+            yield from self._rows(numbers, column, lambda row: progress(self.size * row // max(total, 1)))
+        progress(self.size)
+
+    def _rows(self, numbers: list[int], column: str, progress: Callable[[int], object]) -> Iterator[Batch]:
+        if not numbers:
+            return
+        try:
+            found = self._database.rows(
+                "messages", f"topic_id, timestamp, {column}", f"topic_id IN ({', '.join(map(str, numbers))})"
+            )
+            for rows in self._parts(found):
+                progress(rows[-1][0])
+                yield from self._grouped(rows, with_data=column == _DATA)
+        except DAMAGE as error:
+            self.add_problem(f"the database is damaged and was read only in part: {error}")
+
+    def _parts(self, found: Iterator[tuple[Any, ...]]) -> Iterator[list[tuple[Any, ...]]]:
+        """Yield the rows in parts of limited size, so that only a few messages are in memory."""
+        rows: list[tuple[Any, ...]] = []
+        size = 0
+        for row in found:
+            data = row[3]
+            size += len(data) if isinstance(data, bytes) else data or 0
+            if size > self._bytes_left:
+                break
+            rows.append(row)
+            if len(rows) == _BATCH_SIZE or size > _BATCH_BYTES:
+                self._bytes_left -= size
+                yield rows
+                rows, size = [], 0
+        if rows:
+            yield rows
+        if size > self._bytes_left:
+            raise sqlite3.DatabaseError("its messages have more bytes than the file")
+        self._bytes_left -= size
+
+    def _grouped(self, rows: list[tuple[Any, ...]], *, with_data: bool) -> Iterator[Batch]:
+        """Yield one batch per topic; rows with a time or data of the wrong type are skipped."""
+        _, topics, times, data = zip(*rows, strict=True)
+        if set(map(type, times)) != {int} or None in data:
+            good = [row for row in rows if isinstance(row[2], int) and row[3] is not None]
+            limit = f"{MAX_UNPACKED_BYTES >> 20} MiB"
+            problem = f"rows with a time or data of the wrong type, or with more than {limit}"
+            self.add_problem(problem, len(rows) - len(good))
+            rows = good
+            topics = tuple(row[1] for row in good)
+        numbers = set(topics)
+        for number in numbers:
+            group = rows if len(numbers) == 1 else [row for row in rows if row[1] == number]
+            positions, _, received, messages = zip(*group, strict=True)
+            yield Batch(
+                self._channels[number],
+                np.fromiter(received, np.int64, len(group)),
+                np.fromiter(positions, np.int64, len(group)).astype(np.uint64),
+                Slices.join(messages) if with_data else None,
+            )
+
+    def _read_channels(self) -> dict[int, Channel]:
+        tables = self._database.tables()
+        for name in ("topics", "messages"):
+            if name not in tables:
+                raise sqlite3.DatabaseError(f"no table {name}: the file is not a recording of rosbag2")
+        definitions = {}
+        if "message_definitions" in tables:
+            columns = "topic_type, encoding, encoded_message_definition"
+            for _, type_, kind, text in self._counted(self._database.rows("message_definitions", columns)):
+                definitions[type_] = (str(text).encode(), str(kind))
+        qos = "offered_qos_profiles" if "offered_qos_profiles" in tables["topics"] else "''"
+        # In some recordings, the column id of topics is not the row number.
+        found = self._counted(self._database.rows("topics", f"id, name, type, serialization_format, {qos}"))
+        return {
+            number: Channel(str(topic), str(type_), str(encoding), *definitions.get(type_, (b"", "")), str(offered))
+            for _, number, topic, type_, encoding, offered in found
+            if isinstance(number, int)
+        }
+
+    def _counted(self, rows: Iterator[tuple[Any, ...]]) -> Iterator[tuple[Any, ...]]:
+        """Yield rows, and count the bytes of their strings."""
+        for row in rows:
+            self._bytes_left -= sum(len(value) for value in row if isinstance(value, str | bytes))
+            if self._bytes_left < 0:
+                raise sqlite3.DatabaseError("its topics and definitions have more bytes than the file")
+            yield row
+
+    def read(self, position: int) -> bytes:
+        """Return the data of a row."""
+        try:
+            with self._lock:
+                data = self._database.blob("messages", "data", _row(position))
+        except DAMAGE as error:
+            raise DamagedError(f"the database is damaged: {error}") from None
+        if data is None:
+            raise DamagedError("the message no longer exists")
+        return data
+
+    def head(self, position: int, size: int) -> bytes:
+        """Return the first bytes of the data of a row, without reading the rest."""
+        try:
+            with self._lock:
+                return self._database.beginning("messages", "data", _row(position), size)
+        except DAMAGE as error:
+            raise DamagedError(f"the database is damaged: {error}") from None
+
+    def close(self) -> None:
+        """Close the file."""
+        self._database.close()
+
+
+def _row(position: int) -> int:
+    """Return the row ID (signed) for a position (unsigned)."""
+    return position - (1 << 64) if position >= 1 << 63 else position

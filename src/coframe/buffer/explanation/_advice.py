@@ -1,0 +1,71 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Advice about a missing transform: the hint of the exception, or a more specific one if the edges allow it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from coframe._output.formatting import duration, seconds
+from coframe.errors import looks_like_seconds
+from coframe.errors.lookup_hints import hint
+from coframe.time import SECOND
+
+if TYPE_CHECKING:
+    from coframe.buffer.explanation._facts import ChainEdge, Explanation
+    from coframe.errors import TransformException
+
+__all__ = ["advice"]
+
+# The timeouts to suggest, in seconds. If a transform is later than the longest timeout, waiting is not useful.
+_TIMEOUTS = (0.1, 0.2, 0.5, 1.0, 2.0, 5.0)
+
+
+def advice(found: Explanation, error: TransformException, *, recorded: bool) -> str:
+    """Return what to do, and the code page with more details.
+
+    Args:
+        found: The explanation so far.
+        error: The exception that the lookup raises.
+        recorded: Whether the buffer contains recorded data, so that no more transforms will arrive.
+    """
+    edge = next((edge for edge in found.broken if error.edge and edge.child == error.edge[1]), None)
+    edge = edge or next(iter(found.broken), None)
+    if edge is None or found.code == "loop" or looks_like_seconds(error):
+        return error.hint
+    if edge.state == "no_data":
+        return hint("no_data", child=edge.child)
+    if found.roots is not None:
+        return error.hint
+    if found.span is None:
+        return _no_common_time(found)
+    if recorded:
+        first, last = found.span
+        return hint("outside", first=seconds(first), last=seconds(last))
+    return _late(found, edge) if edge.by > 0 else _early(found, edge, error)
+
+
+def _no_common_time(found: Explanation) -> str:
+    moving = [edge for edge in found.edges if not edge.static]
+    ends = min(moving, key=lambda edge: edge.newest)
+    begins = max(moving, key=lambda edge: edge.oldest)
+    return hint("no_common_time", limit=ends.name, parent=begins.parent, child=begins.child)
+
+
+def _late(found: Explanation, edge: ChainEdge) -> str:
+    facts = {"parent": edge.parent, "child": edge.child, "target": found.target, "source": found.source}
+    if found.now is not None and edge.stale:
+        publisher = f", {edge.publisher}," if edge.publisher else ""
+        return hint("stopped", age=duration(found.now - edge.newest), publisher=publisher, **facts)
+    # One sample may just have been missed and the next one may be late, hence two periods.
+    wait = edge.by + 2 * edge.period
+    timeout = next((timeout for timeout in _TIMEOUTS if timeout * SECOND >= wait), None)
+    if timeout is None:
+        return hint("far_ahead", by=duration(edge.by), **facts)
+    return hint("too_new", timeout=f"{timeout:g}", **facts)
+
+
+def _early(found: Explanation, edge: ChainEdge, error: TransformException) -> str:
+    cache_is_full = 0 <= found.cache <= edge.newest - edge.oldest + 2 * edge.period
+    if cache_is_full:
+        return error.hint
+    return hint("not_begun", parent=edge.parent, child=edge.child, first=seconds(edge.oldest))

@@ -1,0 +1,86 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Flicker: an edge that alternates between two poses, as if two publishers disagree."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from coframe.doctor._edge import angles_between
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from coframe.doctor._edge import Edge
+
+__all__ = ["Flicker", "flicker"]
+
+_MIN_JUMPS = 6  # jumps away and back
+_METRES = 1e-3
+_RADIANS = 1e-2
+# A jump must be larger than this multiple of the usual step.
+_CLEARLY = 6.0
+_SAMPLE = 1_000  # rows, which are enough for a quantile
+_TURNS = 3
+_MOSTLY = 0.4
+_GOLDEN = 0.6180339887498949
+# The maximum distance between two rows of the slower publisher.
+_MAX_RUN = 12
+
+
+class Flicker(NamedTuple):
+    """The number of jumps away and back, their median size (metres, radians), and the row of the first jump."""
+
+    jumps: int
+    distance: float
+    angle: float
+    first: int
+
+
+def flicker(edge: Edge) -> Flicker | None:
+    """Return the flicker of an edge that repeatedly jumps away and back; None if it does not."""
+    if edge.count < _MIN_JUMPS + 2:
+        return None
+    # The usual step is computed only if there are enough large steps, because it takes most of the time.
+    if np.count_nonzero((edge.distances > _METRES) | (edge.turns > _RADIANS)) < _MIN_JUMPS:
+        return None
+    typical_distance, typical_angle = _typical(edge)
+    jumps = np.flatnonzero(
+        (edge.distances > _CLEARLY * typical_distance + _METRES) | (edge.turns > _CLEARLY * typical_angle + _RADIANS)
+    )
+    if len(jumps) < _MIN_JUMPS:
+        return None
+    back = jumps[1:][np.diff(jumps) <= _MAX_RUN]
+    away = jumps[:-1][np.diff(jumps) <= _MAX_RUN]
+    # The difference between the row before a jump and the row after the next one.
+    left = np.linalg.norm(edge.values[away, :3] - edge.values[back + 1, :3], axis=1)
+    turned = angles_between(edge.rotations[away], edge.rotations[back + 1])
+    distance, angle = edge.distances[away], edge.turns[away]
+    returned = (distance > 2.0 * left + _METRES) | (angle > 2.0 * turned + _RADIANS)
+    # Most jumps must be reversed by the next one: a robot that is moved to a new pose a few times does not flicker.
+    if np.count_nonzero(returned) < max(_MIN_JUMPS, len(jumps) // 2):
+        return None
+    rows = away[returned]
+    return Flicker(len(rows), float(np.median(edge.distances[rows])), float(np.median(edge.turns[rows])), int(rows[0]))
+
+
+def _typical(edge: Edge) -> tuple[float, float]:
+    """Return the usual step, in metres and radians, between two rows of the same publisher.
+
+    With two publishers that alternate, every second row is from the same one, and every third row if one of them has
+    twice the rate of the other. With a larger ratio, half of the rows follow a row of the same publisher.
+    """
+    rows = _sample(edge.count - _TURNS)
+    moved = [
+        np.linalg.norm(edge.values[rows + turn, :3] - edge.values[rows, :3], axis=1) for turn in range(1, _TURNS + 1)
+    ]
+    turned = [angles_between(edge.rotations[rows], edge.rotations[rows + turn]) for turn in range(1, _TURNS + 1)]
+    return float(np.quantile(moved, _MOSTLY, axis=1).min()), float(np.quantile(turned, _MOSTLY, axis=1).min())
+
+
+def _sample(count: int) -> NDArray[np.intp]:
+    """Return a sample of rows at irregular distances, because a regular one could contain only one publisher."""
+    if count <= _SAMPLE:
+        return np.arange(count)
+    return np.asarray(np.arange(_SAMPLE) * _GOLDEN % 1.0 * count).astype(np.intp)

@@ -1,0 +1,367 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Parser for the part of IDL 4.2 that rosidl uses for messages, services and actions.
+
+That part has modules, structures, constants, type definitions, arrays, sequences, strings, and the annotations
+``@default`` and ``@verbatim``; other annotations, such as ``@key`` and ``@unit``, are read and ignored.
+"""
+
+from __future__ import annotations
+
+import ast
+import re
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from coframe.messages._idl_expressions import evaluate
+from coframe.messages._idl_tokens import Tokens
+from coframe.messages._literals import checked
+from coframe.messages._parser import (
+    Constant,
+    Field,
+    Structure,
+    add_member,
+    add_unique,
+    bounded_size,
+    check_message_name,
+)
+from coframe.messages.definition import (
+    AbstractNestableType,
+    AbstractNestedType,
+    AbstractType,
+    Array,
+    BasicType,
+    BoundedSequence,
+    BoundedString,
+    BoundedWString,
+    NamespacedType,
+    UnboundedSequence,
+    UnboundedString,
+    UnboundedWString,
+)
+from coframe.messages.limits import MAX_CONSTANTS, MAX_NESTING, MAX_TYPES
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from coframe.errors import InterfaceError
+    from coframe.messages._idl_tokens import Token
+
+__all__ = ["parse_idl", "parse_recorded_idl"]
+
+_BASIC = {
+    "short": "int16",
+    "long": "int32",
+    "long long": "int64",
+    "unsigned short": "uint16",
+    "unsigned long": "uint32",
+    "unsigned long long": "uint64",
+    **{name: name for name in ("float", "double", "boolean", "octet")},
+    **{f"{sign}int{bits}": f"{sign}int{bits}" for sign in ("", "u") for bits in (8, 16, 32, 64)},
+}
+_NOT_IN_ROSIDL = {"enum", "union", "bitset", "bitmask", "interface", "valuetype", "native", "map", "fixed", "any"}
+_WITHOUT_PYTHON_TYPE = {"char": "uint8", "wchar": "uint16", "long double": "double"}
+_FIELD = re.compile(r"[A-Za-z](?:_?[A-Za-z0-9])*")
+_RECORDED_FIELD = re.compile(r"[A-Za-z]\w*", re.ASCII)
+_DDS_MODULE = "dds_"  # rosidl's DDS names: std_msgs::msg::dds_::Header_, with fields such as stamp_
+
+# The parts of a definition of each kind: the suffixes of its structures.
+_SUFFIXES = {"msg": ("",), "srv": ("_Request", "_Response"), "action": ("_Goal", "_Result", "_Feedback")}
+_CONSTANTS = "_Constants"
+
+
+class _Annotations(NamedTuple):
+    default: Any
+    comment: str
+
+
+def parse_idl(text: str, package: str, kind: str, name: str, *, file: str | None = None) -> list[Structure]:
+    """Parse the text of an ``.idl`` file.
+
+    Args:
+        text: The content of the file.
+        package: The package of the file.
+        kind: ``msg``, ``srv`` or ``action``.
+        name: The name of the message, service or action.
+        file: The name of the file, for error messages.
+
+    Returns:
+        The structures: 1 for a message, 2 for a service, 3 for an action.
+
+    Raises:
+        InterfaceError: The text is not valid, or does not define this message, service or action.
+    """
+    tokens = Tokens(text, file)
+    parser = _IdlParser()
+    parser.read(tokens)
+    structures = parser.structures()
+    parts = []
+    for suffix in _SUFFIXES[kind]:
+        scoped = (package, kind, f"{name}{suffix}")
+        if scoped not in structures:
+            found = ", ".join("::".join(other) for other in structures) or "no structure"
+            raise tokens.error(f"expected the structure {'::'.join(scoped)}, found {found}")
+        parts.append(structures[scoped])
+    return parts
+
+
+def parse_recorded_idl(texts: Iterable[tuple[int, str]]) -> dict[tuple[str, ...], Structure]:
+    """Parse IDL in a recording, which can have names that rosidl does not allow.
+
+    Args:
+        texts: The texts, each with the number of its first line, those that others use first.
+
+    Returns:
+        The structures by their names, such as ``("demo_msgs", "msg", "Pose")``, without the parts of DDS names.
+
+    Raises:
+        InterfaceError: A text is not valid, or there are too many structures or constants.
+    """
+    parser = _IdlParser(is_recorded=True)
+    for line, text in texts:
+        parser.read(Tokens(text, None, line))
+    return parser.structures()
+
+
+class _IdlParser:
+    """The definitions of texts by their scoped names, such as ``("demo_msgs", "msg", "Pose")``."""
+
+    _tokens: Tokens
+
+    def __init__(self, *, is_recorded: bool = False) -> None:
+        self._is_recorded = is_recorded
+        self._structures: dict[tuple[str, ...], Structure] = {}
+        self._constants: dict[tuple[str, ...], Constant] = {}
+        self._typedefs: dict[tuple[str, ...], AbstractType] = {}
+
+    def read(self, tokens: Tokens) -> None:
+        """Read a text."""
+        self._tokens = tokens
+        while tokens.peek().kind != "end":
+            self._definition(())
+
+    def structures(self) -> dict[tuple[str, ...], Structure]:
+        """Return the structures, each with its constants."""
+        for path, constant in self._constants.items():
+            *module, name = path[:-1] or ("",)
+            owner = (*module, name.removesuffix(_CONSTANTS))
+            if name.endswith(_CONSTANTS) and owner in self._structures:
+                self._structures[owner].constants.append(constant)
+        self._constants.clear()
+        return self._structures
+
+    def _definition(self, scope: tuple[str, ...]) -> None:
+        annotations = self._annotations()
+        line = self._tokens.peek().line
+        word = self._tokens.take("name").text
+        try:
+            if word == "module":
+                self._module(scope)
+            elif word == "struct":
+                self._struct(scope, annotations)
+            elif word == "const":
+                self._const(scope)
+            elif word == "typedef":
+                self._typedef(scope)
+            else:
+                known = "rosidl does not support it" if word in _NOT_IN_ROSIDL else "expected module, struct or const"
+                raise self._tokens.error(f"'{word}': {known}", line)
+        except ValueError as error:
+            raise self._located(error, line) from None
+        self._tokens.expect(";")
+
+    def _located(self, error: ValueError, line: int) -> InterfaceError:
+        return self._tokens.error(str(error), line) if getattr(error, "line", None) is None else error  # type: ignore[return-value]
+
+    def _module(self, scope: tuple[str, ...]) -> None:
+        if len(scope) == MAX_NESTING:
+            raise self._tokens.error(f"more than {MAX_NESTING} modules inside each other")
+        inner = (*scope, self._tokens.take("name").text)
+        self._tokens.expect("{")
+        while not self._tokens.accept("}"):
+            self._definition(inner)
+
+    def _struct(self, scope: tuple[str, ...], annotations: _Annotations) -> None:
+        name = self._tokens.take("name").text
+        if not self._is_recorded:
+            check_message_name(name.partition("_")[0])
+        if len(self._structures) == MAX_TYPES:
+            raise self._tokens.error(f"more than {MAX_TYPES} structures")
+        self._tokens.expect("{")
+        structure = Structure([], [], annotations.comment)
+        names: set[str] = set()
+        while not self._tokens.accept("}"):
+            line = self._tokens.peek().line
+            try:
+                for field in self._members(scope):
+                    add_unique(names, field.name)
+                    add_member(structure, field)
+            except ValueError as error:
+                raise self._located(error, line) from None
+        if [field.name for field in structure.fields] == ["structure_needs_at_least_one_member"]:
+            structure.fields.clear()  # rosidl writes this member into structures without fields.
+        self._structures.setdefault(self._without_dds((*scope, name)), structure)
+
+    def _members(self, scope: tuple[str, ...]) -> list[Field]:
+        default = self._annotations().default
+        type_ = self._type(scope)
+        fields = []
+        while True:
+            name = self._tokens.take("name").text
+            if _DDS_MODULE in scope:
+                name = name.removesuffix("_")
+            if not (_RECORDED_FIELD if self._is_recorded else _FIELD).fullmatch(name):
+                raise ValueError(f"the name of a field has letters, digits and single underscores, not {name!r}")
+            full_type = self._dimensions(type_, scope)
+            fields.append(Field(name, full_type, None if default is None else _default(default, full_type)))
+            if not self._tokens.accept(","):
+                self._tokens.expect(";")
+                return fields
+
+    def _const(self, scope: tuple[str, ...]) -> None:
+        type_ = self._nestable(scope)
+        name = self._tokens.take("name").text
+        self._tokens.expect("=")
+        if len(self._constants) == MAX_CONSTANTS:
+            raise self._tokens.error(f"more than {MAX_CONSTANTS} constants")
+        self._constants.setdefault((*scope, name), Constant(name, type_, checked(self._value(scope), type_)))
+
+    def _typedef(self, scope: tuple[str, ...]) -> None:
+        type_ = self._type(scope)
+        name = self._tokens.take("name").text
+        self._typedefs.setdefault((*scope, name), self._dimensions(type_, scope))
+
+    def _type(self, scope: tuple[str, ...]) -> AbstractType:
+        if not self._tokens.accept("sequence"):
+            return self._single(scope)
+        self._tokens.expect("<")
+        inner = self._nestable(scope)
+        bound = self._size(scope, in_brackets=True) if self._tokens.accept(",") else None
+        self._tokens.expect(">")
+        return UnboundedSequence(inner) if bound is None else BoundedSequence(inner, bound)
+
+    def _nestable(self, scope: tuple[str, ...]) -> AbstractNestableType:
+        type_ = None if self._tokens.peek().text == "sequence" else self._single(scope)
+        if not isinstance(type_, AbstractNestableType):
+            raise self._tokens.error(
+                "sequences of sequences or arrays are not possible in ROS; put them into a message"
+            )
+        return type_
+
+    def _single(self, scope: tuple[str, ...]) -> AbstractType:
+        name = self._tokens.take("name").text
+        if name in {"string", "wstring"}:
+            return self._string(name, scope)
+        while name in {"unsigned", "long"} and self._tokens.peek().text in {"long", "short", "double"}:
+            word = self._tokens.take().text
+            name = f"{name} {word}"
+            if word == "long" and name == "unsigned long" and self._tokens.accept("long"):
+                name += " long"
+        if name in _BASIC:
+            return BasicType(_BASIC[name])
+        if name == "char" and self._is_recorded:
+            return BasicType("uint8")
+        if name in _WITHOUT_PYTHON_TYPE:
+            raise self._tokens.error(f"the type {name} is not supported; use {_WITHOUT_PYTHON_TYPE[name]}")
+        if name in _NOT_IN_ROSIDL:
+            raise self._tokens.error(f"the type {name} is not supported by rosidl")
+        return self._named(name, scope)
+
+    def _string(self, name: str, scope: tuple[str, ...]) -> AbstractType:
+        bound = None
+        if self._tokens.accept("<"):
+            bound = self._size(scope, in_brackets=True)
+            self._tokens.expect(">")
+        if name == "string":
+            return UnboundedString() if bound is None else BoundedString(bound)
+        return UnboundedWString() if bound is None else BoundedWString(bound)
+
+    def _named(self, name: str, scope: tuple[str, ...]) -> AbstractType:
+        parts = tuple(name.removeprefix("::").split("::"))
+        for known in _scopes(scope, parts):
+            if known in self._typedefs:
+                return self._typedefs[known]
+        if len(parts) == 1:
+            parts = (*scope, *parts)
+        parts = self._without_dds(parts)
+        if self._is_recorded and len(parts) == 2:
+            parts = (parts[0], "msg", parts[1])
+        if len(parts) != 3 or parts[1] not in _SUFFIXES:
+            raise self._tokens.error(
+                f"no type {name}; types of other files have names such as geometry_msgs::msg::Pose"
+            )
+        return NamespacedType(parts[:2], parts[2])
+
+    def _dimensions(self, type_: AbstractType, scope: tuple[str, ...]) -> AbstractType:
+        if not self._tokens.accept("["):
+            return type_
+        size = self._size(scope)
+        self._tokens.expect("]")
+        if not isinstance(type_, AbstractNestableType) or self._tokens.peek().text == "[":
+            raise self._tokens.error("arrays of sequences or arrays are not possible in ROS; put them into a message")
+        return Array(type_, size)
+
+    def _without_dds(self, path: tuple[str, ...]) -> tuple[str, ...]:
+        """Return a scoped name without the parts that rosidl adds to DDS names."""
+        if not self._is_recorded or len(path) < 2 or path[-2] != _DDS_MODULE:
+            return path
+        return (*path[:-2], path[-1].removesuffix("_"))
+
+    def _size(self, scope: tuple[str, ...], *, in_brackets: bool = False) -> int:
+        return bounded_size(str(self._value(scope, in_brackets=in_brackets)))
+
+    def _value(self, scope: tuple[str, ...], *, in_brackets: bool = False) -> Any:
+        """Take an expression."""
+
+        def constant(token: Token) -> Any:
+            parts = tuple(token.text.removeprefix("::").split("::"))
+            for known in _scopes(scope, parts):
+                if known in self._constants:
+                    return self._constants[known].value
+            raise self._tokens.error(f"expected a value, found {token.text}", token.line)
+
+        line = self._tokens.peek().line
+        try:
+            return evaluate(self._tokens, constant, in_brackets=in_brackets)
+        except ValueError as error:
+            raise self._located(error, line) from None
+
+    def _annotations(self) -> _Annotations:
+        default, comment = None, ""
+        while self._tokens.accept("@"):
+            name = self._tokens.take("name").text
+            values = self._arguments()
+            if name == "default":
+                default = values.get("value")
+            if name == "verbatim" and values.get("language") == "comment":
+                comment = " ".join(str(values.get("text", "")).split())
+        return _Annotations(default, comment)
+
+    def _arguments(self) -> dict[str, Any]:
+        values: dict[str, Any] = {}
+        if not self._tokens.accept("("):
+            return values
+        while not self._tokens.accept(")"):
+            if self._tokens.peek().kind == "name" and self._tokens.peek().text not in {"TRUE", "FALSE"}:
+                name = self._tokens.take().text
+                values[name] = self._value(()) if self._tokens.accept("=") else None
+            else:
+                values["value"] = self._value(())
+            self._tokens.accept(",")
+        return values
+
+
+def _scopes(scope: tuple[str, ...], parts: tuple[str, ...]) -> list[tuple[str, ...]]:
+    """Return the full names that a name can have, from the innermost module to the outermost."""
+    return [(*scope[:depth], *parts) for depth in range(len(scope), -1, -1)]
+
+
+def _default(value: Any, type_: AbstractType) -> Any:
+    if not isinstance(type_, AbstractNestedType):
+        return checked(float(value) if _is_float(type_) and isinstance(value, int) else value, type_)
+    try:
+        return checked(ast.literal_eval(value), type_)  # rosidl writes lists as strings: "(1, 2, 3)".
+    except (SyntaxError, TypeError, MemoryError, RecursionError):
+        raise ValueError(f'the default of a list must be a string such as "(1, 2)", not {value!r}') from None
+
+
+def _is_float(type_: AbstractType) -> bool:
+    return isinstance(type_, BasicType) and type_.typename in {"float", "double"}

@@ -1,0 +1,286 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Absolute and relative pose errors of an estimated trajectory (Sturm et al., 2012), with their statistics."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
+
+import numpy as np
+
+from coframe import quaternion
+from coframe._output.formatting import count
+from coframe.errors import TrajectoryError
+from coframe.time import SECOND, duration_ns
+from coframe.trajectories._alignment import ALIGNMENTS, Alignment, align, check_positions
+from coframe.trajectories._association import MAX_DIFFERENCE, associate
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from coframe.time import DurationLike
+    from coframe.transform.transform import Transform
+
+__all__ = ["Comparison", "Delta", "PoseErrors", "Statistics", "compare_trajectories", "parse_delta"]
+
+_NUMBER = re.compile(r"\s*(\d+(?:\.\d*)?|\.\d+)\s*([a-z]*)\s*", re.ASCII)
+_FRAMES, _METRES = {"", "f", "frame", "frames"}, {"m", "metre", "metres", "meter", "meters"}
+
+
+class Delta(NamedTuple):
+    """The distance between the two poses of a relative error.
+
+    Attributes:
+        value: A number of poses, metres along the path of the estimate, or seconds between the stamps.
+        unit: ``frames``, ``metres`` or ``seconds``.
+    """
+
+    value: float
+    unit: Literal["frames", "metres", "seconds"] = "frames"
+
+    def __str__(self) -> str:
+        if self.unit == "frames":
+            return count(int(self.value), "frame")
+        return f"{self.value:g} {self.unit[0]}"
+
+
+class Statistics(NamedTuple):
+    """Statistics of errors, in the unit of the errors; ``sse``, the sum of squared errors, in its square."""
+
+    rmse: float
+    mean: float
+    median: float
+    std: float
+    min: float
+    max: float
+    sse: float
+
+    @classmethod
+    def of(cls, errors: NDArray[np.float64]) -> Statistics:
+        """Return the statistics of at least one error; ``std`` is that of the population, as in NumPy."""
+        squares = errors**2
+        return cls(
+            rmse=float(np.sqrt(squares.mean())),
+            mean=float(errors.mean()),
+            median=float(np.median(errors)),
+            std=float(errors.std()),
+            min=float(errors.min()),
+            max=float(errors.max()),
+            sse=float(squares.sum()),
+        )
+
+
+@dataclass(frozen=True)
+class PoseErrors:
+    """The errors of poses, or of motions between two poses.
+
+    Attributes:
+        translation: Distances in metres, (N,).
+        rotation: Angles in radians, (N,).
+        index: The index of the pose to which each error belongs, (N,); for a motion, its later pose.
+    """
+
+    translation: NDArray[np.float64]
+    rotation: NDArray[np.float64]
+    index: NDArray[np.intp]
+
+    @property
+    def translation_statistics(self) -> Statistics:
+        """The statistics of the distances, in metres."""
+        return Statistics.of(self.translation)
+
+    @property
+    def rotation_statistics(self) -> Statistics:
+        """The statistics of the angles, in radians."""
+        return Statistics.of(self.rotation)
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """The result of :func:`compare_trajectories`.
+
+    Attributes:
+        reference: The paired poses of the reference, (N,).
+        estimate: The paired poses of the estimate after the alignment, (N,).
+        alignment: The alignment that was applied to the estimate; None without one.
+        ape: The absolute pose errors, (N,).
+        rpe: The relative pose errors, one for each pair of poses that are ``delta`` apart.
+        delta: The distance between the poses of a relative error.
+    """
+
+    reference: Transform
+    estimate: Transform
+    alignment: Alignment | None
+    ape: PoseErrors
+    rpe: PoseErrors
+    delta: Delta
+
+    def as_dict(self) -> dict[str, Any]:
+        """Return the statistics and the alignment as a dictionary for JSON; metres and radians."""
+        aligned = self.alignment and {
+            "translation": self.alignment.transform.translation.tolist(),
+            "quaternion": self.alignment.transform.quaternion.tolist(),
+            "scale": self.alignment.scale,
+        }
+        return {
+            "pairs": len(self.reference),
+            "units": {"translation": "m", "rotation": "rad"},
+            "alignment": aligned,
+            "ape": _as_dict(self.ape),
+            "rpe": {"delta": self.delta.value, "delta_unit": self.delta.unit, **_as_dict(self.rpe)},
+        }
+
+
+def compare_trajectories(
+    reference: Transform,
+    estimate: Transform,
+    *,
+    align: str = "none",
+    max_difference: DurationLike = MAX_DIFFERENCE,
+    delta: float | str | Delta = 1,
+) -> Comparison:
+    """Compare an estimated trajectory with a reference: absolute (APE) and relative (RPE) pose errors.
+
+    The absolute error is the pose of the reference relative to the estimate. The relative error compares the motions of
+    both between two poses that are ``delta`` apart; each pair begins where the previous one ends. The errors are those
+    of the tool evo.
+
+    Args:
+        reference: A batch of shape (N,), such as from :func:`read_trajectory` or :meth:`coframe.Buffer.trajectory`.
+        estimate: A batch of shape (M,). The names of the frames are not compared.
+        align: ``none``, ``se3`` for a rigid motion of the estimate, ``sim3`` to scale it as well.
+        max_difference: The maximum difference between the stamps of two compared poses.
+        delta: A number of poses, or a string for :func:`parse_delta`.
+
+    Raises:
+        TrajectoryError: No stamps match, the alignment is not determined, no two poses are ``delta`` apart, or a
+            position is too large for the computation.
+        ValueError: An argument is not valid.
+
+    Example:
+        >>> import numpy as np
+        >>> from coframe import Transform
+        >>> angles, stamps = np.linspace(0, 3, 31), np.arange(31) * 100_000_000
+        >>> circle = np.stack([np.cos(angles), np.sin(angles), 0 * angles], axis=1)
+        >>> truth, moved = Transform(circle, stamp=stamps), Transform(circle + [1, 0, 0], stamp=stamps)
+        >>> compare_trajectories(truth, moved).ape.translation_statistics.rmse
+        1.0
+        >>> round(compare_trajectories(truth, moved, align="se3").ape.translation_statistics.rmse, 9)
+        0.0
+    """
+    if align not in ALIGNMENTS:
+        raise ValueError(f"No alignment named {align!r}. Alignments: {', '.join(ALIGNMENTS)}.")
+    for name, poses in (("reference", reference), ("estimate", estimate)):
+        if len(poses.shape) != 1 or not len(poses):
+            raise ValueError(f"The {name} must be a batch of shape (N,) with at least one pose, not {poses.shape}.")
+        check_positions(poses)
+    chosen = _checked_delta(delta)
+    reference, estimate = associate(reference, estimate, max_difference)
+    alignment = None if align == "none" else _align(reference, estimate, align)
+    estimate = estimate if alignment is None else alignment.apply(estimate)
+    return Comparison(
+        reference, estimate, alignment, _absolute(reference, estimate), _relative(reference, estimate, chosen), chosen
+    )
+
+
+def parse_delta(text: str) -> Delta:
+    """Parse the distance between the poses of a relative error: ``10`` (poses), ``0.5m`` (metres), ``100ms``.
+
+    Raises:
+        ValueError: The text is none of these, or is not positive.
+
+    Example:
+        >>> parse_delta("10"), parse_delta("0.5m").unit, parse_delta("100ms").value
+        (Delta(value=10, unit='frames'), 'metres', 0.1)
+    """
+    match = _NUMBER.fullmatch(text)
+    if match and match[2] in _FRAMES | _METRES:
+        value = float(match[1])
+        is_metres = match[2] in _METRES
+        if value > 0 and (is_metres or value.is_integer()):
+            return Delta(value, "metres") if is_metres else Delta(int(value))
+    elif match and (nanoseconds := duration_ns(text)) > 0:
+        return Delta(nanoseconds / SECOND, "seconds")
+    raise ValueError(
+        f"{text!r} is not a distance between poses: write a positive number of poses (10), metres (0.5m) or a duration "
+        "(100ms)"
+    )
+
+
+def _checked_delta(delta: float | str | Delta) -> Delta:
+    if isinstance(delta, str):
+        return parse_delta(delta)
+    chosen = delta if isinstance(delta, Delta) else Delta(delta)
+    is_whole = chosen.unit != "frames" or float(chosen.value).is_integer()
+    if not chosen.value > 0 or not is_whole:
+        raise ValueError(f"delta must be positive, and a whole number for poses, not {chosen.value:g} {chosen.unit}")
+    return chosen
+
+
+def _align(reference: Transform, estimate: Transform, kind: str) -> Alignment:
+    return align(reference, estimate, with_scale=kind == "sim3")
+
+
+def _as_dict(errors: PoseErrors) -> dict[str, Any]:
+    return {
+        "count": len(errors.translation),
+        "translation": errors.translation_statistics._asdict(),
+        "rotation": errors.rotation_statistics._asdict(),
+    }
+
+
+def _absolute(reference: Transform, estimate: Transform) -> PoseErrors:
+    distance = np.linalg.norm(estimate.translation - reference.translation, axis=1)
+    turn = quaternion.multiply(quaternion.inverse(estimate.quaternion), reference.quaternion)
+    return PoseErrors(distance, _angles(turn), np.arange(len(distance)))
+
+
+def _relative(reference: Transform, estimate: Transform, delta: Delta) -> PoseErrors:
+    ends = _ends(estimate, reference.stamps if estimate.stamps is None else estimate.stamps, delta)
+    if len(ends) < 2:
+        raise TrajectoryError(
+            f"The relative error needs two poses that are {delta} apart; the {len(estimate)} paired poses have none",
+            hint="Choose a smaller delta.",
+        )
+    (true_t, true_q), (found_t, found_q) = (_motions(poses, ends) for poses in (reference, estimate))
+    inverse = quaternion.inverse(true_q)
+    distance = np.linalg.norm(quaternion.rotate(inverse, found_t - true_t), axis=1)
+    return PoseErrors(distance, _angles(quaternion.multiply(inverse, found_q)), ends[1:])
+
+
+def _motions(poses: Transform, ends: NDArray[np.intp]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return translations and rotations of the motions from each pose in `ends` to the next one."""
+    t, q = poses.translation[ends], poses.quaternion[ends]
+    inverse = quaternion.inverse(q[:-1])
+    return quaternion.rotate(inverse, t[1:] - t[:-1]), quaternion.multiply(inverse, q[1:])
+
+
+def _ends(poses: Transform, stamps: NDArray[np.int64] | None, delta: Delta) -> NDArray[np.intp]:
+    """Return the indices at which the relative errors begin and end."""
+    if delta.unit == "frames":
+        return np.arange(0, len(poses), int(delta.value))
+    if delta.unit == "seconds":
+        if stamps is None:
+            raise TrajectoryError(
+                f"The trajectories have no stamps, so no poses are {delta} apart",
+                hint="Give the delta as a number of poses or in metres.",
+            )
+        steps: list[float] = np.diff(stamps).tolist()
+        limit: float = round(delta.value * SECOND)
+    else:
+        steps = np.linalg.norm(np.diff(poses.translation, axis=0), axis=1).tolist()
+        limit = delta.value
+    ends = [0]
+    done: float = 0
+    for index, step in enumerate(steps, start=1):
+        done += step
+        if done >= limit:
+            ends.append(index)
+            done = 0
+    return np.array(ends, dtype=np.intp)
+
+
+def _angles(q: NDArray[np.float64]) -> NDArray[np.float64]:
+    angles: NDArray[np.float64] = 2.0 * np.arctan2(np.linalg.norm(q[:, :3], axis=1), np.abs(q[:, 3]))
+    return angles

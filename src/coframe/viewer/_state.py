@@ -1,0 +1,261 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The state that all clients share: the source with its scene, the topics, and the origin of times."""
+
+from __future__ import annotations
+
+import secrets
+import time
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager
+from typing import TYPE_CHECKING
+
+from coframe.errors import ViewerError
+from coframe.viewer._findings import FindingsWatcher
+from coframe.viewer.displays.rows import displayable
+from coframe.viewer.panels import Panels
+from coframe.viewer.replay.page import DEFAULT_SETTINGS, FRAME_TIMEOUT, ReplayRequest, ReplaySettings
+from coframe.viewer.robots.descriptions import ROBOT_DESCRIPTION, RobotDescriptions
+from coframe.viewer.robots.joints import JOINT_STATES, JointPublisher
+from coframe.viewer.robots.meshes import MeshTable
+from coframe.viewer.scene.scene import Scene
+from coframe.viewer.scripting.callbacks import CallbackThread
+from coframe.viewer.scripting.nodes import NodeStore
+from coframe.viewer.scripting.widgets import WidgetStore
+from coframe.viewer.tools.publisher import ToolPublisher
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator, Mapping
+
+    from coframe.robots import Robot
+    from coframe.viewer.protocol.server_messages import DisplayTopic
+    from coframe.viewer.rviz.config import RvizConfig
+    from coframe.viewer.sources.source import ViewerSource
+    from coframe.viewer.sources.topic_messages import TopicMessages
+
+__all__ = ["FRAME_TIMEOUT", "ViewerState"]
+
+# Seconds between refreshes of the tree structure and of the topics. Large trees are refreshed less often, so that
+# refreshing takes at most the given share of the time.
+STRUCTURE_PERIOD, TOPICS_PERIOD = 0.2, 1.0
+STRUCTURE_SHARE = 0.005
+# A float64 is exact up to 2**53 nanoseconds, which is 104 days.
+_MAX_OFFSET = 2**52
+_MAX_PREPARED_REPLAYS = 8
+
+
+class ViewerState:
+    """What all clients share; used by one thread, apart from the nodes and widgets.
+
+    Args:
+        source: The source of transforms and messages.
+        fixed: The requested fixed frame; "" selects the root of the largest tree.
+        rviz: The initial configuration of each client.
+        robot: A robot that is shown in addition to published ones.
+        meshes: The meshes that may be fetched; None for none.
+        joint_states: The topic on which positions of joints are published.
+    """
+
+    def __init__(
+        self,
+        source: ViewerSource,
+        *,
+        fixed: str = "",
+        rviz: RvizConfig | None = None,
+        robot: Robot | None = None,
+        meshes: MeshTable | None = None,
+        joint_states: str = JOINT_STATES,
+    ) -> None:
+        self.edition = 0  # Increases when the source or its title changes.
+        self.source = source
+        self.meshes = MeshTable(lambda _name: None) if meshes is None else meshes
+        self.descriptions = RobotDescriptions(robot, _description_topics(rviz), self.meshes)
+        self.scene = Scene(source.buffer, ages=source.mode == "live")
+        self.findings = FindingsWatcher()
+        self.panels = Panels(source)
+        self.callbacks = CallbackThread()
+        self.nodes, self.widgets = NodeStore(self.callbacks), WidgetStore(self.callbacks)
+        self.rviz = rviz.with_fixed_frame(fixed) if rviz is not None and fixed else rviz
+        self._joint_states = joint_states
+        self.fixed = fixed or (rviz.fixed_frame if rviz is not None else "")
+        self.fixed_is_given = bool(self.fixed)
+        self.saved_rviz: str | None = None
+        self.topics: list[DisplayTopic] = []
+        self.origin = time.time_ns()
+        self.executor = ThreadPoolExecutor(2, "coframe-viewer-work")
+        self._tools: ToolPublisher | None = None
+        self._open: dict[str, _SharedMessages] = {}
+        self._prepared_replays: dict[str, ReplaySettings] = {}
+        self._structure_due = self._topics_due = 0.0
+        self.refresh()
+
+    def set_source(self, source: ViewerSource) -> None:
+        """Show another source; all clients start from scratch."""
+        self._close_tools()
+        self.panels.close()
+        self.panels = Panels(source)
+        self.source = source
+        self.scene = Scene(source.buffer, ages=source.mode == "live")
+        self.origin = time.time_ns()
+        self._structure_due = self._topics_due = 0.0
+        self.refresh()
+        self.edition += 1
+
+    def set_title(self, title: str) -> None:
+        """Change the title of the page."""
+        self.source.title = title
+        self.edition += 1
+
+    @property
+    def can_publish(self) -> bool:
+        """Whether the pages may publish."""
+        return self.source.connection is not None
+
+    def refresh(self) -> None:
+        """Update from the source, rate-limited."""
+        now = time.monotonic()
+        if now >= self._structure_due:
+            self.scene.refresh()
+            spent = time.monotonic() - now
+            self._structure_due = now + max(STRUCTURE_PERIOD, spent / STRUCTURE_SHARE)
+            self._choose_origin()
+            self.descriptions.refresh(self.source, self.executor)
+        if now >= self._topics_due:
+            self._topics_due = now + TOPICS_PERIOD
+            self.source.refresh()
+            self.topics = displayable(self.source.topics())
+
+    @property
+    def span(self) -> tuple[int, int] | None:
+        """The first and the last stamp in nanoseconds; None while there is no data."""
+        return self.source.span or self.scene.span
+
+    def relative_span(self) -> tuple[int, int] | None:
+        """Return the first and the last stamp relative to the origin."""
+        span = self.span
+        return None if span is None else (span[0] - self.origin, span[1] - self.origin)
+
+    def open(self, topic: str) -> TopicMessages | None:
+        """Return the messages of a topic, which all clients share; None if the topic does not exist."""
+        shared = self._open.get(topic)
+        if shared is None:
+            messages = self.source.open(topic)
+            if messages is None:
+                return None
+            shared = self._open[topic] = _SharedMessages(messages)
+        shared.users += 1
+        return shared.messages
+
+    def release(self, topic: str) -> None:
+        """Release what `open` returned."""
+        shared = self._open[topic]
+        shared.users -= 1
+        if shared.users == 0:
+            del self._open[topic]
+            shared.messages.close()
+
+    @contextmanager
+    def opened(self, topics: Iterable[str]) -> Iterator[dict[str, TopicMessages]]:
+        """Open the messages of those topics that exist, and release them at the end."""
+        found = {topic: messages for topic in dict.fromkeys(topics) if (messages := self.open(topic)) is not None}
+        try:
+            yield found
+        finally:
+            for topic in found:
+                self.release(topic)
+
+    def close(self) -> None:
+        """Stop all work and release the resources of disconnected clients."""
+        self.callbacks.close()
+        for topic in list(self._open):
+            self._open.pop(topic).messages.close()
+        self.findings.close()
+        self.panels.close()
+        self.executor.shutdown(wait=True, cancel_futures=True)
+        self._close_tools()
+        self.descriptions.close()
+
+    def _close_tools(self) -> None:
+        if self._tools is not None:
+            self._tools.close()
+            self._tools = None
+
+    def joint_publisher(self, robot: Robot) -> JointPublisher:
+        """Return a publisher of the positions of a robot's joints.
+
+        Raises:
+            ViewerError: The source is not the ROS graph.
+            WireError: The middleware cannot create the publisher.
+        """
+        if self.source.connection is None:
+            raise ViewerError(
+                "joint states can only be published on a live ROS graph",
+                hint="Start the viewer with `coframe view live`.",
+            )
+        return JointPublisher(self.source.connection, robot, self._joint_states)
+
+    @property
+    def static_topic(self) -> str:
+        """The topic of static transforms."""
+        return "" if self.source.connection is None else self.source.connection.config.tf_static_topic
+
+    def tool_publisher(self) -> ToolPublisher:
+        """Return the publisher for the pages' tools.
+
+        Raises:
+            ViewerError: The source is not the ROS graph.
+        """
+        connection = self.source.connection
+        if connection is None:
+            raise ViewerError("publishing requires a live ROS graph", hint="Start the viewer with `coframe view live`.")
+        if self._tools is None:
+            self._tools = ToolPublisher(connection)
+        return self._tools
+
+    def prepare_replay(self, settings: ReplaySettings) -> str:
+        """Store the settings of a replay; return the token with which it is requested."""
+        token = secrets.token_urlsafe(12)
+        self._prepared_replays[token] = settings
+        while len(self._prepared_replays) > _MAX_PREPARED_REPLAYS:
+            del self._prepared_replays[next(iter(self._prepared_replays))]
+        return token
+
+    def replay_request(self, query: Mapping[str, str]) -> ReplayRequest:
+        """Return the request for a replay in a URL query; by default, everything is included.
+
+        Raises:
+            ViewerError: The query is invalid.
+        """
+        span = self.span
+        if span is None:
+            raise ViewerError("there are no moving frames to replay yet")
+        try:
+            first = round(float(query["from"])) + self.origin if "from" in query else span[0]
+            last = round(float(query["to"])) + self.origin if "to" in query else span[1]
+            rate = float(query.get("rate", 30.0))
+        except (ValueError, OverflowError):
+            raise ViewerError("from, to and rate of a replay must be numbers") from None
+        settings = self._prepared_replays.get(query["settings"]) if "settings" in query else DEFAULT_SETTINGS
+        if settings is None:
+            raise ViewerError("the settings of this replay are no longer available", hint="Save the replay again.")
+        fixed = query.get("fixed") or self.fixed or self.scene.structure.largest
+        first, last = max(first, span[0]), min(last, span[1])
+        return ReplayRequest(first, last, rate, fixed, FRAME_TIMEOUT, self.source.title, self.origin, settings)
+
+    def _choose_origin(self) -> None:
+        span = self.span
+        if span is not None and abs(span[1] - self.origin) > _MAX_OFFSET:
+            self.origin = span[1]
+
+
+def _description_topics(rviz: RvizConfig | None) -> list[str]:
+    """Return the default topic and those in a configuration."""
+    named = [] if rviz is None else rviz.description_topics
+    return list(dict.fromkeys([ROBOT_DESCRIPTION, *named]))
+
+
+class _SharedMessages:
+    """The messages of a topic, and the number of displays that use them."""
+
+    def __init__(self, messages: TopicMessages) -> None:
+        self.messages = messages
+        self.users = 0

@@ -1,0 +1,78 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Renderers: convert the messages of a topic to drawings, one after another, outside the server's thread."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from coframe.viewer.displays._drawing import Drawing, Options
+    from coframe.viewer.sources.topic_messages import StampedMessage, TopicMessages
+
+__all__ = ["MeshUrl", "NewMessages", "Renderer", "RendererFactory", "each_message"]
+
+MeshUrl: TypeAlias = "Callable[[str], tuple[str | None, str | None]]"
+RendererFactory: TypeAlias = "Callable[[TopicMessages, Options, MeshUrl], Renderer]"
+"""Returns a renderer for the messages of a topic."""
+
+
+class Renderer(Protocol):
+    """Converts messages of one topic to drawings."""
+
+    def draw(self, message: StampedMessage, time: int) -> list[Drawing]:
+        """Return what is visible at a time in nanoseconds, if `message` is the last message.
+
+        Raises:
+            ValueError: The message cannot be drawn.
+        """
+
+    def has_expired(self, time: int) -> bool:
+        """Return whether a part of the last drawing is no longer visible at a time in nanoseconds."""
+
+
+class _EachMessage:
+    """Draws each message independently of the others."""
+
+    def __init__(self, draw: Callable[[Any, Options], Drawing], options: Options) -> None:
+        self._draw = draw
+        self._options = options
+
+    def draw(self, message: StampedMessage, time: int) -> list[Drawing]:
+        """Return the drawing of the message."""
+        del time
+        return [self._draw(message.read(), self._options)]
+
+    def has_expired(self, time: int) -> bool:
+        """Return False."""
+        del time
+        return False
+
+
+def each_message(draw: Callable[[Any, Options], Drawing]) -> RendererFactory:
+    """Return a factory of renderers that draw each message by itself, with a function."""
+    return lambda _messages, options, _mesh_url: _EachMessage(draw, options)
+
+
+class NewMessages:
+    """The messages of a topic between two requests, for renderers that need all of them.
+
+    Args:
+        messages: The messages of the topic.
+        limit: How many earlier messages are returned after a jump in time.
+    """
+
+    def __init__(self, messages: TopicMessages, limit: int) -> None:
+        self._messages = messages
+        self._limit = limit
+        self._last: int | None = None
+
+    def until(self, message: StampedMessage) -> tuple[bool, list[StampedMessage]]:
+        """Return whether the messages continue those of the previous call, and the messages up to `message`."""
+        last, self._last = self._last, message.key
+        known = [one for one in self._messages.before(message.time, self._limit) if one.key <= message.key]
+        known = known or [message]
+        if last is not None and known[0].key <= last + 1 and last <= message.key:
+            return True, [one for one in known if one.key > last]
+        return False, known

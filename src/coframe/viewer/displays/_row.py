@@ -1,0 +1,175 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The definition of a display: one row, next to the function that draws its messages."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+from coframe.viewer.protocol.client_messages import DisplayOptions
+from coframe.viewer.protocol.schema import record
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from coframe.viewer.displays._renderers import RendererFactory
+
+__all__ = [
+    "FIXED_FRAME",
+    "ChoiceOption",
+    "ColorOption",
+    "DisplayRow",
+    "FlagOption",
+    "NumberOption",
+    "Option",
+    "TextOption",
+]
+
+FIXED_FRAME = "<Fixed Frame>"
+"""How RViz writes that an option means the fixed frame."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Details:
+    """What all options have.
+
+    Attributes:
+        label: The text on the page; "" for the key.
+        needs: The key of a flag without which the option has no effect.
+        sets: The field of `DisplayOptions` that the option sets; "" if only the page uses it.
+    """
+
+    label: str = ""
+    needs: str = ""
+    sets: str = ""
+
+
+@dataclass(frozen=True)
+class NumberOption(_Details):
+    """A number.
+
+    Attributes:
+        key: The key in an .rviz file; nested keys are paths such as "Covariance/Value".
+        value: The default.
+        minimum: The smallest value; smaller ones are set to it.
+        maximum: The largest value; larger ones are set to it.
+        step: The difference by which the page's buttons change the value.
+        unit: The unit; "" if there is none.
+    """
+
+    key: str
+    value: float
+    minimum: float
+    maximum: float
+    step: float
+    unit: str = ""
+
+    def sent(self, value: object) -> float:
+        """Return what the server receives for a value in an .rviz file."""
+        valid = isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
+        number = min(max(float(value), self.minimum), self.maximum) if valid else self.value  # type: ignore[arg-type]
+        return round(number) if self.step.is_integer() else number
+
+
+@dataclass(frozen=True)
+class FlagOption(_Details):
+    """A checkbox with its key in an .rviz file and its default."""
+
+    key: str
+    value: bool
+
+    def sent(self, value: object) -> bool:
+        """Return what the server receives for a value in an .rviz file."""
+        return value if isinstance(value, bool) else self.value
+
+
+@dataclass(frozen=True)
+class ColorOption(_Details):
+    """A colour.
+
+    Attributes:
+        key: The key in an .rviz file.
+        value: The default as "#rrggbb"; "" selects one that suits the background.
+    """
+
+    key: str
+    value: str
+
+    def sent(self, value: object) -> str:
+        """Return what the server receives for a value in an .rviz file."""
+        return value if isinstance(value, str) else self.value
+
+
+@dataclass(frozen=True)
+class ChoiceOption(_Details):
+    """One of several values.
+
+    Attributes:
+        key: The key in an .rviz file.
+        value: The default.
+        choices: The values in an .rviz file.
+        meanings: What the server receives for each of them; empty if that is the value itself.
+    """
+
+    key: str
+    value: str
+    choices: tuple[str, ...]
+    meanings: tuple[str, ...] = ()
+
+    def sent(self, value: object) -> str:
+        """Return what the server receives for a value in an .rviz file."""
+        index = self.choices.index(value if value in self.choices else self.value)
+        return (self.meanings or self.choices)[index]
+
+
+@dataclass(frozen=True)
+class TextOption(_Details):
+    """A text, such as the name of a frame, with its key in an .rviz file and its default."""
+
+    key: str
+    value: str
+
+    def sent(self, value: object) -> str:
+        """Return what the server receives for a value in an .rviz file."""
+        return value if isinstance(value, str) else self.value
+
+
+Option: TypeAlias = NumberOption | FlagOption | ColorOption | ChoiceOption | TextOption
+
+
+@dataclass(frozen=True, kw_only=True)
+class DisplayRow:
+    """A display.
+
+    Attributes:
+        name: Its class in RViz, without the package.
+        messages: The message types that it shows, with how each of them is drawn; empty for displays without a topic.
+        options: Its options, in the order in which the page lists them.
+        shapes: The descriptions that its drawings contain, as TypedDicts; the page's types are generated from them.
+        selectable: Whether it is offered for topics of its message types. Other displays come from .rviz files only.
+        automatic: Whether the page shows such topics without being asked; False if that needs much bandwidth.
+        large_in_replay: Whether a replay records it last, in the remaining space.
+        has_surfaces: Whether the page's tools find points on it.
+        projected: Whether its lines and meshes can be drawn above images.
+    """
+
+    name: str
+    messages: Mapping[str, RendererFactory] = field(default_factory=dict)
+    options: tuple[Option, ...] = ()
+    shapes: tuple[type, ...] = ()
+    selectable: bool = True
+    automatic: bool = True
+    large_in_replay: bool = False
+    has_surfaces: bool = True
+    projected: bool = False
+
+    def server_options(self, values: Mapping[str, Any]) -> DisplayOptions:
+        """Return the options with which the page would subscribe to a topic.
+
+        Args:
+            values: The options in an .rviz file; missing and invalid ones have their defaults.
+        """
+        chosen = {option.sets: option.sent(values.get(option.key)) for option in self.options if option.sets}
+        checked: DisplayOptions = record(DisplayOptions).build(chosen)
+        return checked

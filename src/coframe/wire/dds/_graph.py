@@ -1,0 +1,111 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The ROS graph from the topic ros_discovery_info and DDS discovery."""
+
+from __future__ import annotations
+
+from collections import OrderedDict
+
+from coframe import _core
+from coframe.wire import names
+from coframe.wire.dds import _vendors as vendors
+from coframe.wire.dds._discovery_info import ADAPTS, TOPIC, decode_info
+from coframe.wire.dds._user_data import type_hash_of
+from coframe.wire.graph import DiscoveredEndpoint, Graph
+from coframe.wire.qos import QoS
+
+MAX_DEPARTED_WRITERS = 1_000  # remembered after they have left, because their requests may still be queued
+
+_BATCH = 256  # messages
+
+
+class DdsGraph(Graph):
+    """The graph of a DDS domain.
+
+    Args:
+        participant: The handle of the participant.
+        topic: The handle of the topic ros_discovery_info, which is released.
+        changed: Set when discovery messages arrive.
+    """
+
+    def __init__(self, participant: int, topic: int, changed: _core.Event) -> None:
+        super().__init__()
+        qos = _core.QosProfile(depth=1, reliable=True, transient_local=True, keep_all=True)
+        self._info_reader = _core.Reader(participant, topic, qos, "", changed)
+        self._writer_reader = _core.EndpointReader(participant, _core.PUBLICATIONS, changed)
+        self._reader_reader = _core.EndpointReader(participant, _core.SUBSCRIPTIONS, changed)
+        self._gid_sizes: dict[bytes, int] = {}  # by participant
+        self._departed: OrderedDict[int, bytes] = OrderedDict()  # writers that send requests in another form
+
+    def close(self) -> None:
+        """Close the discovery readers. The state remains available."""
+        for reader in (self._info_reader, self._writer_reader, self._reader_reader):
+            reader.close()
+
+    def foreign_services(self, guid: bytes) -> str:
+        """Return the DDS implementation of an endpoint if it sends requests in another form; "" if not."""
+        return "" if vendors.shares_services(guid) else vendors.vendor(guid) or vendors.unknown_vendor(guid)
+
+    def ignores_requests(self, peer: DiscoveredEndpoint, qos: QoS) -> bool:
+        """Return whether the partitions of request writers do not match those of a reader."""
+        return vendors.uses_service_partitions(qos) and vendors.ignores_service_partitions(peer.guid, peer.partitions)
+
+    def foreign_writer(self, handle: int) -> str:
+        """Return what `foreign_services` returns for a writer, even after it has left."""
+        writer = self.writer(handle)
+        guid = self._departed.get(handle) if writer is None else writer.guid
+        return "" if guid is None else self.foreign_services(guid)
+
+    def gid_sizes(self) -> dict[int, list[str]]:
+        """Return the sizes of identifiers that participants of other implementations publish, with their nodes."""
+        with self._lock:
+            adapting = {
+                writer.participant
+                for writer in self._writers.values()
+                if writer.topic == TOPIC and ADAPTS.encode() in writer.user_data
+            }
+            found: dict[int, list[str]] = {}
+            for participant, size in self._gid_sizes.items():
+                if participant not in adapting:
+                    nodes = self._nodes[participant]
+                    found.setdefault(size, []).extend(names.full_name(node.namespace, node.name) for node in nodes)
+        return found
+
+    def _take_changes(self) -> bool:
+        # Nodes are read before endpoints: if a participant leaves in between, its endpoints remove the nodes.
+        changed = self._take_info()
+        changed |= self._take_endpoints(self._writer_reader, self._writers)
+        changed |= self._take_endpoints(self._reader_reader, self._readers)
+        if changed:
+            self._remove_departed()
+        return changed
+
+    def _take_info(self) -> bool:
+        changed = False
+        while messages := self._info_reader.take(_BATCH):
+            for message, _, _ in messages:
+                if (info := decode_info(message)) is not None:
+                    self._nodes[info.participant] = info.nodes
+                    self._gid_sizes[info.participant] = info.gid_size
+                    changed = True
+        return changed
+
+    def _take_endpoints(self, reader: _core.EndpointReader, known: dict[int, DiscoveredEndpoint]) -> bool:
+        changes = reader.take()
+        for handle, alive, guid, participant, topic, type_name, (depth, *policies), user_data, partitions in changes:
+            if alive:
+                qos = QoS(max(depth, 1), *policies)
+                known[handle] = DiscoveredEndpoint(
+                    guid, participant, topic, type_name, qos, user_data, type_hash_of(user_data), partitions
+                )
+                continue
+            known.pop(handle, None)
+            if known is self._writers and not vendors.shares_services(guid):
+                self._departed[handle] = guid
+                if len(self._departed) > MAX_DEPARTED_WRITERS:
+                    self._departed.popitem(last=False)
+        return bool(changes)
+
+    def _remove_departed(self) -> None:
+        participants = {writer.participant for writer in self._writers.values() if writer.topic == TOPIC}
+        self._nodes = {guid: nodes for guid, nodes in self._nodes.items() if guid in participants}
+        self._gid_sizes = {guid: size for guid, size in self._gid_sizes.items() if guid in participants}
