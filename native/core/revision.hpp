@@ -38,7 +38,7 @@ class Revision {
   void complete() {
     if (number() % 2 != 0) raise(std::memory_order_release);
   }
-  // No read is consistent any more, because the data are lost.
+  // No read is consistent from now on, because the data are lost.
   void invalidate() { number_.store(number() | 1, std::memory_order_release); }
   // Before there are readers: starts at an even number that no other revision is likely to have.
   void start_at(std::uint64_t number) { number_.store(number & ~std::uint64_t{1}, std::memory_order_relaxed); }

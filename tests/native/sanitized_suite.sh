@@ -4,7 +4,7 @@
 #
 #   sanitized_suite.sh PYTEST_ARGUMENTS...     by default all of tests/
 #
-# The module is built into a wheel, which is installed into a virtual environment of its own. Not run: the tests in the
+# The module is built into a wheel, which is installed into a separate virtual environment. Not run: the tests in the
 # browser and of the wheel, which start programs that do not work with the preloaded runtime, and those that
 # not_sanitized.txt lists with the reasons.
 set -eu

@@ -348,7 +348,7 @@ class Relay:
         if state == before:
             return
         if state == "gone":
-            self._warn(f"{robot} is gone: no node publishes its transforms any more, so its frames are stale.")
+            self._warn(f"{robot} is gone: no node publishes its transforms any longer, so its frames are stale.")
         elif state == "stale":
             self._warn(f"{robot} is stale: its publishers are on the graph, but no dynamic transforms arrive.")
         elif before != "waiting":

@@ -17,7 +17,7 @@ from __future__ import annotations
 from importlib import import_module
 from typing import Any, Final
 
-# Names that upstream defines in its native module and that are defined in a module of their own here.
+# Names that upstream defines in its native module and that are defined in a separate module here.
 _ELSEWHERE: Final = {
     "ClockChange": "rclpy.clock",
     "ClockType": "rclpy._clock_type",

@@ -93,7 +93,7 @@ export class Adjuster {
       this.gizmo?.place(framePoses, frames.parent, this.current.pose);
   }
 
-  /** The indices of the two frames; null if there is no static transform between them any more. */
+  /** The indices of the two frames; null if there is no longer a static transform between them. */
   private frames(): { parent: number; child: number } | null {
     const { forest } = this.model;
     const child = forest.index.get(this.current?.child ?? "") ?? -1;

@@ -215,7 +215,7 @@ class ExecuteLocal(Action):
             raise RuntimeError(f"ExecuteLocal action '{name}': executed more than once: {self.describe()}")
         self.__executed = True
         if context.is_shutdown:
-            return None  # Nothing is started any more.
+            return None  # Nothing is started from now on.
         assert name is not None
         self.__logger = launch.logging.get_logger(name)
         self.__output = launch.logging.ProcessOutput(

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The action that groups actions, with launch configurations and environment of their own."""
+"""The action that groups actions, with their own launch configurations and environment."""
 
 from __future__ import annotations
 
