@@ -86,7 +86,7 @@ def generate() -> dict[Path, str]:
         files[SHIPPED / f"{package}.txt"] = archive.pack(texts)
         files[ROS / package / "py.typed"] = ""
         files[ROS / package / "__init__.py"] = (
-            f'"""ROS package {package}."""\n\nfrom coframe import ros_side\n\nros_side.check("{package}")\n'
+            f'"""ROS package {package}."""\n\nfrom coframe.workspace import ros_side\n\nros_side.check("{package}")\n'
         )
         modules = _classes_as_source if package in WITH_SOURCE else _classes_at_first_use
         for kind in sorted(path.name for path in folder.iterdir()):

@@ -106,8 +106,8 @@ def beside_rosless(network, domain_id: int) -> Iterator[Callable[[str], None]]:
     def run(code: str) -> None:
         command = network.command(sys.executable, "-c", _BESIDE_ROSLESS + textwrap.dedent(code))
         started.append(Child(command, {"ROS_DOMAIN_ID": str(domain_id)}))
-        code_of_exit, errors = started[-1].finish()
-        assert code_of_exit == 0, errors
+        exit_code, errors = started[-1].finish()
+        assert exit_code == 0, errors
 
     yield run
     for process in started:

@@ -36,7 +36,7 @@ def _router(report: SystemReport) -> Iterator[Advice]:
             "warning",
             f"No Zenoh router was found at {' or '.join(report.zenoh.connect) or 'any endpoint'}. Nodes of ROS 2 and "
             "processes on other machines are found only with one.",
-            "Start one: coframe router, or ros2 run rmw_zenoh_cpp rmw_zenohd. It is searched at another place with "
+            "Start one: coframe router, or ros2 run rmw_zenoh_cpp rmw_zenohd. To use a router at another address, set "
             "ZENOH_CONFIG_OVERRIDE='connect/endpoints=[\"tcp/HOST:7447\"]'.",
         )
 

@@ -75,7 +75,7 @@ def info(
     verbose: bool,
     spin_time: NonNegativeDuration,
 ) -> None:
-    """Show the type of a topic, and the numbers of its publishers and subscriptions.
+    """Show the type of a topic, and how many publishers and subscriptions it has.
 
     Example: coframe topic info /tf --verbose
     """
