@@ -90,6 +90,7 @@ class MessageIndex:
         self._types = types
         self._closed = False
         self._tracks: dict[str, list[Track]] = {}
+        self._storages: dict[Storage, int] = {}  # with their numbers, in the order of the recording
         self._rows: dict[str, _Rows] = {}
         self._stamps: dict[str, NDArray[np.int64]] = {}
         self._by_stamp: dict[str, tuple[NDArray[np.int64], NDArray[np.intp]]] = {}
@@ -97,6 +98,7 @@ class MessageIndex:
     def add_track(self, storage: Storage, channel: Channel) -> Track:
         """Add a channel of a file, without messages."""
         track = Track(storage, channel, self._types)
+        self._storages.setdefault(storage, len(self._storages))
         self._tracks.setdefault(channel.topic, []).append(track)
         return track
 
@@ -162,8 +164,7 @@ class MessageIndex:
         if topic not in self._stamps:
             tracks = self._rows_of(topic).tracks
             stamps = np.concatenate([self._track_stamps(track) for track in tracks])
-            order = np.argsort(np.concatenate([_int64(track.received) for track in tracks]), kind="stable")
-            self._stamps[topic] = stamps[order]
+            self._stamps[topic] = stamps[self._receive_order(tracks)]
             self._stamps[topic].setflags(write=False)
         return self._stamps[topic]
 
@@ -179,14 +180,17 @@ class MessageIndex:
     def in_order(
         self, topics: Iterable[str] | None, start: int | None, stop: int | None
     ) -> Iterator[tuple[Channel, int, bytes]]:
-        """Yield channel, receive time and bytes of the messages of several topics in receive order."""
+        """Yield channel, receive time and bytes of the messages of several topics in receive order.
+
+        Messages with equal times come in the order in which they were written.
+        """
         tracks = self.tracks() if topics is None else [track for name in topics for track in self.tracks(name)]
         if not tracks:
             return
         received = np.concatenate([_int64(track.received) for track in tracks])
         positions = np.concatenate([np.array(track.positions, dtype=np.uint64) for track in tracks])
         of_track = np.repeat(np.arange(len(tracks)), [len(track.received) for track in tracks])
-        order = np.argsort(received, kind="stable")
+        order = self._receive_order(tracks)
         first = 0 if start is None else int(np.searchsorted(received[order], start))
         last = len(order) if stop is None else int(np.searchsorted(received[order], stop))
         for row in order[first:last]:
@@ -210,6 +214,17 @@ class MessageIndex:
                 hint="Read messages before close(), inside the `with` block. The transforms stay available.",
             )
 
+    def _receive_order(self, tracks: list[Track]) -> NDArray[np.intp]:
+        """Return the order of the messages of tracks by time of receipt; equal ones as they were written."""
+        received = _joined([_int64(track.received) for track in tracks])
+        order = np.argsort(received, kind="stable")
+        if len(tracks) == 1 or (np.diff(received[order]) > 0).all():
+            return order
+        # Positions are signed for rows of SQLite, and grow within a file.
+        positions = _joined([np.asarray(track.positions, dtype=np.uint64).view(np.int64) for track in tracks])
+        files = np.repeat([self._storages[track.storage] for track in tracks], [len(each.received) for each in tracks])
+        return np.lexsort((positions, files, received))
+
     def _rows_of(self, topic: str) -> _Rows:
         if topic in self._rows:
             return self._rows[topic]
@@ -217,8 +232,8 @@ class MessageIndex:
         received = _joined([_int64(track.received) for track in tracks])
         positions = _joined([np.asarray(track.positions, dtype=np.uint64) for track in tracks])
         of_track = _numbers([len(track.received) for track in tracks])
-        if len(received) > 1 and not (received[1:] >= received[:-1]).all():
-            order = np.argsort(received, kind="stable")
+        if len(tracks) > 1 or not (received[1:] >= received[:-1]).all():
+            order = self._receive_order(tracks)
             received, positions, of_track = received[order], positions[order], of_track[order]
         rows = _Rows(tracks, of_track, positions, received)
         if len(received) > _FEW_MESSAGES:

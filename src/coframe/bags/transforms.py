@@ -3,13 +3,13 @@
 
 from __future__ import annotations
 
-import json
 import struct
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from coframe import _core, time
+from coframe.bags._json_transforms import StampedValues, json_many, json_one
 from coframe.messages.encapsulation import HEADER_SIZE, byte_order
 from coframe.messages.tf_columns import TransformColumns, tf_columns
 from coframe.type_names import TF_MESSAGE, TF_MESSAGES_OF_ROS1
@@ -31,15 +31,6 @@ _EARLIEST, _LATEST = -(1 << 63), (1 << 63) - 1  # nanoseconds
 _DAMAGE = (struct.error, ValueError, TypeError, KeyError, IndexError, AttributeError, OverflowError, RecursionError)
 
 
-class _Stamped(NamedTuple):
-    """One transform."""
-
-    parent: str
-    child: str
-    stamp: int
-    values: tuple[float, float, float, float, float, float, float]
-
-
 class Ingest:
     """Ingests the messages of one channel into a buffer.
 
@@ -52,7 +43,7 @@ class Ingest:
 
     def __init__(
         self,
-        decode: Callable[[bytes | memoryview], Iterator[_Stamped]] | str,
+        decode: Callable[[bytes | memoryview], Iterator[StampedValues]] | str,
         static: bool,
         authority: str,
         renaming: _core.Renaming | None,
@@ -82,7 +73,7 @@ class Ingest:
         damaged, reason = 0, ""
         for message in messages.each():
             try:
-                for transform in _decoded(self._decode, message):
+                for transform in self._transforms(self._decode, message):
                     self._set(buffer, transform)
             except _DAMAGE as error:
                 damaged, reason = damaged + 1, reason or f"{type(error).__name__}: {error}"
@@ -92,11 +83,11 @@ class Ingest:
         """Return the transforms of messages as columns."""
         if isinstance(self._decode, str):
             return tf_columns(messages, self._decode)
-        rows: list[tuple[int, _Stamped]] = []
+        rows: list[tuple[int, StampedValues]] = []
         damaged = 0
         for number, message in enumerate(messages.each()):
             try:
-                rows += [(number, transform) for transform in _decoded(self._decode, message)]
+                rows += [(number, transform) for transform in self._transforms(self._decode, message)]
             except _DAMAGE:
                 damaged += 1
         numbers: dict[str, int] = {}
@@ -104,7 +95,7 @@ class Ingest:
         parent, child = np.array(pairs, dtype=np.int64).reshape(-1, 2).T
         return TransformColumns(
             np.array([number for number, _ in rows], dtype=np.int64),
-            np.array([row.stamp for _, row in rows], dtype=np.int64),
+            np.array([row.stamp or 0 for _, row in rows], dtype=np.int64),
             parent,
             child,
             np.array([row.values for _, row in rows], dtype=np.float64).reshape(-1, 7),
@@ -112,22 +103,26 @@ class Ingest:
             damaged,
         )
 
-    def _set(self, buffer: Buffer, transform: _Stamped) -> None:
+    def _transforms(
+        self, decode: Callable[[bytes | memoryview], Iterator[StampedValues]], message: bytes | memoryview
+    ) -> list[StampedValues]:
+        transforms = list(decode(message))
+        for transform in transforms:
+            if transform.stamp is None and not self.static:
+                raise ValueError("a transform has no timestamp")
+            if not _EARLIEST <= (transform.stamp or 0) <= _LATEST:
+                raise ValueError("a stamp is beyond the range of ROS times")
+            for name in (transform.parent, transform.child):
+                if not isinstance(name, str):  # JSON can contain anything
+                    raise TypeError("a frame name is not a string")
+                name.encode()  # fails for half of a surrogate pair, which is not a character
+        return transforms
+
+    def _set(self, buffer: Buffer, transform: StampedValues) -> None:
         names = (transform.parent, transform.child)
         parent, child = names if self._renaming is None else map(self._renaming, names)
-        buffer._set_values(parent, child, transform.stamp, *transform.values, self.static, self._authority)
-
-
-def _decoded(decode: Callable[[bytes | memoryview], Iterator[_Stamped]], message: bytes | memoryview) -> list[_Stamped]:
-    transforms = list(decode(message))
-    for transform in transforms:
-        if not _EARLIEST <= transform.stamp <= _LATEST:
-            raise ValueError("a stamp is beyond the range of ROS times")
-        for name in (transform.parent, transform.child):
-            if not isinstance(name, str):  # JSON can contain anything
-                raise TypeError("a frame name is not a string")
-            name.encode()  # fails for half of a surrogate pair, which is not a character
-    return transforms
+        stamp = transform.stamp or 0
+        buffer._set_values(parent, child, stamp, *transform.values, self.static, self._authority)
 
 
 def is_static(topic: str) -> bool:
@@ -143,7 +138,7 @@ def ingest_for(channel: Channel, renaming: _core.Renaming | None = None) -> Inge
     return Ingest(_DECODINGS[kind], is_static(channel.topic), channel.topic, renaming)
 
 
-def _foxglove_cdr(data: bytes | memoryview) -> Iterator[_Stamped]:
+def _foxglove_cdr(data: bytes | memoryview) -> Iterator[StampedValues]:
     """Decode a foxglove_msgs/FrameTransform, which has no count at the beginning, unlike a TFMessage."""
     order = byte_order(data)
     if order is None:
@@ -159,45 +154,32 @@ def _foxglove_cdr(data: bytes | memoryview) -> Iterator[_Stamped]:
         names.append(str(body[position + 4 : position + 4 + length], "utf-8").removesuffix("\0"))
         position += 4 + length
     values = struct.unpack_from(order + "7d", body, (position + 7) & ~7)
-    yield _Stamped(names[0], names[1], seconds * time.SECOND + nanoseconds, values)
+    yield StampedValues(names[0], names[1], seconds * time.SECOND + nanoseconds, values)
 
 
-def _json_one(data: bytes | memoryview) -> Iterator[_Stamped]:
-    yield _from_object(json.loads(bytes(data)))
-
-
-def _json_many(data: bytes | memoryview) -> Iterator[_Stamped]:
-    yield from map(_from_object, json.loads(bytes(data))["transforms"])
-
-
-def _from_object(transform: Any) -> _Stamped:
-    """Convert a Foxglove FrameTransform in JSON; missing fields are zero."""
-    stamp, t, q = (transform.get(name, {}) for name in ("timestamp", "translation", "rotation"))
-    values = [t.get(axis, 0.0) for axis in "xyz"] + [q.get(axis, 0.0) for axis in "xyzw"]
-    x, y, z, qx, qy, qz, qw = map(float, values)
-    nanoseconds = int(stamp.get("sec", 0)) * time.SECOND + int(stamp.get("nsec", 0))
-    return _Stamped(transform["parent_frame_id"], transform["child_frame_id"], nanoseconds, (x, y, z, qx, qy, qz, qw))
-
-
-def _protobuf_many(data: bytes | memoryview) -> Iterator[_Stamped]:
+def _protobuf_many(data: bytes | memoryview) -> Iterator[StampedValues]:
     """Decode foxglove.FrameTransforms: field 1 is repeated."""
     for number, value in _fields(data):
         if number == 1:
             yield from _protobuf_one(value)
 
 
-def _protobuf_one(data: bytes | memoryview) -> Iterator[_Stamped]:
+def _protobuf_one(data: bytes | memoryview) -> Iterator[StampedValues]:
     """Decode foxglove.FrameTransform: fields 1 to 5 are timestamp, parent, child, translation and rotation."""
     parts = dict(_fields(data))
-    stamp = dict(_fields(parts.get(1, b"")))
     t, q = (dict(_fields(parts.get(number, b""))) for number in (4, 5))
     x, y, z = (_double(t.get(number)) for number in (1, 2, 3))
     qx, qy, qz, qw = (_double(q.get(number)) for number in (1, 2, 3, 4))
-    seconds = (stamp.get(1, 0) + (1 << 63)) % (1 << 64) - (1 << 63)  # two's complement in 64 bits
-    nanoseconds = seconds * time.SECOND + stamp.get(2, 0)
-    yield _Stamped(
-        str(parts.get(2, b""), "utf-8"), str(parts.get(3, b""), "utf-8"), nanoseconds, (x, y, z, qx, qy, qz, qw)
-    )
+    names = [str(parts.get(number, b""), "utf-8") for number in (2, 3)]
+    stamp = _protobuf_time(parts[1]) if 1 in parts else None
+    yield StampedValues(names[0], names[1], stamp, (x, y, z, qx, qy, qz, qw))
+
+
+def _protobuf_time(data: Any) -> int:
+    """Decode a google.protobuf.Timestamp; its fields are omitted if they are 0."""
+    fields = dict(_fields(data))
+    seconds = (fields.get(1, 0) + (1 << 63)) % (1 << 64) - (1 << 63)  # two's complement in 64 bits
+    return int(seconds * time.SECOND + fields.get(2, 0))
 
 
 def _double(value: Any) -> float:
@@ -233,13 +215,19 @@ def _varint(data: Any, position: int) -> tuple[int, int]:
 
 
 # By encoding and type. In CDR, foxglove_msgs/FrameTransforms has the layout of a TFMessage.
-_DECODINGS: dict[tuple[str, str], Callable[[bytes | memoryview], Iterator[_Stamped]] | str] = {
+_DECODINGS: dict[tuple[str, str], Callable[[bytes | memoryview], Iterator[StampedValues]] | str] = {
     ("cdr", TF_MESSAGE.replace("/msg/", "/")): "cdr",
     ("cdr", "foxglove_msgs/FrameTransforms"): "cdr",
     ("cdr", "foxglove_msgs/FrameTransform"): _foxglove_cdr,
     **{("ros1", name): "ros1" for name in TF_MESSAGES_OF_ROS1},
     ("protobuf", "foxglove.FrameTransform"): _protobuf_one,
     ("protobuf", "foxglove.FrameTransforms"): _protobuf_many,
-    ("json", "foxglove.FrameTransform"): _json_one,
-    ("json", "foxglove.FrameTransforms"): _json_many,
+    ("json", "foxglove.FrameTransform"): json_one,
+    ("json", "foxglove.FrameTransforms"): json_many,
+    ("json", "foxglove/FrameTransform"): json_one,
+    ("json", "foxglove/FrameTransforms"): json_many,
+    ("json", "foxglove_msgs/FrameTransform"): json_one,
+    ("json", "foxglove_msgs/FrameTransforms"): json_many,
+    ("json", "geometry_msgs/TransformStamped"): json_one,
+    **{("json", name): json_many for name in TF_MESSAGES_OF_ROS1},
 }
