@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Messages with equal times of receipt keep the order in which they were written, as in rosbag2."""
+"""Messages with equal receive times keep the order in which they were written, as in rosbag2."""
 
 import sqlite3
 import struct

@@ -215,7 +215,7 @@ class MessageIndex:
             )
 
     def _receive_order(self, tracks: list[Track]) -> NDArray[np.intp]:
-        """Return the order of the messages of tracks by time of receipt; equal ones as they were written."""
+        """Return the order of the messages of tracks by receive time; equal ones as they were written."""
         received = _joined([_int64(track.received) for track in tracks])
         order = np.argsort(received, kind="stable")
         if len(tracks) == 1 or (np.diff(received[order]) > 0).all():
