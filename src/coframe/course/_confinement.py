@@ -87,7 +87,7 @@ class Confinement:
             scratch: An empty folder.
             private: Folders that they cannot read; see `private_folders`.
             has_namespaces: Whether this process can create namespaces.
-            number: Number of the grade among concurrent ones.
+            number: Index of this grade among those that run concurrently.
         """
         self.has_namespaces = has_namespaces
         self._number = number

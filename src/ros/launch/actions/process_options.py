@@ -30,7 +30,7 @@ def performed_text(context: LaunchContext, value: Any) -> str:
 
 
 def performed_float(context: LaunchContext, value: Any) -> float:
-    """Return the number of an option."""
+    """Return the value of a numeric option."""
     return float(value) if isinstance(value, int | float) else float(performed_text(context, value))
 
 

@@ -93,7 +93,7 @@ class Command(Substitution):
 
 
 def _run(command: list[str], *, capture: bool) -> subprocess.CompletedProcess[str]:
-    """Run a command; expressions in a xacro file can take any time and memory, so that xacro has limits."""
+    """Run a command; expressions in a xacro file can take unlimited time and memory, so xacro runs with limits."""
     if PurePath(command[0]).stem == "xacro":
         from coframe.errors import RobotDescriptionError  # noqa: PLC0415 - few launch files need it
         from coframe.robots.files import run_xacro  # noqa: PLC0415
