@@ -11,6 +11,7 @@ if TYPE_CHECKING:
     from coframe.connection.connection import Connection, connect
     from coframe.errors import (
         CoframeError,
+        CoframeWarning,
         ConnectivityException,
         CourseError,
         DecodeError,
@@ -42,6 +43,7 @@ __all__ = [
     "Buffer",
     "CallbackHandle",
     "CoframeError",
+    "CoframeWarning",
     "Connection",
     "ConnectivityException",
     "CourseError",

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The base class of all coframe exceptions, for modules that do not use the native core; see `coframe.errors`."""
+"""The base classes of coframe's exceptions and warnings, for modules without the native core; see `coframe.errors`."""
 
 from __future__ import annotations
 
 import sys
 import traceback
 
-__all__ = ["CoframeError"]
+__all__ = ["CoframeError", "CoframeWarning"]
 
 # The label of a hint in a traceback.
 _HINT = "Hint: "
@@ -51,3 +51,7 @@ class CoframeError(Exception):
             lines = list(shell.InteractiveTB.structured_traceback(type(self), self, self.__traceback__))
         note = f"{_HINT}{self.hint}"
         return lines if not self.hint or note in "\n".join(lines) else [*lines, note]
+
+
+class CoframeWarning(UserWarning):
+    """A result is less exact than it looks; Python's ``warnings`` show, silence or raise it."""

@@ -115,14 +115,21 @@ def test_the_field_with_the_times_can_be_given(path):
     """The driver uses the name `us`, which is not among the usual ones."""
     stamp = START + 5 * SWEEP
     with coframe.open_bag(path) as recording:
-        (unknown,) = Clouds(recording, "/points_other", "map", at=stamp)
+        clouds = Clouds(recording, "/points_other", "map", at=stamp)
+        (unknown,) = clouds
         assert not unknown.deskewed
+        assert clouds.not_deskewed == {"is 'us' the time of each point? Then name it with its unit": 1}
         clouds = Clouds(recording, "/points_other", "map", at=stamp, point_times="us:us")
         (cloud,) = clouds
         assert clouds.times_read == {"the field us, interpreted in us relative to the message's stamp": 1}
         np.testing.assert_allclose(xyz(cloud.points), WALL, rtol=0, atol=1e-6)
-        (guessed,) = Clouds(recording, "/points_other", "map", at=stamp, point_times="us")
-        assert np.abs(xyz(guessed.points) - WALL).max() > 0.03  # integers are interpreted as nanoseconds
+        (found,) = Clouds(recording, "/points_other", "map", at=stamp, point_times="us")
+        np.testing.assert_allclose(xyz(found.points), WALL, rtol=0, atol=1e-6)
+        clouds = Clouds(recording, "/points_other", "map", at=stamp, point_times="us:ns")
+        (misread,) = clouds
+        assert np.abs(xyz(misread.points) - WALL).max() > 0.03
+        doubt = "the field us read in ns makes a sweep of 75 us, but there is a message every 100 ms"
+        assert clouds.doubts == {doubt: 1}
         wrong = Clouds(recording, "/points_other", "map", at=stamp, point_times="us:s")
         assert list(wrong) == []
         assert list(wrong.skipped) == [
@@ -174,6 +181,151 @@ def test_a_moving_target_frame_needs_a_fixed_frame(path):
         np.testing.assert_allclose(xyz(cloud.points), expected, rtol=0, atol=1e-6)
 
 
+TIMES_IN_UNITS = {
+    "seconds": ("time", "<f4", lambda offsets, _: offsets / 1e9),
+    "milliseconds": ("time", "<f4", lambda offsets, _: offsets / 1e6),
+    "microseconds": ("time", "<f4", lambda offsets, _: offsets / 1e3),
+    "nanoseconds": ("t", "<f4", lambda offsets, _: offsets),
+    "integer nanoseconds": ("t", "<u4", lambda offsets, _: offsets),
+    "integer microseconds": ("time_offset", "<u4", lambda offsets, _: offsets // 1000),
+    "integer milliseconds": ("t", "<u2", lambda offsets, _: offsets // 1_000_000),
+    "stamps in seconds": ("timestamp", "<f8", lambda offsets, stamp: (stamp + offsets) / 1e9),
+    "stamps in milliseconds": ("timestamp", "<f8", lambda offsets, stamp: (stamp + offsets) / 1e6),
+    "stamps in microseconds": ("timestamp", "<f8", lambda offsets, stamp: (stamp + offsets) / 1e3),
+    "seconds before the stamp": ("time", "<f4", lambda offsets, _: (offsets - SWEEP) / 1e9),
+}
+
+
+@pytest.mark.parametrize("unit", TIMES_IN_UNITS)
+def test_the_unit_of_point_times_follows_from_the_sweep(unit, tmp_path):
+    """Drivers use any unit; a wrong one would leave the points where they are or smear them by metres."""
+    name, kind, values = TIMES_IN_UNITS[unit]
+    before = SWEEP if "before" in unit else 0
+    rows = tf_rows()
+    offsets = np.arange(len(WALL)) * SWEEP // len(WALL)
+    for i in range(2, 8):
+        stamp = START + i * SWEEP
+        points = np.zeros(len(WALL), [(a, "<f4") for a in "xyz"] + [(name, kind)])
+        for axis, column in zip("xyz", measured(stamp + offsets - before).T, strict=True):
+            points[axis] = column
+        points[name] = values(offsets, stamp)
+        rows.append(("/points", stamp, cloud_message(points, stamp)))
+    path = recordings.write_mcap(tmp_path / "a.mcap", rows=rows, types={"/points": (CLOUD, "ros2msg", b"", "cdr")})
+    with coframe.open_bag(path) as recording:
+        clouds = Clouds(recording, "/points", "map")
+        for cloud in clouds:
+            np.testing.assert_allclose(xyz(cloud.points), WALL, rtol=0, atol=1e-5)
+        assert (clouds.deskewed, clouds.not_deskewed, clouds.doubts) == (6, {}, {})
+
+
+def tf_rows():
+    buffer = truth()
+    stamps = [START + i * SECOND // 20 for i in range(41)]
+    rows = [("/tf", at, recordings.cdr("map", "base", buffer.lookup("map", "base", at), at)) for at in stamps]
+    rows.append(("/tf_static", START, recordings.cdr("base", "lidar", buffer.lookup("base", "lidar"), START)))
+    return rows
+
+
+def test_times_in_no_known_unit_are_reported(tmp_path):
+    stamp = START + SECOND
+    points = np.ones(4, [(a, "<f4") for a in "xyz"] + [("time", "<f8")])
+    points["time"] = np.arange(4) * 1e40
+    rows = [*tf_rows(), ("/points", stamp, cloud_message(points, stamp))]
+    path = recordings.write_mcap(tmp_path / "a.mcap", rows=rows, types={"/points": (CLOUD, "ros2msg", b"", "cdr")})
+    ended = CliRunner().invoke(app, ["cloud", str(path), "/points", "--frame", "map", "-o", str(tmp_path / "a.ply")])
+    assert "did not deskew the points of 1 message: the field 'time' has values from 0 to 3e+40" in ended.stderr
+    assert ended.stdout.endswith("a.ply: 4 points of 1 message, in frame 'map'\n")
+
+
+@pytest.mark.parametrize("frame", ["base", "lidar"])
+def test_a_frame_that_moves_with_the_sensor_is_deskewed_in_the_nearest_frame_that_does_not(path, tmp_path, frame):
+    stamp = START + 5 * SWEEP
+    with coframe.open_bag(path) as recording:
+        clouds = Clouds(recording, "/points_hesai", frame, at=stamp)
+        (cloud,) = clouds
+        assert (cloud.deskewed, clouds.fixed_frames) == (True, {"map": 1})
+        expected = recording.buffer.lookup(frame, "map", stamp) @ WALL
+        np.testing.assert_allclose(xyz(cloud.points), expected, rtol=0, atol=1e-6)
+    command = ["cloud", str(path), "/points_hesai", "--frame", frame, "-o", str(tmp_path / "a.ply")]
+    ended = CliRunner().invoke(app, command)
+    assert f"in the frame 'map', because '{frame}' moves with the sensor; as with --fixed map" in ended.stderr
+    assert "64 points of 16 messages (16 deskewed), in frame" in ended.stdout
+
+
+def test_messages_without_a_sweep_have_the_fields_of_the_others(tmp_path):
+    rows = tf_rows()
+    for i in range(2, 8):
+        rows.append(("/points", START + i * SWEEP, sweep(START + i * SWEEP, "livox")))
+    one = np.zeros(1, [(a, "<f4") for a in "xyz"] + [("intensity", "<u2"), ("timestamp", "<f8")])
+    rows.append(("/points", START + 8 * SWEEP, cloud_message(one, START + 8 * SWEEP)))
+    rows.append(("/points", START + 9 * SWEEP, cloud_message(one[:0], START + 9 * SWEEP)))
+    path = recordings.write_mcap(tmp_path / "a.mcap", rows=rows, types={"/points": (CLOUD, "ros2msg", b"", "cdr")})
+    with coframe.open_bag(path) as recording:
+        clouds = Clouds(recording, "/points", "map")
+        assert write_clouds(clouds, tmp_path / "a.npy") == 25
+        assert (clouds.messages, clouds.deskewed) == (8, 6)
+    assert np.load(tmp_path / "a.npy").dtype.names[-1] == "deskewed_timestamp"
+
+
+def test_without_any_motion_nothing_is_called_deskewed(tmp_path):
+    stamp = START + SECOND
+    rows = [("/tf_static", START, recordings.cdr("base", "lidar", coframe.Transform([1, 0, 0]), START))]
+    rows.append(("/points", stamp, sweep(stamp, "ouster")))
+    path = recordings.write_mcap(tmp_path / "a.mcap", rows=rows, types={"/points": (CLOUD, "ros2msg", b"", "cdr")})
+    with coframe.open_bag(path) as recording:
+        clouds = Clouds(recording, "/points", "base")
+        (cloud,) = clouds
+        assert not cloud.deskewed
+        (reason,) = clouds.not_deskewed
+        assert reason == "no transform moves 'lidar' relative to 'base' or to a frame above it"
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_written_clouds_are_not_deskewed_twice(path, tmp_path, kind):
+    """Times that were used have another name, so that neither coframe nor another reader deskews by them again."""
+    with coframe.open_bag(path) as recording:
+        clouds = Clouds(recording, f"/points_{kind}", "base", fixed="map", start=START, stop=START + 2 * SECOND)
+        write_clouds(clouds, tmp_path / "points.mcap")
+        expected = [cloud.points for cloud in clouds]
+    with coframe.open_bag(tmp_path / "points.mcap") as written:
+        again = Clouds(written, f"/points_{kind}", "base", fixed="base")
+        for cloud, before in zip(again, expected, strict=True):
+            np.testing.assert_allclose(xyz(cloud.points), xyz(before), rtol=0, atol=1e-6)
+            (name,) = set(cloud.points.dtype.names) - {"x", "y", "z", "intensity"}
+            assert name.startswith("deskewed_")
+        assert (again.deskewed, again.not_deskewed) == (0, {})
+
+
+@pytest.mark.parametrize("kind", ["pcd", "mcap", "ply"])
+def test_float32_far_from_the_origin_is_said_once_and_avoidable(tmp_path, kind):
+    """In UTM coordinates, float32 puts points into steps of half a metre."""
+    stamp = START + SECOND
+    far = coframe.Transform([500_000.125, 5_400_000.5, 400.0])
+    rows = [("/tf_static", START, recordings.cdr("utm", "lidar", far, START))]
+    points = np.zeros(4, [(a, "<f4") for a in "xyz"])
+    points["y"] = np.arange(4) / 10
+    rows += [("/points", stamp + i, cloud_message(points, stamp + i)) for i in range(3)]
+    path = recordings.write_mcap(tmp_path / "a.mcap", rows=rows, types={"/points": (CLOUD, "ros2msg", b"", "cdr")})
+
+    def written(*options):
+        target = tmp_path / f"out.{kind}"
+        ended = CliRunner().invoke(app, ["cloud", str(path), "/points", "--frame", "utm", "-o", str(target), *options])
+        assert ended.exit_code == 0
+        if kind == "mcap":
+            with coframe.open_bag(target) as recording:
+                cloud = next(iter(Clouds(recording, "/points", "utm")))
+            return cloud.points["y"], ended.stderr
+        return {"ply": read_ply, "pcd": read_pcd}[kind](target.read_bytes())["y"][:4], ended.stderr
+
+    exact = 5_400_000.5 + points["y"].astype(float)
+    rounded, text = written()
+    assert text.count("float32 rounds coordinates of 5400001 m to steps of 500 mm") == (kind != "ply")
+    assert (np.abs(rounded - exact).max() < 1e-9) == (kind == "ply")
+    kept, text = written("--float64")
+    np.testing.assert_allclose(kept, exact, rtol=0, atol=1e-9)
+    assert "float32" not in text
+
+
 def test_skipped_messages_are_counted_by_reason(path):
     with coframe.open_bag(path) as recording:
         clouds = Clouds(recording, "/points_ouster", "map")
@@ -195,7 +347,7 @@ def test_skipped_messages_are_counted_by_reason(path):
 def test_single_points_after_the_last_transform_are_skipped(tmp_path):
     stamp = START + 40 * SECOND // 20 - SWEEP // 2
     rows = [
-        ("/tf", START + i, recordings.cdr("map", "lidar", coframe.Transform(), at))
+        ("/tf", START + i, recordings.cdr("map", "lidar", coframe.Transform([i, 0, 0]), at))
         for i, at in enumerate((START, START + 2 * SECOND))
     ]
     points = np.ones(4, [(a, "<f4") for a in "xyz"] + [("t", "<u4")])

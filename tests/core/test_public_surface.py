@@ -40,7 +40,7 @@ ERRORS = {
     "ViewerError",
     "WireError",
 }
-CLASSES = {"Buffer", "CallbackHandle", "Connection", "EdgeInfo", "FrameInfo", "Transform"}
+CLASSES = {"Buffer", "CallbackHandle", "CoframeWarning", "Connection", "EdgeInfo", "FrameInfo", "Transform"}
 FUNCTIONS = {"connect", "load", "open_bag", "play", "record", "relay", "show"}
 MODULES = {
     "bags",
@@ -188,7 +188,9 @@ def test_every_exception_class_of_the_library_is_a_coframe_error():
         for thing in vars(module).values():
             if inspect.isclass(thing) and issubclass(thing, BaseException) and thing.__module__ in {"coframe", name}:
                 found.add(thing)
-    others = {cls for cls in found if not issubclass(cls, coframe.CoframeError) and not cls.__name__.startswith("_")}
+    others = {
+        cls for cls in found if not issubclass(cls, coframe.CoframeError | Warning) and not cls.__name__.startswith("_")
+    }
     assert not others
     assert len(found) > len(ERRORS)
 

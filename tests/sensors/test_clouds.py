@@ -12,6 +12,7 @@ from sensor_data import SECOND, START, array_of, message_of, xyz
 import coframe
 from coframe.messages import find
 from coframe.sensors import transform_cloud
+from tf2_sensor_msgs import do_transform_cloud
 
 ROTATION = Rotation.random(random_state=5)
 TRANSLATION = np.array([1.0, -2.0, 3.0])
@@ -332,3 +333,38 @@ def test_data_of_bytes_is_copied_into_an_array():
         assert result.data == transform_cloud(ours, TRANSFORM).data
         assert isinstance(result.data, array)
         assert bytes(cloud.data) == ours.data.tobytes()
+
+
+UTM = coframe.Transform([500_000.125, 5_400_000.5, 400.0], target="utm", source="lidar")
+
+
+@pytest.mark.parametrize("kind", ["message", "structured", "plain", "drop-in"])
+def test_float32_far_from_the_origin_is_a_warning(kind):
+    """UTM coordinates in float32 are multiples of half a metre."""
+    points = np.zeros(3, [(axis, "f4") for axis in "xyz"])
+    cloud = {"structured": points, "plain": np.zeros((3, 3), np.float32)}.get(kind, message_of(points))
+    stamped = find("geometry_msgs/msg/TransformStamped")()
+    stamped.header.frame_id = "utm"
+    x, y, z = UTM.translation.tolist()
+    stamped.transform.translation.x, stamped.transform.translation.y, stamped.transform.translation.z = x, y, z
+    transform = do_transform_cloud if kind == "drop-in" else transform_cloud
+    with pytest.warns(coframe.CoframeWarning, match="of 5400000 m to steps of 500 mm. float64=True in") as caught:
+        transform(cloud, stamped)
+    assert caught[0].filename == __file__
+
+
+@pytest.mark.parametrize("is_bigendian", [False, True])
+def test_float64_on_request(is_bigendian):
+    order = ">" if is_bigendian else "<"
+    kinds = [("ring", f"{order}u2"), ("z", f"{order}f4"), ("y", f"{order}f4"), ("x", f"{order}f8"), ("i", f"{order}f4")]
+    points = np.zeros(5, kinds)
+    points["ring"], points["y"], points["i"] = np.arange(5), np.arange(5) / 8, np.arange(5) / 2
+    cloud = message_of(points.astype(points.dtype.newbyteorder("<")), big_endian=is_bigendian)
+    (result,) = array_of(transform_cloud(cloud, UTM, float64=True))
+    assert np.array_equal(result["y"], 5_400_000.5 + points["y"].astype(float))
+    assert [result.dtype[name].str[1:] for name in result.dtype.names] == ["u2", "f8", "f8", "f8", "f4"]
+    for name in ("ring", "i"):
+        assert np.array_equal(result[name], points[name])
+    assert np.array_equal(transform_cloud(points, UTM, float64=True)["y"], 5_400_000.5 + points["y"].astype(float))
+    with pytest.raises(ValueError, match="omit in_place and out"):
+        transform_cloud(points, UTM, float64=True, in_place=True)

@@ -231,6 +231,23 @@ def test_points_are_not_changed_if_none_has_a_transform(buffer, motion, points):
     assert np.array_equal(points, before)
 
 
+@pytest.mark.parametrize("mount", ["static", "published"])
+def test_a_target_that_moves_with_the_sensor_is_refused(mount, buffer, motion, points, random):
+    """Otherwise the result would be that of no deskewing, without a word."""
+    for stamp in (motion.first, motion.last):
+        turned = coframe.Transform([0.3, 0, 0.1])
+        buffer.set("lidar", "cover", turned, None if mount == "static" else stamp, static=mount == "static")
+    times = times_of("sorted", motion, random)
+    with pytest.raises(ValueError, match="'lidar', which moves with the sensor: for example fixed='odom'"):
+        deskew(points, times, buffer, "lidar", source="cover")
+    insisted = deskew(points, times, buffer, "lidar", source="cover", fixed="lidar")
+    assert np.allclose(insisted, points + np.array([0.3, 0, 0.1]))
+    at = motion.first + 5
+    result = deskew(points, times, buffer, "lidar", source="cover", fixed="odom", at=at)
+    expected = buffer.lookup("lidar", "odom", at) @ motion.apply(times, points + np.array([0.3, 0, 0.1]))
+    assert np.abs(result - expected).max() < 1e-9
+
+
 def test_time_zero_is_the_latest(buffer, motion, points, random):
     times = times_of("sorted", motion, random)
     times[::3] = 0

@@ -16,6 +16,7 @@ from coframe.bags._mcap_writer import McapWriter
 from coframe.errors import RecordingError
 from coframe.messages import find, serialize
 from coframe.messages.definition_texts import definition_of
+from coframe.sensors.rounding import farthest, warn_of_rounding
 from coframe.sensors.thinning import thinned
 from coframe.type_names import POINT_CLOUD
 
@@ -29,6 +30,7 @@ if TYPE_CHECKING:
 
 __all__ = ["CLOUD_FORMATS", "write_clouds"]
 
+_FLOAT64_ADVICE = "float64=True keeps them, and so do .ply, .npz and .npy files."
 CLOUD_FORMATS = ("ply", "pcd", "npz", "npy", "mcap")
 _MAX_DIGITS = 20  # space in the header for the count, which is known only at the end
 _NPY_HEAD = 12  # bytes before the text of NumPy's header
@@ -40,9 +42,13 @@ def write_clouds(
     *,
     format_: str | None = None,
     voxel: float | None = None,
+    float64: bool = False,
     progress: Callable[[int], object] = lambda _count: None,
 ) -> int:
     """Stream the points of all messages to a file; memory use does not depend on the number of messages.
+
+    The times of points that were deskewed get a name that no reader takes for times to deskew by: ``t`` becomes
+    ``deskewed_t``.
 
     Args:
         clouds: The clouds.
@@ -52,6 +58,8 @@ def write_clouds(
         format_: Format of the files in a folder: ``"ply"`` (default), ``"pcd"``, ``"npz"`` or ``"npy"``.
         voxel: Keep only the first point in each voxel with this edge length in metres. If one cloud is written, its
             points are kept in memory.
+        float64: Write coordinates as float64 also to PCD and MCAP, where float32 is usual. Without it, a
+            :class:`coframe.CoframeWarning` says if float32 rounds them by more than a millimetre.
         progress: Called with the number of messages read so far.
 
     Returns:
@@ -73,13 +81,14 @@ def write_clouds(
     if kind not in CLOUD_FORMATS or (is_folder and kind == "mcap"):
         raise ValueError(f"No format named {kind!r} for a folder. Known formats: {', '.join(CLOUD_FORMATS[:-1])}.")
     source = _CloudSource(clouds, progress)
+    xyz = "<f8" if float64 else "<f4"
     if is_folder:
-        return _write_folder(source, path, kind, voxel)
+        return _write_folder(source, path, kind, voxel, xyz)
     if voxel is not None and kind != "mcap":
         cloud = source.accumulated(voxel)
-        return _write_one(path, kind, [] if cloud is None else [cloud], source)
+        return _write_one(path, kind, [] if cloud is None else [cloud], source, xyz)
     each = (c if voxel is None else c._replace(points=thinned(c.points, voxel)) for c in source)
-    return _write_one(path, kind, each, source)
+    return _write_one(path, kind, each, source, xyz)
 
 
 class _CloudSource:
@@ -91,11 +100,12 @@ class _CloudSource:
 
     def __iter__(self) -> Any:
         for cloud in self.clouds:
-            yield cloud
+            yield _with_marked_times(cloud)
             self._progress(self.clouds.messages + sum(self.clouds.skipped.values()))
 
     def accumulated(self, voxel: float) -> Cloud | None:
-        return self.clouds.accumulated(voxel)
+        cloud = self.clouds.accumulated(voxel)
+        return None if cloud is None else _with_marked_times(cloud)
 
     def check_some(self) -> None:
         """Raise an error if no message could be transformed."""
@@ -107,27 +117,38 @@ class _CloudSource:
             )
 
 
-def _write_folder(source: _CloudSource, folder: Path, kind: str, voxel: float | None) -> int:
+def _with_marked_times(cloud: Cloud) -> Cloud:
+    """Rename the times of points that were deskewed, so that no reader deskews them again."""
+    names = cloud.points.dtype.names or ()
+    if cloud.used_times not in names:
+        return cloud
+    renamed = {cloud.used_times: f"deskewed_{cloud.used_times}"}
+    points = cloud.points.view()
+    points.dtype.names = tuple(renamed.get(name, name) for name in names)
+    return cloud._replace(points=points)
+
+
+def _write_folder(source: _CloudSource, folder: Path, kind: str, voxel: float | None, xyz: str) -> int:
     written = 0
     name = source.clouds.topic.strip("/").replace("/", "_")
     for cloud in source:
         folder.mkdir(parents=True, exist_ok=True)
         one = cloud if voxel is None else cloud._replace(points=thinned(cloud.points, voxel))
         with complete_or_absent(folder / f"{name}_{cloud.stamp}.{kind}") as part, part.open("wb") as stream:
-            written += _fill(_WRITERS[kind](stream), [one])
+            written += _fill(_WRITERS[kind](stream, xyz), [one])
     source.check_some()
     return written
 
 
-def _write_one(path: Path, kind: str, clouds: Iterable[Cloud], source: _CloudSource) -> int:
+def _write_one(path: Path, kind: str, clouds: Iterable[Cloud], source: _CloudSource, xyz: str) -> int:
     """Write all clouds to one file atomically."""
     with complete_or_absent(path) as part:
         if kind == "mcap":
             with closing(McapWriter(part)) as bag:
-                written = _fill(_BagTopic(bag, source.clouds.topic), clouds)
+                written = _fill(_BagTopic(bag, source.clouds.topic, xyz), clouds)
         else:
             with part.open("wb") as stream:
-                written = _fill(_WRITERS[kind](stream), clouds)
+                written = _fill(_WRITERS[kind](stream, xyz), clouds)
         source.check_some()
     return written
 
@@ -149,8 +170,9 @@ def _fill(writer: _Writer, clouds: Iterable[Cloud]) -> int:
 class _Rows:
     """A header followed by points; the header is rewritten at the end with the number of points."""
 
-    def __init__(self, stream: BinaryIO) -> None:
+    def __init__(self, stream: BinaryIO, xyz: str = "<f8") -> None:
         self._stream = stream
+        self._xyz = xyz
         self.dtype: np.dtype[Any] | None = None
         self.count = 0
 
@@ -202,11 +224,11 @@ class _Ply(_Rows):
 
 
 class _Pcd(_Rows):
-    """PCD, with coordinates as float32, which PCL requires."""
+    """PCD, with coordinates as float32, which PCL requires, or as float64."""
 
     def rows(self, points: NDArray[Any]) -> NDArray[Any]:
-        """Return the points with x, y, z as float32."""
-        return _cast(points, {}, xyz="<f4")
+        """Return the points with x, y, z as float32 or float64."""
+        return _cast_coordinates(points, {}, self._xyz)
 
     def header(self, dtype: np.dtype[Any], count: int) -> bytes:
         """Return the header of version 0.7; a comment pads it to a constant length."""
@@ -247,7 +269,7 @@ class _Npz:
     All points are first written to a temporary file, so that only one field is in memory at a time.
     """
 
-    def __init__(self, stream: BinaryIO) -> None:
+    def __init__(self, stream: BinaryIO, _xyz: str = "<f8") -> None:
         self._stream = stream
         self._rows = tempfile.TemporaryFile()  # noqa: SIM115 - closed by finish()
         self._npy = _Npy(self._rows)
@@ -273,8 +295,9 @@ class _Npz:
 class _BagTopic:
     """A topic of PointCloud2 messages in a new recording; the caller closes the recording."""
 
-    def __init__(self, writer: McapWriter, topic: str) -> None:
+    def __init__(self, writer: McapWriter, topic: str, xyz: str) -> None:
         self._writer = writer
+        self._xyz = xyz
         self._channel = writer.add_channel(
             topic,
             POINT_CLOUD,
@@ -286,7 +309,7 @@ class _BagTopic:
 
     def add(self, cloud: Cloud) -> None:
         """Write one message, with its stamp as the receive time, in its own chunk because clouds are large."""
-        self._writer.write(self._channel, serialize(message_of(cloud)), cloud.stamp, cloud.stamp)
+        self._writer.write(self._channel, serialize(message_of(cloud, self._xyz)), cloud.stamp, cloud.stamp)
         self._writer.flush()
 
     def finish(self) -> None:
@@ -297,9 +320,9 @@ class _BagTopic:
 _DATATYPES = {"i1": 1, "u1": 2, "i2": 3, "u2": 4, "i4": 5, "u4": 6, "f4": 7, "f8": 8}
 
 
-def message_of(cloud: Cloud) -> Any:
-    """Return a PointCloud2 with float32 coordinates, which other tools expect."""
-    points = _cast(cloud.points, {"i8": "<f8", "u8": "<f8"}, xyz="<f4")
+def message_of(cloud: Cloud, xyz: str = "<f4") -> Any:
+    """Return a PointCloud2, usually with float32 coordinates, which other tools expect."""
+    points = _cast_coordinates(cloud.points, {"i8": "<f8", "u8": "<f8"}, xyz)
     message, field = find(POINT_CLOUD)(), find("sensor_msgs/msg/PointField")
     message.header.frame_id = cloud.frame
     message.header.stamp.sec, message.header.stamp.nanosec = divmod(cloud.stamp, time.SECOND)
@@ -321,6 +344,14 @@ def _fields(dtype: np.dtype[Any]) -> str:
     return ", ".join(f"{name} ({dtype[name]})" for name in dtype.names or ())
 
 
+def _cast_coordinates(points: NDArray[Any], kinds: dict[str, str], xyz: str) -> NDArray[Any]:
+    """Do as :func:`_cast`; warn if this rounds coordinates."""
+    result = _cast(points, kinds, xyz=xyz)
+    position = (result["x"], result["y"], result["z"])
+    warn_of_rounding(farthest(position), position, _FLOAT64_ADVICE)
+    return result
+
+
 def _cast(points: NDArray[Any], kinds: dict[str, str], *, xyz: str = "<f8") -> NDArray[Any]:
     """Return the points with other dtypes, and with field names that an ASCII header can contain."""
     dtype = np.dtype(
@@ -335,4 +366,4 @@ def _cast(points: NDArray[Any], kinds: dict[str, str], *, xyz: str = "<f8") -> N
     return points.astype(dtype)
 
 
-_WRITERS: dict[str, Callable[[BinaryIO], _Writer]] = {"ply": _Ply, "pcd": _Pcd, "npz": _Npz, "npy": _Npy}
+_WRITERS: dict[str, Callable[[BinaryIO, str], _Writer]] = {"ply": _Ply, "pcd": _Pcd, "npz": _Npz, "npy": _Npy}

@@ -8,10 +8,20 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 import numpy as np
 
 from coframe import time
+from coframe.analysis.liveness import usual_period
 from coframe.errors import DecodeError, RecordingError, TransformException
 from coframe.sensors import deskew, project_scan, transform_cloud
 from coframe.sensors.layout import field_of
-from coframe.sensors.point_times import TIME_FIELDS, UNITS, times_in
+from coframe.sensors.motion import still_frame
+from coframe.sensors.point_times import (
+    TIME_FIELDS,
+    UNITS,
+    PointTimes,
+    UnknownTimesError,
+    implausible,
+    likely_times,
+    times_in,
+)
 from coframe.sensors.thinning import thinned
 from coframe.type_names import LASER_SCAN, POINT_CLOUD
 
@@ -27,6 +37,7 @@ __all__ = ["Cloud", "Clouds"]
 
 _SCAN_FIELDS = {"intensity", "index"}
 _MIN_PENDING = 1_000_000  # points to gather before they are thinned
+_MAX_TRIED = 200  # stamps of messages at which is seen what moves
 
 
 class Cloud(NamedTuple):
@@ -38,12 +49,24 @@ class Cloud(NamedTuple):
         points: A structured array, (N,): ``x``, ``y``, ``z`` in metres as float64, all finite, and the other fields of
             the message with their types.
         deskewed: Whether each point was transformed at its own time.
+        used_times: Name of the field with these times, also if all points of the message have the same time; None if
+            there is none, or if the points were not deskewed although their times differ.
     """
 
     stamp: int
     frame: str
     points: NDArray[Any]
     deskewed: bool
+    used_times: str | None = None
+
+
+class _Measured(NamedTuple):
+    """The points of one message in the frame of the sensor, with the time of each point."""
+
+    points: NDArray[Any]
+    times: NDArray[np.int64] | None = None
+    read: PointTimes | None = None
+    same_times: str | None = None  # the field, if all points have the same time
 
 
 class Clouds:
@@ -62,7 +85,8 @@ class Clouds:
             ``time`` or ``timestamp``, or the ``time_increment`` of a scan). ``"off"`` uses the stamp of the message.
         point_times: The field with the times of the points, and its unit (s, ms, us or ns) after a colon:
             ``"time:us"``. If omitted, the field or its unit is guessed; see ``times_read``.
-        fixed: A frame that does not move during a sweep, if ``frame`` moves with the sensor.
+        fixed: A frame that does not move during a sweep. If omitted, it is ``frame``, or, if ``frame`` moves with the
+            sensor, the nearest frame above that does not; see ``fixed_frames``.
         fields: The fields to keep in addition to x, y, z; None for all fields with one number per point.
 
     Attributes:
@@ -72,7 +96,12 @@ class Clouds:
         skipped: Number of skipped messages by reason.
         points_skipped: Number of skipped points by reason.
         hint: What to do about the first message that could not be transformed; "" if there is none.
+        deskewed: Number of messages whose points were transformed at their own times.
         times_read: Number of deskewed messages, by how their times were interpreted.
+        fixed_given: Whether ``fixed`` was given.
+        fixed_frames: Number of deskewed messages, by the frame that was assumed not to move during a sweep.
+        not_deskewed: Number of messages that were transformed as a whole although they have times, by reason.
+        doubts: Number of messages with suspicious times, by what is suspicious.
 
     Raises:
         RecordingError: The topic does not exist or has another type.
@@ -110,6 +139,9 @@ class Clouds:
         self._deskews = deskew == "auto"
         self._time_field, self._time_unit = _field_and_unit(point_times)
         self._fixed = fixed
+        self.fixed_given = fixed is not None
+        self._period = round(usual_period(np.sort(self._stamps)))
+        self._still: dict[str, str | None] = {}
         self._fields = None if fields is None else [name for name in fields if name not in {"x", "y", "z"}]
         if self._type == LASER_SCAN and (unknown := set(self._fields or ()) - _SCAN_FIELDS):
             known = ", ".join(sorted(_SCAN_FIELDS))
@@ -117,12 +149,16 @@ class Clouds:
         self._reset()
 
     def _reset(self) -> None:
-        self.messages = self.points = 0
+        self.messages = self.points = self.deskewed = 0
         self.skipped: dict[str, int] = {}
         self.points_skipped: dict[str, int] = {}
         self.times_read: dict[str, int] = {}
+        self.fixed_frames: dict[str, int] = {}
+        self.not_deskewed: dict[str, int] = {}
+        self.doubts: dict[str, int] = {}
         self.hint = ""
         self._reasons: dict[tuple[Any, ...], str] = {}
+        self._unknown_times: dict[str | None, str] = {}  # the first message stands for all
 
     @property
     def total(self) -> int:
@@ -178,7 +214,8 @@ class Clouds:
         try:
             message = recorded.message
             frame = self._recording.frame(str(message.header.frame_id))
-            points, times = self._scan(message) if self._type == LASER_SCAN else self._points(message, recorded.stamp)
+            measured = self._scan(message) if self._type == LASER_SCAN else self._points(message, recorded.stamp)
+            points, times = measured.points, measured.times
             finite = np.isfinite(points["x"]) & np.isfinite(points["y"]) & np.isfinite(points["z"])
             self._count(self.points_skipped, "have no finite coordinates", np.count_nonzero(~finite))
             points, times = points[finite], times[finite] if times is not None else None
@@ -191,24 +228,53 @@ class Clouds:
         else:
             transformed = np.isfinite(points["x"])
             self._count(self.points_skipped, "have no transform at their own time", np.count_nonzero(~transformed))
-            return Cloud(recorded.stamp, self.frame, points[transformed], deskewed)
+            if deskewed:
+                self._note_times(measured.read)
+            read = measured.read if deskewed else None
+            used = measured.same_times if read is None else read.field
+            return Cloud(recorded.stamp, self.frame, points[transformed], deskewed, used)
         return None
 
     def _move(self, points: NDArray[Any], times: NDArray[np.int64] | None, frame: str, stamp: int) -> bool:
         """Transform points in place; return whether each was transformed at its own time."""
         buffer = self._recording.buffer
-        if frame == self.frame and self._fixed is None:
-            return False
-        if times is None or not points.size:
-            transform_cloud(points, buffer, self.frame, source=frame, stamp=stamp, in_place=True)
+        fixed = self._fixed_for(frame) if times is not None and points.size else None
+        if fixed is None or times is None:
+            if frame != self.frame:
+                transform_cloud(points, buffer, self.frame, source=frame, stamp=stamp, in_place=True)
+            if times is not None and points.size:
+                reason = f"no transform moves {frame!r} relative to {self.frame!r} or to a frame above it"
+                self._count(self.not_deskewed, reason)
             return False
         options: Any = {"source": frame, "on_error": "nan", "in_place": True}
-        if self._fixed is not None:
-            options |= {"fixed": self._fixed, "at": stamp}
+        if fixed != self.frame:
+            options |= {"fixed": fixed, "at": stamp}
         deskew(points, times, buffer, self.frame, **options)
+        self._count(self.fixed_frames, fixed)
         return True
 
-    def _points(self, message: Any, stamp: int) -> tuple[NDArray[Any], NDArray[np.int64] | None]:
+    def _fixed_for(self, frame: str) -> str | None:
+        """Return the frame that does not move during a sweep of this sensor; None if nothing moves."""
+        if self._fixed is not None:
+            return self._fixed
+        if frame not in self._still:
+            stamps = self._stamps[:: -(-len(self._stamps) // _MAX_TRIED)]
+            self._still[frame] = still_frame(self._recording.buffer, self.frame, frame, stamps)
+        return self._still[frame]
+
+    def _note_times(self, times: PointTimes | None) -> None:
+        self.deskewed += 1
+        if times is None:
+            return
+        reference = "as stamps" if times.absolute else "relative to the message's stamp"
+        guessed = ", as the length of the sweep shows" if times.found else ""
+        self._count(self.times_read, f"the field {times.field}, interpreted in {times.unit} {reference}{guessed}")
+        if implausible(times, self._period):
+            # One sentence is enough: the sweeps of most messages differ a little.
+            first = next(iter(self.doubts), implausible(times, self._period))
+            self._count(self.doubts, first)
+
+    def _points(self, message: Any, stamp: int) -> _Measured:
         names = [field.name for field in message.fields if field.count <= 1 and field.name not in {"x", "y", "z"}]
         if self._fields is not None:
             times_of = TIME_FIELDS if self._time_field is None else (self._time_field,)
@@ -216,21 +282,31 @@ class Clouds:
             names = list(dict.fromkeys([*self._fields, *needed]))
         columns = {name: field_of(message, name).reshape(-1) for name in ("x", "y", "z", *names)}
         points = _structured(columns)
-        times = times_in(points, stamp, self._time_field, self._time_unit) if self._deskews else None
-        if times is not None:
-            reference = "as stamps" if times.absolute else "relative to the message's stamp"
-            self._count(self.times_read, f"the field {times.field}, interpreted in {times.unit} {reference}")
+        times, same = self._times(points, stamp) if self._deskews else (None, None)
         if self._fields is not None and names != self._fields:
             points = _structured({name: points[name] for name in ("x", "y", "z", *self._fields)})
-        return points, None if times is None else times.times
+        return _Measured(points, None if times is None else times.times, times, same)
 
-    def _scan(self, message: Any) -> tuple[NDArray[Any], NDArray[np.int64] | None]:
+    def _times(self, points: NDArray[Any], stamp: int) -> tuple[PointTimes | None, str | None]:
+        """Return the times of the points, and the name of their field if all of them are the same."""
+        names = points.dtype.names or ()
+        field = next((name for name in TIME_FIELDS if name in names), None)
+        if field is None and self._time_field is None and (likely := likely_times(names)):
+            self._count(self.not_deskewed, f"is {likely[0]!r} the time of each point? Then name it with its unit")
+        try:
+            times = times_in(points, stamp, self._time_field, self._time_unit, period=self._period)
+        except UnknownTimesError as error:
+            self._count(self.not_deskewed, self._unknown_times.setdefault(self._time_field, str(error)))
+            return None, None
+        return times, (self._time_field or field) if times is None else None
+
+    def _scan(self, message: Any) -> _Measured:
         hits = project_scan(message)
         columns: dict[str, NDArray[Any]] = dict(zip("xyz", hits.points.T, strict=True))
         others = {"intensity": hits.intensities, "index": hits.beams}
         columns |= {n: v for n, v in others.items() if v is not None and (self._fields is None or n in self._fields)}
         self._count(self.points_skipped, "are out of range", len(message.ranges) - len(hits.points))
-        return _structured(columns), hits.times if self._deskews and message.time_increment != 0 else None
+        return _Measured(_structured(columns), hits.times if self._deskews and message.time_increment != 0 else None)
 
     def _reason(self, error: TransformException) -> str:
         """Return the message of the first error that differs from this one only in its times."""

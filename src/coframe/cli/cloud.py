@@ -68,6 +68,7 @@ __all__ = ["cloud"]
     "--fields", metavar="FIELDS", help="Fields to keep in addition to x,y,z, e.g. intensity,ring. [default: all]"
 )
 @click.option("--voxel", metavar="METRES", type=float, help="Keep one point per cube with this edge length, in metres.")
+@click.option("--float64", is_flag=True, help="Write coordinates as float64 also to PCD and MCAP. [default: float32]")
 @namespace_option
 @recorded_listener_options
 def cloud(
@@ -84,6 +85,7 @@ def cloud(
     fixed: str | None,
     fields: str | None,
     voxel: float | None,
+    float64: bool,
     namespace: str | None,
     tf_topic: str | None,
     tf_static_topic: str | None,
@@ -119,7 +121,7 @@ def cloud(
                 raise
             fail(str(error), code=2)
         try:
-            points = _write(clouds, output, format_, voxel)
+            points = _write(clouds, output, format_, voxel, float64=float64)
         except ValueError as error:
             if hasattr(error, "hint"):
                 raise
@@ -127,23 +129,43 @@ def cloud(
         except OSError as error:
             fail_to_write(output, error)
         _print_notes(clouds)
-        amounts = f"{count(points, 'point')} of {count(clouds.messages, 'message')}"
-        print(printable(f"{output}: {amounts}, in frame {frame!r}"))
+        print(printable(f"{output}: {_amounts(clouds, points)}, in frame {frame!r}"))
 
 
 def _parsed_times(recording: Recording, times: dict[str, str | None]) -> dict[str, Any]:
     return {name: None if text is None else parse_time(f"--{name}", text, recording) for name, text in times.items()}
 
 
-def _write(clouds: Clouds, output: Path, format_: str | None, voxel: float | None) -> int:
+def _write(clouds: Clouds, output: Path, format_: str | None, voxel: float | None, *, float64: bool) -> int:
     with item_progress("transforming", clouds.total) as show:
-        return write_clouds(clouds, output, format_=format_, voxel=voxel, progress=show)
+        return write_clouds(clouds, output, format_=format_, voxel=voxel, float64=float64, progress=show)
+
+
+def _amounts(clouds: Clouds, points: int) -> str:
+    """Return how many points of how many messages were written, deskewed, thinned and omitted."""
+    parts = [f"{clouds.deskewed} deskewed"] if clouds.deskewed else []
+    if points < clouds.points:
+        parts.append(f"thinned from {count(clouds.points, 'point')}")
+    if omitted := sum(clouds.skipped.values()):
+        parts.append(f"{omitted} omitted")
+    notes = f" ({', '.join(parts)})" if parts else ""
+    return f"{count(points, 'point')} of {count(clouds.messages, 'message')}{notes}"
 
 
 def _print_notes(clouds: Clouds) -> None:
     """Print how the times of points were interpreted, and which messages and points were omitted and why."""
     for how, number in clouds.times_read.items():
         warn(f"deskewed the points of {count(number, 'message')} by their own times: {how}")
+    for fixed, number in clouds.fixed_frames.items():
+        if fixed != clouds.frame and not clouds.fixed_given:
+            warn(
+                f"deskewed the points of {count(number, 'message')} in the frame {fixed!r}, because {clouds.frame!r} "
+                f"moves with the sensor; as with --fixed {fixed}"
+            )
+    for doubt, number in clouds.doubts.items():
+        warn(f"{count(number, 'message')}: {doubt}. Is the unit right? --point-times FIELD:UNIT states it")
+    for reason, number in clouds.not_deskewed.items():
+        warn(f"did not deskew the points of {count(number, 'message')}: {reason} (--point-times, --deskew off)")
     for reason, number in clouds.skipped.items():
         warn(f"omitted {count(number, 'message')} of {clouds.topic}: {reason}")
     for reason, number in clouds.points_skipped.items():

@@ -5,15 +5,17 @@ from __future__ import annotations
 
 import contextlib
 import gc
+import re
 import signal
 import sys
-from typing import TYPE_CHECKING
+import warnings
+from typing import TYPE_CHECKING, Any
 
 from click.exceptions import Exit
 
+from coframe._base_error import CoframeError, CoframeWarning
 from coframe._process.signal_handlers import SignalHandlers
-from coframe.cli.output import fail
-from coframe.errors import CoframeError
+from coframe.cli.output import fail, warn
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -23,6 +25,7 @@ __all__ = ["run_to_completion", "run_until_interrupted"]
 
 # Windows has no SIGHUP.
 _END_SIGNALS = [getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name)]
+_ARGUMENT = re.compile(r"\b([a-z0-9_]+)=(True|\"[^\"]*\")")
 _INTERRUPTED = 130  # exit code: 128 + SIGINT, as in shells
 
 
@@ -49,14 +52,42 @@ def run_until_interrupted() -> Iterator[None]:
 
 @contextlib.contextmanager
 def run_to_completion() -> Iterator[None]:
-    """Like :func:`run_until_interrupted`, but end with exit code 130 on Ctrl-C, because the work is not finished."""
-    with run_until_interrupted():
+    """Like :func:`run_until_interrupted`, but end with exit code 130 on Ctrl-C, because the work is not finished.
+
+    Warnings of the library are printed like those of the command.
+    """
+    with run_until_interrupted(), _printed_warnings():
         try:
             yield
         except KeyboardInterrupt:
             # At exit, Python runs several garbage collections, which take a second with millions of objects.
             gc.freeze()
             raise Exit(_INTERRUPTED) from None
+
+
+@contextlib.contextmanager
+def _printed_warnings() -> Iterator[None]:
+    """Print each different warning of the library once, without the line of code that Python names."""
+    printed: set[str] = set()
+    show = warnings.showwarning
+
+    def print_once(message: Warning | str, category: type[Warning], *place: Any, **line: Any) -> None:
+        if not issubclass(category, CoframeWarning):
+            show(message, category, *place, **line)
+        elif str(message) not in printed:
+            printed.add(str(message))
+            warn(_ARGUMENT.sub(_as_option, str(message)))
+
+    with warnings.catch_warnings():
+        warnings.simplefilter("always", CoframeWarning)
+        warnings.showwarning = print_once
+        yield
+
+
+def _as_option(argument: re.Match[str]) -> str:
+    """Return the option of commands that has the name of an argument of the library."""
+    name, value = argument.groups()
+    return f"--{name.replace('_', '-')}" + ("" if value == "True" else f" {value.strip(chr(34))}")
 
 
 def _interrupt(_signal: int, _frame: FrameType | None) -> None:

@@ -37,7 +37,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from coframe import _core
-from coframe._base_error import CoframeError
+from coframe._base_error import CoframeError, CoframeWarning
 from coframe._output.escaping import shown
 from coframe._output.formatting import MAX_COMPARED_LENGTH, listed, similar
 from coframe._process.plugins import PluginError
@@ -53,6 +53,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "CoframeError",
+    "CoframeWarning",
     "ConnectivityException",
     "CourseError",
     "DecodeError",

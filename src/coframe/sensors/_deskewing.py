@@ -11,7 +11,19 @@ import numpy as np
 from coframe import _core
 from coframe.errors import TransformException
 from coframe.sensors import layout
-from coframe.sensors.clouds import IDENTITY, core_buffer, frame_of, move, set_stamp, stamp_of, thread_count
+from coframe.sensors.clouds import (
+    FLOAT64_ADVICE,
+    IDENTITY,
+    core_buffer,
+    destination,
+    frame_of,
+    move,
+    set_stamp,
+    stamp_of,
+    thread_count,
+)
+from coframe.sensors.motion import moves, still_frame
+from coframe.sensors.rounding import farthest, warn_of_rounding
 from coframe.time import MICROSECOND, MILLISECOND, SECOND, stamp_ns
 from coframe.transform.transform import stamps_of
 
@@ -47,6 +59,7 @@ def deskew(
     on_error: Literal["raise", "nan"] = "raise",
     out: Points | None = None,
     in_place: bool = False,
+    float64: bool = False,
     threads: int = 1,
 ) -> Points:
     """Transform points that were measured at different times to one frame at one time.
@@ -63,7 +76,7 @@ def deskew(
         target: The frame to transform to.
         source: The frame of the sensor; by default that in the header of the message.
         fixed: A frame that does not move during the measurement, such as ``"odom"``; by default ``target``. Required
-            if ``target`` moves, for example if it is the sensor itself.
+            if ``target`` moves with the sensor, such as ``"base_link"`` or the sensor itself.
         at: The time of the result, if ``target`` moves in ``fixed``; by default the stamp in the header of the message.
         unit: Unit of ``times``: ``"ns"``, ``"us"``, ``"ms"`` or ``"s"``. With a unit, times can have any number type.
         since: The time to which ``times`` are relative; by default the stamp of the header for a field of a message,
@@ -72,6 +85,7 @@ def deskew(
         on_error: What to do with a point without a transform: ``"raise"``, or set the point to ``"nan"``.
         out: As in :func:`transform_cloud`.
         in_place: Whether to change ``points`` themselves. They are not changed if an exception is raised.
+        float64: As in :func:`transform_cloud`.
         threads: Number of threads; more than one helps from about 200 000 points.
 
     Returns:
@@ -82,7 +96,7 @@ def deskew(
         TransformException: As :meth:`coframe.Buffer.lookup`, and the message names the point; with ``"nan"`` only if no
             point has a transform.
         ValueError: As :func:`transform_cloud`; or the number of times differs from the number of points, or the unit is
-            missing, or ``fixed`` is missing for a target that is the sensor.
+            missing, or ``fixed`` is missing for a target that moves with the sensor.
         TypeError: Times are floats without a unit.
 
     Example:
@@ -104,26 +118,47 @@ def deskew(
     source = frame_of(points) if source is None else source
     if source is None:
         raise TypeError("deskew() needs source=..., the frame of the points")
-    fixed = target if fixed is None else fixed
-    if source == target == fixed:
-        raise ValueError(
-            f"deskew() needs fixed=... for the target {target!r}, which moves with the sensor: a frame that does not "
-            "move during the measurement"
-        )
+    if source == target and fixed in {None, target}:
+        raise ValueError(_needs_fixed(target, "a frame that does not move during the measurement"))
     stamps = point_times(points, times, unit, since)
+    if fixed is None:
+        _check_target_is_still(core, target, source, stamps)
+        fixed = target
     from_fixed, stamp = _pose_from_fixed(core, points, target, fixed, at)
-    result = layout.destination(points, out, in_place=in_place)
+    result = destination(points, out, in_place=in_place, float64=float64)
     if fixed == source:
         move(result, from_fixed, vectors, threads=threads)
     else:
         fields = layout.coordinates(result, vectors)
         arguments = (stamps, from_fixed, fields, on_error == "nan", thread_count(threads))
         _deskew_fields(core, fixed, source, arguments)
+        warn_of_rounding(farthest(fields[0]), fields[0], FLOAT64_ADVICE)
     if layout.is_message(result):
         result.header.frame_id = target
         if stamp is not None:
             set_stamp(result, stamp)
     return result  # type: ignore[no-any-return]
+
+
+def _check_target_is_still(buffer: _core.Buffer, target: str, source: str, stamps: NDArray[np.int64]) -> None:
+    """Raise ValueError if the target moves with the sensor: then deskewing would do nothing."""
+    known = stamps[stamps > 0]
+    if not known.size:
+        return
+    first, last = int(known.min()), int(known.max())
+    sweep = np.array([first, first + (last - first) // 2, last])
+    if first == last or moves(buffer, target, source, sweep):
+        return
+    still = still_frame(buffer, target, source, sweep)
+    if still not in {None, target}:
+        hint = (
+            f"for example fixed={still!r}, relative to which the sensor moves. fixed={target!r} insists on {target!r}"
+        )
+        raise ValueError(_needs_fixed(target, hint))
+
+
+def _needs_fixed(target: str, frame: str) -> str:
+    return f"deskew() needs fixed=... for the target {target!r}, which moves with the sensor: {frame}"
 
 
 def point_times(points: Any, times: ArrayLike | str, unit: str | None, since: StampLike | None) -> NDArray[np.int64]:

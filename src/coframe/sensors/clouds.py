@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, TypeVar, overload
 from coframe import _core
 from coframe.errors import FrameMismatchException
 from coframe.sensors import layout
+from coframe.sensors.rounding import as_float64, warn_of_rounding
 from coframe.time import SECOND, stamp_ns
 from coframe.transform.transform import Transform
 
@@ -23,6 +24,9 @@ __all__ = ["transform_cloud"]
 Points = TypeVar("Points")
 Values = tuple[float, float, float, float, float, float, float]
 
+FLOAT64_ADVICE = (
+    "float64=True in transform_cloud() and deskew() keeps them; so does a frame near the sensor, such as odom or map."
+)
 IDENTITY: Values = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)
 
 
@@ -34,6 +38,7 @@ def transform_cloud(
     vectors: Vectors = (),
     out: Points | None = None,
     in_place: bool = False,
+    float64: bool = False,
     threads: int = 1,
 ) -> Points: ...
 @overload
@@ -48,6 +53,7 @@ def transform_cloud(
     vectors: Vectors = (),
     out: Points | None = None,
     in_place: bool = False,
+    float64: bool = False,
     threads: int = 1,
 ) -> Points: ...
 def transform_cloud(
@@ -61,6 +67,7 @@ def transform_cloud(
     vectors: Vectors = (),
     out: Points | None = None,
     in_place: bool = False,
+    float64: bool = False,
     threads: int = 1,
 ) -> Points:
     """Transform the points of a cloud to another frame.
@@ -83,6 +90,8 @@ def transform_cloud(
             such triples; for a plain array the indices of the columns.
         out: A message or an array of the same shape for the result; its memory is reused if it has the right size.
         in_place: Whether to change ``cloud`` itself.
+        float64: Whether the result has float64 coordinates. float32 rounds them by more than a millimetre from 16 km
+            on, and to 0.5 m in UTM coordinates, of which a :class:`coframe.CoframeWarning` warns.
         threads: Number of threads; more than one helps from about a million points.
 
     Returns:
@@ -114,11 +123,24 @@ def transform_cloud(
     else:
         transform = to_transform(transform)
         check_source(transform, frame)
-    result = layout.destination(cloud, out, in_place=in_place)
+    result = destination(cloud, out, in_place=in_place, float64=float64)
     move(result, transform.values, vectors, threads=threads)
     if transform.target is not None and layout.is_message(result):
         result.header.frame_id = transform.target
     return result  # type: ignore[no-any-return]
+
+
+def destination(points: Any, out: Any, *, in_place: bool, float64: bool) -> Any:
+    """Return the object to change, as :func:`layout.destination`, or a new one with float64 coordinates.
+
+    Raises:
+        ValueError: ``float64`` is combined with ``out`` or ``in_place``.
+    """
+    if not float64:
+        return layout.destination(points, out, in_place=in_place)
+    if in_place or out is not None:
+        raise ValueError("float64=True makes a new cloud: omit in_place and out")
+    return as_float64(points)
 
 
 def move(
@@ -131,6 +153,8 @@ def move(
 ) -> None:
     """Transform points by a pose, in place."""
     fields = layout.coordinates(points, vectors, normals)
+    x, y, z, *_ = values
+    warn_of_rounding(max(abs(x), abs(y), abs(z)), fields[0], FLOAT64_ADVICE)
     _core.transform_fields(values, fields, thread_count(threads))
 
 

@@ -17,11 +17,12 @@ if TYPE_CHECKING:
     # Triples of field names or of column indices.
     Vectors: TypeAlias = Sequence[str] | Sequence[int] | Sequence[Sequence[str]] | Sequence[Sequence[int]]
 
-__all__ = ["coordinates", "destination", "field_of", "grid_of", "is_message"]
+__all__ = ["coordinates", "destination", "field_of", "grid_of", "is_message", "message_with_float64"]
 
 Triple: TypeAlias = "tuple[NDArray[Any], NDArray[Any], NDArray[Any]]"
 
 _POSITION = ("x", "y", "z")
+_FLOAT64 = 8  # PointField.FLOAT64
 NORMALS = (("normal_x", "normal_y", "normal_z"), ("nx", "ny", "nz"))
 # NumPy dtypes by PointField constant, for both byte orders.
 _KINDS = {1: "i1", 2: "u1", 3: "i2", 4: "u2", 5: "i4", 6: "u4", 7: "f4", 8: "f8"}
@@ -127,6 +128,51 @@ def destination(points: Any, out: Any, *, in_place: bool) -> Any:
     if out is None or not _copy_into(out.data, points.data):
         result.data = _copied(points.data)
     return result
+
+
+def message_with_float64(cloud: Any) -> Any:
+    """Return a copy of a message whose x, y and z are float64, with packed fields in the same order.
+
+    Raises:
+        ValueError: A field has an unknown type or is outside the data.
+    """
+    types = _DTYPES[bool(cloud.is_bigendian)]
+    wide = types[_FLOAT64]
+    result = copy.copy(cloud)
+    result.header, result.fields, columns = copy.copy(cloud.header), [], []
+    offset = 0
+    for field in cloud.fields:
+        is_position = field.name in _POSITION
+        dtype = wide if is_position else types.get(field.datatype)
+        if dtype is None:
+            raise ValueError(f"the field {field.name!r} has the unknown datatype {field.datatype}")
+        size = dtype.itemsize * max(field.count, 1)
+        columns.append((field, is_position, offset, size))
+        moved = copy.copy(field)
+        moved.offset, moved.datatype = offset, _FLOAT64 if is_position else field.datatype
+        result.fields.append(moved)
+        offset += size
+    rows, width = grid_of(cloud)
+    packed = np.zeros((rows, width, offset), np.uint8)
+    for field, is_position, start, size in columns if packed.size else ():
+        part = packed[:, :, start : start + size]
+        if is_position:
+            part[...] = _message_field(cloud, field.name).astype(wide)[..., None].view(np.uint8)
+        else:
+            part[...] = _bytes_of(cloud, field.name, field.offset, size)
+    result.point_step, result.row_step = offset, offset * width
+    result.data = array("B", packed.tobytes())
+    return result
+
+
+def _bytes_of(cloud: Any, name: str, offset: int, size: int) -> NDArray[np.uint8]:
+    """Return the bytes of a field with any number of elements: (rows, columns, size)."""
+    rows, columns, step = cloud.height, cloud.width, cloud.point_step
+    row_step = cloud.row_step if rows > 1 and cloud.row_step else columns * step
+    memory = _memory(cloud.data)
+    _check_layout(name, offset, size, rows, columns, step, row_step, len(memory))
+    field: NDArray[np.uint8] = np.ndarray((rows, columns, size), np.uint8, memory, offset, strides=(row_step, step, 1))
+    return field
 
 
 def _array_destination(points: NDArray[Any], out: Any, *, in_place: bool) -> NDArray[Any]:
