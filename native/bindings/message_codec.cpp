@@ -38,7 +38,8 @@ void define_message_codec(nb::module_& module) {
       .def(nb::init<nb::type_object, nb::list, std::size_t>(), nb::arg("cls"), nb::arg("fields"),
            nb::arg("ros1_prefix") = 0,
            "Each field is a tuple (slot, item, container, size, text_bound, dtype). The item is the struct code of a "
-           "number, an empty string for strings, or the MessageCodec of a message. The container is 0 for a single item, "
+           "number, an empty string for strings, or the MessageCodec of a message. The container is 0 for a single "
+           "item, "
            "1 for an array of `size` items, 2 for a sequence of at most `size`. 0 is no limit. `dtype` is that of an "
            "array of numbers. `ros1_prefix` is how many bytes a message of ROS 1 has before its fields.")
       .def("encode", &MessageCodec::encode, nb::arg("message"),

@@ -204,8 +204,7 @@ void define_writer(nb::module_& wire) {
           "Python "
           "code, as always once `closed` is set or the writer is closed. `failure` returns the exception for an error "
           "text. With `of_items`, the function takes the items of the message's only field, or a single item.")
-      .def("forward", &write_bytes<&Writer::forward>, nb::arg("message"),
-           "Send a message without checking its bytes.")
+      .def("forward", &write_bytes<&Writer::forward>, nb::arg("message"), "Send a message without checking its bytes.")
       .def("assert_liveliness", &PyWriter::assert_liveliness, ReleaseGil(),
            "Show the readers that the writer is alive.")
       .def("wait_for_acks", &PyWriter::wait_for_acks, nb::arg("timeout_ns"), ReleaseGil(),

@@ -72,7 +72,8 @@ void Buffer::notify_of_other_data() {
 
 void Buffer::pause_reading(int attempt) {
   constexpr int kMaxAttempts = 40'000;  // two seconds
-  if (attempt > kMaxAttempts) throw std::runtime_error("the shared buffer changes faster than this process can read it");
+  if (attempt > kMaxAttempts)
+    throw std::runtime_error("the shared buffer changes faster than this process can read it");
   std::this_thread::sleep_for(std::chrono::microseconds(50));
 }
 

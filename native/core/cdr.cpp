@@ -12,7 +12,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "the fast path copies little-endian bytes as they are");
 
-constexpr std::size_t kHeader = 4;          // encapsulation header: 00, 01 (little endian) or 00 (big endian), options
+constexpr std::size_t kHeader = 4;      // encapsulation header: 00, 01 (little endian) or 00 (big endian), options
 constexpr std::size_t kMaxPadding = 3;  // some writers pad the last 4 bytes
 constexpr std::int64_t kNanosecondsPerSecond = 1'000'000'000;
 
