@@ -126,7 +126,7 @@ def _read(text: str, choice: TransformChoice) -> Transform:
                 f"Write BAG:TARGET:SOURCE, for example {path}:map:base_link.",
                 code=2,
             )
-        return read_trajectory(file)
+        return read_trajectory(file, report=lambda sentence: click.echo(f"coframe: {sentence}", err=True))
     target, _, source = frames.partition(":")
     with open_recording(Path(path), choice) as recording:
         return recording.buffer.trajectory(target, source)

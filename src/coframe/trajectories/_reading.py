@@ -6,6 +6,7 @@ from __future__ import annotations
 import decimal
 import io
 import re
+import warnings
 import zipfile
 from array import array
 from functools import partial
@@ -15,14 +16,17 @@ from typing import TYPE_CHECKING, BinaryIO
 import numpy as np
 
 from coframe._files.regular_files import open_regular
+from coframe._output.formatting import count
 from coframe.errors import InvalidArgumentException, TrajectoryError
 from coframe.time import SECOND
+from coframe.trajectories._checks import findings, looks_like_seconds
+from coframe.trajectories._columns import Columns, header_columns, split
 from coframe.trajectories.formats import POSE_COLUMNS
 from coframe.transform.transform import Transform
 
 if TYPE_CHECKING:
     import os
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Callable, Iterable, Sequence
 
     from numpy.typing import NDArray
 
@@ -34,6 +38,16 @@ MAX_POSES = 1_000_000  # 2.7 hours at 100 Hz
 MAX_UNPACKED = 256 << 20  # bytes of an npz file after decompression
 _SECONDS = re.compile(r"(-?)(\d+)(?:\.(\d*))?", re.ASCII)
 _LATEST = 1 << 63
+# The columns of files without a header line.
+_W_LAST, _W_FIRST = (Columns(0, pose, None) for pose in ((1, 2, 3, 4, 5, 6, 7), (1, 2, 3, 5, 6, 7, 4)))
+_OPENVINS_COLUMNS = 20  # TUM, and twelve values of the covariance
+_MAX_DIGITS = 40  # of a time that a message quotes
+MAX_SECONDS = 1e11  # of a time; in nanoseconds this is 100 s
+_NAMED_UNIT = (
+    "Name the columns and the unit in the first line: 'timestamp[ns] x y z qx qy qz qw' or "
+    "'timestamp[s],x,y,z,qx,qy,qz,qw'."
+)
+_Poses = tuple[Transform, list[str]]  # with what is suspicious
 # The differences between the formats, for error messages.
 _LAYOUTS = (
     "TUM has 8 columns separated by spaces (seconds x y z qx qy qz qw), KITTI has 12 (a 3x4 matrix), EuRoC has at "
@@ -42,13 +56,24 @@ _LAYOUTS = (
 )
 
 
-def read_trajectory(path: str | os.PathLike[str], format_: str | None = None) -> Transform:
+class _UnitError(ValueError):
+    """A time that cannot be in its unit."""
+
+
+def read_trajectory(
+    path: str | os.PathLike[str], format_: str | None = None, *, report: Callable[[str], object] | None = None
+) -> Transform:
     """Read the poses in a trajectory file.
+
+    The names in a header line, such as ``timestamp[ns],x,y,z,qw,qx,qy,qz``, decide which column is which.
 
     Args:
         path: The file.
         format_: ``tum``, ``kitti``, ``euroc``, ``csv`` or ``npz``; None detects it from the contents, because EuRoC and
             CSV have the same suffix.
+        report: Called with a sentence for each suspicious property: times that do not increase, quaternions whose norm
+            is not 1, rotations that fit the path better in another order, and rows of NaN, which are left out. None:
+            a Python warning.
 
     Returns:
         A batch of shape (N,), with stamps except for KITTI. Stamps are exact to the nanosecond. Only npz files contain
@@ -74,110 +99,205 @@ def read_trajectory(path: str | os.PathLike[str], format_: str | None = None) ->
             is_zip = stream.read(2) == b"PK"
             stream.seek(0)
             if format_ == "npz" or (format_ is None and is_zip):
-                return _read_npz(file, stream)
-            text = io.TextIOWrapper(stream, encoding="utf-8-sig")
-            return _read_text(file, iter(partial(text.readline, MAX_LINE + 1), ""), format_)
+                poses, sentences = _read_npz(file, stream)
+            else:
+                text = io.TextIOWrapper(stream, encoding="utf-8-sig")
+                poses, sentences = _read_text(file, iter(partial(text.readline, MAX_LINE + 1), ""), format_)
     except OSError as error:
         raise TrajectoryError(f"{file} cannot be read: {error.strerror or error}") from None
     except UnicodeDecodeError:
         raise TrajectoryError(f"{file} is not a trajectory: it is not a text file", hint=_LAYOUTS) from None
     except InvalidArgumentException as error:
         raise TrajectoryError(f"{file}: {error}", hint=error.hint) from None
+    for sentence in sentences:
+        (report or partial(warnings.warn, stacklevel=2))(f"{file}: {sentence}")
+    return poses
 
 
-def _read_text(file: Path, lines: Iterable[str], kind: str | None) -> Transform:
-    numbers, stamps, columns, poses = array("d"), array("q"), 0, 0
+def _read_text(file: Path, lines: Iterable[str], kind: str | None) -> _Poses:
+    rows = _Rows(file, kind)
     for number, line in enumerate(lines, start=1):
         if len(line) > MAX_LINE:
             raise TrajectoryError(f"{file} is not a trajectory: line {number} has more than {MAX_LINE} characters")
-        text = line.strip()
-        if text.startswith("stamp_ns,") and kind in {None, "csv"} and not columns:
-            kind = "csv"
-        if not text or text.startswith(("#", "stamp_ns,")):
-            continue
-        cells = [cell.strip() for cell in text.split(",")] if "," in text else text.split()
-        if not columns:
-            kind, columns = _checked_kind(file, number, kind, cells, "," in text), len(cells)
-        poses += 1
-        _check_number(file, poses)
-        if len(cells) != columns:
-            raise TrajectoryError(f"{file}, line {number}: {len(cells)} columns; the lines above have {columns}")
+        rows.add(number, line.strip())
+    return rows.poses()
+
+
+class _Rows:
+    """The rows of a text file; a header line or the first row decides which column is which."""
+
+    def __init__(self, file: Path, kind: str | None) -> None:
+        self._file = file
+        self._kind = kind
+        self._named: Columns | None = None
+        self._columns: Columns | None = None  # None for KITTI
+        self._cells = 0  # of a row
+        self._times = _Times(1)
+        self._numbers = array("d")
+        self._count = 0
+
+    def add(self, line: int, text: str) -> None:
+        """Add a line of the file, without spaces at its ends."""
+        if not self._cells and self._kind != "kitti" and (named := header_columns(text)) is not None:
+            self._named = named
+        elif text and not text.startswith("#"):
+            self._add_row(line, text)
+
+    def _add_row(self, line: int, text: str) -> None:
+        cells = split(text)
+        if not self._cells:
+            self._begin(line, text, cells)
+        self._count += 1
+        _check_number(self._file, self._count)
+        if len(cells) != self._cells:
+            where = f"{self._file}, line {line}"
+            raise TrajectoryError(f"{where}: {len(cells)} columns; the lines above have {self._cells}")
         try:
-            if kind == "kitti":
-                numbers.extend(map(float, cells))
+            if self._columns is None:
+                self._numbers.extend(map(float, cells))
             else:
-                stamps.append(_nanoseconds(cells[0], SECOND if kind == "tum" else 1))
-                numbers.extend(map(float, cells[1:8]))
+                self._times.add(cells[self._columns.stamp])
+                self._numbers.extend([float(cells[index]) for index in self._columns.pose])
+        except _UnitError as error:
+            raise TrajectoryError(f"{self._file}, line {line}: {error}", hint=_NAMED_UNIT) from None
         except (ValueError, OverflowError, decimal.DecimalException):
-            raise TrajectoryError(f"{file}, line {number}: not a row of numbers: {text[:80]!r}") from None
-    if not columns:
-        raise TrajectoryError(f"{file} contains no poses", hint=_LAYOUTS)
-    return _poses(file, str(kind), np.frombuffer(numbers), np.array(stamps, dtype=np.int64))
+            raise TrajectoryError(f"{self._file}, line {line}: not a row of numbers: {text[:80]!r}") from None
+
+    def _begin(self, line: int, text: str, cells: Sequence[str]) -> None:
+        """Decide the format from the header line and the first row."""
+        has_commas = split(text) != text.split()
+        self._cells = len(cells)
+        if self._named is not None and self._cells > max(self._named.stamp, *self._named.pose):
+            self._columns = self._named
+            self._times = _Times(self._named.unit or (None if has_commas else SECOND))
+            return
+        kind = _layout(self._file, self._kind, self._cells, has_commas)
+        if not kind:
+            separator = "commas" if has_commas else "spaces"
+            expected = f"is not in the format {self._kind}" if self._kind else "is not a trajectory"
+            raise TrajectoryError(
+                f"{self._file} {expected}: line {line} has {self._cells} columns separated by {separator}",
+                hint=_LAYOUTS,
+            )
+        self._columns = {"kitti": None, "euroc": _W_FIRST}.get(kind, _W_LAST)
+        self._times = _Times(SECOND if kind == "tum" else 1)
+
+    def poses(self) -> _Poses:
+        """Return the poses and what is suspicious about them."""
+        if not self._cells:
+            raise TrajectoryError(f"{self._file} contains no poses", hint=_LAYOUTS)
+        numbers = np.frombuffer(self._numbers)
+        if self._columns is None:
+            return _matrices(self._file, numbers), []
+        return _checked(self._file, numbers.reshape(-1, 7), self._times.nanoseconds(self._file))
 
 
-def _checked_kind(file: Path, line: int, kind: str | None, cells: Sequence[str], has_commas: bool) -> str:
-    """Return the format of the file from its first row."""
-    found = ""
-    if has_commas and len(cells) >= 8:
-        found = kind if kind in {"csv", "euroc"} else "euroc"
-    elif not has_commas:
-        found = {8: "tum", 12: "kitti"}.get(len(cells), "")
-    if not found or (kind is not None and kind != found) or (found == "csv" and len(cells) != 8):
-        separator = "commas" if has_commas else "spaces"
-        expected = f"is not in the format {kind}" if kind else "is not a trajectory"
-        raise TrajectoryError(
-            f"{file} {expected}: line {line} has {len(cells)} columns separated by {separator}", hint=_LAYOUTS
-        )
+class _Times:
+    """The times of the rows.
+
+    Args:
+        unit: Their unit in nanoseconds; None: seconds if they have a fraction or are too dense for nanoseconds.
+    """
+
+    def __init__(self, unit: int | None) -> None:
+        self._unit = unit or 1
+        self._is_open = unit is None
+        self._values = array("q")
+
+    def add(self, text: str) -> None:
+        """Add a time as written."""
+        if self._is_open and "." in text and abs(float(text)) < MAX_SECONDS:
+            self._values = array("q", [value * SECOND for value in self._values])
+            self._unit, self._is_open = SECOND, False
+        if self._unit == SECOND and MAX_SECONDS <= abs(float(text)) < _LATEST and len(text) <= _MAX_DIGITS:
+            raise _UnitError(f"the time {text} looks like nanoseconds, but times in this format are seconds")
+        self._values.append(_nanoseconds(text, self._unit))
+
+    def nanoseconds(self, file: Path) -> NDArray[np.int64]:
+        """Return all times in nanoseconds."""
+        times = np.array(self._values, dtype=np.int64)
+        if self._unit == 1 and looks_like_seconds(times):
+            if self._is_open:
+                return times * SECOND
+            raise TrajectoryError(
+                f"{file}: the times look like seconds, but this format has nanoseconds: the first one is {times[0]}",
+                hint=_NAMED_UNIT,
+            )
+        return times
+
+
+def _layout(file: Path, kind: str | None, cells: int, has_commas: bool) -> str:
+    """Return the format of a file without names of columns; "" if it is in none, or not in the requested one."""
+    if has_commas and cells >= 8:
+        is_tum = kind == "tum" or (kind is None and file.suffix.lower() == ".tum")
+        found = "tum" if is_tum else kind if kind in {"csv", "euroc"} else "euroc"
+    else:
+        found = "" if has_commas else {8: "tum", _OPENVINS_COLUMNS: "tum", 12: "kitti"}.get(cells, "")
+    if (kind is not None and kind != found) or (found == "csv" and cells != 8):
+        return ""
     return found
 
 
-def _poses(file: Path, kind: str, numbers: NDArray[np.float64], stamps: NDArray[np.int64]) -> Transform:
-    if kind == "kitti":
-        matrices = np.zeros((len(numbers) // 12, 4, 4))
-        matrices[:, :3] = numbers.reshape(-1, 3, 4)
-        matrices[:, 3, 3] = 1.0
-        try:
-            return Transform.from_matrix(matrices)
-        except ValueError as error:
-            raise TrajectoryError(f"{file}: {error}") from None
-    rows = numbers.reshape(-1, 7)
-    order = (4, 5, 6, 3) if kind == "euroc" else (3, 4, 5, 6)
-    return Transform(rows[:, :3], rows[:, order], stamp=stamps)
+def _checked(
+    file: Path,
+    rows: NDArray[np.float64],
+    stamps: NDArray[np.int64],
+    target: str | None = None,
+    source: str | None = None,
+) -> _Poses:
+    """Return the poses and what is suspicious about them; rows of NaN, which have no pose, are left out."""
+    without = np.isnan(rows[:, :3]).all(axis=1)
+    rows, stamps = rows[~without], stamps[~without]
+    if not len(rows):
+        raise TrajectoryError(f"{file} contains no poses", hint="All its rows are NaN.")
+    sentences = [f"{count(int(without.sum()), 'row')} of NaN left out"] if without.any() else []
+    sentences += findings(stamps, rows[:, :3], rows[:, 3:])
+    return Transform(rows[:, :3], rows[:, 3:], target=target, source=source, stamp=stamps), sentences
+
+
+def _matrices(file: Path, numbers: NDArray[np.float64]) -> Transform:
+    matrices = np.zeros((len(numbers) // 12, 4, 4))
+    matrices[:, :3] = numbers.reshape(-1, 3, 4)
+    matrices[:, 3, 3] = 1.0
+    try:
+        return Transform.from_matrix(matrices)
+    except ValueError as error:
+        raise TrajectoryError(f"{file}: {error}") from None
 
 
 def _nanoseconds(text: str, unit: int) -> int:
     """Return a time in nanoseconds; a float would round it."""
     match = _SECONDS.fullmatch(text)
+    if match and unit == 1 and (match[3] or "").strip("0"):
+        raise _UnitError(f"the time {text} has a fraction, so it cannot be in nanoseconds")
     if match and unit == SECOND and len(match[3] or "") <= 9:
         size = int(match[2]) * SECOND + int((match[3] or "").ljust(9, "0"))
         return -size if match[1] else size
-    if match and unit == 1 and not match[3]:
+    if match and unit == 1:
         return int(match[1] + match[2])
     time = decimal.Decimal(text) * unit
     if abs(time) > _LATEST:
         raise OverflowError  # before int(), which takes half a minute for 1e999999
+    if unit == 1 and time != time.to_integral_value():
+        raise _UnitError(f"the time {text[:_MAX_DIGITS]} has a fraction, so it cannot be in nanoseconds")
     return int(time.to_integral_value())
 
 
-def _read_npz(file: Path, stream: BinaryIO) -> Transform:
+def _read_npz(file: Path, stream: BinaryIO) -> _Poses:
     try:
         _check_unpacked_size(stream)
         with np.load(stream) as data:
             target, source = (str(data[name]) or None for name in ("target", "source"))
-            poses = Transform(
-                data["translation"], data["quaternion"], target=target, source=source, stamp=data["stamps"]
-            )
-    except OSError:
+            rows = np.concatenate([data["translation"], data["quaternion"]], axis=1)
+            _check_number(file, len(rows))
+            return _checked(file, rows, data["stamps"], target, source)
+    except (OSError, TrajectoryError):
         raise
     except Exception as error:  # noqa: BLE001 - NumPy and zipfile raise ten types for broken files
         raise TrajectoryError(
             f"{file} is not a trajectory: {error}",
             hint="An .npz file needs the arrays stamps, translation, quaternion, target and source.",
         ) from None
-    if not len(poses):
-        raise TrajectoryError(f"{file} contains no poses", hint="Write it again, such as with coframe trajectory.")
-    _check_number(file, len(poses))
-    return poses
 
 
 def _check_number(file: Path, poses: int) -> None:

@@ -1,0 +1,83 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Independent checks of the poses that were read from a file."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from coframe._output.formatting import count
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from numpy.typing import NDArray
+
+__all__ = ["findings", "looks_like_seconds"]
+
+MAX_NORM_ERROR = 1e-3
+MIN_SPACING = 1_000  # nanoseconds; no trajectory has a million poses per second
+_MIN_MOVES = 10
+_STRAIGHT, _SCATTERED = 0.95, 0.85  # mean resultant lengths of the directions of motion, seen from the moving frame
+
+
+def looks_like_seconds(stamps: NDArray[np.int64]) -> bool:
+    """Return whether times that should be nanoseconds are closer together than in any trajectory."""
+    steps = np.diff(stamps)
+    if not len(steps):
+        return bool(len(stamps)) and 100_000_000 <= int(stamps[0]) < 100_000_000_000  # 1973 to 5138
+    return 0 < abs(int(np.median(steps))) < MIN_SPACING
+
+
+def findings(stamps: NDArray[np.int64], positions: NDArray[np.float64], xyzw: NDArray[np.float64]) -> Iterator[str]:
+    """Yield what is suspicious, one sentence each.
+
+    Args:
+        stamps: (N,) nanoseconds.
+        positions: (N, 3) metres.
+        xyzw: (N, 4) quaternions as they were read.
+    """
+    steps = np.diff(stamps)
+    if (steps <= 0).any():
+        row = int(np.flatnonzero(steps <= 0)[0]) + 2
+        yield (
+            f"the times do not increase at {count(int((steps <= 0).sum()), 'pose')}; the first one is pose {row}, at "
+            f"{stamps[row - 1]} ns after {stamps[row - 2]} ns"
+        )
+    norms = np.linalg.norm(xyzw, axis=1)
+    wrong = np.flatnonzero(~(np.abs(norms - 1) <= MAX_NORM_ERROR))
+    if len(wrong):
+        yield (
+            f"the quaternions of {count(len(wrong), 'pose')} do not have norm 1; the first one is pose {wrong[0] + 1}, "
+            f"with norm {norms[wrong[0]]:.4g}"
+        )
+    as_read = _resultant(positions, xyzw)
+    for order, columns in (("w first", (1, 2, 3, 0)), ("w last", (3, 0, 1, 2))):
+        other = _resultant(positions, xyzw[:, columns])
+        if as_read is not None and other is not None and as_read < _SCATTERED and other > _STRAIGHT:
+            yield (
+                f"the path is smoother if the quaternions are read with {order}: {_percent(other)} instead of "
+                f"{_percent(as_read)} of the motion is in one direction of the moving frame"
+            )
+
+
+def _resultant(positions: NDArray[np.float64], xyzw: NDArray[np.float64]) -> float | None:
+    """Return how equal the directions of motion are, seen from the moving frame: 0 to 1; None if it hardly moves."""
+    if len(positions) <= _MIN_MOVES:
+        return None
+    steps = np.diff(positions, axis=0)
+    lengths = np.linalg.norm(steps, axis=1)
+    norms = np.linalg.norm(xyzw[:-1], axis=1)
+    moving = (lengths > 0.1 * np.median(lengths)) & (lengths > 0) & (norms > 0)
+    if np.count_nonzero(moving) < _MIN_MOVES:
+        return None
+    directions = steps[moving] / lengths[moving, None]
+    vector, scalar = -xyzw[:-1][moving, :3], xyzw[:-1][moving, 3:]  # the inverse rotations
+    vector, scalar = vector / norms[moving, None], scalar / norms[moving, None]
+    turned = directions + 2 * np.cross(vector, np.cross(vector, directions) + scalar * directions)
+    return float(np.linalg.norm(turned.mean(axis=0)))
+
+
+def _percent(share: float) -> str:
+    return f"{100 * share:.0f} %"
