@@ -15,7 +15,7 @@ import pytest
 from grades import SOLUTION  # of this folder
 
 import coframe
-from coframe.course import confinement as confinement_module
+from coframe.course import _confinement as confinement_module
 from coframe.course._confinement import Confinement, protection_problem
 from coframe.course._view import private_folders, view_of
 from coframe.course.checking import check_folder

@@ -143,7 +143,7 @@ def test_errors_are_a_sentence(tmp_path, monkeypatch):
             (["--listen", used], f"The router cannot listen on {used}: Address already in use.\n  Another router"),
             (["--listen", "nonsense"], "The endpoints nonsense are not valid: "),
             (["--connect", "nonsense"], "The endpoints nonsense are not valid: "),
-            (["--config", "absent.json5"], "There is no file absent.json5, which --config names."),
+            (["--config", "absent.json5"], "The file absent.json5, named by --config, does not exist."),
             (["--config", "broken.json5"], "The Zenoh configuration broken.json5 cannot be read: "),
         ]:
             result = CliRunner().invoke(app, ["router", *arguments])

@@ -44,7 +44,7 @@ def test_joining_and_publishing(set_clock, domain_id):
     publisher = participant.raw_publisher(node, "/chatter", "std_msgs/msg/String", QoS())
     set_clock(-20_000_000)
     with pytest.raises(
-        WireError, match="The system clock says 1969-05-14 12:26:40 UTC, but messages over DDS"
+        WireError, match="The system clock says 1969-05-14 12:26:40 UTC, but messages can only have times"
     ) as raised:
         Participant.get(domain_id + 1)
     assert raised.value.hint.startswith(SET_THE_CLOCK)
