@@ -86,8 +86,8 @@ INTERRUPTED = """
 def test_an_interrupt_that_was_handled_in_generated_code_is_not_the_end(module, tmp_path):
     (tmp_path / "program.py").write_text(textwrap.dedent(INTERRUPTED))
     (tmp_path / "command.py").write_text(
-        "import coframe.cli, program\n"
-        "coframe.cli._app = lambda *_: lambda words, prog_name: program.main()\n"
+        "import coframe.cli, coframe.cli.command_line, program\n"
+        "coframe.cli.command_line.CommandLine = lambda *_: lambda words, prog_name: program.main()\n"
         "coframe.cli.run([])\n"
     )
     command = [sys.executable, "-m", module, "program:main"]

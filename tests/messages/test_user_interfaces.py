@@ -19,7 +19,7 @@ from rosbags.typesys import get_types_from_idl, get_types_from_msg
 import coframe
 from coframe.interfaces.definition_files import Definition
 from coframe.messages import deserialize, find, packages, registry, serialize
-from coframe.workspace import _interface_imports as interface_imports
+from coframe.workspace import _finders as interface_imports
 
 NUM = """
 # A number with a name.

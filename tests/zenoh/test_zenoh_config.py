@@ -107,7 +107,7 @@ def test_a_router_file_is_named_by_the_variable_or_by_the_caller(tmp_path: Path)
 
 
 def test_invalid_files_and_endpoints_are_one_sentence(tmp_path: Path) -> None:
-    with pytest.raises(WireError, match=r"There is no file /nowhere\.json5, which ZENOH_SESSION_CONFIG_URI names"):
+    with pytest.raises(WireError, match=r"The file /nowhere\.json5, named by ZENOH_SESSION_CONFIG_URI, does not exist"):
         config.session_config({"ZENOH_SESSION_CONFIG_URI": "/nowhere.json5"})
     damaged = tmp_path / "damaged.json5"
     damaged.write_text("{mode: ")

@@ -18,7 +18,7 @@ import time
 from pathlib import Path
 
 from coframe._process.signal_handlers import clear_handled_interrupt
-from coframe.workspace import _interface_imports as interface_imports
+from coframe.workspace import _finders
 
 __all__ = ["LAUNCHER", "main"]
 
@@ -33,7 +33,7 @@ def main() -> object:
     if os.environ.get(LAUNCHER) == str(os.getppid()):
         _end_with_launcher()
     del sys.argv[0]
-    interface_imports.install()  # A package can have both Python code and messages.
+    _finders.install()  # A package can have both Python code and messages.
     if Path(sys.argv[0]).is_absolute():
         _run_file(sys.argv[0])
         return None

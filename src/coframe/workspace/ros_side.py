@@ -10,7 +10,7 @@ import sys
 from pathlib import Path
 from typing import Final
 
-from coframe.workspace import _interface_imports as interface_imports
+from coframe.workspace import _finders
 from coframe.workspace.ros_folders import foreign_packages, imported_packages, is_coframes
 
 TF2_PACKAGES: Final = ("tf2_py", "tf2_ros")
@@ -61,7 +61,7 @@ def check(importing: str, path: list[str] | None = None) -> None:
     if not found:
         if path is None:
             _check_imported(importing)
-        interface_imports.install()
+        _finders.install()
         return
     names = ", ".join(sorted(found))
     folders = ", ".join(sorted(set(found.values())))

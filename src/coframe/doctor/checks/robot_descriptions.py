@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
-"""TF024: robot descriptions that are empty or invalid, and meshes that do not exist."""
+"""TF024: robot descriptions that are empty, invalid or have faults, and meshes that do not exist."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from coframe._output.formatting import listed
+from coframe._output.formatting import count, listed
 from coframe.doctor._finding import Finding, Severity
 from coframe.doctor._robot_model import parsed
 from coframe.errors import PackageError, RobotDescriptionError
@@ -24,7 +24,7 @@ _TOPIC = "/robot_description"
 
 
 def find(observation: Observation) -> Iterator[Finding]:
-    """Yield one finding per invalid description and, on the machine of the robot, one for the missing meshes."""
+    """Yield one finding per description with faults and, on the machine of the robot, one for the missing meshes."""
     last: Robot | None = None
     for number, text in enumerate(observation.descriptions):
         name = f"description {number + 1} of {len(observation.descriptions)}"
@@ -42,6 +42,16 @@ def find(observation: Observation) -> Iterator[Finding]:
                 harm="Programs that use only the first description have no robot model." if superseded else "",
                 topic=_TOPIC,
             )
+        else:
+            if last.warnings:
+                yield Finding(
+                    code=CODE,
+                    severity=Severity.NOTE,
+                    text=f"{name} has {count(len(last.warnings), 'fault')}: {last.warnings[0]}{later}",
+                    fix="Check the file that is loaded: `coframe robot FILE` lists the faults.",
+                    harm="Programs ignore what is faulty, or refuse the description.",
+                    topic=_TOPIC,
+                )
     if last is not None and observation.live:
         yield from _missing_meshes(last)
 
