@@ -63,6 +63,8 @@ void deallocate_transform(PyObject* object) {
 }
 
 PyObject* get_values(PyObject* object, void*) {
+  const PyObject* batch = self_of(object)->batch;
+  if (batch && batch != Py_None) return PyObject_CallMethod(object, "__array__", nullptr);
   const Pose& pose = self_of(object)->pose;
   return Py_BuildValue("(ddddddd)", pose.p[0], pose.p[1], pose.p[2], pose.q[0], pose.q[1], pose.q[2], pose.q[3]);
 }
@@ -78,7 +80,7 @@ PyObject* get_source(PyObject* object, void*) { return or_none(self_of(object)->
 PyObject* get_batch(PyObject* object, void*) { return or_none(self_of(object)->batch); }
 
 PyGetSetDef transform_properties[] = {
-    {"values", get_values, nullptr, "(x, y, z, qx, qy, qz, qw) as floats; of a batch: the identity.", nullptr},
+    {"values", get_values, nullptr, "(x, y, z, qx, qy, qz, qw) as floats; of a batch: an array (..., 7).", nullptr},
     {"stamp", get_stamp, nullptr, "Nanoseconds, or None.", nullptr},
     {"target", get_target, nullptr, "The frame that the values are expressed in, or None.", nullptr},
     {"source", get_source, nullptr, "The frame whose pose the values are, or None.", nullptr},

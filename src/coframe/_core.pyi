@@ -28,7 +28,7 @@ class Transform:
     ) -> None: ...
     @property
     def values(self) -> tuple[float, float, float, float, float, float, float]:
-        """(x, y, z, qx, qy, qz, qw) as floats, translation in metres; for a batch the identity."""
+        """(x, y, z, qx, qy, qz, qw) as floats, translation in metres; for a batch an array of shape (..., 7)."""
 
     @property
     def stamp(self) -> int | None:

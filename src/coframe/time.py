@@ -7,6 +7,7 @@ Floats of seconds are never accepted: a float64 cannot hold the current time to 
 from __future__ import annotations
 
 import datetime
+import math
 import operator
 import re
 from typing import Any, Protocol, SupportsIndex, TypeAlias
@@ -24,6 +25,7 @@ __all__ = [
     "DurationLike",
     "StampLike",
     "duration_ns",
+    "duration_seconds",
     "stamp_ns",
 ]
 
@@ -115,6 +117,8 @@ def duration_ns(duration: DurationLike) -> int:
             raise ValueError("a duration must not be NaT")
         return int(duration.astype("timedelta64[ns]").astype(np.int64))
     accepted = 'a string such as "100ms", int nanoseconds, timedelta or a Duration'
+    if isinstance(duration, float):
+        raise TypeError(f"a duration must be {accepted}, not float. {_in_units(duration)}")
     nanoseconds = _in_range(_number_ns(duration, "a duration", accepted))
     if (
         0 < nanoseconds < MIN_INT_NANOSECONDS
@@ -126,6 +130,27 @@ def duration_ns(duration: DurationLike) -> int:
             f'"{nanoseconds}s" or {nanoseconds * SECOND:_}; for nanoseconds, write "{nanoseconds}ns".'
         )
     return nanoseconds
+
+
+def duration_seconds(duration: DurationLike | None) -> float | None:
+    """Return a timeout as seconds, as the modules of Python expect it; None for None.
+
+    Raises:
+        TypeError: As :func:`duration_ns`.
+        ValueError: As :func:`duration_ns`.
+
+    Example:
+        >>> duration_seconds("500ms")
+        0.5
+    """
+    return None if duration is None else duration_ns(duration) / SECOND
+
+
+def _in_units(seconds: float) -> str:
+    """Return how to write a duration that was given as a float, which probably means seconds."""
+    if not math.isfinite(seconds):
+        return f"{seconds} is not a duration."
+    return f'For {seconds:g} seconds, write "{np.format_float_positional(seconds, trim="-")}s".'
 
 
 def _in_range(nanoseconds: int) -> int:

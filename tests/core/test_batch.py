@@ -176,7 +176,7 @@ class TestSetMany:
         buffer = coframe.Buffer()
         poses = np.tile([0, 0, 0, 0, 0, 0, 1.0], (3, 1))
         poses[1, 6] = 0.0
-        with pytest.raises(coframe.InvalidArgumentException, match="row 1: TF_NAN_INPUT"):
+        with pytest.raises(coframe.InvalidArgumentException, match="row 1: the quaternion of 'a' -> 'b' is zero"):
             buffer.set_many("a", "b", [1, 2, 3], poses)
         assert buffer.frame_names() == []
 

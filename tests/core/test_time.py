@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import coframe
-from coframe.time import duration_ns, stamp_ns
+from coframe.time import SECOND, duration_ns, stamp_ns
 
 
 @pytest.mark.parametrize(
@@ -40,8 +40,25 @@ def test_text_that_is_not_a_duration(written):
 
 
 def test_float_seconds_are_refused():
-    with pytest.raises(TypeError, match=r"float of seconds.*1_500_000_000"):
+    with pytest.raises(TypeError, match=r'not float. For 0.1 seconds, write "0.1s".'):
         duration_ns(0.1)
+    with pytest.raises(TypeError, match=r"float of seconds.*1_500_000_000"):
+        stamp_ns(0.1)
+
+
+@pytest.mark.parametrize(
+    ("seconds", "written"), [(2.0, "2s"), (1e-6, "0.000001s"), (0.25, "0.25s"), (3600.5, "3600.5s")]
+)
+def test_the_spelling_for_float_seconds_is_the_same_duration(seconds, written):
+    with pytest.raises(TypeError, match=f'write "{written}"'):
+        duration_ns(seconds)
+    assert duration_ns(written) == round(seconds * SECOND)
+
+
+@pytest.mark.parametrize("number", [float("nan"), float("inf")])
+def test_floats_that_are_no_duration(number):
+    with pytest.raises(TypeError, match="is not a duration"):
+        duration_ns(number)
 
 
 @pytest.mark.parametrize("number", [1, 2, 999, 86_400, np.int64(10)])

@@ -67,6 +67,6 @@ def test_faults_can_be_observed(start, eventually):
 def test_the_offset_is_in_the_stamps(start):
     ros, _ = start("clock offset")
     with_stamps = ros.subscribe("/tf", TFMessage)
-    message = with_stamps.receive(20)
+    message = with_stamps.receive("20s")
     age = time.time() - message.transforms[0].header.stamp.sec
     assert 4 < age < 8

@@ -63,7 +63,7 @@ def words(samples):
 def test_order_and_timing_of_a_replay(bag, listen):
     received_words, moved = listen("/words"), listen("/tf", TF)
     with coframe.play(bag, delay=SETTLED, rate=3.0) as player:
-        assert player.wait(20)
+        assert player.wait("20s")
         assert player.played == 1 + 2 * COUNT + 3
         assert player.problems == []
     assert words(received_words()) == [f"{i}" for i in range(COUNT)]
@@ -116,7 +116,7 @@ def test_a_listener_gets_the_transforms_of_the_original_from_any_start(bag):
             coframe.connect("listener", cache=None) as ros,
             coframe.play(bag, delay=SETTLED, rate=10, start_offset=start) as player,
         ):
-            assert player.wait(20)
+            assert player.wait("20s")
             stamps = START + np.linspace((first + 1) * SECOND // 20 + 100, (COUNT - 1) * SECOND // 20, 200).astype(
                 np.int64
             )
@@ -140,7 +140,7 @@ def test_latched_messages_are_published_first_and_reach_late_subscribers(bag, li
         assert words(robot()) == ["robot 1"]
         assert received_words() == []
         player.resume()
-        assert player.wait(20)
+        assert player.wait("20s")
         assert words(robot()) == ["robot 1", "robot 2"]
         assert words(received_words()) == [f"{i}" for i in range(30, COUNT)]
 
@@ -158,7 +158,7 @@ def test_static_transforms_have_their_values_at_the_start(tmp_path, listen):
             writer.write(topic, data, START + i * SECOND)
     received = listen("/tf_static", TF)
     with coframe.play(tmp_path / "run", delay=SETTLED, rate=20, start_offset="2500ms") as player:
-        assert player.wait(20)
+        assert player.wait("20s")
     published = [
         {t.child_frame_id: t.transform.translation.x for t in deserialize(sample.data, find(TF)).transforms}
         for sample in received()
@@ -178,7 +178,7 @@ def test_pause_step_and_rate(bag, listen, eventually):
         player.set_rate(100)
         player.resume()
         begun = time.monotonic()
-        assert player.wait(20)
+        assert player.wait("20s")
         assert time.monotonic() - begun < 2.0
         assert len(words(received_words())) == COUNT
         with pytest.raises(ValueError, match="above 0 and at most 1000"):
@@ -204,13 +204,13 @@ def test_a_clock_of_one_message_per_century(bag, listen, eventually):
     ticks = listen("/clock", CLOCK)
     with coframe.play(bag, topics=["/words"], delay=SETTLED, rate=30, clock=1e-21) as player:
         eventually(ticks)
-        assert player.wait(20)  # the thread that publishes the clock has not failed, which pytest would report
+        assert player.wait("20s")  # the thread that publishes the clock has not failed, which pytest would report
 
 
 def test_remapped_topics(bag, listen):
     received_words, nothing = listen("/robot1/words"), listen("/words")
     with coframe.play(bag, delay=SETTLED, rate=50, remap={"words": "/robot1/words"}) as player:
-        assert player.wait(20)
+        assert player.wait("20s")
     assert len(received_words()) == COUNT
     assert nothing() == []
 
@@ -228,7 +228,7 @@ def test_topics_that_were_recorded_without_a_slash(listen, tmp_path):
 def test_a_bag_of_ros_1(shared, listen):
     moved, scans = listen("/tf", TF), listen("/scan", "sensor_msgs/msg/LaserScan")
     with coframe.play(shared / "recordings" / "tilt_laser.bag", delay=SETTLED, rate=30) as player:
-        assert player.wait(20)
+        assert player.wait("20s")
         assert player.problems == []  # types that ROS 2 does not have are published as well
     assert len(moved()) == 711
     assert deserialize(scans()[0].data, find("sensor_msgs/msg/LaserScan")).header.frame_id == "/laser"
@@ -242,7 +242,7 @@ def test_damaged_messages_are_skipped_and_reported(tmp_path, listen):
                 writer.write(topic, data, START + i)
     received_words = listen("/words")
     with coframe.play(tmp_path / "run", delay=SETTLED) as player:
-        assert player.wait(20)
+        assert player.wait("20s")
         assert len(player.problems) == 2
         assert all("damaged messages are skipped" in problem for problem in player.problems)
     assert words(received_words()) == ["a", "b"]
@@ -258,7 +258,7 @@ def test_topics_beyond_the_limit_are_reported_and_transforms_come_first(tmp_path
     received = [listen(f"/words{number}") for number in range(5)]
     moved = listen("/tf", TF)
     with coframe.play(tmp_path / "run", delay=SETTLED) as player:
-        assert player.wait(20)
+        assert player.wait("20s")
         assert player.problems == ["4 topics are not replayed: 3 is the limit. Select topics."]
     assert [len(samples()) for samples in received] == [1, 0, 0, 0, 0]
     assert len(moved()) == 1
@@ -276,7 +276,7 @@ def test_invalid_topic_names_are_skipped_and_reported(tmp_path, listen):
         writer.write(writer.add_topic("/typeless", ""), text("x"), START)
     received_words = listen("/words")
     with coframe.play(tmp_path / "run", delay=SETTLED) as player:
-        assert player.wait(20)
+        assert player.wait("20s")
         assert [problem.partition(" is not replayed")[0] for problem in player.problems[:2]] == ["words", ""]
         assert "The limit is 256 bytes" in player.problems[2]
     assert words(received_words()) == ["/words"]

@@ -16,7 +16,7 @@ def test_publish_and_receive(domain_id):
         subscription = ros.subscribe("chatter", STRING)
         publisher = ros.publisher("/chatter", STRING)
         publisher.publish(STRING(data="hello"))
-        message = subscription.receive(10)
+        message = subscription.receive("10s")
         assert message is not None
         assert message.data == "hello"
         assert subscription.receive(0) is None
@@ -111,3 +111,45 @@ def test_a_closed_connection_creates_no_endpoints(domain_id):
             ros.publisher("/chatter", STRING)
         with pytest.raises(coframe.WireError, match="The connection of two is closed"):
             ros.subscribe("/chatter", STRING)
+
+
+@pytest.mark.parametrize(
+    "wait",
+    [
+        lambda ros, _, timeout: ros.wait_for_statics(timeout),
+        lambda _, subscription, timeout: subscription.receive(timeout),
+        lambda ros, _, timeout: ros.buffer.lookup("a", "b", timeout=timeout),
+    ],
+)
+def test_a_timeout_without_a_unit_is_refused_everywhere(domain_id, wait):
+    with coframe.connect("one", domain=domain_id) as ros:
+        subscription = ros.subscribe("chatter", STRING)
+        with pytest.raises(ValueError, match=r'the duration 1 has no unit.*write "1s"'):
+            wait(ros, subscription, 1)
+        with pytest.raises(TypeError, match=r'For 0.5 seconds, write "0.5s"'):
+            wait(ros, subscription, 0.5)
+
+
+@pytest.mark.parametrize(
+    ("store", "broadcaster"),
+    [
+        (lambda buffer: buffer.set("odom", "base", coframe.Transform(), 1), "tf2_ros.TransformBroadcaster"),
+        (lambda buffer: buffer.set("odom", "base", coframe.Transform(), static=True), "StaticTransformBroadcaster"),
+        (lambda buffer: buffer.set_many("odom", "base", [1], [[0, 0, 0, 0, 0, 0, 1]]), "tf2_ros.TransformBroadcaster"),
+    ],
+)
+def test_a_transform_that_the_program_stores_is_not_published_which_is_logged_once(
+    domain_id, caplog, store, broadcaster
+):
+    with coframe.connect("one", domain=domain_id) as ros:
+        store(ros.buffer)
+        store(ros.buffer)
+        [record] = [record for record in caplog.records if "publishes nothing" in record.getMessage()]
+        assert "odom -> base is stored in the buffer of this process only" in record.getMessage()
+        assert broadcaster in record.getMessage()
+        assert "base" in ros.buffer
+
+
+def test_static_transforms_are_not_complete_before_anything_was_discovered(domain_id):
+    with coframe.connect("one", domain=domain_id) as ros:
+        assert not ros.wait_for_statics("1500ms")

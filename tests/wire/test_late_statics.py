@@ -45,6 +45,15 @@ def test_connection_says_whose_static_transforms_are_awaited(child, eventually):
         assert ros.buffer.lookup("base_link", "camera_link").translation[0] == 0.5
 
 
+def test_lookups_succeed_after_waiting_for_static_transforms(child):
+    publisher = child(LATE.format(wait=""))
+    assert publisher.read() == "ready"
+    for _ in range(3):
+        with coframe.connect() as ros:
+            assert ros.wait_for_statics("20s")
+            assert ros.buffer.lookup("base_link", "camera_link").x == 0.5
+
+
 def test_why_waits_for_static_transforms(child):
     # The command listens for 0.3 s, and the transforms are sent 1.5 s after it has subscribed.
     publisher = child(LATE.format(wait="while not broadcaster.matched: time.sleep(0.01)\ntime.sleep(1.5)"))

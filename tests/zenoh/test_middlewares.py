@@ -52,7 +52,7 @@ def test_one_process_joins_a_domain_over_both(zenoh_domain: int) -> None:
         for ros in (dds, zenoh):
             ros.publisher("/news", STRING).publish(STRING(data=f"over {ros.config.wire}"))
         for wire, subscription in received.items():
-            message = subscription.receive(20)
+            message = subscription.receive("20s")
             assert message is not None
             assert message.data == f"over {wire}"
             assert subscription.receive(0) is None, "the middlewares do not mix"

@@ -137,6 +137,8 @@ class Buffer(_core.Buffer):
         missing = self._lookup_rows(target, source, times, rows, twists, beyond, on_error, threads, extrapolate, hold)
         if missing == 0 and times.size and np.isnan(rows[:, 0]).all():
             self.lookup(target, source, int(np.ravel(stamps_of(stamps))[0]), extrapolate=extrapolate, hold=hold)
+        if out is None:
+            _freeze(rows, times, beyond)
         batch = batch_of(rows[:, :3], rows[:, 3:], target, source, times, beyond)
         if out is not None and out is not rows:
             out[...] = batch.matrix
@@ -197,6 +199,14 @@ class Buffer(_core.Buffer):
         if ends[0] == np.iinfo(np.int64).min + 1:  # Both names are the same frame, so there are no edges.
             return 0, 0
         return int(ends[0]), int(ends[1])
+
+
+def _freeze(rows: Array, times: NDArray[np.int64], beyond: NDArray[np.int64] | None) -> None:
+    """Make the arrays of a result read-only, and with them all views of the rows."""
+    rows.flags.writeable = False
+    times.flags.writeable = False
+    if beyond is not None:
+        beyond.flags.writeable = False
 
 
 def _is_rows(out: Array, count: int) -> bool:

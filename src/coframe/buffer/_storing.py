@@ -81,6 +81,24 @@ def check_not_frozen(buffer: _core.Buffer, parent: str, child: str) -> None:
         )
 
 
+def rejected_row(
+    parent: str, child: str, row: int, rotation: NDArray[np.float64], text: str
+) -> InvalidArgumentException:
+    """Return the error for a row of `set_many` that tf2 rejects; a zero quaternion is named as such.
+
+    tf2 reports a zero quaternion as NaN, which is the result of its normalization.
+    """
+    if rotation.any():
+        return rejected(parent, child, f"row {row}: {text}")
+    return InvalidArgumentException.with_details(
+        f"row {row}: the quaternion of {parent!r} -> {child!r} is zero, which is not a rotation",
+        target=parent,
+        source=child,
+        edge=(parent, child),
+        hint="Is qw unset? The identity rotation is 0 0 0 1, and the columns are x, y, z, qx, qy, qz, qw.",
+    )
+
+
 def rejected(parent: str, child: str, text: str) -> InvalidArgumentException:
     """Return the error for a transform that tf2 rejects, with tf2's message."""
     return InvalidArgumentException.with_details(

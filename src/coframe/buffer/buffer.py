@@ -7,9 +7,9 @@ import sys
 from typing import TYPE_CHECKING, Any
 
 from coframe import _core, errors, time
-from coframe.buffer import _frozen_file as frozen_file
-from coframe.buffer import _many_lookups as many_lookups
-from coframe.buffer._storing import check_not_frozen, check_single, rejected, rows_of, stamp_of
+from coframe.buffer import _frozen_file as _frozen_file as frozen_file
+from coframe.buffer import _many_lookups as _many_lookups as many_lookups
+from coframe.buffer._storing import check_not_frozen, check_single, rejected, rejected_row, rows_of, stamp_of
 from coframe.buffer._waiting import CallbackHandle, timed_out, transform_or_timeout
 from coframe.buffer.dispatcher import Dispatcher
 from coframe.buffer.edge_info import FrameInfo, edge_infos, edge_table
@@ -149,7 +149,7 @@ class Buffer(many_lookups.Buffer):
         if refusals:
             x, y, z, qx, qy, qz, qw = values[row].tolist()
             texts = _core.insert_texts(refusals, parent, child, int(times[row]), x, y, z, qx, qy, qz, qw, authority)
-            raise rejected(parent, child, f"row {row}: " + "\n".join(line for _, line in texts))
+            raise rejected_row(parent, child, row, values[row, 3:], "\n".join(line for _, line in texts))
         return stored
 
     def wait(

@@ -165,7 +165,7 @@ def _watch(player: Player) -> None:
 
     live = Live(get_renderable=screen, console=console, refresh_per_second=1 / _REFRESH, transient=True)
     with keys() as pressed, live if console.is_terminal else contextlib.nullcontext():
-        while not player.wait(0.0):
+        while not player.wait(0):
             _handle_key(player, pressed.read(_REFRESH))
             for problem in [problem for problem in player.problems if problem not in printed]:
                 printed.add(problem)

@@ -6,6 +6,7 @@ from __future__ import annotations
 import re
 import sys
 import time
+from datetime import timedelta
 from typing import TYPE_CHECKING
 
 import click
@@ -171,7 +172,7 @@ def _watch(recorder: Recorder, duration: float | None) -> None:
 def _wait(recorder: Recorder, end: float | None) -> None:
     while end is None or time.monotonic() < end:
         left = 3600.0 if end is None else end - time.monotonic()
-        if recorder.wait(min(left, _REFRESH)):
+        if recorder.wait(timedelta(seconds=min(left, _REFRESH))):
             return
 
 

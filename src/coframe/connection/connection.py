@@ -27,14 +27,18 @@ if TYPE_CHECKING:
 
     from typing_extensions import Self
 
+    from coframe.buffer.buffer import Buffer
     from coframe.connection._receivers import Receiver
     from coframe.messages.message import Message
+    from coframe.time import DurationLike
     from coframe.viewer import Viewer
     from coframe.wire.endpoints import GraphNode, Publisher, Subscription
 
 _logger = logging.getLogger("coframe.wire")
 
 _STATICS_CHECK_PERIOD = 50 * MILLISECOND
+# Nodes that run already are discovered within this time, with some reserve for a busy machine.
+_DISCOVERY = 1 * SECOND
 
 M = TypeVar("M", bound="Message")
 
@@ -100,18 +104,18 @@ class MessageSubscription(Generic[M]):
         """The number of matched publishers."""
         return self._subscription.matched
 
-    def receive(self, timeout: float | str | None = None) -> M | None:
+    def receive(self, timeout: DurationLike | None = None) -> M | None:
         """Wait for the next message and return it; return None after the timeout or if the subscription is closed.
 
         Args:
-            timeout: The timeout in seconds, or a string such as "100ms". If None, wait without a limit.
+            timeout: How long to wait, such as "100ms". If None, wait without a limit.
 
         Raises:
             DecodeError: The received bytes are not a message of the announced type.
         """
         from coframe.messages.codec import deserialize  # noqa: PLC0415 - `import coframe` must be cheap
 
-        deadline = None if timeout is None else time.monotonic_ns() + _timeout_ns(timeout)
+        deadline = None if timeout is None else time.monotonic_ns() + duration_ns(timeout)
         while True:
             # Messages are taken one by one, so that a message that cannot be decoded does not discard others.
             for sample in self._subscription.take(1):
@@ -162,11 +166,12 @@ class Connection:
         self, node_name: str, config: ListenerConfig, *, node_namespace: str = "/", shared: bool = False
     ) -> None:
         self.config = config
-        self.buffer = config.new_buffer()
+        self.buffer: Buffer = config.new_connection_buffer()
         self._name = (node_namespace, node_name)
         self._participant: Participant | None = None
         self._closing = threading.RLock()
         self._closed = False
+        self._opened = time.monotonic_ns()
         self._subscriptions: list[MessageSubscription[Any]] = []
         self._receiver: Receiver | None = None
         try:
@@ -259,25 +264,36 @@ class Connection:
         awaited = {writer for reader in receiver.readers if reader.static for writer in reader.awaited_writers()}
         return sorted(participant.writer_node(writer) or "an unnamed node" for writer in awaited)
 
-    def wait_for_statics(self, timeout: float | str = STATICS_TIMEOUT) -> bool:
-        """Wait until every discovered publisher of static transforms has delivered them.
+    def wait_for_statics(self, timeout: DurationLike = f"{STATICS_TIMEOUT}s") -> bool:
+        """Wait until the publishers of static transforms are discovered and have delivered them.
 
         A publisher that was started earlier with Fast DDS delivers them up to 3.5 seconds after it is discovered. Until
         then, lookups of these transforms fail.
 
         Args:
-            timeout: The timeout in seconds, or a string such as "100ms".
+            timeout: How long to wait, such as "2s".
 
         Returns:
-            Whether all have delivered. `awaited_statics` returns the others.
+            Whether static transforms have arrived from every publisher that was discovered in the first second of the
+            connection or later. False if none was discovered, because one may still start. `awaited_statics` returns
+            the publishers that have not delivered anything yet.
         """
-        deadline = time.monotonic_ns() + _timeout_ns(timeout)
-        while awaited := self.awaited_statics():
+        deadline = time.monotonic_ns() + duration_ns(timeout)
+        while not (complete := self._has_statics()):
             left = deadline - time.monotonic_ns()
             if left <= 0:
                 break
             time.sleep(min(left, _STATICS_CHECK_PERIOD) / SECOND)
-        return not awaited
+        return complete
+
+    def _has_statics(self) -> bool:
+        """Return whether discovery has had its time, and each publisher of static transforms has delivered them."""
+        if self._receiver is None or time.monotonic_ns() - self._opened < _DISCOVERY:
+            return False
+        readers = [reader for reader in self._receiver.readers if reader.static]
+        # If another process receives the transforms for this one, it has the subscription.
+        found = any(reader.matched for reader in readers) or any(edge.static for edge in self.buffer.edges())
+        return found and not self.awaited_statics()
 
     def show(self, **options: Any) -> Viewer:
         """Show the live graph in the viewer, or below the cell in a notebook; the same as :func:`coframe.show`.
@@ -359,10 +375,6 @@ def _closed_error(name: str) -> WireError:
     return WireError(f"The connection of {name} is closed.", hint="Create a new one: coframe.connect().")
 
 
-def _timeout_ns(timeout: float | str) -> int:
-    return duration_ns(timeout) if isinstance(timeout, str) else int(timeout * SECOND)
-
-
 def _qos(qos: QoS | int | None) -> QoS:
     if qos is None:
         return DEFAULT
@@ -384,6 +396,10 @@ def connect(
     shared: bool = False,
 ) -> Connection:
     """Join the ROS 2 graph and receive its transforms into a buffer in the background.
+
+    The discovery of other nodes takes some tenths of a second. Dynamic transforms that were published before it are not
+    received: a TransformBroadcaster that sends once before this node exists does not reach it; a
+    StaticTransformBroadcaster does. Transforms that the program itself stores with ``buffer.set`` are not published.
 
     By default, only nodes on this machine are discovered. ROS_AUTOMATIC_DISCOVERY_RANGE=SUBNET includes the local
     network; ROS_LOCALHOST_ONLY and ROS_STATIC_PEERS are supported, too.

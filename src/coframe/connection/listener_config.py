@@ -5,12 +5,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Final, TypeVar
 
 import numpy as np
 
 from coframe import frame_names
 from coframe.buffer.buffer import Buffer, cache_length
+from coframe.connection._connection_buffer import ConnectionBuffer
 from coframe.frame_names import TF_STATIC_TOPIC, TF_TOPIC
 from coframe.time import SECOND
 from coframe.wire import domains, selection
@@ -24,6 +25,8 @@ if TYPE_CHECKING:
     from coframe.time import DurationLike
 
 __all__ = ["ListenerConfig"]
+
+_B = TypeVar("_B", bound=Buffer)
 
 _TEN_SECONDS: Final = 10 * SECOND  # as tf2's buffer
 
@@ -102,7 +105,14 @@ class ListenerConfig:
 
     def new_buffer(self) -> Buffer:
         """Return an empty buffer with this cache."""
-        return Buffer(None if self.cache < 0 else np.timedelta64(self.cache, "ns"))
+        return self._buffer(Buffer)
+
+    def new_connection_buffer(self) -> ConnectionBuffer:
+        """Return an empty buffer with this cache for a connection of the user's program."""
+        return self._buffer(ConnectionBuffer)
+
+    def _buffer(self, kind: type[_B]) -> _B:
+        return kind(None if self.cache < 0 else np.timedelta64(self.cache, "ns"))
 
     @cached_property
     def renaming(self) -> _core.Renaming | None:

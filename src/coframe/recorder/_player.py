@@ -13,7 +13,7 @@ from coframe.frame_names import absolute, renaming
 from coframe.messages import find, serialize
 from coframe.recorder._playback_clock import PlaybackClock
 from coframe.recorder._topic_publishers import TopicPublishers
-from coframe.time import SECOND, duration_ns
+from coframe.time import SECOND, duration_ns, duration_seconds
 from coframe.wire.participant import Participant
 from coframe.wire.qos import QoS
 
@@ -26,6 +26,7 @@ if TYPE_CHECKING:
 
     from coframe import _core
     from coframe.bags import Recording
+    from coframe.time import DurationLike
     from coframe.wire.endpoints import Publisher
 
 __all__ = ["MAX_RATE", "Player", "play"]
@@ -102,11 +103,11 @@ class Player:
         """Whether the replay has not ended."""
         return self._threads[0].is_alive()
 
-    def wait(self, timeout: float | None = None) -> bool:
+    def wait(self, timeout: DurationLike | None = None) -> bool:
         """Wait until the replay ends.
 
         Args:
-            timeout: The timeout in seconds. If None, wait without a limit.
+            timeout: How long to wait, such as "2s". If None, wait without a limit.
 
         Returns:
             True at the end, False after the timeout.
@@ -114,7 +115,7 @@ class Player:
         Raises:
             OSError: The recording cannot be read, for example because it was deleted.
         """
-        self._threads[0].join(timeout)
+        self._threads[0].join(duration_seconds(timeout))
         if self._threads[0].is_alive():
             return False
         if self._error is not None:

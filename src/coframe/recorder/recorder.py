@@ -14,7 +14,7 @@ from coframe.frame_names import renaming
 from coframe.recorder._frame_renaming import FrameRenamer
 from coframe.recorder._message_queue import MessageQueue, ReceivedMessage
 from coframe.recorder._topic_subscriptions import TopicFilter, TopicSubscriptions
-from coframe.time import MILLISECOND
+from coframe.time import MILLISECOND, duration_seconds
 from coframe.wire.participant import Participant
 
 if TYPE_CHECKING:
@@ -23,6 +23,8 @@ if TYPE_CHECKING:
     from datetime import timedelta
 
     from typing_extensions import Self
+
+    from coframe.time import DurationLike
 
 __all__ = ["DEFAULT_BACKLOG", "Recorder", "RecorderStatistics", "record"]
 
@@ -116,11 +118,11 @@ class Recorder:
             not_renamed=[] if self._frames is None else list(self._frames.not_renamed),
         )
 
-    def wait(self, timeout: float | None = None) -> bool:
+    def wait(self, timeout: DurationLike | None = None) -> bool:
         """Wait until the recording is closed or fails.
 
         Args:
-            timeout: The timeout in seconds. If None, wait without a limit.
+            timeout: How long to wait, such as "2s". If None, wait without a limit.
 
         Returns:
             True if the recording has ended, False after the timeout.
@@ -128,7 +130,7 @@ class Recorder:
         Raises:
             RecordingError: Writing failed, for example because the disk is full.
         """
-        if not self._ended.wait(timeout):
+        if not self._ended.wait(duration_seconds(timeout)):
             return False
         if self._error is not None:
             raise self._error
@@ -257,7 +259,7 @@ def record(
 
     Example:
         >>> with coframe.record("run", topics=["/tf", "/tf_static"]) as recorder:     # doctest: +SKIP
-        ...     recorder.wait(10.0)
+        ...     recorder.wait("10s")
     """
     topic_filter = TopicFilter(topics, regex, exclude)
     names = renaming(prefix, keep)

@@ -279,7 +279,9 @@ def _default_position(joint: Joint) -> float:
 
 
 def _batch(rows: Array, target: str, source: str) -> Transform:
-    return batch_of(rows[:, :3], rows[:, 3:], target, source, None)
+    translation, rotation = rows[:, :3], rows[:, 3:]
+    translation.flags.writeable = rotation.flags.writeable = False
+    return batch_of(translation, rotation, target, source, None)
 
 
 def _checked_rows(out: Array, shape: tuple[int, ...]) -> Array:

@@ -18,6 +18,8 @@ from coframe.transform._covariance import transform_covariance
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
+    from numpy.typing import DTypeLike
+
     from coframe.time import StampLike
     from coframe.viewer import Viewer
 
@@ -37,7 +39,9 @@ class Transform(_core.Transform):
     """A rigid motion, an element of SE(3), that transforms coordinates from ``source`` to ``target``.
 
     ``point_target = transform @ point_source``. A frame of None matches any frame. A batch has additional
-    leading axes: ``translation`` (..., 3), ``quaternion`` (..., 4). Transforms are immutable.
+    leading axes: ``translation`` (..., 3), ``quaternion`` (..., 4). Transforms are immutable: their arrays are
+    read-only, also those of batches. ``np.asarray(transform)`` is a new array of shape (..., 7): x, y, z, qx, qy, qz,
+    qw, as ``transform.values``.
 
     Args:
         translation: Position of the origin of ``source`` in ``target``, in metres, shape (..., 3).
@@ -159,10 +163,15 @@ class Transform(_core.Transform):
             raise ValueError(f"matrix must have shape (..., 4, 4), not {m.shape}")
         rotation = m[..., :3, :3]
         error = np.abs(rotation @ np.swapaxes(rotation, -1, -2) - np.eye(3)).max(initial=0.0)
-        if not error <= _MATRIX_TOLERANCE or (np.linalg.det(rotation) < 0).any():
+        if not error <= _MATRIX_TOLERANCE:
             raise ValueError(
                 "the upper left 3x3 of the matrix is not a rotation: R R^T differs from the identity by up to "
-                f"{error:.2g}, or the determinant is negative"
+                f"{error:.2g}"
+            )
+        if (np.linalg.det(rotation) < 0).any():
+            raise ValueError(
+                "the upper left 3x3 of the matrix is a reflection, not a rotation: its determinant is -1. Is one axis "
+                "negated, or are two axes exchanged, as between left-handed and right-handed coordinates?"
             )
         if not (m[..., 3, :] == (0.0, 0.0, 0.0, 1.0)).all():
             raise ValueError("the last row of the matrix must be 0 0 0 1")
@@ -236,7 +245,8 @@ class Transform(_core.Transform):
             return self._beyond
         if self._batch[3] is None:
             return np.zeros(self.shape, dtype=np.int64)
-        return np.asarray(self._batch[3])
+        beyond: NDArray[np.int64] = self._batch[3]
+        return beyond
 
     @property
     def rotation(self) -> Array:
@@ -286,6 +296,16 @@ class Transform(_core.Transform):
     def yaw(self) -> Any:
         """Rotation about the fixed axis z in radians, as a float; for a batch an array of shape ``self.shape``."""
         return self._component(self.rpy, 2)
+
+    def __array__(self, dtype: DTypeLike | None = None, copy: bool | None = None) -> NDArray[Any]:
+        """Return the poses as a new array of shape (..., 7): x, y, z in metres and qx, qy, qz, qw.
+
+        Raises:
+            ValueError: ``copy`` is False, but a transform is not stored as one array.
+        """
+        if copy is False:
+            raise ValueError("a Transform is not stored as one array, so it cannot be used as one without a copy")
+        return np.concatenate([self.translation, self.quaternion], axis=-1).astype(dtype or np.float64, copy=False)
 
     def _component(self, values: Array, axis: int) -> Any:
         return values[..., axis] if self.shape else float(values[axis])
@@ -475,7 +495,9 @@ class Transform(_core.Transform):
         return html_tables.section(title, html_tables.table(columns, rows, total, "transform"))
 
     def __reduce__(self) -> tuple[object, ...]:
-        return _rebuild, (self.values, self.target, self.source, self.stamp, self._batch, self._beyond)
+        if self._batch is not None:
+            return _rebuild_batch, (*self._batch[:2], self.target, self.source, *self._batch[2:])
+        return _rebuild, (self.values, self.target, self.source, self.stamp, None, self._beyond)
 
 
 def batch_of(
@@ -486,8 +508,26 @@ def batch_of(
     stamps: NDArray[np.int64] | None,
     beyond: NDArray[np.int64] | None = None,
 ) -> Transform:
-    """Return a batch on the given arrays (..., 3) and (..., 4) without copying; rows of NaN mean "no transform"."""
+    """Return a batch on the given arrays (..., 3) and (..., 4) without copying; rows of NaN mean "no transform".
+
+    The arrays must be read-only, because transforms are immutable.
+    """
     return _rebuild(_IDENTITY, target, source, None, (translation, quaternion, stamps, beyond))
+
+
+def _rebuild_batch(
+    translation: Array,
+    quaternion: Array,
+    target: str | None,
+    source: str | None,
+    stamps: NDArray[np.int64] | None,
+    beyond: NDArray[np.int64] | None,
+) -> Transform:
+    """Return a batch from a copy of its arrays, which is writable if it comes from pickle or copy.deepcopy."""
+    for array in (translation, quaternion, stamps, beyond):
+        if array is not None:
+            array.setflags(write=False)
+    return batch_of(translation, quaternion, target, source, stamps, beyond)
 
 
 def _derived(translation: Array, quaternion: Array, target: str | None, source: str | None, stamp: Any) -> Transform:

@@ -45,10 +45,10 @@ class GraphClock:
             # Simulators may offer only best effort. With a depth of 1, the last message is the newest one.
             qos = QoS(depth=1, reliable=False)
             self._subscription = self._connection.subscribe(CLOCK, find("rosgraph_msgs/msg/Clock"), qos=qos)
-        message = self._subscription.receive(_FIRST_TIMEOUT if self._last is None else 0.0)
+        message = self._subscription.receive(_FIRST_TIMEOUT if self._last is None else 0)
         while message is not None:
             self._last = message.clock.sec * SECOND + message.clock.nanosec
-            message = self._subscription.receive(0.0)
+            message = self._subscription.receive(0)
         return time.time_ns() if self._last is None else self._last
 
     def close(self) -> None:

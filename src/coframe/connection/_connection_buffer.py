@@ -1,0 +1,70 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The buffer of a connection, which says that the transforms stored by the program are not published."""
+
+from __future__ import annotations
+
+import logging
+from typing import TYPE_CHECKING
+
+from coframe._output.escaping import shown
+from coframe.buffer.buffer import DEFAULT_AUTHORITY, Buffer
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
+    from coframe.time import StampLike
+    from coframe.transform.transform import Transform
+
+__all__ = ["ConnectionBuffer"]
+
+_logger = logging.getLogger("coframe.wire")
+
+
+class ConnectionBuffer(Buffer):
+    """A buffer that receives transforms; what the program stores itself stays in this process, which is logged once."""
+
+    _explained = False
+
+    def set(
+        self,
+        parent: str,
+        child: str,
+        transform: Transform,
+        stamp: StampLike | None = None,
+        *,
+        static: bool = False,
+        authority: str = DEFAULT_AUTHORITY,
+    ) -> bool:
+        """Store a transform as :meth:`coframe.Buffer.set` does, in this process only: nothing is published."""
+        stored = super().set(parent, child, transform, stamp, static=static, authority=authority)
+        self._explain(parent, child, static=static)
+        return stored
+
+    def set_many(
+        self,
+        parent: str,
+        child: str,
+        stamps: ArrayLike | None,
+        poses: Transform | ArrayLike,
+        *,
+        static: bool = False,
+        authority: str = DEFAULT_AUTHORITY,
+    ) -> int:
+        """Store transforms as :meth:`coframe.Buffer.set_many` does, in this process only: nothing is published."""
+        stored = super().set_many(parent, child, stamps, poses, static=static, authority=authority)
+        self._explain(parent, child, static=static)
+        return stored
+
+    def _explain(self, parent: str, child: str, *, static: bool) -> None:
+        if self._explained:
+            return
+        self._explained = True
+        broadcaster = "StaticTransformBroadcaster" if static else "TransformBroadcaster"
+        _logger.warning(
+            "The transform %s -> %s is stored in the buffer of this process only; set() publishes nothing. To publish "
+            "transforms, use tf2_ros.%s, or a publisher of tf2_msgs/TFMessage: connection.publisher(%r, TFMessage).",
+            shown(parent),
+            shown(child),
+            broadcaster,
+            "/tf_static" if static else "/tf",
+        )
