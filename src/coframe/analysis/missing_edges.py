@@ -3,10 +3,10 @@
 
 from __future__ import annotations
 
-import difflib
 import re
 from typing import TYPE_CHECKING, NamedTuple
 
+from coframe.analysis.similar_frames import similar_frames
 from coframe.analysis.static_command import static_command
 
 if TYPE_CHECKING:
@@ -14,8 +14,6 @@ if TYPE_CHECKING:
 
 __all__ = ["BASE_FRAMES", "MissingEdge", "estimator_advice", "is_sensor_frame", "missing_edge", "unknown_mount"]
 
-_SIMILARITY = 0.8
-_MAX_COMPARED_NAMES = 1_000  # limit on the names compared; one takes microseconds
 # Usual pairs of parent and child, from REP-105 and common robots.
 _USUAL = (
     ("base_footprint", "base_link"),
@@ -153,12 +151,7 @@ def missing_edge(first: Sequence[str], second: Sequence[str]) -> MissingEdge | N
     """
     sides = ((second[0], first), (first[0], second))
     for root, frames in sides:
-        similar = [
-            frame
-            for frame in difflib.get_close_matches(root, frames[:_MAX_COMPARED_NAMES], n=3, cutoff=_SIMILARITY)
-            if _is_misspelling(root, frame)
-        ]
-        if similar:
+        if similar := similar_frames(root, frames):
             return MissingEdge(similar[0], root, misspelt=True)
     for parent, child in _USUAL:
         for root, frames in sides:
@@ -168,17 +161,6 @@ def missing_edge(first: Sequence[str], second: Sequence[str]) -> MissingEdge | N
             if above:
                 return MissingEdge(above[0], root, misspelt=False)
     return None
-
-
-def _is_misspelling(name: str, other: str) -> bool:
-    """Return whether one name may be a misspelling of the other; False for pairs such as wheel_left and wheel_right."""
-    return re.findall(r"\d+", name) == re.findall(r"\d+", other) and not (
-        {"left", "right", "front", "rear", "back", "upper", "lower"} & (_words(name) ^ _words(other))
-    )
-
-
-def _words(name: str) -> set[str]:
-    return set(re.split(r"[^a-z]+", name.lower()))
 
 
 def _without_prefix(frame: str) -> str:

@@ -7,8 +7,8 @@ import sys
 from typing import TYPE_CHECKING, Any
 
 from coframe import _core, errors, time
-from coframe.buffer import _frozen_file as _frozen_file as frozen_file
-from coframe.buffer import _many_lookups as _many_lookups as many_lookups
+from coframe.buffer import _frozen_file as frozen_file
+from coframe.buffer import _many_lookups as many_lookups
 from coframe.buffer._storing import check_not_frozen, check_single, rejected, rejected_row, rows_of, stamp_of
 from coframe.buffer._waiting import CallbackHandle, timed_out, transform_or_timeout
 from coframe.buffer.dispatcher import Dispatcher

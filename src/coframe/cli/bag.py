@@ -32,6 +32,9 @@ from coframe.cli.play import play
 from coframe.cli.progress import task_progress
 from coframe.cli.record import record
 from coframe.cli.recordings import EARLIEST_WALL_TIME, grouped_by_topic, open_recording
+from coframe.doctor import diagnose, observe_recording
+from coframe.doctor._finding import Severity
+from coframe.doctor.rendering.text import headline
 from coframe.time import MILLISECOND, SECOND
 
 if TYPE_CHECKING:
@@ -42,6 +45,7 @@ if TYPE_CHECKING:
 
     from coframe.bags import Recording, Summary
     from coframe.bags.summary import SensorSummary
+    from coframe.doctor._finding import Finding
 
 __all__ = ["bag"]
 
@@ -123,7 +127,8 @@ def fix(
     """Write a repaired copy of the recording BAG to the folder OUT, and list what was repaired.
 
     The copy contains everything that can be read, with an index, metadata, the static transforms at its start, and no
-    leading slashes in frame names. BAG is not changed. --prefix applies to the frame names in all messages; with
+    leading slashes in frame names. What remains, such as a missing transform or a wrong clock, is listed, and the exit
+    code is then 1. BAG is not changed. --prefix applies to the frame names in all messages; with
     --tf-topic /robot1/tf, only to messages on topics in /robot1.
 
     Example: coframe bag fix broken.mcap repaired
@@ -149,7 +154,21 @@ def fix(
         ):
             for sentence in sentences:
                 print(one_line(f"{title}: {sentence}"))
+        findings = _findings(report.path)
+        for finding in findings:
+            print(one_line(f"remaining: {headline(finding)}"))
         print(f"{report.path}: {count(report.messages, 'message')}")
+        if remaining := len(report.remaining) + len(findings):
+            fail(
+                f"{count(remaining, 'problem')} of the recording cannot be fixed in a copy.",
+                f"`coframe doctor {report.path}` says what to do about transforms.",
+            )
+
+
+def _findings(path: Path) -> list[Finding]:
+    """Return the doctor's warnings and errors about a recording, without their consequences."""
+    reports = map(diagnose, observe_recording(path).values())
+    return [one for report in reports for one in report.findings if one.severity >= Severity.WARNING]
 
 
 @bag.command(short_help="Convert a recording to rosbag2's MCAP, or change its compression.")

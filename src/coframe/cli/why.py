@@ -56,7 +56,7 @@ __all__ = ["why"]
 
 _NAMES = "[BAG] TARGET SOURCE"
 # The connection receives static transforms at about the same time as the doctor's node, which waits for them first.
-_SECOND_LISTENER = 0.5  # seconds
+_SECOND_LISTENER = "500ms"
 _ASCII = str.maketrans("├└│─", "+`|-")
 _STYLES = {"error": "bold red", "warning": "yellow", "note": "cyan"}
 
@@ -208,7 +208,7 @@ def _relevant_reports(found: Explanation, seen: Iterable[Observation]) -> list[R
 
     def concerns(finding: Finding) -> bool:
         if finding.edge is not None:
-            return finding.edge in edges
+            return not edges.isdisjoint({finding.edge, *finding.edges})
         return incomplete and (not finding.frames or not frames.isdisjoint(finding.frames))
 
     reports = map(diagnose, seen)

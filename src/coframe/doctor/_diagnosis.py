@@ -16,6 +16,7 @@ from coframe._output.formatting import count
 from coframe.doctor import checks
 from coframe.doctor._causes import joined
 from coframe.doctor._finding import Finding, Severity, findings_table
+from coframe.doctor._grouping import grouped
 from coframe.doctor._plugin_checks import plugin_checks
 from coframe.doctor.observation import NEVER
 from coframe.time import MILLISECOND
@@ -113,7 +114,7 @@ def diagnose(observation: Observation, *, ignore: Collection[str] = ()) -> Repor
             finding for code, check in all_checks().items() if code not in ignored for finding in check(observation)
         ]
     sensors = [_facts(observation, sensor) for sensor in observation.sensors if len(sensor.stamp)]
-    return Report(joined(findings), sensors, observation)
+    return Report(joined(grouped(findings)), sensors, observation)
 
 
 def _guarded(check: PluginCheck, observation: Observation) -> Iterator[Finding]:

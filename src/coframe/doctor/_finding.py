@@ -45,6 +45,7 @@ class Finding:
         publishers: The full names of the affected publishers, as far as they are known.
         explains: Its consequences: findings that disappear with this one.
         harm: Why it matters, if it differs from the page of the code.
+        edges: All edges with the same problem, if it was found for many of them; the text describes the first one.
     """
 
     code: str
@@ -58,6 +59,7 @@ class Finding:
     publishers: tuple[str, ...] = ()
     explains: tuple[Finding, ...] = field(default=())
     harm: str = ""
+    edges: tuple[tuple[str, str], ...] = ()
 
     def __post_init__(self) -> None:
         if self.edge is not None:

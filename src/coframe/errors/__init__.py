@@ -39,9 +39,10 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from coframe import _core
 from coframe._base_error import CoframeError, CoframeWarning
 from coframe._output.escaping import shown
-from coframe._output.formatting import MAX_COMPARED_LENGTH, listed, similar
+from coframe._output.formatting import MAX_COMPARED_LENGTH, listed
 from coframe._process.plugins import PluginError
 from coframe.analysis.missing_edges import missing_edge
+from coframe.analysis.similar_frames import similar_frames
 from coframe.analysis.tree import FrameTrees
 from coframe.errors.lookup_hints import doctor_code, hint
 from coframe.time import SECOND
@@ -364,7 +365,7 @@ def _similar_names(name: str, known: list[str]) -> list[str]:
     """Return the frames that may have been meant: the same name with another prefix, or a similar spelling."""
     bare = name.rpartition("/")[2]
     same = [frame for frame in known if frame.rpartition("/")[2] == bare and len(frame) <= MAX_COMPARED_LENGTH]
-    return same[:_MAX_GUESSES] or similar(name, known)
+    return same[:_MAX_GUESSES] or similar_frames(name, known)
 
 
 def _trees(failure: Failure) -> str:

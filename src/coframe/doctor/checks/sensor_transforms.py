@@ -3,13 +3,13 @@
 
 from __future__ import annotations
 
-import difflib
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from coframe._output.formatting import count, duration, listed
 from coframe.analysis.missing_edges import BASE_FRAMES, estimator_advice, is_sensor_frame
+from coframe.analysis.similar_frames import similar_frames
 from coframe.analysis.static_command import static_command
 from coframe.doctor._finding import Finding, Severity
 from coframe.doctor.observation import NEVER
@@ -28,9 +28,7 @@ CODE = "TF014"
 _MAX_WAIT = 200 * MILLISECOND
 _TOO_MANY = 0.05
 _MIN_MESSAGES = 5
-_SIMILAR = 0.6
 _USUAL_ENDINGS = ("_link", "_frame", "_footprint")
-_SIMILAR_TO_USUAL = 0.8
 
 
 def find(observation: Observation) -> Iterator[Finding]:
@@ -48,9 +46,7 @@ def find(observation: Observation) -> Iterator[Finding]:
 
 
 def _unknown(observation: Observation, frame: str, sensors: list[Sensor]) -> Finding:
-    is_estimated = frame.rpartition("/")[2] in {"odom", "map", *BASE_FRAMES}
-    cutoff = _SIMILAR_TO_USUAL if is_estimated else _SIMILAR
-    similar = difflib.get_close_matches(frame, observation.frames, n=1, cutoff=cutoff)
+    similar = similar_frames(frame, observation.frames)
     publishers = tuple(dict.fromkeys(sensor.publisher for sensor in sensors if sensor.publisher))
     messages = sum(len(sensor.stamp) for sensor in sensors)
     return Finding(
@@ -100,7 +96,11 @@ def _missing_frame(observation: Observation, frame: str, publishers: tuple[str, 
     if is_sensor_frame(frame):
         # The mount is a pose on the robot, not in the world.
         bases = bases or [other for other in observation.frames if other.rpartition("/")[2] in BASE_FRAMES]
-        return f"Publish the pose of the sensor: `{static_command(bases[-1] if bases else root, frame)}`."
+        command = static_command(bases[-1] if bases else root, frame)
+        return (
+            f"No node publishes {frame!r}: start the node that does, such as a static broadcaster or "
+            f"robot_state_publisher. If there is none, publish the pose of the sensor: `{command}`."
+        )
     return (
         f"Start the node that publishes a transform with child_frame_id = {frame!r}, or correct msg.header.frame_id in "
         "the node of these messages."
