@@ -185,10 +185,27 @@ def test_remaining_problems_are_reported(tmp_path):
     rows = [*recordings.messages(), ("/own", START, b"\0\1\0\0abcd")]
     source = recordings.write_mcap(tmp_path / "a.mcap", rows=rows, types={"/own": ("my_pkg/msg/Own", "", b"", "cdr")})
     code, output = fix(source, tmp_path / "new")
-    assert code == 0
+    assert code == 1
+    assert "1 problem of the recording cannot be fixed in a copy" in output
     assert "remaining: /own: messages of type my_pkg/msg/Own are returned as bytes" in output
     with coframe.open_bag(tmp_path / "new") as bag:
         assert next(bag.messages("/own")).data == b"\0\1\0\0abcd"
+
+
+@pytest.mark.parametrize(
+    ("row", "remaining"),
+    [
+        (("/tf", START, recordings.cdr("world", "drone", coframe.Transform(), START)), "TF001"),
+        (("/tf", START, recordings.cdr("odom", "base", coframe.Transform(), START - 3600 * 10**9)), "TF013"),
+        (("/tf_static", START, recordings.cdr("lost", "lidar", coframe.Transform(), START)), "TF002"),
+    ],
+    ids=["separate tree", "gap", "two parents"],
+)
+def test_findings_that_a_copy_cannot_fix_are_listed(tmp_path, row, remaining):
+    source = recordings.write_mcap(tmp_path / "a.mcap", rows=[*recordings.messages(), row])
+    code, output = fix(source, tmp_path / "new")
+    assert (code, f"remaining: {remaining}" in output) == (1, True), output
+    assert (tmp_path / "new" / "metadata.yaml").exists()
 
 
 def test_nothing_is_overwritten(tmp_path):

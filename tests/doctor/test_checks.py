@@ -669,3 +669,34 @@ def test_loop_is_one_tree_and_is_listed_in_order():
     assert (len(names), names[0]) == (4, names[-1])
     assert "abca".find("".join(names[:2])) >= 0
     assert len(report.observation.trees) == 1
+
+
+def test_a_sensor_frame_is_not_said_to_be_the_base_because_both_end_with_link(only):
+    run = Run.healthy(skip={"scan"})
+    for i in range(100):
+        run.scan(later(i / 10), "scanner_link")
+    finding = only(run, "TF014")
+    assert "did you mean" not in finding.text
+    assert finding.fix.startswith("No node publishes 'scanner_link': start the node that does")
+    assert "coframe static" in finding.fix
+
+
+def test_the_same_problem_of_all_joints_is_one_finding(only):
+    run = Run.healthy()
+    joints = [("base_link", "arm1"), ("arm1", "arm2"), ("arm2", "arm3"), ("arm3", "tool")]
+    for i in range(12):
+        for number, (parent, child) in enumerate(joints):
+            run.drive(later(i * (1 + number / 100)), parent, child)
+    finding = only(run, "TF013")
+    assert finding.edges == tuple(joints)
+    assert finding.frames == {"base_link", "arm1", "arm2", "arm3", "tool"}
+    assert "published only every 1 s" in finding.text
+    assert finding.text.endswith("; the same for 3 other edges: arm1 -> arm2, arm2 -> arm3, arm3 -> tool")
+
+
+def test_two_edges_keep_their_own_findings(examine):
+    run = Run.healthy()
+    for i in range(12):
+        run.drive(later(i), "base_link", "arm")
+        run.drive(later(i), "base_link", "head")
+    assert [finding.edge for finding in examine(run).findings] == [("base_link", "arm"), ("base_link", "head")]

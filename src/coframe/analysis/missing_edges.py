@@ -6,7 +6,7 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING, NamedTuple
 
-from coframe.analysis.similar_frames import similar_frames
+from coframe.analysis.similar_frames import MAX_COMPARED_FRAMES, similar_frames
 from coframe.analysis.static_command import static_command
 
 if TYPE_CHECKING:
@@ -151,7 +151,7 @@ def missing_edge(first: Sequence[str], second: Sequence[str]) -> MissingEdge | N
     """
     sides = ((second[0], first), (first[0], second))
     for root, frames in sides:
-        if similar := similar_frames(root, frames):
+        if similar := similar_frames(root, frames[:MAX_COMPARED_FRAMES]):
             return MissingEdge(similar[0], root, misspelt=True)
     for parent, child in _USUAL:
         for root, frames in sides:

@@ -15,10 +15,10 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-__all__ = ["is_misspelling", "similar_frames"]
+__all__ = ["MAX_COMPARED_FRAMES", "is_misspelling", "similar_frames"]
 
 _MIN_SIMILARITY = 0.7
-_MAX_COMPARED_NAMES = 1_000  # one takes microseconds
+MAX_COMPARED_FRAMES = 1_000  # one takes microseconds
 _MAX_COMPARED_LENGTH = 200
 _MIN_ABBREVIATION = 3  # letters
 # Words without a meaning of their own: `lidar`, `lidar_link` and `base_lidar` may be the same frame.
@@ -35,7 +35,7 @@ def similar_frames(name: str, known: Iterable[str], *, most: int = 1) -> list[st
     if len(name) > _MAX_COMPARED_LENGTH:
         return []
     compared = (frame for frame in known if len(frame) <= _MAX_COMPARED_LENGTH and frame != name)
-    meant = [frame for frame in islice(compared, _MAX_COMPARED_NAMES) if is_misspelling(name, frame)]
+    meant = [frame for frame in islice(compared, MAX_COMPARED_FRAMES) if is_misspelling(name, frame)]
     return difflib.get_close_matches(name, meant, n=most, cutoff=0.0)
 
 

@@ -32,8 +32,7 @@ from coframe.cli.play import play
 from coframe.cli.progress import task_progress
 from coframe.cli.record import record
 from coframe.cli.recordings import EARLIEST_WALL_TIME, grouped_by_topic, open_recording
-from coframe.doctor import diagnose, observe_recording
-from coframe.doctor._finding import Severity
+from coframe.doctor import Severity, diagnose, observe_recording
 from coframe.doctor.rendering.text import headline
 from coframe.time import MILLISECOND, SECOND
 
@@ -45,7 +44,7 @@ if TYPE_CHECKING:
 
     from coframe.bags import Recording, Summary
     from coframe.bags.summary import SensorSummary
-    from coframe.doctor._finding import Finding
+    from coframe.doctor import Finding
 
 __all__ = ["bag"]
 
