@@ -214,9 +214,12 @@ HOSTILE_IDL = {
     "division": (idl("const long A = 1 / 0;"), "line 3: a division by zero"),
     "power": (idl("const long A = 9 ** 99;"), "line 3: expected a value, found *"),
     "digits": (idl(f"const long A = {'9' * 5000};"), "line 3: a number of 5000 characters, more than 400"),
-    "parentheses": (idl(f"const long A = {'(' * 500}1{')' * 500};"), f"line 3: more than {MAX_NESTING} parentheses"),
-    "signs": (idl(f"const long A = {'-' * 500}1;"), f"line 3: more than {MAX_NESTING} parentheses or signs"),
-    "modules": ("module a {" * 500, f"line 1: more than {MAX_NESTING} modules"),
+    "parentheses": (
+        idl(f"const long A = {'(' * 500}1{')' * 500};"),
+        f"line 3: more than {MAX_NESTING} nested parentheses",
+    ),
+    "signs": (idl(f"const long A = {'-' * 500}1;"), f"line 3: more than {MAX_NESTING} nested parentheses or signs"),
+    "modules": ("module a {" * 500, f"line 1: more than {MAX_NESTING} nested modules"),
     "sequences": (idl(fields="sequence<" * 300 + "long" + ">" * 300 + " x;"), "line 6: sequences of sequences"),
     "constants": (idl(MANY_CONSTANTS), f"line {MAX_CONSTANTS + 3}: more than {MAX_CONSTANTS} constants"),
     "structures": (
@@ -254,7 +257,7 @@ HOSTILE_MSG = {
     "memory": ("int32 y\nstring[1000000000] x", "line 2: a message with default values would need"),
     "depth": (
         f"{CHAIN}{LINE}MSG: lab/L{MAX_DEPTH + 1}\nint32 x\n",
-        f"line {3 * MAX_DEPTH + 1}: more than {MAX_DEPTH} messages",
+        f"line {3 * MAX_DEPTH + 1}: more than {MAX_DEPTH} nested messages",
     ),
     "cycle": (f"lab/A x\n{LINE}MSG: lab/A\nint32 y\nlab/A[] x\n", "line 5: a message cannot contain itself"),
     "doubling": (
@@ -265,7 +268,7 @@ HOSTILE_MSG = {
     ),
     "loops": (
         "lab/L0[] a\n" + "".join(f"MSG: lab/L{i}\nlab/L{i + 1}[] a\n" for i in range(30)) + "MSG: lab/L30\nint32 x\n",
-        "line 1: more than 16 sequences inside each other",
+        "line 1: more than 16 nested sequences",
     ),
     "missing": (
         f"lab/A x\n{LINE}MSG: lab/A\nint32 y\nlab/Gone x\n",

@@ -326,7 +326,7 @@ def test_idl_files_define_services_and_actions(define: Callable[..., Any]) -> No
             "expected a name, found the end of the",
         ),
         ("module demo_msgs {\n\n ` };", 3, "unexpected character '`'"),
-        ("module a { " * 50, 1, "more than 20 modules inside each other"),
+        ("module a { " * 50, 1, "more than 20 nested modules"),
         ('module demo_msgs { module msg {\n @range(1 % "") struct Thing { long x; }; }; };', 2, "cannot be applied to"),
     ],
 )
@@ -350,10 +350,10 @@ def test_definitions_that_multiply_are_refused(define: Callable[..., Any]) -> No
     with pytest.raises(coframe.InterfaceError, match="100000 fields, more than 20000"):
         define("demo_msgs/msg/Wide0", **fields, msg_Wide5="uint8 x")
     deep = {f"msg_Deep{level}": f"Deep{level + 1}[] x\n" for level in range(30)}
-    with pytest.raises(coframe.InterfaceError, match="more than 16 sequences inside each other"):
+    with pytest.raises(coframe.InterfaceError, match="more than 16 nested sequences"):
         define("demo_msgs/msg/Deep0", **deep, msg_Deep30="uint8 x")
     chain = {f"msg_Chain{level}": f"Chain{level + 1} x\n" for level in range(500)}
-    with pytest.raises(coframe.InterfaceError, match="more than 64 messages inside each other"):
+    with pytest.raises(coframe.InterfaceError, match="more than 64 nested messages"):
         define("demo_msgs/msg/Chain0", **chain, msg_Chain500="uint8 x")
     largest = define("demo_msgs/msg/Image", msg_Image="uint8[6000000] pixels")
     assert largest().pixels.size == 6_000_000

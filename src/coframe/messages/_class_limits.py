@@ -98,4 +98,4 @@ def check_limits(
     if extent.fields > MAX_FIELDS:
         raise ValueError(f"the message and those inside it have {extent.fields} fields, more than {MAX_FIELDS}")
     if extent.loops > MAX_LOOPS:
-        raise ValueError(f"more than {MAX_LOOPS} sequences inside each other")
+        raise ValueError(f"more than {MAX_LOOPS} nested sequences")

@@ -173,7 +173,7 @@ class _IdlParser:
 
     def _module(self, scope: tuple[str, ...]) -> None:
         if len(scope) == MAX_NESTING:
-            raise self._tokens.error(f"more than {MAX_NESTING} modules inside each other")
+            raise self._tokens.error(f"more than {MAX_NESTING} nested modules")
         inner = (*scope, self._tokens.take("name").text)
         self._tokens.expect("{")
         while not self._tokens.accept("}"):

@@ -78,7 +78,7 @@ class _Expression:
 
     def _unary(self, depth: int) -> Any:
         if depth > MAX_NESTING:
-            raise self._tokens.error(f"more than {MAX_NESTING} parentheses or signs inside each other")
+            raise self._tokens.error(f"more than {MAX_NESTING} nested parentheses or signs")
         token = self._tokens.peek()
         if token.kind == "string":
             return self._tokens.strings()

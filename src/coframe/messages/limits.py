@@ -28,14 +28,14 @@ MAX_DEFINITION = 1 << 20  # bytes of a definition in a recording, with those of 
 MAX_RECORDED_TEXT = 8 << 20  # bytes of all different definitions of a recording
 MAX_LINE = 20_000  # characters of a line without its comment, and of a string in IDL
 MAX_DIGITS = 400  # characters of a number: the largest double has 309 digits before its point
-MAX_NESTING = 20  # modules and parentheses of IDL inside each other; rosidl needs three modules
+MAX_NESTING = 20  # nested modules and parentheses of IDL; rosidl needs three modules
 
 # The messages.
 MAX_TYPES = 1_000  # of a definition in a recording
 MAX_CONSTANTS = 2_000  # of a definition
 MAX_FIELDS = 20_000  # of a message and all messages inside it; public messages have fewer than 2 000
-MAX_DEPTH = 64  # messages inside each other
-MAX_LOOPS = 16  # sequences inside the messages of a sequence; Python allows 20 loops inside each other
+MAX_DEPTH = 64  # nested messages
+MAX_LOOPS = 16  # sequences inside the messages of a sequence; Python allows 20 nested loops
 MAX_BYTES = 64 << 20  # of a message with default values
 MAX_VALUES = 2**32 - 1  # of an array, sequence or string: CDR counts them with 32 bits
 MAX_RECORDED_FIELDS = 100_000  # of all classes that are made from the definitions in a recording

@@ -150,7 +150,7 @@ class ResolvedSchema:
             chain = " > ".join([*above[above.index(name) :], name])
             raise InterfaceError(f"a message cannot contain itself: {chain}")
         if len(above) > MAX_DEPTH:
-            raise InterfaceError(f"more than {MAX_DEPTH} messages inside each other")
+            raise InterfaceError(f"more than {MAX_DEPTH} nested messages")
         above.append(name)
         fields = [self._field(field, name, above) for field in structure.fields]
         if [field.name for field in fields] == ["structure_needs_at_least_one_member"]:

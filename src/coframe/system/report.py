@@ -41,7 +41,7 @@ class LibraryReport:
 
 @dataclass(frozen=True)
 class SystemReport:
-    """What this machine offers a process that joins the ROS graph.
+    """The state of this machine, as far as it affects processes that join the ROS graph.
 
     Attributes:
         installation: The software.

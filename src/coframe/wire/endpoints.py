@@ -328,7 +328,7 @@ class Subscription(LocalEndpoint):
         return [Sample(*message) for message in self._reader.take(limit)]
 
     def take_decoded(self, codec: _core.MessageCodec, limit: int = 100) -> list[Sample]:
-        """Return what `take` returns, with messages in place of their bytes where the codec can read them."""
+        """Return what `take` returns, with messages instead of their bytes where the codec can read them."""
         return [Sample(*message) for message in self._reader.take_decoded(limit, codec)]
 
     def pending(self) -> bool:
