@@ -198,7 +198,7 @@ MADE = {
     "generated_topics.db3": (generated_topics, "the table topics has generated columns"),
     "index.bag": (index, "damaged"),
     "times.mcap": (times, "damaged messages"),
-    "header.db3": (header, "the database cannot be read"),
+    "header.db3": (header, "the database is damaged (file is not a database)"),
     "footer.mcap": (footer, "the footer is damaged"),
     "aliases": (with_metadata(f"{DOUBLING}\n{BAG}*c39\n  compression_format: *c39"), "replaced by copies"),
     "few_aliases": (with_metadata(f"{ALIASES}\n{BAG}*a"), ""),

@@ -100,6 +100,8 @@ def repair(
     with open_bag(source, progress=partial(progress, "reading")) as recording:
         added = [] if statics is None else _statics_of(statics)
         problems = recording.problems
+        if problems and not any(topic.messages for topic in recording.topics.values()):
+            raise RecordingError(f"{source} cannot be repaired, because no message can be read: {problems[0]}")
         writer = Writer(target, compression=compression)
         work = _Repair(recording, writer, robot, rename)
         try:

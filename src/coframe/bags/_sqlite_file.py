@@ -5,12 +5,16 @@ from __future__ import annotations
 
 import sqlite3
 import threading
+from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from coframe._files.regular_files import open_regular
+from coframe._output.formatting import count
 from coframe.bags._compression import MAX_UNPACKED_BYTES, DamagedError
 from coframe.bags._sqlite_database import DAMAGE, Database
+from coframe.bags._sqlite_leaves import LeafRow, Leaves
 from coframe.bags.formats import SQLITE
 from coframe.bags.storage import Batch, Channel, Storage
 from coframe.messages.slices import Slices
@@ -25,6 +29,7 @@ __all__ = ["SqliteStorage"]
 
 _BATCH_SIZE = 2000  # rows
 _BATCH_BYTES = 64 << 20
+_MAX_TOPIC_BYTES = 1 << 20
 # Querying type and size does not read the data. The value is NULL for data of a wrong type or size.
 _DATA, _SIZE = (
     f"CASE WHEN typeof(data) = 'blob' AND length(data) <= {MAX_UNPACKED_BYTES} THEN {value} END"
@@ -44,6 +49,11 @@ class SqliteStorage(Storage):
         self._channels: dict[int, Channel] = {}
         # Rows that share pages have more data than the file.
         self._bytes_left = self._database.size
+        # Of a damaged database:
+        self._damage = ""
+        self._leaves: Leaves | None = None
+        self._on_leaves: dict[int, LeafRow] = {}  # the messages that were found without the tree, by row ID
+        self._found = self._last_row = 0
 
     def channels(self) -> list[Channel]:
         """Return the channels found so far."""
@@ -51,32 +61,105 @@ class SqliteStorage(Storage):
 
     def batches(self, wanted: Callable[[Channel], bool], progress: Callable[[int], object]) -> Iterator[Batch]:
         """Yield the messages of the wanted channels with their bytes, then the others without bytes."""
+        total = 0
         try:
             self._channels = self._read_channels()
-            total = self._database.last_row("messages")
+            total = self._database.last_row("messages") or 0
         except DAMAGE as error:
-            self.add_problem(f"the database cannot be read: {error}")
-            return
-        if total is None:
-            return
+            if not _is_damaged(error):
+                self.add_problem(f"the database cannot be read: {error}")
+                return
+            self._note_damage(error)
+            self._channels = self._channels or self._recovered_channels()
         with_data = [number for number, channel in self._channels.items() if wanted(channel)]
         without_data = [number for number in self._channels if number not in with_data]
         for numbers, column in ((with_data, _DATA), (without_data, _SIZE)):
-            yield from self._rows(numbers, column, lambda row: progress(self.size * row // max(total, 1)))
+            yield from self._rows(numbers, column, lambda row: progress(self.size * row // max(total, row, 1)))
+        if self._leaves is not None:
+            self._report_missing(total)
         progress(self.size)
 
     def _rows(self, numbers: list[int], column: str, progress: Callable[[int], object]) -> Iterator[Batch]:
         if not numbers:
             return
+        last = None
         try:
+            if self._leaves is not None:
+                raise sqlite3.DatabaseError(self._damage)  # The tree has been found damaged before.
             found = self._database.rows(
                 "messages", f"topic_id, timestamp, {column}", f"topic_id IN ({', '.join(map(str, numbers))})"
             )
             for rows in self._parts(found):
-                progress(rows[-1][0])
+                last = rows[-1][0]
+                progress(last)
+                self._note_rows(rows)
                 yield from self._grouped(rows, with_data=column == _DATA)
         except DAMAGE as error:
+            if not _is_damaged(error):
+                self.add_problem(f"the database is damaged and was read only in part: {error}")
+                return
+            self._note_damage(error)
+        else:
+            return
+        try:
+            for rows in self._parts(self._recovered_rows(set(numbers), last, with_data=column == _DATA)):
+                self._note_rows(rows)
+                yield from self._grouped(rows, with_data=column == _DATA)
+        except sqlite3.DatabaseError as error:
             self.add_problem(f"the database is damaged and was read only in part: {error}")
+
+    def _report_missing(self, total: int) -> None:
+        """Report how many messages are missing, of ``total`` ones; 0 if that is not known."""
+        lost = max(total, self._last_row) - self._found
+        missing = f"{count(lost, 'message')} of {total} missing" if total else f"{lost} missing before the last one"
+        unknown = "" if total else "; how many come after it is unknown"
+        self.add_problem(
+            f"the database is damaged ({self._damage}): {count(self._found, 'message')} read, {missing}{unknown}"
+        )
+
+    def _note_damage(self, error: Exception) -> None:
+        self._damage = str(error)
+        self._leaves = self._leaves or Leaves(self.path)
+
+    def _note_rows(self, rows: list[tuple[Any, ...]]) -> None:
+        self._found += len(rows)
+        self._last_row = max(self._last_row, *(row[0] for row in rows))
+
+    def _recovered_channels(self) -> dict[int, Channel]:
+        """Return the topics on the leaves of a damaged database."""
+        found: dict[int, Channel] = {}
+        for row in self._leaves.rows() if self._leaves is not None else ():
+            if row.is_topic and row.size <= _MAX_TOPIC_BYTES:
+                with suppress(DamagedError):
+                    name, type_, encoding, *rest = (str(each, "utf-8", "replace") for each in self._values(row, 1))
+                    if name.startswith("/") and "/" in type_:
+                        found.setdefault(row.number, Channel(name, type_, encoding, offered_qos="".join(rest[:1])))
+        return found
+
+    def _recovered_rows(self, numbers: set[int], last: int | None, *, with_data: bool) -> Iterator[tuple[Any, ...]]:
+        """Yield the rows of messages after the row ``last`` that are on leaves of a damaged database."""
+        leaves = self._leaves
+        for row in leaves.rows() if leaves is not None else ():
+            if not row.is_message or row.number in self._on_leaves or (last is not None and row.number <= last):
+                continue
+            with suppress(DamagedError):
+                _, topic, time = self._integers(row)
+                if topic in numbers:
+                    data = self._values(row, 3)[0]
+                    self._on_leaves[row.number] = row
+                    yield row.number, topic, time, data if with_data else len(data)
+
+    def _integers(self, row: LeafRow) -> list[int]:
+        if self._leaves is None:
+            raise DamagedError("the file is closed")
+        with self._lock:
+            return self._leaves.integers(row, 3)
+
+    def _values(self, row: LeafRow, first: int) -> list[bytes]:
+        if self._leaves is None:
+            raise DamagedError("the file is closed")
+        with self._lock:
+            return self._leaves.values(row, first)
 
     def _parts(self, found: Iterator[tuple[Any, ...]]) -> Iterator[list[tuple[Any, ...]]]:
         """Yield the rows in parts of limited size, so that only a few messages are in memory."""
@@ -123,7 +206,7 @@ class SqliteStorage(Storage):
         tables = self._database.tables()
         for name in ("topics", "messages"):
             if name not in tables:
-                raise sqlite3.DatabaseError(f"no table {name}: the file is not a recording of rosbag2")
+                raise sqlite3.DatabaseError(f"no table {name}: {self._without_tables()}")
         definitions = {}
         if "message_definitions" in tables:
             columns = "topic_type, encoding, encoded_message_definition"
@@ -138,6 +221,15 @@ class SqliteStorage(Storage):
             if isinstance(number, int)
         }
 
+    def _without_tables(self) -> str:
+        """Return why the tables can be missing."""
+        with open_regular(self.path) as file:
+            is_in_wal_mode = file.read(20)[18:] == b"\x02\x02"
+        log = f"{self.path.name}-wal"
+        if is_in_wal_mode and not self.path.with_name(log).exists():
+            return f"its recorder wrote to {log}, which is missing; copy this file as well"
+        return "the file is not a recording of rosbag2"
+
     def _counted(self, rows: Iterator[tuple[Any, ...]]) -> Iterator[tuple[Any, ...]]:
         """Yield rows, and count the bytes of their strings."""
         for row in rows:
@@ -148,6 +240,8 @@ class SqliteStorage(Storage):
 
     def read(self, position: int) -> bytes:
         """Return the data of a row."""
+        if (row := self._on_leaves.get(_row(position))) is not None:
+            return self._values(row, 3)[0]
         try:
             with self._lock:
                 data = self._database.blob("messages", "data", _row(position))
@@ -159,6 +253,8 @@ class SqliteStorage(Storage):
 
     def head(self, position: int, size: int) -> bytes:
         """Return the first bytes of the data of a row, without reading the rest."""
+        if _row(position) in self._on_leaves:
+            return self.read(position)[:size]
         try:
             with self._lock:
                 return self._database.beginning("messages", "data", _row(position), size)
@@ -168,6 +264,14 @@ class SqliteStorage(Storage):
     def close(self) -> None:
         """Close the file."""
         self._database.close()
+        if self._leaves is not None:
+            self._leaves.close()
+            self._leaves = None
+
+
+def _is_damaged(error: Exception) -> bool:
+    """Return whether SQLite found a damaged page, unlike a database that is not a recording or does not end."""
+    return str(error).startswith(("database disk image is malformed", "file is not a database", "disk I/O error"))
 
 
 def _row(position: int) -> int:

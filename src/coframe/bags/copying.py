@@ -17,6 +17,7 @@ from coframe.bags._writer import Writer
 from coframe.bags.cdr_conversion import cdr_conversion, copied_definition
 from coframe.bags.recording import open_bag
 from coframe.bags.transforms import is_static
+from coframe.errors import RecordingError
 
 if TYPE_CHECKING:
     import os
@@ -86,6 +87,9 @@ def copy_recordings(
             for recording, names in zip(recordings, selections, strict=True)
             for name in names
         )
+        found = [problem for recording in recordings for problem in recording.problems]
+        if found and not any(topic.messages for recording in recordings for topic in recording.topics.values()):
+            raise RecordingError(f"nothing can be copied, because no message can be read: {found[0]}")
         skipped: Counter[str] = Counter()
         writer = Writer(target, compression=compression)
         try:

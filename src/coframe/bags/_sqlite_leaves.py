@@ -1,0 +1,186 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Rows of a damaged SQLite database, read from the pages that contain them, without the tree above these pages.
+
+Pages are read one by one: those with rows of a table are leaves, https://sqlite.org/fileformat2.html. Their rows are
+recognized by the types of their values.
+"""
+
+from __future__ import annotations
+
+import struct
+from typing import TYPE_CHECKING, BinaryIO, NamedTuple
+
+from coframe._files.regular_files import open_regular
+from coframe.bags._compression import MAX_UNPACKED_BYTES, DamagedError
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+    from pathlib import Path
+
+__all__ = ["LeafRow", "Leaves"]
+
+_LEAF = 0x0D  # the first byte of a page with rows
+_HEADER = 100  # bytes before the content of the first page
+_BLOCK_PAGES = 256  # read at once
+_MAX_RECORD_HEADER = 200  # bytes; rows of recordings have at most seven columns
+_INTEGERS = (1, 2, 3, 4, 5, 6, 8, 9)  # types of values; 0 is NULL, which stands for the ID of the row
+_SIZES = (0, 1, 2, 3, 4, 6, 8, 8, 0, 0)  # bytes of a value by its type; larger types are BLOBs (even) and texts (odd)
+
+
+class LeafRow(NamedTuple):
+    """A row on a leaf.
+
+    Attributes:
+        number: Its ID.
+        types: The types of its values, as in the file.
+        start: Offset of its bytes in the file.
+        size: Number of its bytes, including those on other pages.
+        header: Number of bytes before the first value.
+    """
+
+    number: int
+    types: tuple[int, ...]
+    start: int
+    size: int
+    header: int
+
+    @property
+    def sizes(self) -> list[int]:
+        """Number of bytes of each value."""
+        return [_SIZES[kind] if kind < len(_SIZES) else (kind - 12) // 2 for kind in self.types]
+
+    @property
+    def is_message(self) -> bool:
+        """Whether it can be a row of ``messages``: its ID, topic and time, and a BLOB."""
+        if len(self.types) != 4 or not _is_blob(self.types[3]):
+            return False
+        number, topic, time = self.types[:3]
+        return (number == 0 or number in _INTEGERS) and topic in _INTEGERS and time in _INTEGERS
+
+    @property
+    def is_topic(self) -> bool:
+        """Whether it can be a row of ``topics``: its ID, name, type and encoding, and in later versions more."""
+        return 4 <= len(self.types) <= 6 and self.types[0] < 10 and all(map(_is_text, self.types[1:]))
+
+
+class Leaves:
+    """The leaves of a database."""
+
+    def __init__(self, path: Path) -> None:
+        self._file: BinaryIO = open_regular(path)
+        header = self._file.read(_HEADER).ljust(_HEADER, b"\0")
+        (stated,) = struct.unpack_from(">H", header, 16)
+        size = 65536 if stated == 1 else stated
+        self._page = size if size >= 512 and size & (size - 1) == 0 else 4096
+        self._largest = min(path.stat().st_size, MAX_UNPACKED_BYTES)
+        self._usable = self._page - (header[20] if header[20] < 33 else 0)
+
+    def close(self) -> None:
+        """Close the file."""
+        self._file.close()
+
+    def rows(self) -> Iterator[LeafRow]:
+        """Yield the rows of all leaves in the order of the file."""
+        offset = 0
+        while True:
+            self._file.seek(offset)
+            block = self._file.read(self._page * _BLOCK_PAGES)
+            for start in range(0, len(block), self._page):
+                page = block[start : start + self._page]
+                first = _HEADER if offset + start == 0 else 0
+                if len(page) > first + 8 and page[first] == _LEAF:
+                    yield from self._rows_of(page, first, offset + start)
+            if len(block) < self._page * _BLOCK_PAGES:
+                return
+            offset += len(block)
+
+    def _rows_of(self, page: bytes, first: int, offset: int) -> Iterator[LeafRow]:
+        (number,) = struct.unpack_from(">H", page, first + 3)
+        for index in range(min(number, (self._page - first - 8) // 2)):
+            try:
+                (cell,) = struct.unpack_from(">H", page, first + 8 + 2 * index)
+                size, position = _varint(page, cell)
+                row, position = _varint(page, position)
+                header, types_at = _varint(page, position)
+                types = []
+                while types_at < position + min(header, _MAX_RECORD_HEADER):
+                    kind, types_at = _varint(page, types_at)
+                    types.append(kind)
+            except (IndexError, struct.error):
+                continue
+            found = LeafRow(row - (1 << 64) if row >> 63 else row, tuple(types), offset + position, size, header)
+            if header + sum(found.sizes) == size <= self._largest:
+                yield found
+
+    def integers(self, row: LeafRow, count: int) -> list[int]:
+        """Return the first values of a row, which are integers, or NULL, which is returned as 0.
+
+        Raises:
+            DamagedError: They are not in the file.
+        """
+        sizes, kinds = row.sizes[:count], row.types[:count]
+        self._file.seek(row.start + row.header)
+        data = self._file.read(sum(sizes))
+        if len(data) < sum(sizes):
+            raise DamagedError("a row ends outside of the file")
+        values = []
+        for size, kind in zip(sizes, kinds, strict=True):
+            values.append(1 if kind == 9 else int.from_bytes(data[:size], "big", signed=True))
+            data = data[size:]
+        return values
+
+    def values(self, row: LeafRow, first: int) -> list[bytes]:
+        """Return the values of a row from a column on.
+
+        Raises:
+            DamagedError: A page with its data is damaged.
+        """
+        data = self._payload(row)
+        position, found = row.header, []
+        for size in row.sizes:
+            found.append(data[position : position + size])
+            position += size
+        return found[first:]
+
+    def _payload(self, row: LeafRow) -> bytes:
+        here = self._bytes_on_leaf(row.size)
+        self._file.seek(row.start)
+        data = bytearray(self._file.read(here))
+        following = int.from_bytes(self._file.read(4), "big") if here < row.size else 0
+        while len(data) < row.size:
+            if following < 2:
+                raise DamagedError("a page with its data is missing")
+            self._file.seek((following - 1) * self._page)
+            page = self._file.read(self._usable)
+            if len(page) < 4 + min(self._usable - 4, row.size - len(data)):
+                raise DamagedError("a page with its data is missing")
+            following = int.from_bytes(page[:4], "big")
+            data += page[4:]
+        return bytes(data[: row.size])
+
+    def _bytes_on_leaf(self, size: int) -> int:
+        most = self._usable - 35
+        if size <= most:
+            return size
+        least = (self._usable - 12) * 32 // 255 - 23
+        some = least + (size - least) % (self._usable - 4)
+        return some if some <= most else least
+
+
+def _varint(data: bytes, position: int) -> tuple[int, int]:
+    value = 0
+    for _ in range(8):
+        byte = data[position]
+        position += 1
+        value = value << 7 | byte & 127
+        if byte < 128:
+            return value, position
+    return value << 8 | data[position], position + 1
+
+
+def _is_blob(kind: int) -> bool:
+    return kind >= 12 and kind % 2 == 0
+
+
+def _is_text(kind: int) -> bool:
+    return kind >= 13 and kind % 2 == 1
