@@ -1,7 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """The same transforms in all formats give the same lookups."""
 
+import bz2
+import gzip
 import itertools
+import lzma
+import struct
 import sys
 
 import numpy as np
@@ -16,6 +20,7 @@ from rosbags.rosbag2 import CompressionMode, StoragePlugin
 
 import coframe
 from coframe.bags import OfferedQos
+from coframe.bags._compression import unpack
 from coframe.bags._offered_qos import to_yaml
 from coframe.bags.namespaces import TransformChoice
 from coframe.doctor import observe_recording
@@ -433,6 +438,50 @@ def test_files_that_are_not_recordings_are_errors(tmp_path):
         with pytest.raises(coframe.RecordingError, match=reason) as caught:
             coframe.open_bag(tmp_path / name)
         assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("start", "reason"),
+    [
+        (b"version https://git-lfs.github.com/spec/v1\noid sha256:4d7a\nsize 12345\n", "`git lfs pull` downloads that"),
+        (gzip.compress(b"\x89MCAP0\r\n"), "it is compressed with gzip"),
+        (bz2.compress(b"x"), "it is compressed with bzip2"),
+        (lzma.compress(b"x"), "it is compressed with xz"),
+        (b"PK\x03\x04 archive", "it is a zip archive"),
+        (b"<!DOCTYPE html><title>Log in</title>", "it is a web page"),
+        (bytes(4096), "it begins with zeros"),
+    ],
+    ids=["lfs", "gzip", "bzip2", "xz", "zip", "page", "zeros"],
+)
+@pytest.mark.parametrize("suffix", [".mcap", ".db3", ".bag", ".gz"])
+def test_other_files_are_named_for_what_they_are(tmp_path, start, reason, suffix):
+    path = tmp_path / f"run{suffix}"
+    path.write_bytes(start)
+    with pytest.raises(coframe.RecordingError, match=reason):
+        coframe.open_bag(path)
+
+
+def test_a_chunk_of_two_zstd_frames():
+    data = bytes(range(200))
+    packed = zstandard.compress(data[:50]) + zstandard.compress(data[50:])
+    assert unpack("zstd", packed, 200) == data
+
+
+def test_records_of_later_versions_are_skipped_and_joined_files_are_reported(tmp_path):
+    path = recordings.write_mcap(tmp_path / "a.mcap")
+    whole = path.read_bytes()
+    path.write_bytes(whole[:8] + b"\x20" + struct.pack("<Q", 5) + b"later" + whole[8:])
+    with coframe.open_bag(path) as bag:
+        recordings.assert_same(bag.buffer)
+        assert any("a record of the unknown type 0x20 was skipped" in problem for problem in bag.problems)
+    path.write_bytes(whole + whole)
+    with coframe.open_bag(path) as bag:
+        [problem] = bag.problems
+        assert f"the last {len(whole)} bytes were not read" in problem
+        assert "another MCAP file begins there" in problem
+    path.write_bytes(whole)
+    with coframe.open_bag(path) as bag:
+        assert bag.problems == []
 
 
 def test_import_coframe_stays_cheap():

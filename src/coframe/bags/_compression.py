@@ -114,7 +114,7 @@ _PIECE = 4096  # bytes
 
 def _zstd() -> Callable[[Any], Any]:
     zstandard = _module("zstandard")
-    return lambda data: zstandard.ZstdDecompressor().stream_reader(data)
+    return lambda data: zstandard.ZstdDecompressor().stream_reader(data, read_across_frames=True)
 
 
 def _lz4() -> Callable[[Any], Any]:

@@ -75,7 +75,12 @@ class McapStorage(ChunkedStorage):
             is_intact = _is_record(opcode) and end <= self.size
             if is_intact and opcode in {_DATA_END, _FOOTER}:
                 self._check_footer(offset if opcode == _FOOTER else end)
+                self._check_end(offset)
                 return
+            if not is_intact and self._is_followed(opcode, end):
+                self.add_problem(f"a record of the unknown type 0x{opcode:02x} was skipped")
+                offset = end
+                continue
             damaged += not is_intact
             later = None if is_intact or damaged > MAX_DAMAGED_PLACES else next_chunk(chunks, offset)
             if later is not None:
@@ -88,6 +93,28 @@ class McapStorage(ChunkedStorage):
             offset = end
         end = min(offset, self.size)
         self.add_problem(f"truncated at byte {end} of {self.size}; the recorder may have been killed")
+
+    def _is_followed(self, opcode: int, end: int) -> bool:
+        """Return whether a record is of a type that a later version of MCAP may define, with another record behind."""
+        head = self.bytes_at(end, _RECORD.size)
+        if opcode == 0 or _is_record(opcode) or len(head) < _RECORD.size:
+            return False
+        following, length = _RECORD.unpack(head)
+        return _is_record(following) and end + _RECORD.size + length <= self.size
+
+    def _check_end(self, offset: int) -> None:
+        """Report bytes behind the first footer, from the record at an offset on."""
+        while len(head := self.bytes_at(offset, _RECORD.size)) == _RECORD.size:
+            opcode, length = _RECORD.unpack(head)
+            offset += _RECORD.size + length
+            if opcode == _FOOTER:
+                break
+        rest = self.size - offset - len(MCAP.magic)
+        if rest > 0:
+            what = "another MCAP file begins there" if self.bytes_at(offset + len(MCAP.magic), 8) == MCAP.magic else ""
+            self.add_problem(
+                f"the last {rest} bytes were not read: they are behind the end of the file; {what}".rstrip("; ")
+            )
 
     def _read_summary(self) -> list[int]:
         """Read the channels in the summary at the end of the file; return the offsets of the chunks it lists."""
