@@ -117,7 +117,7 @@ def _kill_recorder() -> Measurement:
         killed = time.time_ns()
         sent = {robot: talker.ask()["stamps"] for robot, talker in talkers.items()}
         with coframe.open_bag(run) as bag:
-            lost = (killed - bag.end) / NS
+            lost = (killed - bag.received_end) / NS
             missing = 0
             for robot, stamps in sent.items():
                 begin, end = bag.buffer.span(f"odom_{robot}", robot)

@@ -111,6 +111,11 @@ nb::object roots(const FailureObject& object) {
 
 nb::object name(const FailureObject& object) { return name_of(object.failure.name); }
 
+// Whether no further transforms are expected: the buffer is frozen, or keeps everything, as recordings do.
+nb::object recorded(const FailureObject& object) {
+  return nb::bool_(object.buffer->frozen() || object.buffer->cache_length() < 0);
+}
+
 // The current parents of all frames; "" for frames without one.
 nb::object parents(const FailureObject& object) {
   nb::dict all;
@@ -145,6 +150,7 @@ PyGetSetDef failure_properties[] = {{"code", &get<&code>, nullptr, nullptr, null
                                     {"edge", &get<&edge>, nullptr, nullptr, nullptr},
                                     {"roots", &get<&roots>, nullptr, nullptr, nullptr},
                                     {"name", &get<&name>, nullptr, nullptr, nullptr},
+                                    {"recorded", &get<&recorded>, nullptr, nullptr, nullptr},
                                     {"parents", &get<&parents>, nullptr, nullptr, nullptr},
                                     {nullptr, nullptr, nullptr, nullptr, nullptr}};
 

@@ -73,6 +73,9 @@ class Failure:
     def name(self) -> str: ...
     @property
     def parents(self) -> dict[str, str]: ...
+    @property
+    def recorded(self) -> bool:
+        """Whether the buffer is frozen or keeps everything, as recordings do: no further transforms are expected."""
 
 class Buffer:
     """The native buffer; coframe.Buffer is the public class derived from it."""

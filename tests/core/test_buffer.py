@@ -425,6 +425,71 @@ def test_hint_for_stamps_in_seconds():
     assert "no longer has a sample" in caught.value.hint
 
 
+def filled(cache, start):
+    buffer = coframe.Buffer(cache)
+    for second in range(5):
+        buffer.set("odom", "base", coframe.Transform([second, 0, 0]), start + second * 1_000_000_000)
+    return buffer
+
+
+def hint_at(buffer, stamp):
+    with pytest.raises(coframe.ExtrapolationException) as caught:
+        buffer.lookup("odom", "base", stamp)
+    return caught.value.hint, caught.value.doctor_code
+
+
+@pytest.mark.parametrize(("unit", "size"), [("s", 10**9), ("ms", 10**6), ("us", 10**3)])
+@pytest.mark.parametrize("start", [100 * 10**9, 1_700_000_000 * 10**9])
+def test_stamps_in_another_unit_are_recognized(unit, size, start):
+    stamp = (start + 2 * 10**9) // size
+    found, code = hint_at(filled(None, start), stamp)
+    assert found == f"Stamps are in nanoseconds: {stamp} {unit} is {start + 2 * 10**9:_}."
+    assert code == ""
+
+
+@pytest.mark.parametrize(
+    ("start", "stamp", "where"),
+    [
+        (100 * 10**9, 1_700_000_000 * 10**9, "19676 days after"),
+        (1_700_000_000 * 10**9, 100 * 10**9, "19676 days before"),
+        (1_700_000_000 * 10**9, 1_600_000_000 * 10**9, "1157 days before"),
+    ],
+)
+@pytest.mark.parametrize("cache", ["10s", None])
+def test_stamps_on_another_clock_are_recognized(cache, start, stamp, where):
+    found, code = hint_at(filled(cache, start), stamp)
+    assert found.startswith(f"The requested time is {where} the samples of odom -> base")
+    assert "another clock" in found
+    assert code == "TF009"
+
+
+@pytest.mark.parametrize(
+    "buffer", [lambda: filled(None, 100 * 10**9), lambda: filled("10s", 100 * 10**9).snapshot()], ids=["all", "frozen"]
+)
+@pytest.mark.parametrize("stamp", [99 * 10**9, 105 * 10**9])
+def test_hints_for_recordings_and_frozen_buffers_do_not_mention_caches_or_waiting(buffer, stamp):
+    found, code = hint_at(buffer(), stamp)
+    assert "odom -> base has samples from 100.000000000 to 104.000000000 only" in found
+    assert "cache" not in found
+    assert "ait" not in found
+    assert code == "TF013"
+
+
+def test_edges_without_a_common_time_are_named_with_their_intervals():
+    buffer = filled(None, 100 * 10**9)
+    buffer.set("base", "lidar", coframe.Transform(), 10**9)
+    buffer.set("base", "lidar", coframe.Transform(), 3 * 10**9)
+    for call in (buffer.span, buffer.trajectory):
+        with pytest.raises(coframe.ExtrapolationException) as caught:
+            call("odom", "lidar")
+        assert str(caught.value) == (
+            "The edges between 'odom' and 'lidar' have no common time: odom -> base from 100.000000000 to "
+            "104.000000000, base -> lidar from 1.000000000 to 3.000000000"
+        )
+        assert "no common time" in caught.value.hint
+        assert caught.value.doctor_code == "TF013"
+
+
 @pytest.mark.parametrize("wrong", [{"timeout": 0.5}, {"timeout": "soon"}, {"extrapolate": 0.1}, {"timeout": [1]}])
 def test_invalid_arguments_are_refused_even_if_they_are_not_used(buffer, wrong):
     with pytest.raises((TypeError, ValueError), match=r"is not a duration|a duration must be"):

@@ -67,7 +67,7 @@ def test_messages_of_any_type_are_recorded_unchanged(participant, node, eventual
     assert "/fibonacci/_action/status" not in data
     with coframe.open_bag(tmp_path / "run") as bag:
         offered = {channel.topic: from_yaml(channel.offered_qos)[0] for channel in bag.channels()}
-        assert started < bag.start < bag.end < time.time_ns()
+        assert started < bag.received_start < bag.received_end < time.time_ns()
     assert offered["/tf_static"].transient_local
     assert offered["/tf_static"].reliable
     assert not offered["/raw"].reliable

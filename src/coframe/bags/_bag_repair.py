@@ -298,7 +298,7 @@ class _Repair:
 
     def _write_statics(self, channel: Channel, route: _Route, transforms: list[TransformStamped], what: str) -> None:
         message = self._corrected(channel, route, serialize(find(TF_MESSAGE)(transforms=transforms)))
-        self._writer.write(route.topic, message, self._recording.start, publisher=what)
+        self._writer.write(route.topic, message, self._recording.received_start, publisher=what)
         self._count(channel, what, len(transforms))
 
     def _late_statics(self) -> dict[Channel, list[TransformStamped]]:
@@ -312,7 +312,7 @@ class _Repair:
             known = found.setdefault(channel.topic, (channel, {}))[1]
             for transform in decode_transforms(converted.convert, data):
                 key = (channel.topic, transform.child_frame_id)
-                if received <= self._recording.start:
+                if received <= self._recording.received_start:
                     early.add(key)
                 elif key not in early:
                     known.setdefault(transform.child_frame_id, transform)

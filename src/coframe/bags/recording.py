@@ -143,26 +143,37 @@ class Recording:
 
     @property
     def start(self) -> int:
-        """Receive time of the first message, in nanoseconds; 0 if there is none."""
-        return 0 if self._received_span is None else self._received_span[0]
+        """First stamp of the transforms in nanoseconds, on the clock that most of them use: a time for lookups.
+
+        In a simulation, this is the simulated clock, which differs from that of :attr:`received_start`. Without dynamic
+        transforms, it is :attr:`received_start`.
+        """
+        return self.span[0]
 
     @property
     def end(self) -> int:
-        """Receive time of the last message, in nanoseconds; 0 if there is none."""
+        """Last stamp of the transforms in nanoseconds, on the clock of :attr:`start`."""
+        return self.span[1]
+
+    @property
+    def received_start(self) -> int:
+        """Receive time of the first message in nanoseconds, on the recorder's clock; 0 if there is none."""
+        return 0 if self._received_span is None else self._received_span[0]
+
+    @property
+    def received_end(self) -> int:
+        """Receive time of the last message in nanoseconds, on the recorder's clock; 0 if there is none."""
         return 0 if self._received_span is None else self._received_span[1]
 
     @property
     def duration(self) -> int:
-        """Time from :attr:`start` to :attr:`end`, in nanoseconds."""
-        return self.end - self.start
+        """Time from :attr:`received_start` to :attr:`received_end` in nanoseconds: how long was recorded."""
+        return self.received_end - self.received_start
 
     @cached_property
     def span(self) -> tuple[int, int]:
-        """First and last stamp in nanoseconds, on the clock that most transforms use.
-
-        In a simulation, receive times use another clock. Without dynamic transforms, :attr:`start` and :attr:`end`.
-        """
-        return main_span(self.buffer) or (self.start, self.end)
+        """:attr:`start` and :attr:`end`."""
+        return main_span(self.buffer) or (self.received_start, self.received_end)
 
     def messages(
         self, topic: str, start: StampLike | None = None, stop: StampLike | None = None

@@ -100,8 +100,8 @@ def summarize(recording: Recording) -> Summary:
     sizes = [TreeSummary(trees.root(members[0]), len(members)) for members in trees.members]
     return Summary(
         path=str(recording.path),
-        start=recording.start,
-        end=recording.end,
+        start=recording.received_start,
+        end=recording.received_end,
         span=recording.span,
         topics=list(recording.topics.values()),
         trees=sorted(sizes, key=lambda tree: (-tree.size, tree.root)),

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Literal, TypeAlias, overload
 import numpy as np
 
 from coframe import _core, time
+from coframe.errors import ExtrapolationException
 from coframe.transform.resampling import StepLimits
 from coframe.transform.transform import batch_of, stamps_of
 
@@ -195,7 +196,12 @@ class Buffer(_core.Buffer):
         ends = np.array([np.iinfo(np.int64).min + 1, np.iinfo(np.int64).max])
         if self.latest_common_time(target, source) == 0:
             return 0, 0
-        self._lookup_rows(target, source, ends, np.empty((2, 7)), None, None, "clip", 1)
+        try:
+            self._lookup_rows(target, source, ends, np.empty((2, 7)), None, None, "clip", 1)
+        except ExtrapolationException as error:
+            from coframe.buffer.explanation import explain, no_common_time  # noqa: PLC0415 - only errors need it
+
+            raise no_common_time(explain(self, target, source)) from error
         if ends[0] == np.iinfo(np.int64).min + 1:  # Both names are the same frame, so there are no edges.
             return 0, 0
         return int(ends[0]), int(ends[1])

@@ -237,7 +237,7 @@ def slice_(
 
 def _receipt_time(option: str, text: str | None, recording: Recording) -> int | None:
     try:
-        return None if text is None else parse_time_point(text, (recording.start, recording.end))
+        return None if text is None else parse_time_point(text, (recording.received_start, recording.received_end))
     except ValueError as error:
         fail(f"{option}: {error}", code=2)
 

@@ -144,7 +144,12 @@ def _answer_recorded(bag: Path, choice: TransformChoice, target: str, source: st
         check_has_transforms(recording)
         found = recording.buffer.why(target, source, None if at is None else parse_lookup_time("--at", at, recording))
         seen = [
-            Observation(live=False, start=recording.start, end=recording.end, transforms=collectors[name].transforms())
+            Observation(
+                live=False,
+                start=recording.received_start,
+                end=recording.received_end,
+                transforms=collectors[name].transforms(),
+            )
             for name in sorted(collectors)
         ]
         return _Answer(found, _relevant_reports(found, seen), list(_other_namespaces(found, recording)))

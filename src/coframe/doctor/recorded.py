@@ -91,8 +91,8 @@ def observe_chosen(
         return {
             name: Observation(
                 live=False,
-                start=recording.start,
-                end=recording.end,
+                start=recording.received_start,
+                end=recording.received_end,
                 transforms=collector.transforms(),
                 empty_messages=collector.empty,
                 damaged_messages=collector.damaged,

@@ -34,18 +34,19 @@ attributes.
 
 from __future__ import annotations
 
+import re
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from coframe import _core
 from coframe._base_error import CoframeError, CoframeWarning
 from coframe._output.escaping import shown
-from coframe._output.formatting import MAX_COMPARED_LENGTH, listed
+from coframe._output.formatting import MAX_COMPARED_LENGTH, duration, listed, seconds
 from coframe._process.plugins import PluginError
 from coframe.analysis.missing_edges import missing_edge
 from coframe.analysis.similar_frames import similar_frames
 from coframe.analysis.tree import FrameTrees
 from coframe.errors.lookup_hints import doctor_code, hint
-from coframe.time import SECOND
+from coframe.time import DAY, MICROSECOND, MILLISECOND, SECOND
 
 if TYPE_CHECKING:
     from typing_extensions import Self
@@ -308,21 +309,52 @@ def _restore(kind: str | type[TransformException], text: str, facts: dict[str, o
 
 
 _MAX_GUESSES = 3
+_UNITS = {"s": SECOND, "ms": MILLISECOND, "us": MICROSECOND}
+# Clocks of one system differ by less; simulated time and the system time by decades.
+_OTHER_CLOCK = 30 * DAY
+_MIN_UNIT_RATIO = 100  # a time in another unit is at least this much smaller than the samples
 MAX_LISTED_FRAMES = 50
 
 
 def _doctor_code(failure: Failure) -> str:
-    return "" if _is_in_seconds(failure) else doctor_code(failure.code)
+    if _mistaken_unit(failure):
+        return ""
+    if found := re.search(r"See doctor code (TF\d+)\.$", _hint(failure)):
+        return found[1]
+    return doctor_code(failure.code)
 
 
-def _is_in_seconds(failure: Failure) -> bool:
-    return failure.code == "too_old" and looks_like_seconds(failure)
+def _mistaken_unit(failure: Failure | TransformException) -> str:
+    """Return the unit in which the requested time lies within the samples of the edge; "" for nanoseconds."""
+    if failure.requested is None or failure.earliest is None or failure.latest is None:
+        return ""
+    requested, earliest, latest = failure.requested, failure.earliest, failure.latest
+    if not 0 < requested < earliest // _MIN_UNIT_RATIO:
+        return ""
+    return next((unit for unit, size in _UNITS.items() if earliest <= requested * size <= latest), "")
+
+
+def _hint_for_time(failure: Failure, parent: str, child: str) -> str:
+    """Return the hint for a time on another clock, or outside the samples of a recording; "" for other failures."""
+    requested, earliest, latest = failure.requested, failure.earliest, failure.latest
+    if failure.code not in {"too_old", "too_new"} or requested is None or earliest is None or latest is None:
+        return ""
+    apart = requested - latest if requested > latest else earliest - requested
+    facts = {"parent": parent, "child": child, "first": seconds(earliest), "last": seconds(latest)}
+    facts |= {"target": failure.target, "source": failure.source}
+    if apart > _OTHER_CLOCK:
+        direction = "after" if requested > latest else "before"
+        return hint("other_clock", by=duration(apart), direction=direction, **facts)
+    return hint("outside_recorded", **facts) if failure.recorded else ""
 
 
 def _hint(failure: Failure) -> str:
-    if _is_in_seconds(failure):
-        return hint("in_seconds", requested=str(failure.requested))
+    if unit := _mistaken_unit(failure):
+        nanoseconds = f"{(failure.requested or 0) * _UNITS[unit]:_}"
+        return hint("in_seconds", requested=str(failure.requested), unit=unit, nanoseconds=nanoseconds)
     parent, child = failure.edge or ("", "")
+    if specific := _hint_for_time(failure, parent, child):
+        return specific
     return hint(
         failure.code,
         target=failure.target,
@@ -337,10 +369,8 @@ def _hint(failure: Failure) -> str:
 
 
 def looks_like_seconds(failure: Failure | TransformException) -> bool:
-    """Return whether the requested time, read as seconds, lies within the samples of the edge."""
-    if failure.requested is None or failure.earliest is None or failure.latest is None:
-        return False
-    return failure.earliest <= failure.requested * SECOND <= failure.latest
+    """Return whether the requested time, in seconds, ms or us, lies within the samples of the edge."""
+    return _mistaken_unit(failure) != ""
 
 
 def _guess(failure: Failure) -> str:

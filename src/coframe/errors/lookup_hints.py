@@ -21,7 +21,18 @@ _HINTS = {
         "The requested time is {by} ahead of the newest sample of {parent} -> {child}: does its publisher use another "
         "clock? Look up the latest transform: lookup_transform({target!r}, {source!r}, rclpy.time.Time()).",
     ),
-    "in_seconds": _Hint("", "Stamps are in nanoseconds: {requested} s is {requested}_000_000_000."),
+    "in_seconds": _Hint("", "Stamps are in nanoseconds: {requested} {unit} is {nanoseconds}."),
+    "other_clock": _Hint(
+        "TF009",
+        "The requested time is {by} {direction} the samples of {parent} -> {child}, which are from {first} to {last}: "
+        "it is on another clock, such as the system time or the receive time in place of simulated time. Request a "
+        "time of that interval, or the latest transform (stamp 0).",
+    ),
+    "outside_recorded": _Hint(
+        "TF013",
+        "{parent} -> {child} has samples from {first} to {last} only. Request a time for which all edges have samples: "
+        "buffer.span({target!r}, {source!r}) returns their interval.",
+    ),
     "leading_slash": _Hint("TF006", "Remove the leading slash: {bare!r}."),
     "loop": _Hint(
         "TF004", "Two broadcasters publish different parents for a frame. Publish each frame with one parent only."

@@ -91,7 +91,7 @@ class Player:
     @property
     def position(self) -> int:
         """The recorded time of the replay, in nanoseconds."""
-        return min(max(self.clock.now, self._start), self.recording.end)
+        return min(max(self.clock.now, self._start), self.recording.received_end)
 
     @property
     def problems(self) -> list[str]:
@@ -187,7 +187,7 @@ class Player:
                 return False
             if self._publishers.publish(channel, data):
                 self.played += 1
-        return self.clock.wait_until(self.recording.end)
+        return self.clock.wait_until(self.recording.received_end)
 
     def _publish_clock(self, publisher: Publisher) -> None:
         kind, stamp = find(_CLOCK_TYPE), find("builtin_interfaces/msg/Time")
@@ -299,4 +299,4 @@ def _start(recording: Recording, offset: int) -> int:
             f"{recording.path} lasts {duration}: the replay cannot start at {offset / SECOND:.3f} s",
             hint=f"Choose a start offset from 0 to {duration}.",
         )
-    return recording.start + offset
+    return recording.received_start + offset

@@ -144,7 +144,7 @@ def metadata_of(recording: Recording) -> BagMetadata:
         TopicInformation(TopicMetadata(topic.name, topic.type, topic.encoding, qos.get(topic.name, "")), topic.messages)
         for topic in recording.topics.values()
     ]
-    start, duration = _Time.of(recording.start), _Duration.of(recording.duration)
+    start, duration = _Time.of(recording.received_start), _Duration.of(recording.duration)
     count = sum(topic.message_count for topic in topics)
     single = [FileInformation(recording.files[0][0].name, start, duration, count)] if len(recording.files) == 1 else []
     return BagMetadata(

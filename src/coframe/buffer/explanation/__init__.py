@@ -14,7 +14,8 @@ Example:
     (False, 'odom -> base', 'too_new', 500000000)
 """
 
+from coframe.buffer.explanation._advice import no_common_time
 from coframe.buffer.explanation._explaining import explain
 from coframe.buffer.explanation._facts import ChainEdge, Explanation
 
-__all__ = ["ChainEdge", "Explanation", "explain"]
+__all__ = ["ChainEdge", "Explanation", "explain", "no_common_time"]

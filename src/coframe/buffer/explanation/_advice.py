@@ -6,7 +6,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from coframe._output.formatting import duration, seconds
-from coframe.errors import looks_like_seconds
+from coframe.errors import ExtrapolationException, looks_like_seconds
 from coframe.errors.lookup_hints import hint
 from coframe.time import SECOND
 
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from coframe.buffer.explanation._facts import ChainEdge, Explanation
     from coframe.errors import TransformException
 
-__all__ = ["advice"]
+__all__ = ["advice", "no_common_time"]
 
 # The timeouts to suggest, in seconds. If a transform is later than the longest timeout, waiting is not useful.
 _TIMEOUTS = (0.1, 0.2, 0.5, 1.0, 2.0, 5.0)
@@ -42,6 +42,20 @@ def advice(found: Explanation, error: TransformException, *, recorded: bool) -> 
         first, last = found.span
         return hint("outside", first=seconds(first), last=seconds(last))
     return _late(found, edge) if edge.by > 0 else _early(found, edge, error)
+
+
+def no_common_time(found: Explanation) -> ExtrapolationException:
+    """Return the error for frames between which the edges have no common time."""
+    moving = [edge for edge in found.edges if not edge.static]
+    intervals = ", ".join(f"{edge.name} from {seconds(edge.oldest)} to {seconds(edge.newest)}" for edge in moving)
+    return ExtrapolationException.with_details(
+        f"The edges between {found.target!r} and {found.source!r} have no common time: {intervals}",
+        target=found.target,
+        source=found.source,
+        hint=_no_common_time(found) if moving else "",
+        code="too_old",
+        doctor_code="TF013",
+    )
 
 
 def _no_common_time(found: Explanation) -> str:
