@@ -136,9 +136,10 @@ def test_forward_kinematics_match_robot_state_publisher(folder):
             assert ours.target == edge.parent
             assert_close(np.array(ours.values), sent, 1e-12)
         assert compared + len(fixed) == 768
-        assert (
-            recording.start < 60 * SECOND < recording.received_start
-        )  # simulated stamps, received on the system clock
+        # Simulated stamps, received on the system clock.
+        assert recording.start < 60 * SECOND < recording.received_start
+        assert recording.span == (recording.start, recording.end)
+        assert recording.buffer.lookup("odom", "base_footprint", recording.start + 10 * SECOND)
 
 
 def test_epuck(folder):

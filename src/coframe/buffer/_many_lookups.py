@@ -201,7 +201,7 @@ class Buffer(_core.Buffer):
         except ExtrapolationException as error:
             from coframe.buffer.explanation import explain, no_common_time  # noqa: PLC0415 - only errors need it
 
-            raise no_common_time(explain(self, target, source)) from error
+            raise no_common_time(explain(self, target, source)) from error  # type: ignore[arg-type]  # the public class
         if ends[0] == np.iinfo(np.int64).min + 1:  # Both names are the same frame, so there are no edges.
             return 0, 0
         return int(ends[0]), int(ends[1])
