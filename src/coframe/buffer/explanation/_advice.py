@@ -41,7 +41,7 @@ def advice(found: Explanation, error: TransformException, *, recorded: bool) -> 
     if recorded:
         first, last = found.span
         return hint("outside", first=seconds(first), last=seconds(last))
-    return _late(found, edge) if edge.by > 0 else _early(found, edge, error)
+    return _late(found, edge) if edge.by > 0 else _early(found, edge)
 
 
 def no_common_time(found: Explanation) -> ExtrapolationException:
@@ -78,8 +78,8 @@ def _late(found: Explanation, edge: ChainEdge) -> str:
     return hint("too_new", timeout=f"{timeout:g}", **facts)
 
 
-def _early(found: Explanation, edge: ChainEdge, error: TransformException) -> str:
+def _early(found: Explanation, edge: ChainEdge) -> str:
     cache_is_full = 0 <= found.cache <= edge.newest - edge.oldest + 2 * edge.period
     if cache_is_full:
-        return error.hint
+        return hint("too_old", parent=edge.parent, child=edge.child)
     return hint("not_begun", parent=edge.parent, child=edge.child, first=seconds(edge.oldest))
