@@ -123,7 +123,7 @@ class SqliteStorage(Storage):
 
     def _note_rows(self, rows: list[tuple[Any, ...]]) -> None:
         self._found += len(rows)
-        self._last_row = max(self._last_row, *(row[0] for row in rows))
+        self._last_row = max(self._last_row, rows[-1][0])
 
     def _recovered_channels(self) -> dict[int, Channel]:
         """Return the topics on the leaves of a damaged database."""
@@ -147,6 +147,7 @@ class SqliteStorage(Storage):
                 if topic in numbers:
                     data = self._values(row, 3)[0]
                     self._on_leaves[row.number] = row
+                    self._last_row = max(self._last_row, row.number)
                     yield row.number, topic, time, data if with_data else len(data)
 
     def _integers(self, row: LeafRow) -> list[int]:
