@@ -128,9 +128,16 @@ PyObject* call_with_cached_ids(PyObject* object, PyObject* const* arguments, Py_
 
 nb::handle handle_or_none(PyObject* object) { return object ? nb::handle(object) : nb::handle(Py_None); }
 
+// Calls the Python method that raises if the transform is interpolated over a longer gap.
+void check_gap(nb::handle buffer, nb::handle target, nb::handle source, nb::handle transform, nb::handle max_gap) {
+  if (max_gap.is_none() || !transform.is_valid()) return;
+  buffer.attr("_check_gap")(target, source, transform.attr("stamp"), max_gap);
+}
+
 PyObject* lookup_general(PyObject* object, PyObject* const* arguments, Py_ssize_t count, PyObject* keywords) {
-  static const Signature<6> signature("lookup", {"target", "source", "stamp", "timeout", "extrapolate", "hold"}, 2, 3);
-  PyObject* values[6];
+  static const Signature<7> signature(
+      "lookup", {"target", "source", "stamp", "timeout", "extrapolate", "hold", "max_gap"}, 2, 3);
+  PyObject* values[7];
   if (!signature.parse(arguments, count, keywords, values)) return nullptr;
   return guarded([&] {
     BufferObject& self = buffer_of(object);
@@ -139,13 +146,15 @@ PyObject* lookup_general(PyObject* object, PyObject* const* arguments, Py_ssize_
     const ChangeTimeout limit(timeout);
     std::optional<Extrapolation> extrapolation = extrapolation_of(handle_or_none(values[4]), is_true(values[5]));
     // A lookup that succeeds at once needs neither waiting nor extrapolation.
+    const auto checked = [&](nb::object found) {
+      check_gap(object, values[0], values[1], found, handle_or_none(values[6]));
+      return found.release().ptr();
+    };
     PlainQuery query;
     if (query.read(self.frame(values[0]), self.frame(values[1]), values[2])) {
-      if (PyObject* found = lookup_cached_path(self, query, values[0], values[1])) return found;
+      if (PyObject* found = lookup_cached_path(self, query, values[0], values[1])) return checked(nb::steal(found));
     }
-    return lookup_waiting(self, values[0], values[1], handle_or_none(values[2]), timeout, extrapolation)
-        .release()
-        .ptr();
+    return checked(lookup_waiting(self, values[0], values[1], handle_or_none(values[2]), timeout, extrapolation));
   });
 }
 
@@ -261,7 +270,7 @@ nb::object py_chain(BufferObject& self, nb::handle target, nb::handle target_sta
 
 void add_frequent_lookups(nb::handle cls) {
   add_method(cls, "lookup", &py_lookup,
-             "lookup($self, /, target, source, stamp=None, *, timeout=None, extrapolate=None, hold=False)\n--\n\n"
+             "lookup($self, /, target, source, stamp=None, *, timeout=None, extrapolate=None, hold=False, max_gap=None)\n--\n\n"
              R"doc(Return the transform at `stamp` that transforms data from `source` into `target`.
 
 Args:
@@ -274,6 +283,8 @@ Args:
     extrapolate: How far the lookup may extrapolate beyond the samples of an edge, such as ``"50ms"``, after
         waiting has not helped; None does not extrapolate, as tf2.
     hold: Whether extrapolation holds the last pose instead of continuing with the last twist.
+    max_gap: The longest interval between two samples of an edge that the lookup may interpolate over, such as
+        ``"200ms"``; None interpolates over any, as tf2.
 
 Returns:
     A single transform: translation in metres, unit quaternion x, y, z, w, and the time of the lookup in
@@ -282,7 +293,7 @@ Returns:
 Raises:
     LookupException: A frame does not exist, or the tree contains a loop.
     ConnectivityException: The frames are in different trees.
-    ExtrapolationException: An edge has no sample at that time.
+    ExtrapolationException: An edge has no sample at that time, or that time lies in a gap above `max_gap`.
     InvalidArgumentException: A name is empty or has a leading slash.
     TypeError: A stamp or duration has a wrong type, such as a float of seconds.
     ValueError: A duration is an int below one microsecond, such as 2, or is text without a unit.

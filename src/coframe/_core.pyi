@@ -94,6 +94,7 @@ class Buffer:
         timeout: DurationLike | None = None,
         extrapolate: DurationLike | None = None,
         hold: bool = False,
+        max_gap: DurationLike | None = None,
     ) -> PublicTransform:
         """Return the transform at `stamp` that transforms data from `source` into `target`.
 
@@ -107,6 +108,8 @@ class Buffer:
             extrapolate: How far the lookup may extrapolate beyond the samples of an edge, such as ``"50ms"``, after
                 waiting has not helped; None does not extrapolate, as tf2.
             hold: Whether extrapolation holds the last pose instead of continuing with the last twist.
+            max_gap: The longest interval between two samples of an edge that the lookup may interpolate over, such as
+                ``"200ms"``; None interpolates over any, as tf2.
 
         Returns:
             A single transform: translation in metres, unit quaternion x, y, z, w, and the time of the lookup in
@@ -115,7 +118,7 @@ class Buffer:
         Raises:
             LookupException: A frame does not exist, or the tree contains a loop.
             ConnectivityException: The frames are in different trees.
-            ExtrapolationException: An edge has no sample at that time.
+            ExtrapolationException: An edge has no sample at that time, or that time lies in a gap above `max_gap`.
             InvalidArgumentException: A name is empty or has a leading slash.
             TypeError: A stamp or duration has a wrong type, such as a float of seconds.
             ValueError: A duration is an int below one microsecond, such as 2, or is text without a unit.

@@ -254,8 +254,7 @@ def test_a_frame_that_moves_with_the_sensor_is_deskewed_in_the_nearest_frame_tha
 
 def test_messages_without_a_sweep_have_the_fields_of_the_others(tmp_path):
     rows = tf_rows()
-    for i in range(2, 8):
-        rows.append(("/points", START + i * SWEEP, sweep(START + i * SWEEP, "livox")))
+    rows += [("/points", START + i * SWEEP, sweep(START + i * SWEEP, "livox")) for i in range(2, 8)]
     one = np.zeros(1, [(a, "<f4") for a in "xyz"] + [("intensity", "<u2"), ("timestamp", "<f8")])
     rows.append(("/points", START + 8 * SWEEP, cloud_message(one, START + 8 * SWEEP)))
     rows.append(("/points", START + 9 * SWEEP, cloud_message(one[:0], START + 9 * SWEEP)))
@@ -324,6 +323,29 @@ def test_float32_far_from_the_origin_is_said_once_and_avoidable(tmp_path, kind):
     kept, text = written("--float64")
     np.testing.assert_allclose(kept, exact, rtol=0, atol=1e-9)
     assert "float32" not in text
+
+
+@pytest.mark.parametrize(("frame", "fixed"), [("map", None), ("base", None), ("base", "map")])
+def test_points_in_a_gap_of_the_transforms_are_reported_or_skipped(tmp_path, frame, fixed):
+    """Without transforms for 0.9 s, the robot is taken to drive straight from one end to the other."""
+    gap = (START + SECOND // 2, START + SECOND * 14 // 10)
+    rows = [row for row in tf_rows() if row[0] == "/tf_static" or not gap[0] < row[1] < gap[1]]
+    rows += [("/points", START + i * SWEEP, sweep(START + i * SWEEP, "ouster")) for i in range(2, 18)]
+    path = recordings.write_mcap(tmp_path / "a.mcap", rows=rows, types={"/points": (CLOUD, "ros2msg", b"", "cdr")})
+    with coframe.open_bag(path) as recording:
+        clouds = Clouds(recording, "/points", frame, fixed=fixed)
+        assert len(list(clouds)) == 16
+        assert clouds.gaps == {"base": 9}
+        limited = Clouds(recording, "/points", frame, fixed=fixed, max_gap="200ms")
+        kept = {cloud.stamp: len(cloud.points) for cloud in limited}
+        assert [stamp for stamp, points in kept.items() if points] == [
+            START + i * SWEEP for i in (2, 3, 4, 5, 14, 15, 16, 17)
+        ]
+        assert sum(limited.points_skipped.values()) > 0
+    ended = CliRunner().invoke(
+        app, ["cloud", str(path), "/points", "--frame", frame, "-o", str(tmp_path / "a.ply"), "--max-gap", "200ms"]
+    )
+    assert "they lie in a longer gap than permitted" in ended.stderr
 
 
 def test_skipped_messages_are_counted_by_reason(path):

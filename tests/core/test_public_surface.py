@@ -86,6 +86,7 @@ BUFFER = {
     "span",
     "statistics",
     "trajectory",
+    "validity",
     "wait",
     "wait_async",
     "why",

@@ -9,11 +9,13 @@ import numpy as np
 
 from coframe import time
 from coframe.analysis.liveness import usual_period
+from coframe.buffer.gaps import gap_limit, in_long_gap
 from coframe.errors import DecodeError, RecordingError, TransformException
 from coframe.sensors import deskew, project_scan, transform_cloud
 from coframe.sensors.layout import field_of
 from coframe.sensors.motion import still_frame
 from coframe.sensors.point_times import (
+    NO_TIME,
     TIME_FIELDS,
     UNITS,
     PointTimes,
@@ -31,7 +33,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from coframe.bags.recording import RecordedMessage, Recording
-    from coframe.time import StampLike
+    from coframe.time import DurationLike, StampLike
 
 __all__ = ["Cloud", "Clouds"]
 
@@ -88,6 +90,8 @@ class Clouds:
         fixed: A frame that does not move during a sweep. If omitted, it is ``frame``, or, if ``frame`` moves with the
             sensor, the nearest frame above that does not; see ``fixed_frames``.
         fields: The fields to keep in addition to x, y, z; None for all fields with one number per point.
+        max_gap: The longest interval between two transforms of an edge to interpolate over, such as ``"200ms"``: points
+            in longer gaps are skipped. None interpolates over any; see ``gaps``.
 
     Attributes:
         total: Number of messages to read.
@@ -101,6 +105,7 @@ class Clouds:
         fixed_given: Whether ``fixed`` was given.
         fixed_frames: Number of deskewed messages, by the frame that was assumed not to move during a sweep.
         not_deskewed: Number of messages that were transformed as a whole although they have times, by reason.
+        gaps: Number of messages that lie in an unusually long gap of an edge, if there is no ``max_gap``, by edge.
         doubts: Number of messages with suspicious times, by what is suspicious.
 
     Raises:
@@ -121,6 +126,7 @@ class Clouds:
         point_times: str | None = None,
         fixed: str | None = None,
         fields: Sequence[str] | None = None,
+        max_gap: DurationLike | None = None,
     ) -> None:
         if deskew not in {"auto", "off"}:
             raise ValueError(f'deskew must be "auto" or "off", not {deskew!r}')
@@ -146,6 +152,7 @@ class Clouds:
         if self._type == LASER_SCAN and (unknown := set(self._fields or ()) - _SCAN_FIELDS):
             known = ", ".join(sorted(_SCAN_FIELDS))
             raise ValueError(f"Scans have no field named {', '.join(sorted(unknown))}. Known fields: {known}.")
+        self._max_gap = gap_limit(max_gap, "omit")
         self._reset()
 
     def _reset(self) -> None:
@@ -156,6 +163,7 @@ class Clouds:
         self.fixed_frames: dict[str, int] = {}
         self.not_deskewed: dict[str, int] = {}
         self.doubts: dict[str, int] = {}
+        self.gaps: dict[str, int] = {}
         self.hint = ""
         self._reasons: dict[tuple[Any, ...], str] = {}
         self._unknown_times: dict[str | None, str] = {}  # the first message stands for all
@@ -220,6 +228,7 @@ class Clouds:
             self._count(self.points_skipped, "have no finite coordinates", np.count_nonzero(~finite))
             points, times = points[finite], times[finite] if times is not None else None
             deskewed = self._move(points, times, frame, recorded.stamp)
+            outside = self._outside_gaps(times, frame, recorded.stamp)
         except TransformException as error:
             self.hint = self.hint or error.hint
             self._count(self.skipped, self._reason(error))
@@ -228,6 +237,11 @@ class Clouds:
         else:
             transformed = np.isfinite(points["x"])
             self._count(self.points_skipped, "have no transform at their own time", np.count_nonzero(~transformed))
+            if outside is not None:
+                self._count(
+                    self.points_skipped, "lie in a longer gap than permitted", np.count_nonzero(transformed & ~outside)
+                )
+                transformed &= outside
             if deskewed:
                 self._note_times(measured.read)
             read = measured.read if deskewed else None
@@ -252,6 +266,23 @@ class Clouds:
         deskew(points, times, buffer, self.frame, **options)
         self._count(self.fixed_frames, fixed)
         return True
+
+    def _outside_gaps(self, times: NDArray[np.int64] | None, frame: str, stamp: int) -> NDArray[np.bool_] | None:
+        """Return which points do not lie in a longer gap than permitted, or one value for all; None if any gap is."""
+        buffer, fixed = self._recording.buffer, self._fixed_for(frame) or self.frame
+        known = np.array([stamp]) if times is None else np.where(times == NO_TIME, stamp, times)
+        legs = [(fixed, frame, known), (self.frame, fixed, np.array([stamp]))]
+        legs = [leg for leg in legs if leg[0] != leg[1]]
+        if self._max_gap is None:
+            for target, source, stamps in legs:
+                if child := in_long_gap(buffer, target, source, stamps):
+                    self._count(self.gaps, child)
+                    break
+            return None
+        outside: NDArray[np.bool_] = np.ones(1, dtype=bool)
+        for target, source, stamps in legs:
+            outside = outside & (buffer.validity(target, source, stamps).gaps <= self._max_gap)
+        return outside
 
     def _fixed_for(self, frame: str) -> str | None:
         """Return the frame that does not move during a sweep of this sensor; None if nothing moves."""

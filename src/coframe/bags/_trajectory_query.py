@@ -11,6 +11,7 @@ import numpy as np
 from coframe import time
 from coframe.bags.namespaces import ALL_TRANSFORMS, TransformChoice
 from coframe.bags.time_points import parse_time_point
+from coframe.buffer.gaps import gap_limit, long_gap_text
 from coframe.errors import RecordingError
 
 if TYPE_CHECKING:
@@ -20,6 +21,7 @@ if TYPE_CHECKING:
 
     from coframe.bags.recording import Recording
     from coframe.buffer import Buffer
+    from coframe.buffer.gaps import OnGap
     from coframe.transform.transform import Transform
 
 __all__ = ["BATCH", "MAX_RATE", "TrajectoryQuery"]
@@ -41,9 +43,12 @@ class TrajectoryQuery:
             recording.
         stop: The last stamp, as nanoseconds or a string.
         transforms: Which transforms of a recording are read, and how their frames are named.
+        max_gap: The longest interval between two transforms that a pose may be interpolated over: nanoseconds, or a
+            string such as ``"200ms"``; None interpolates over any.
+        on_gap: What to do with a pose in a longer gap: ``"omit"`` it, fill it with ``"nan"``, or ``"raise"``.
 
     Raises:
-        ValueError: Both ``rate`` and ``stamps_of`` are given, or the rate is out of range.
+        ValueError: Both ``rate`` and ``stamps_of`` are given, or the rate or ``max_gap`` is out of range.
     """
 
     target: str
@@ -53,12 +58,15 @@ class TrajectoryQuery:
     start: int | str | None = None
     stop: int | str | None = None
     transforms: TransformChoice = ALL_TRANSFORMS
+    max_gap: int | str | None = None
+    on_gap: OnGap = "omit"
 
     def __post_init__(self) -> None:
         if self.rate is not None and self.stamps_of is not None:
             raise ValueError("rate and stamps_of are mutually exclusive: give one of them")
         if self.rate is not None and not 0 < self.rate <= MAX_RATE:
             raise ValueError(f"rate must be above 0 and at most {MAX_RATE:g} Hz, not {self.rate:g}")
+        gap_limit(self.max_gap, self.on_gap)
 
     def run(self, recording: Recording) -> tuple[Transform, int]:
         """Return the poses, at least one, and the number of stamps omitted because there is no transform.
@@ -106,12 +114,26 @@ class TrajectoryQuery:
         for start in range(0, len(stamps), BATCH):
             yield self._look_up(recording, stamps[start : start + BATCH])
 
+    def gap_text(self, recording: Recording, stamps: NDArray[np.int64]) -> str:
+        """Return how many poses lie in unusually long gaps, if there is no limit for them; or ""."""
+        if self.max_gap is not None:
+            return ""
+        return long_gap_text(recording.buffer, self.target, self.source, stamps)
+
     def _look_up(self, recording: Recording, stamps: NDArray[np.int64]) -> tuple[Transform, int]:
-        if self.rate is None and self.stamps_of is None:
-            return recording.buffer.lookup_many(self.target, self.source, stamps), 0
-        poses = recording.buffer.lookup_many(self.target, self.source, stamps, on_error="nan")
+        may_miss = self.rate is not None or self.stamps_of is not None
+        poses = recording.buffer.lookup_many(
+            self.target,
+            self.source,
+            stamps,
+            on_error="nan" if may_miss else "raise",
+            max_gap=self.max_gap,
+            on_gap="raise" if self.max_gap is None or self.on_gap == "raise" else "nan",
+        )
         found = ~np.isnan(poses.translation[:, 0])
-        return poses[found], int(np.count_nonzero(~found))
+        if self.max_gap is not None and self.on_gap == "nan":
+            found |= recording.buffer.validity(self.target, self.source, stamps).outside == 0
+        return (poses, 0) if found.all() else (poses[found], int(np.count_nonzero(~found)))
 
 
 def _stamps_of_samples(

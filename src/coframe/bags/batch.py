@@ -136,7 +136,9 @@ def _query(bag: str, query: TrajectoryQuery, folder: Path) -> QueryResult:
         return kept
     with open_chosen(bag, query.transforms) as recording:
         found, missing = query.run(recording)
-        problems = tuple(recording.problems)
+        stamps = np.zeros(0, np.int64) if found.stamps is None else np.atleast_1d(found.stamps)
+        gaps = query.gap_text(recording, stamps)
+        problems = (*recording.problems, gaps) if gaps else tuple(recording.problems)
     result = QueryResult(bag, len(found) if found.shape else 1, missing, problems)
     _write(part, found, result, fingerprint)
     return result

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Literal, TypeAlias, overload
 import numpy as np
 
 from coframe import _core, time
+from coframe.buffer import gaps
 from coframe.errors import ExtrapolationException
 from coframe.transform.resampling import StepLimits
 from coframe.transform.transform import batch_of, stamps_of
@@ -15,6 +16,7 @@ from coframe.transform.transform import batch_of, stamps_of
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
+    from coframe.buffer.gaps import OnGap, Validity
     from coframe.time import DurationLike, StampLike
     from coframe.transform.transform import Transform
 
@@ -38,6 +40,8 @@ class Buffer(_core.Buffer):
         twist: Literal[False] = False,
         extrapolate: DurationLike | None = None,
         hold: bool = False,
+        max_gap: DurationLike | None = None,
+        on_gap: OnGap = "raise",
     ) -> Transform: ...
     @overload
     def lookup_many(
@@ -52,6 +56,8 @@ class Buffer(_core.Buffer):
         twist: Literal[False] = False,
         extrapolate: DurationLike | None = None,
         hold: bool = False,
+        max_gap: DurationLike | None = None,
+        on_gap: OnGap = "raise",
     ) -> Array: ...
     @overload
     def lookup_many(
@@ -66,6 +72,8 @@ class Buffer(_core.Buffer):
         twist: Literal[True],
         extrapolate: DurationLike | None = None,
         hold: bool = False,
+        max_gap: DurationLike | None = None,
+        on_gap: OnGap = "raise",
     ) -> tuple[Transform, Array]: ...
     @overload
     def lookup_many(
@@ -80,6 +88,8 @@ class Buffer(_core.Buffer):
         twist: Literal[True],
         extrapolate: DurationLike | None = None,
         hold: bool = False,
+        max_gap: DurationLike | None = None,
+        on_gap: OnGap = "raise",
     ) -> tuple[Array, Array]: ...
 
     def lookup_many(
@@ -94,6 +104,8 @@ class Buffer(_core.Buffer):
         twist: bool = False,
         extrapolate: DurationLike | None = None,
         hold: bool = False,
+        max_gap: DurationLike | None = None,
+        on_gap: OnGap = "raise",
     ) -> Transform | Array | tuple[Transform | Array, Array]:
         """Look up the transform from ``source`` to ``target`` at many times.
 
@@ -110,6 +122,11 @@ class Buffer(_core.Buffer):
             twist: Whether to also return the twist of ``source`` relative to ``target``.
             extrapolate: As in :meth:`lookup`.
             hold: As in :meth:`lookup`.
+            max_gap: The longest interval between two samples of an edge that a pose may be interpolated over, such as
+                ``"200ms"``. None interpolates over any, as tf2; in a recording, a :class:`coframe.CoframeWarning` then
+                reports gaps of more than ten periods of an edge and 500 ms.
+            on_gap: What to do with a time in a longer gap: ``"raise"`` an ExtrapolationException, fill its row with
+                ``"nan"``, or ``"omit"`` its row. :meth:`validity` returns the gap of each time.
 
         Returns:
             A batch of shape (N,) with its ``stamps``, or ``out``. With ``twist``, a tuple of this and an array of
@@ -135,9 +152,24 @@ class Buffer(_core.Buffer):
         rows = out if out is not None and _is_rows(out, times.size) else np.empty((times.size, 7))
         twists = np.empty((times.size, 6)) if twist else None
         beyond = np.empty_like(times) if extrapolate is not None else None
+        limit = gaps.gap_limit(max_gap, on_gap)
+        if limit is not None and on_gap == "omit" and out is not None:
+            raise ValueError('on_gap="omit" cannot be combined with out, which has one row for each stamp')
         missing = self._lookup_rows(target, source, times, rows, twists, beyond, on_error, threads, extrapolate, hold)
         if missing == 0 and times.size and np.isnan(rows[:, 0]).all():
             self.lookup(target, source, int(np.ravel(stamps_of(stamps))[0]), extrapolate=extrapolate, hold=hold)
+        if limit is None:
+            gaps.note_gaps(self, target, source, times)
+        else:
+            kept = self._outside_gaps(target, source, times, limit, on_gap)
+            if on_gap == "omit":
+                rows, times = rows[kept], times[kept]
+                twists = None if twists is None else twists[kept]
+                beyond = None if beyond is None else beyond[kept]
+            else:
+                rows[~kept] = np.nan
+                if twists is not None:
+                    twists[~kept] = np.nan
         if out is None:
             _freeze(rows, times, beyond)
         batch = batch_of(rows[:, :3], rows[:, 3:], target, source, times, beyond)
@@ -145,6 +177,48 @@ class Buffer(_core.Buffer):
             out[...] = batch.matrix
         result = batch if out is None else out
         return result if twists is None else (result, twists)
+
+    def _outside_gaps(
+        self, target: str, source: str, stamps: NDArray[np.int64], limit: int, on_gap: OnGap
+    ) -> NDArray[np.bool_]:
+        """Return which times do not lie in a gap that is longer than the limit, or raise for the first one."""
+        found = gaps.validity(self, target, source, stamps)
+        inside = found.gaps > limit
+        if on_gap == "raise" and inside.any():
+            row = int(np.argmax(inside))
+            rows = int(np.count_nonzero(inside))
+            raise gaps.gap_error(found, row, limit, target, source, int(stamps[row]), rows=rows)
+        return ~inside
+
+    def validity(self, target: str, source: str, stamps: ArrayLike) -> Validity:
+        """Return how far the poses at many times are from the samples that they are computed from.
+
+        Args:
+            target: The target frame.
+            source: The source frame.
+            stamps: Times as in :meth:`lookup_many`, shape (N,).
+
+        Returns:
+            For each time ``gaps``, the longest interval between two samples that is interpolated over, ``outside``, how
+            far the time is from the first or last sample, both (N,) in nanoseconds, and ``edges``, the child frame of
+            that edge.
+
+        Raises:
+            TransformException: The frames are not connected.
+
+        Example:
+            >>> import coframe
+            >>> buffer = coframe.Buffer(None)
+            >>> for second in (1, 2, 5):
+            ...     _ = buffer.set("map", "base", coframe.Transform([second, 0, 0]), second * 1_000_000_000)
+            >>> buffer.validity("map", "base", [2_000_000_000, 3_000_000_000]).gaps.tolist()
+            [0, 3000000000]
+        """
+        return gaps.validity(self, target, source, np.array(stamps_of(stamps), ndmin=1))
+
+    def _check_gap(self, target: str, source: str, stamp: int, max_gap: DurationLike) -> None:
+        """Raise for a lookup over a longer gap; the native :meth:`lookup` calls this."""
+        gaps.check_gap(self, target, source, stamp, max_gap)
 
     def trajectory(
         self,
@@ -155,6 +229,8 @@ class Buffer(_core.Buffer):
         *,
         max_translation: float | None = None,
         max_rotation: float | None = None,
+        max_gap: DurationLike | None = None,
+        on_gap: OnGap = "raise",
     ) -> Transform:
         """Return the path of ``source`` relative to ``target``, at the stamps of the samples or with a maximum spacing.
 
@@ -166,6 +242,8 @@ class Buffer(_core.Buffer):
             max_translation: Maximum distance between two successive poses, in metres.
             max_rotation: Maximum rotation between two successive poses, in radians. With one of these two limits, the
                 result has as few poses as the limits allow: where nothing moves, only the first and the last pose.
+            max_gap: As in :meth:`lookup_many`.
+            on_gap: As in :meth:`lookup_many`.
 
         Returns:
             A batch with its ``stamps``, in order. If all edges are static, a batch of one pose.
@@ -179,10 +257,25 @@ class Buffer(_core.Buffer):
         last = last if stop is None else min(last, time.stamp_ns(stop))
         inside = np.frombuffer(self._stamps_between(target, source, first, last), dtype=np.int64)
         stamps = np.unique(np.concatenate([[first], inside, [last]]).astype(np.int64)) if first <= last else inside
+        gaps.gap_limit(max_gap, on_gap)  # Invalid values are refused before the work.
         if max_translation is None and max_rotation is None:
-            return self.lookup_many(target, source, stamps)
-        steps = StepLimits(max_translation, max_rotation)
-        return steps.resample(lambda times: self.lookup_many(target, source, times), stamps)
+            path = self._lookup_quietly(target, source, stamps)
+        else:
+            steps = StepLimits(max_translation, max_rotation)
+            path = steps.resample(lambda times: self._lookup_quietly(target, source, times), stamps)
+        if path.stamps is not None and max_gap is not None:
+            return self.lookup_many(target, source, path.stamps, max_gap=max_gap, on_gap=on_gap)
+        if path.stamps is not None:
+            gaps.note_gaps(self, target, source, path.stamps)
+        return path
+
+    def _lookup_quietly(self, target: str, source: str, stamps: NDArray[np.int64]) -> Transform:
+        """Return a batch without a word about gaps."""
+        times = stamps.copy()
+        rows = np.empty((times.size, 7))
+        self._lookup_rows(target, source, times, rows, None, None, "raise", 1)
+        _freeze(rows, times, None)
+        return batch_of(rows[:, :3], rows[:, 3:], target, source, times)
 
     def span(self, target: str, source: str) -> tuple[int, int]:
         """Return the time interval in which every edge between two frames has data.

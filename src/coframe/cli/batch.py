@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import itertools
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, cast
 
 import click
 
@@ -16,7 +16,10 @@ from coframe.bags.namespaces import TransformChoice
 from coframe.cli.declaration import PATH, Command, argument
 from coframe.cli.lifecycle import run_to_completion
 from coframe.cli.options import (
+    PositiveDuration,
+    max_gap_option,
     namespace_option,
+    on_gap_option,
     recorded_listener_options,
 )
 from coframe.cli.output import fail, printable, warn
@@ -27,6 +30,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from coframe.bags import QueryResult
+    from coframe.buffer.gaps import OnGap
 
 __all__ = ["batch"]
 
@@ -55,6 +59,8 @@ __all__ = ["batch"]
     type=click.IntRange(min=1),
     help="Number of recordings to read in parallel. [default: number of CPU cores]",
 )
+@max_gap_option
+@on_gap_option
 @namespace_option
 @recorded_listener_options
 def batch(
@@ -68,6 +74,8 @@ def batch(
     stop: str | None,
     on: str,
     workers: int | None,
+    max_gap: PositiveDuration | None,
+    on_gap: str,
     namespace: str | None,
     tf_topic: str | None,
     tf_static_topic: str | None,
@@ -82,7 +90,17 @@ def batch(
     """
     try:
         choice = TransformChoice(namespace, tf_topic, tf_static_topic, prefix, keep)
-        query = TrajectoryQuery(target, source, rate, stamps_of, start, stop, choice)
+        query = TrajectoryQuery(
+            target,
+            source,
+            rate,
+            stamps_of,
+            start,
+            stop,
+            choice,
+            max_gap=None if max_gap is None else int(max_gap),
+            on_gap=cast("OnGap", on_gap),
+        )
     except ValueError as error:
         fail(str(error), code=2)
     if on not in ENGINES:

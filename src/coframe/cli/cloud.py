@@ -14,7 +14,9 @@ from coframe.cli.completion import complete_frames
 from coframe.cli.declaration import PATH, Command, argument
 from coframe.cli.lifecycle import run_to_completion
 from coframe.cli.options import (
+    PositiveDuration,
     bag_argument,
+    max_gap_option,
     namespace_option,
     recorded_listener_options,
 )
@@ -69,6 +71,7 @@ __all__ = ["cloud"]
 )
 @click.option("--voxel", metavar="METRES", type=float, help="Keep one point per cube with this edge length, in metres.")
 @click.option("--float64", is_flag=True, help="Write coordinates as float64 also to PCD and MCAP. [default: float32]")
+@max_gap_option
 @namespace_option
 @recorded_listener_options
 def cloud(
@@ -86,6 +89,7 @@ def cloud(
     fields: str | None,
     voxel: float | None,
     float64: bool,
+    max_gap: PositiveDuration | None,
     namespace: str | None,
     tf_topic: str | None,
     tf_static_topic: str | None,
@@ -115,6 +119,7 @@ def cloud(
                 point_times=point_times,
                 fixed=fixed,
                 fields=None if fields is None else [name for name in fields.split(",") if name],
+                max_gap=max_gap,
             )
         except ValueError as error:
             if hasattr(error, "hint"):
@@ -162,6 +167,10 @@ def _print_notes(clouds: Clouds) -> None:
                 f"deskewed the points of {count(number, 'message')} in the frame {fixed!r}, because {clouds.frame!r} "
                 f"moves with the sensor; as with --fixed {fixed}"
             )
+    for child, number in clouds.gaps.items():
+        warn(
+            f"{count(number, 'message')} in gaps without a sample of {child!r} were interpolated; --max-gap omits them"
+        )
     for doubt, number in clouds.doubts.items():
         warn(f"{count(number, 'message')}: {doubt}. Is the unit right? --point-times FIELD:UNIT states it")
     for reason, number in clouds.not_deskewed.items():

@@ -8,10 +8,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
+import numpy as np
 
 from coframe._output.formatting import seconds
 from coframe.bags import parse_time_point
 from coframe.bags.namespaces import TransformChoice
+from coframe.buffer.gaps import long_gap_text
 from coframe.cli.completion import complete_frames
 from coframe.cli.declaration import Command, argument
 from coframe.cli.echo import MAX_DIGITS, as_json_line, format_transform
@@ -20,10 +22,11 @@ from coframe.cli.options import (
     TIMES,
     PositiveDuration,
     domain_option,
+    max_gap_option,
     namespace_option,
     recorded_listener_options,
 )
-from coframe.cli.output import awaited_statics_text, fail
+from coframe.cli.output import awaited_statics_text, fail, warn
 from coframe.cli.recordings import check_has_transforms, open_recording, parse_lookup_time
 from coframe.connection.connection import Connection
 from coframe.connection.listener_config import ListenerConfig
@@ -68,6 +71,7 @@ _RETRY_PERIOD = 0.05  # seconds
     default="5s",
     help="Live graph: time to wait for the transform.",
 )
+@max_gap_option
 @namespace_option
 @domain_option
 @recorded_listener_options
@@ -86,6 +90,7 @@ def lookup(
     fixed: str | None,
     source_time: str | None,
     duration: PositiveDuration,
+    max_gap: PositiveDuration | None,
     namespace: str | None,
     domain: int | None,
     tf_topic: str | None,
@@ -99,9 +104,7 @@ def lookup(
 
     Example: coframe lookup run.mcap map base_link --at 10s
     """
-    if (fixed is None) != (source_time is None):
-        given, missing = ("--fixed", "--source-time") if source_time is None else ("--source-time", "--fixed")
-        fail(f"{given} requires {missing}", "Time travel requires both options.", code=2)
+    _check_time_travel(fixed, source_time, max_gap)
     if len(names) not in {2, 3}:
         fail("Give the frames TARGET and SOURCE, or a recording and the two frames.", code=2)
     *bags, target, source = names
@@ -109,7 +112,7 @@ def lookup(
     def transform(buffer: Buffer, parse: Callable[[str, str], int]) -> Transform:
         when = 0 if at is None else parse("--at", at)
         if fixed is None or source_time is None:
-            return buffer.lookup(target, source, when)
+            return _looked_up(buffer, target, source, when, max_gap)
         return buffer._lookup_full(target, when, source, parse("--source-time", source_time), fixed)
 
     with run_to_completion():
@@ -142,6 +145,25 @@ def lookup(
                         fail(str(error), awaited_statics_text(awaited))
                     raise
         print(as_json_line(found) if as_json else format_transform(found, precision))
+
+
+def _check_time_travel(fixed: str | None, source_time: str | None, max_gap: int | None) -> None:
+    """End the command if one of the options for time travel is missing, or another one cannot be combined with it."""
+    if (fixed is None) != (source_time is None):
+        given, missing = ("--fixed", "--source-time") if source_time is None else ("--source-time", "--fixed")
+        fail(f"{given} requires {missing}", "Time travel requires both options.", code=2)
+    if max_gap is not None and fixed is not None:
+        fail("--max-gap cannot be combined with --fixed", code=2)
+
+
+def _looked_up(buffer: Buffer, target: str, source: str, when: int, max_gap: int | None) -> Transform:
+    """Return the transform; say if it is interpolated over an unusually long gap."""
+    found = buffer.lookup(target, source, when, max_gap=max_gap)
+    if max_gap is None:
+        text = long_gap_text(buffer, target, source, np.array([found.stamp or 0], dtype=np.int64))
+        if text:
+            warn(f"{text}; --max-gap 200ms makes this an error")
+    return found
 
 
 def _clock_time(window: int) -> Callable[[str, str], int]:

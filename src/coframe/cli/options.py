@@ -114,6 +114,20 @@ class PositiveDuration(Duration):
         return "the duration must be greater than 0" if self <= 0 else ""
 
 
+max_gap_option = click.option(
+    "--max-gap",
+    metavar="DURATION",
+    type=PositiveDuration,
+    help="Longest time between two transforms of an edge to interpolate over, e.g. 200ms. [default: any]",
+)
+on_gap_option = click.option(
+    "--on-gap",
+    metavar="MODE",
+    default="omit",
+    help="What to do with poses in longer gaps: omit, nan or raise, which ends the command with an error.",
+)
+
+
 def topic_name(name: str) -> str:
     """Return the name of a topic with its leading slash; used as the type of an option."""
     return name if name.startswith("/") else f"/{name}"

@@ -4,19 +4,22 @@
 from __future__ import annotations
 
 import sys
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, cast
 
 import click
 
-from coframe._output.formatting import count, seconds
+from coframe._output.formatting import count, duration, seconds
 from coframe.bags import TrajectoryQuery
 from coframe.bags.namespaces import TransformChoice
 from coframe.cli.completion import complete_frames
 from coframe.cli.declaration import PATH, Command, argument
 from coframe.cli.lifecycle import run_to_completion
 from coframe.cli.options import (
+    PositiveDuration,
     bag_argument,
+    max_gap_option,
     namespace_option,
+    on_gap_option,
     recorded_listener_options,
 )
 from coframe.cli.output import fail, fail_to_write, warn
@@ -29,6 +32,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from coframe.bags import Recording
+    from coframe.buffer.gaps import OnGap
     from coframe.transform.transform import Transform
 
 __all__ = ["trajectory"]
@@ -50,6 +54,8 @@ __all__ = ["trajectory"]
 @click.option("--stamps-of", metavar="TOPIC", help="Write a pose at the stamp of each message of this topic.")
 @click.option("--start", metavar="TIME", help="Start time, in the same format as `lookup --at`.")
 @click.option("--stop", metavar="TIME", help="End time, in the same format as --start.")
+@max_gap_option
+@on_gap_option
 @namespace_option
 @recorded_listener_options
 def trajectory(
@@ -62,6 +68,8 @@ def trajectory(
     stamps_of: str | None,
     start: str | None,
     stop: str | None,
+    max_gap: PositiveDuration | None,
+    on_gap: str,
     namespace: str | None,
     tf_topic: str | None,
     tf_static_topic: str | None,
@@ -74,13 +82,17 @@ def trajectory(
     """
     kind = _format(output, format_)
     try:
-        query = TrajectoryQuery(target, source, rate, stamps_of, start, stop)
+        query = TrajectoryQuery(
+            target, source, rate, stamps_of, start, stop, max_gap=max_gap, on_gap=cast("OnGap", on_gap)
+        )
     except ValueError as error:
         fail(str(error), code=2)
     choice = TransformChoice(namespace, tf_topic, tf_static_topic, prefix, keep)
     with run_to_completion(), open_recording(bag, choice) as recording:
         _check_times(recording, start, stop)
         stamps = query.stamps(recording)
+        if text := query.gap_text(recording, stamps):
+            warn(f"{text}; --max-gap 200ms omits them")
         missing, first, last = 0, int(stamps[-1]), int(stamps[0])
 
         def batches() -> Iterator[Transform]:
@@ -99,7 +111,8 @@ def trajectory(
                 raise
             fail_to_write(output, error)
         if missing:
-            warn(f"no transform at {missing} of {count(len(stamps), 'time')}; those are omitted")
+            gaps = "" if max_gap is None else f", or none without a gap of more than {duration(max_gap)},"
+            warn(f"no transform{gaps} at {missing} of {count(len(stamps), 'time')}; those are omitted")
         if output is not None:
             poses = count(len(stamps) - missing, "pose")
             print(
