@@ -80,7 +80,7 @@ def test_problems_of_the_manifest_are_found_and_nothing_else(examine, shared, na
 @pytest.mark.parametrize(
     ("name", "topic", "messages", "at_once"),
     [
-        # Counted independently, see `spec/practice.md`.
+        # Counted independently of coframe.
         ("tilt_laser.bag", "/scan", 178, 38),
         ("tb3_gazebo_walker", "/scan", 99, 1),
         ("tb3_gazebo_walker", "/imu", 3938, 22),

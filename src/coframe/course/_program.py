@@ -80,7 +80,7 @@ class Program:
         with self._log.open("wb") as log, tempfile.TemporaryFile() as given:
             given.write(request)
             given.seek(0)
-            self._process = subprocess.Popen(  # noqa: S603 - the purpose of the lab; confinement.py describes what protects
+            self._process = subprocess.Popen(  # noqa: S603 - the purpose of the lab; _confinement.py describes what protects
                 self._confinement.command(self._home, *words),
                 stdin=given if request else subprocess.DEVNULL,
                 stdout=log,

@@ -2,7 +2,7 @@
 /**
  * The messages between the server and the page.
  *
- * Types, headers and checks are generated from `src/coframe/viewer/protocol/messages.py`, which documents the protocol.
+ * Types, headers and checks are generated from `src/coframe/viewer/protocol`, which documents the protocol.
  * This module decodes binary messages with them.
  */
 
