@@ -135,8 +135,8 @@ void check_gap(nb::handle buffer, nb::handle target, nb::handle source, nb::hand
 }
 
 PyObject* lookup_general(PyObject* object, PyObject* const* arguments, Py_ssize_t count, PyObject* keywords) {
-  static const Signature<7> signature(
-      "lookup", {"target", "source", "stamp", "timeout", "extrapolate", "hold", "max_gap"}, 2, 3);
+  static const Signature<7> signature("lookup",
+                                      {"target", "source", "stamp", "timeout", "extrapolate", "hold", "max_gap"}, 2, 3);
   PyObject* values[7];
   if (!signature.parse(arguments, count, keywords, values)) return nullptr;
   return guarded([&] {
@@ -270,7 +270,8 @@ nb::object py_chain(BufferObject& self, nb::handle target, nb::handle target_sta
 
 void add_frequent_lookups(nb::handle cls) {
   add_method(cls, "lookup", &py_lookup,
-             "lookup($self, /, target, source, stamp=None, *, timeout=None, extrapolate=None, hold=False, max_gap=None)\n--\n\n"
+             "lookup($self, /, target, source, stamp=None, *, timeout=None, extrapolate=None, hold=False, "
+             "max_gap=None)\n--\n\n"
              R"doc(Return the transform at `stamp` that transforms data from `source` into `target`.
 
 Args:
