@@ -109,7 +109,7 @@ def info(
     "--statics",
     metavar="OTHER",
     type=PATH,
-    help="Recording from which missing static transforms are added.",
+    help="Recording to take missing static transforms from.",
 )
 @listener_options
 @compression_option

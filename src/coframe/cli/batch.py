@@ -46,7 +46,9 @@ __all__ = ["batch"]
     required=True,
     help=lambda: f"Recordings: {file_kinds()}s, or rosbag2 folders.",
 )
-@click.option("--output", "-o", metavar="FOLDER", type=PATH, required=True, help="Dataset: a folder of Parquet files.")
+@click.option(
+    "--output", "-o", metavar="FOLDER", type=PATH, required=True, help="Folder to write the Parquet dataset to."
+)
 @click.option("--rate", "-r", metavar="HZ", type=float, help="Poses per second. [default: one per recorded transform]")
 @click.option("--stamps-of", metavar="TOPIC", help="Write a pose at the stamp of each message of this topic.")
 @click.option("--start", metavar="TIME", help="Start time in each recording, in the same format as `lookup --at`.")

@@ -48,7 +48,7 @@ __all__ = ["cloud"]
     metavar="FILE|FOLDER",
     type=PATH,
     required=True,
-    help="One cloud: .ply, .pcd, .npz or .npy. One cloud per message: a folder, or a new .mcap file.",
+    help="For one cloud: .ply, .pcd, .npz or .npy. For one cloud per message: a folder or a new .mcap file.",
 )
 @click.option("--format", "-f", "format_", metavar="FORMAT", help="Format of the files in a folder. [default: ply]")
 @click.option("--at", "-t", metavar="TIME", help="Use only the message at this time.")

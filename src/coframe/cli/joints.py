@@ -91,9 +91,9 @@ def joints(
 ) -> None:
     """Publish the joint states of the robot in FILE on /joint_states, like ROS 2's joint_state_publisher.
 
-    The terminal shows a slider for each movable joint: up and down select a joint, left and right move it. Arguments
-    of a xacro file are written as NAME:=VALUE. Arguments after --ros-args are passed to the node. --tf-topic,
-    --tf-static-topic, --prefix and --keep apply to the viewer that --gui opens.
+    The terminal shows a slider for each movable joint. Select a joint with up and down, and move it with left and
+    right. Arguments of a xacro file are written as NAME:=VALUE. Arguments after --ros-args are passed to the node.
+    --tf-topic, --tf-static-topic, --prefix and --keep apply to the viewer that --gui opens.
 
     Example: coframe joints arm.urdf.xacro --zero joint1=0.5 --rate 30
     """

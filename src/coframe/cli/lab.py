@@ -112,7 +112,7 @@ def run(
         _run(programs, seconds, browser=browser, port=port, names_silent=True)
 
 
-@lab.command(short_help="Grade a folder, or the folders of a class.")
+@lab.command(short_help="Grade one student's folder, or a whole class.")
 @folder_argument
 @click.option("--all", "everyone", is_flag=True, help="Grade all folders in FOLDER, one per student.")
 @click.option("--output", "-o", metavar="FILE", type=PATH, help="With --all: write a table as CSV.")

@@ -38,7 +38,7 @@ _SUFFIXES = (".launch.py", ".launch.xml", ".launch.yaml", ".launch.yml", "_launc
     is_flag=True,
     help="Print the launch description without launching it.",
 )
-@click.option("--debug", "-d", is_flag=True, help="Log all events, and errors with their traceback.")
+@click.option("--debug", "-d", is_flag=True, help="Log all events, and include tracebacks in errors.")
 @click.option("--noninteractive", "-n", is_flag=True, help="Launch without user interaction.")
 @click.option(
     "--launch-prefix",

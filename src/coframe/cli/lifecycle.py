@@ -31,7 +31,7 @@ _INTERRUPTED = 130  # exit code: 128 + SIGINT, as in shells
 
 @contextlib.contextmanager
 def run_until_interrupted() -> Iterator[None]:
-    """End the block quietly on Ctrl-C, SIGTERM and a closed terminal; report library errors with exit code 1."""
+    """Exit the block silently on Ctrl-C, SIGTERM and SIGHUP; report library errors with exit code 1."""
     # nohup ignores SIGHUP, which must stay ignored.
     handled = [number for number in _END_SIGNALS if signal.getsignal(number) is not signal.SIG_IGN]
     handlers = SignalHandlers()

@@ -56,7 +56,7 @@ def robot(
 ) -> None:
     """Publish the transforms of the robot in FILE from its joint states, like ROS 2's robot_state_publisher.
 
-    Arguments of a xacro file are written as NAME:=VALUE. Arguments after --ros-args are passed to the node.
+    Pass xacro arguments as NAME:=VALUE. Arguments after --ros-args are passed to the node.
 
     Example: coframe robot arm.urdf.xacro reach:=2 --prefix robot1/
     """

@@ -50,7 +50,7 @@ def run(
     """Run an executable of PACKAGE with the remaining arguments, like ros2 run.
 
     The package may be in a sourced workspace or in a source folder: console scripts of setup.py, setup.cfg and
-    pyproject.toml run without colcon build. Options of this command precede PACKAGE.
+    pyproject.toml run without colcon build. Put this command's options before PACKAGE.
 
     Example: coframe run my_package talker --ros-args -r chatter:=/news
     """

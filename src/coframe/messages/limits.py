@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Limits on definitions of messages. A definition of a few bytes could otherwise take any amount of time and memory.
+"""Limits on message definitions. A definition of a few bytes could otherwise take any amount of time and memory.
 
 They apply to the files of users and to the definitions in recordings, unless a comment says otherwise.
 """

@@ -80,7 +80,7 @@ class FieldExpression:
 
 @dataclass(frozen=True)
 class TimingExpression:
-    """The rate or the delay of a topic or of an edge.
+    """An expression for the rate or delay of a topic or edge.
 
     Attributes:
         text: The expression as written.

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 def install() -> None:
-    """Let imports of tf2_py and tf2_ros find coframe's, if a ROS is sourced. A second call has no effect.
+    """Make imports of tf2_py and tf2_ros find coframe's, if a ROS installation is sourced. A second call has no effect.
 
     Raises:
         ImportError: The packages of the ROS are already imported.

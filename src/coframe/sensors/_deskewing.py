@@ -82,7 +82,7 @@ def deskew(
         since: The time to which ``times`` are relative; by default the stamp of the header for a field of a message,
             otherwise 0. Use ``since=0`` for a field of absolute times.
         vectors: As in :func:`transform_cloud`.
-        on_error: What to do with a point without a transform: ``"raise"``, or set the point to ``"nan"``.
+        on_error: How to handle points without a transform: ``"raise"`` an error, or set them to ``"nan"``.
         out: As in :func:`transform_cloud`.
         in_place: Whether to change ``points`` themselves. They are not changed if an exception is raised.
         float64: As in :func:`transform_cloud`.

@@ -62,7 +62,7 @@ def spin_time_option(default: NonNegativeDuration) -> Callable[[Declared], Decla
         metavar="DURATION",
         type=NonNegativeDuration,
         default=default,
-        help="Time to wait for the discovery of other nodes.",
+        help="How long to wait for other nodes to be discovered.",
     )
 
 

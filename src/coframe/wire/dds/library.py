@@ -62,7 +62,7 @@ class Library:
     Attributes:
         place: Where it was found.
         release: The release with the same binary interface: "0.10" or "11".
-        refused: A message for each library that was found earlier but cannot be used.
+        refused: One message for each library that comes earlier in the search order but cannot be loaded.
     """
 
     place: Place

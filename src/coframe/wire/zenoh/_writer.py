@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Publishers of messages over Zenoh."""
+"""Message publishers for Zenoh."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The substitution of the output of a command."""
+"""Substitution that evaluates to the output of a command."""
 
 from __future__ import annotations
 
