@@ -10,8 +10,8 @@ import pytest
 
 import coframe
 from coframe.viewer import SceneError
-from coframe.viewer.clients import scripting as sending
-from coframe.viewer.replay import nodes as replayed
+from coframe.viewer.clients import _scripting as sending
+from coframe.viewer.replay import _nodes as replayed
 from coframe.viewer.scripting import callbacks, nodes, widgets
 
 SECOND = 1_000_000_000
