@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Fixtures for the tests of rclpy: contexts, nodes and child processes."""
 
+import io
 import os
 import subprocess
 import sys
@@ -8,12 +9,14 @@ import threading
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 from rtps_peer import RtpsPeer
 
 import rclpy
 from rclpy.context import Context
+from rclpy.impl import console
 from rclpy.node import Node
 
 
@@ -61,6 +64,18 @@ def wait_until() -> Callable[..., None]:
             meanwhile()
 
     return wait
+
+
+@pytest.fixture
+def printed(monkeypatch: pytest.MonkeyPatch) -> Callable[[], str]:
+    """Return a function that returns what rclpy's loggers have printed since the start of the test.
+
+    In contrast to `capfd.readouterr`, which reads a file and then truncates it, no text is lost that another thread
+    prints in between.
+    """
+    stream = io.StringIO()
+    monkeypatch.setattr(console, "sys", SimpleNamespace(stdout=stream, stderr=stream))
+    return stream.getvalue
 
 
 @pytest.fixture

@@ -356,31 +356,25 @@ def test_the_goals_of_a_server_have_a_limit_of_bytes(serve, connect, count, resu
 
 
 def test_the_server_rejects_goals_and_requests_beyond_the_limit(
-    serve, connect, count, result_of, wait_until, fibonacci, monkeypatch, capfd
+    serve, connect, count, result_of, wait_until, fibonacci, monkeypatch, printed
 ):
     monkeypatch.setattr(action_server, "MAX_GOALS", 2)
     monkeypatch.setattr(action_server, "MAX_RESULT_REQUESTS", 3)
     waiting = []
-    printed = []
-
-    def warnings():
-        printed.append(capfd.readouterr().err)
-        return "".join(printed)
-
     serve(count, handle_accepted_callback=waiting.append)
     client = connect()
     handles = [result_of(client, client.send_goal_async(fibonacci.Goal(order=1))) for _ in range(4)]
     assert [handle.accepted for handle in handles] == [True, True, False, False]
     results = [handles[0].get_result_async() for _ in range(5)]
-    wait_until(lambda: "Ignoring requests: 3 wait for the result" in warnings())
+    wait_until(lambda: "Ignoring requests: 3 wait for the result" in printed())
     assert len(waiting[0]._Coframe__result_requests) == 3
     waiting[0].execute()
     for result in results[:3]:
         assert result_of(client, result).status == GoalStatus.STATUS_SUCCEEDED
     assert result_of(client, client.send_goal_async(fibonacci.Goal(order=1))).accepted, "a goal has finished"
     assert not all(result.done() for result in results)
-    assert warnings().count("Rejecting goals: the goals that are not finished would be more than 2 or 64 MiB") == 1
-    assert warnings().count("Ignoring requests: 3 wait for the result of one goal.") == 1
+    assert printed().count("Rejecting goals: the goals that are not finished would be more than 2 or 64 MiB") == 1
+    assert printed().count("Ignoring requests: 3 wait for the result of one goal.") == 1
 
 
 def test_a_damaged_status_message_is_ignored(serve, connect, count, result_of, fibonacci, capfd):

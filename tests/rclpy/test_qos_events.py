@@ -110,18 +110,12 @@ def test_incompatible_qos_is_reported_to_callbacks(node, spin, capfd):
         ({"liveliness": LivelinessPolicy.AUTOMATIC}, {"liveliness": LivelinessPolicy.MANUAL_BY_TOPIC}, "LIVELINESS"),
     ],
 )
-def test_incompatible_qos_is_logged_once_on_each_side(make_node, wait_until, capfd, offered, requested, policy):
+def test_incompatible_qos_is_logged_once_on_each_side(make_node, wait_until, printed, offered, requested, policy):
     node = make_node("talker")
     publisher = node.create_publisher(String, "chatter", QoSProfile(depth=1, **offered))
     node.create_subscription(String, "chatter", print, QoSProfile(depth=1, **requested))
-    logged = []
-
-    def both() -> bool:
-        logged.append(capfd.readouterr().err)
-        return "".join(logged).count("Last incompatible policy") == 2
-
-    wait_until(both)
-    warnings = [line for line in "".join(logged).splitlines() if line.startswith("[WARN]")]
+    wait_until(lambda: printed().count("Last incompatible policy") == 2)
+    warnings = [line for line in printed().splitlines() if line.startswith("[WARN]")]
     assert [line.split("]: ")[1] for line in sorted(warnings, key=lambda line: line.split("]: ")[1])] == [
         (
             f"New publisher discovered on topic 'chatter', offering incompatible QoS. "
@@ -176,18 +170,11 @@ def test_a_handler_is_a_waitable(node):
     assert not handler.is_ready(None)
 
 
-@pytest.mark.slow  # Rarely, one of the two warnings does not come.
 @pytest.mark.dds_only("over Zenoh, quality of service does not prevent communication")
-def test_a_listener_with_another_qos_is_logged_by_its_node(make_node, wait_until, capfd):
+def test_a_listener_with_another_qos_is_logged_by_its_node(make_node, wait_until, printed):
     node = make_node("looker")
     broadcaster = node.create_publisher(TFMessage, "/tf", BEST_EFFORT)
     listener = tf2_ros.TransformListener(tf2_ros.Buffer(), node)
-    logged = []
-
-    def both() -> bool:
-        logged.append(capfd.readouterr().err)
-        return "".join(logged).count("Last incompatible policy: RELIABILITY") >= 2
-
-    wait_until(both, timeout=30.0)  # Beside many other processes, discovery takes long.
-    assert "[looker]: New publisher discovered on topic '/tf', offering incompatible QoS." in "".join(logged)
+    wait_until(lambda: printed().count("Last incompatible policy: RELIABILITY") == 2)
+    assert "[looker]: New publisher discovered on topic '/tf', offering incompatible QoS." in printed()
     assert broadcaster.get_subscription_count() == listener.tf_sub.get_publisher_count() == 0
