@@ -96,7 +96,10 @@ rclpy.init()
 node = rclpy.create_node("n")
 publisher = node.create_publisher(String, "/chatter", 10)
 publisher.publish(String(data="a"))
-Path(sys.argv[1]).write_text("@1969-06-01 00:00:00")
+# An empty file, as between truncating and writing it, would be a third time for a moment.
+new = Path(sys.argv[1] + ".new")
+new.write_text("@1969-06-01 00:00:00")
+new.replace(sys.argv[1])
 try:
     while True:
         publisher.publish(String(data="a"))
