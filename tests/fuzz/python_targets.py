@@ -187,9 +187,9 @@ def schemas() -> Callable[[bytes], object]:
 @target
 def discovery() -> Callable[[bytes], object]:
     """Decode what other participants publish about themselves."""
-    from coframe.wire.dds._discovery_info import decode_info, encode_info
-    from coframe.wire.dds._user_data import type_hash_of
     from coframe.wire.names import any_ros_name, full_name, ros_type
+    from coframe.wire.rtps.discovery_info import decode_info, encode_info
+    from coframe.wire.rtps.user_data import type_hash_of
 
     def run(data: bytes) -> None:
         type_hash_of(data)

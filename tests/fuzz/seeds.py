@@ -25,7 +25,7 @@ import coframe
 from coframe import _core
 from coframe.bags._offered_qos import OfferedQos, to_yaml
 from coframe.messages import find, serialize
-from coframe.wire.dds._discovery_info import NodeInfo, encode_info
+from coframe.wire.rtps.discovery_info import NodeInfo, encode_info
 
 
 def part(data: bytes) -> bytes:

@@ -91,7 +91,7 @@ class RtpsPeer:
 
     def name(self, name: str) -> None:
         """Announce that all endpoints so far belong to the node with this name."""
-        from coframe.wire.dds._discovery_info import NodeInfo, encode_info
+        from coframe.wire.rtps.discovery_info import NodeInfo, encode_info
 
         topic_type = "rmw_dds_common::msg::dds_::ParticipantEntitiesInfo_"
         readers, writers = (

@@ -3,7 +3,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from coframe.wire.dds._discovery_info import NodeInfo, decode_info, encode_info, gid_size
+from coframe.wire.rtps.discovery_info import NodeInfo, decode_info, encode_info, gid_size
 
 GUIDS = st.binary(min_size=16, max_size=16)
 NAMES = st.from_regex(r"/?[a-z_]{1,30}", fullmatch=True)

@@ -20,7 +20,7 @@ import coframe
 from coframe.messages import find, serialize
 from coframe.wire import Participant, QoS
 from coframe.wire.domains import domain_id
-from coframe.wire.dds._discovery_info import NodeInfo, encode_info
+from coframe.wire.rtps.discovery_info import NodeInfo, encode_info
 
 def eventually(condition):
     deadline = time.monotonic() + 20

@@ -12,9 +12,9 @@ from coframe.messages.type_hash import type_hash
 from coframe.type_names import TF_MESSAGE
 from coframe.wire import QoS, request_header
 from coframe.wire._type_hashes import TF_MESSAGE_HASH
-from coframe.wire.dds._discovery_info import TOPIC, NodeInfo, decode_info, encode_info
-from coframe.wire.dds._user_data import endpoint_user_data, type_hash_of
 from coframe.wire.dds.topics import create_topic
+from coframe.wire.rtps.discovery_info import TOPIC, NodeInfo, decode_info, encode_info
+from coframe.wire.rtps.user_data import endpoint_user_data, type_hash_of
 
 PARTICIPANT = "01103a4b5c6d7e8f90a1b2c3000001c1"
 READER, WRITER = "01103a4b5c6d7e8f90a1b2c300000504", "01103a4b5c6d7e8f90a1b2c300000403"
@@ -102,7 +102,7 @@ def test_the_form_is_that_of_the_other_participants(participant, foreign, eventu
 def test_other_processes_of_coframe_are_not_followed(participant, child, foreign, eventually):
     other = child("import coframe\nwith coframe.connect('other'): input()", ROS_DISTRO="jazzy")
     eventually(lambda: ("/", "other") in participant.nodes())
-    assert participant._session.gid_size == 24
+    assert participant._session._announcer.gid_size == 24
     jazzy = foreign(16)
     eventually(lambda: jazzy.size_of(participant._session.native.guid) == 16)
     assert other.finish() == (0, "")

@@ -49,3 +49,4 @@ TF_STATIC_WRITER = QoS(depth=1, transient_local=True)
 # The topic has no key, so a reader with a depth of 1 would keep only the message of one broadcaster.
 TF_STATIC_READER = QoS(depth=100, transient_local=True)
 GRAPH_WRITER = QoS(depth=1, transient_local=True)
+GRAPH_READER = QoS(transient_local=True, keep_all=True)

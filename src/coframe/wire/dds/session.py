@@ -3,20 +3,19 @@
 
 from __future__ import annotations
 
-import os
 from typing import TYPE_CHECKING, TypeVar
 
 from coframe import _core
 from coframe.errors import WireError
 from coframe.wire.dds import config, library, participants
 from coframe.wire.dds._announcements import Announcements, participant_user_data
-from coframe.wire.dds._discovery_info import ADAPTS, TOPIC, choose_gid_size, encode_info, gid_size, unseen_text
-from coframe.wire.dds._graph import DdsGraph
-from coframe.wire.dds._user_data import endpoint_user_data
-from coframe.wire.dds._vendors import SERVICE_PARTITIONS, uses_service_partitions
 from coframe.wire.dds.topics import create_topic
-from coframe.wire.qos import GRAPH_WRITER, QoS
-from coframe.wire.system_clock import clock_fault
+from coframe.wire.qos import GRAPH_READER, GRAPH_WRITER, QoS
+from coframe.wire.rtps.announcer import NodeAnnouncer
+from coframe.wire.rtps.discovery_info import ADAPTS, TOPIC, TYPE
+from coframe.wire.rtps.graph import DdsGraph
+from coframe.wire.rtps.user_data import endpoint_user_data
+from coframe.wire.rtps.vendors import SERVICE_PARTITIONS, uses_service_partitions
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -24,13 +23,10 @@ if TYPE_CHECKING:
     from coframe.buffer.buffer import Buffer
     from coframe.wire._backend import QueueLimits
     from coframe.wire.endpoints import GraphNode
-    from coframe.wire.graph import NodeInfo
     from coframe.wire.names import Endpoint
     from coframe.wire.request_header import RequestHeader
 
 EndpointT = TypeVar("EndpointT")
-
-_GRAPH_TYPE = "rmw_dds_common::msg::dds_::ParticipantEntitiesInfo_"
 
 
 class DdsServiceReader(_core.Reader):
@@ -50,7 +46,6 @@ class DdsSession:
     Attributes:
         native: The participant.
         graph: The nodes and endpoints of the domain.
-        gid_size: The size of the identifiers that the graph messages of this process contain, in bytes.
 
     Raises:
         WireError: There is no usable DDS library, an environment variable has an invalid value, or DDS cannot create
@@ -61,13 +56,15 @@ class DdsSession:
         library.load()
         self.native = participants.join(domain, config.cyclone_config(), participant_user_data())
         self._announcements = Announcements(self.native, repeated=config.reaches_other_machines())
-        self.gid_size = self._preferred_gid_size = gid_size(os.environ)
-        self._announced: list[NodeInfo] = []
-        self._is_published = True  # whether the published state of this process's nodes is current
-        self._info_writer = _core.Writer(
-            self.native.entity, create_topic(self.native.entity, TOPIC, _GRAPH_TYPE), native_qos(GRAPH_WRITER), ADAPTS
+        self._announcer = NodeAnnouncer(
+            self.native.guid,
+            _core.Writer(self.native.entity, self._graph_topic(), native_qos(GRAPH_WRITER), ADAPTS),
         )
-        self.graph = DdsGraph(self.native.entity, create_topic(self.native.entity, TOPIC, _GRAPH_TYPE), changed)
+        self.graph = DdsGraph(
+            _core.Reader(self.native.entity, self._graph_topic(), native_qos(GRAPH_READER), "", changed),
+            _core.EndpointReader(self.native.entity, _core.PUBLICATIONS, changed),
+            _core.EndpointReader(self.native.entity, _core.SUBSCRIPTIONS, changed),
+        )
 
     def writer(
         self,
@@ -138,39 +135,25 @@ class DdsSession:
 
     def announce(self, nodes: Sequence[GraphNode]) -> None:
         """Publish the nodes of this process with their endpoints."""
-        self._announced = [node.info() for node in nodes]
-        self._publish_nodes()
+        self._announcer.announce(nodes)
 
     def repeat_announcement(self) -> int:
         """Announce this process again if the network may have lost the first announcements."""
-        if not self._is_published:
-            self._publish_nodes()
+        self._announcer.repeat()
         return self._announcements.send_due()
 
     def adapt(self) -> str:
         """Publish the nodes of this process in the form that the other participants can read."""
-        others = self.graph.gid_sizes()
-        size = choose_gid_size(self._preferred_gid_size, others)
-        if size != self.gid_size:
-            self.gid_size = size
-            self._publish_nodes()
-        return unseen_text(size, others)
+        return self._announcer.adapt(self.graph)
 
     def close(self) -> None:
         """Leave the domain."""
-        self._info_writer.close()
+        self._announcer.close()
         self.graph.close()
         self.native.close()
 
-    def _publish_nodes(self) -> None:
-        try:
-            self._info_writer.write(encode_info(self.native.guid, self._announced, self.gid_size))
-            self._is_published = True
-        except _core.EndpointError:
-            # A node must be able to shut down while the clock is wrong. The next announcement contains all nodes.
-            self._is_published = False
-            if clock_fault() is None:
-                raise
+    def _graph_topic(self) -> int:
+        return create_topic(self.native.entity, TOPIC, TYPE)
 
     def _create(self, endpoint: Endpoint, make: Callable[[int, str], EndpointT], user_data: str = "") -> EndpointT:
         """Create an endpoint with `make(handle of the topic, user data)`."""

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from collections.abc import Collection, Mapping
 
 TOPIC = "ros_discovery_info"
+TYPE = "rmw_dds_common::msg::dds_::ParticipantEntitiesInfo_"
 
 # Marks a writer on this topic whose form depends on the readers, so that no other process adapts to it.
 ADAPTS = "coframe=adapts;"

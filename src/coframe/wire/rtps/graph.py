@@ -4,35 +4,49 @@
 from __future__ import annotations
 
 from collections import OrderedDict
+from typing import TYPE_CHECKING, Any, Protocol
 
-from coframe import _core
 from coframe.wire import names
-from coframe.wire.dds import _vendors as vendors
-from coframe.wire.dds._discovery_info import ADAPTS, TOPIC, decode_info
-from coframe.wire.dds._user_data import type_hash_of
 from coframe.wire.graph import DiscoveredEndpoint, Graph
 from coframe.wire.qos import QoS
+from coframe.wire.rtps import vendors
+from coframe.wire.rtps.discovery_info import ADAPTS, TOPIC, decode_info
+from coframe.wire.rtps.user_data import type_hash_of
+
+if TYPE_CHECKING:
+    from coframe.wire._backend import BackendReader
 
 MAX_DEPARTED_WRITERS = 1_000  # remembered after they have left, because their requests may still be queued
 
 _BATCH = 256  # messages
 
 
+class EndpointReader(Protocol):
+    """Receives the writers or the readers that DDS discovery finds, including those of this process."""
+
+    def take(self) -> list[tuple[Any, ...]]:
+        """Return the changes since the last call; see `_core.EndpointReader.take`."""
+
+    def close(self) -> None:
+        """Stop."""
+
+
 class DdsGraph(Graph):
     """The graph of a DDS domain.
 
     Args:
-        participant: The handle of the participant.
-        topic: The handle of the topic ros_discovery_info, which is released.
-        changed: Set when discovery messages arrive.
+        info_reader: Receives the messages of the topic ros_discovery_info.
+        writer_reader: Receives the writers found by discovery.
+        reader_reader: Receives the readers found by discovery.
     """
 
-    def __init__(self, participant: int, topic: int, changed: _core.Event) -> None:
+    def __init__(
+        self, info_reader: BackendReader, writer_reader: EndpointReader, reader_reader: EndpointReader
+    ) -> None:
         super().__init__()
-        qos = _core.QosProfile(depth=1, reliable=True, transient_local=True, keep_all=True)
-        self._info_reader = _core.Reader(participant, topic, qos, "", changed)
-        self._writer_reader = _core.EndpointReader(participant, _core.PUBLICATIONS, changed)
-        self._reader_reader = _core.EndpointReader(participant, _core.SUBSCRIPTIONS, changed)
+        self._info_reader = info_reader
+        self._writer_reader = writer_reader
+        self._reader_reader = reader_reader
         self._gid_sizes: dict[bytes, int] = {}  # by participant
         self._departed: OrderedDict[int, bytes] = OrderedDict()  # writers that send requests in another form
 
@@ -89,7 +103,7 @@ class DdsGraph(Graph):
                     changed = True
         return changed
 
-    def _take_endpoints(self, reader: _core.EndpointReader, known: dict[int, DiscoveredEndpoint]) -> bool:
+    def _take_endpoints(self, reader: EndpointReader, known: dict[int, DiscoveredEndpoint]) -> bool:
         changes = reader.take()
         for handle, alive, guid, participant, topic, type_name, (depth, *policies), user_data, partitions in changes:
             if alive:
