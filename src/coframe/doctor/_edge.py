@@ -114,6 +114,15 @@ class Edge:
         turns = self.values[:, 3:]
         return np.asarray(turns / _lengths(turns)[:, None])
 
+    def poses(self, rows: NDArray[np.intp]) -> NDArray[np.float64]:
+        """Return the poses of given rows, (N, 7), with unit quaternions."""
+        return np.concatenate([self.values[rows, :3], self.rotations[rows]], axis=1)
+
+    @property
+    def last_pose(self) -> NDArray[np.float64]:
+        """The pose of the last row, (1, 7), with a unit quaternion."""
+        return self.poses(np.array([-1]))
+
     @cached_property
     def distances(self) -> NDArray[np.float64]:
         """(N - 1,) metres from each position to the next one."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Flicker: an edge that alternates between two poses, as if two publishers disagree."""
+"""Flicker: an edge that alternates between two poses, as if two publishers disagree, and what explains a jump."""
 
 from __future__ import annotations
 
@@ -8,19 +8,22 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from coframe.doctor._edge import angles_between
+from coframe.doctor.pose_mistakes import Explanation, explain, explain_either
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from coframe.doctor._edge import Edge
 
-__all__ = ["Flicker", "flicker"]
+__all__ = ["Flicker", "alternation_cause", "flicker", "jump_cause"]
 
 _MIN_JUMPS = 6  # jumps away and back
 _METRES = 1e-3
 _RADIANS = 1e-2
 # A jump must be larger than this multiple of the usual step.
 _CLEARLY = 6.0
+_TOLERANCE = 2.0  # usual steps that two poses at nearly the same time may differ
+_MAX_COMPARED = 200  # jumps
 _SAMPLE = 1_000  # rows, which are enough for a quantile
 _TURNS = 3
 _MOSTLY = 0.4
@@ -30,12 +33,17 @@ _MAX_RUN = 12
 
 
 class Flicker(NamedTuple):
-    """The number of jumps away and back, their median size (metres, radians), and the row of the first jump."""
+    """The number of jumps away and back, their median size (metres, radians), and the row before each."""
 
     jumps: int
     distance: float
     angle: float
-    first: int
+    rows: NDArray[np.intp]
+
+    @property
+    def first(self) -> int:
+        """The row of the first jump."""
+        return int(self.rows[0])
 
 
 def flicker(edge: Edge) -> Flicker | None:
@@ -62,7 +70,33 @@ def flicker(edge: Edge) -> Flicker | None:
     if np.count_nonzero(returned) < max(_MIN_JUMPS, len(jumps) // 2):
         return None
     rows = away[returned]
-    return Flicker(len(rows), float(np.median(edge.distances[rows])), float(np.median(edge.turns[rows])), int(rows[0]))
+    return Flicker(len(rows), float(np.median(edge.distances[rows])), float(np.median(edge.turns[rows])), rows)
+
+
+def alternation_cause(edge: Edge, found: Flicker) -> str:
+    """Return a clause with the mistake that explains how the two poses differ; "" if no usual mistake does."""
+    rows = found.rows[: 2 * _MAX_COMPARED : 2]  # every second jump returns
+    explained = explain_either(edge.poses(rows), edge.poses(rows + 1), **_tolerances(edge))
+    return f"; {explained[0].text('the other', 'one of them')}" if explained else ""
+
+
+def jump_cause(edge: Edge, rows: NDArray[np.intp]) -> Explanation | None:
+    """Return the mistake that explains jumps after given rows, compared with the pose before; None if none does.
+
+    A single jump is explained only by a mistake that poses do not match by chance.
+    """
+    rows = rows[:_MAX_COMPARED]
+    # Of a jump away and a jump back, only the first one leads to the wrong pose.
+    found = explain(edge.poses(rows[::2] + 1), edge.poses(rows[::2]), **_tolerances(edge))
+    if found is None or not (found.specific or len(rows) >= _MIN_JUMPS):
+        return None
+    return found
+
+
+def _tolerances(edge: Edge) -> dict[str, float]:
+    """Return how far an edge usually moves between two rows, as the limits of a comparison."""
+    distance, angle = _typical(edge)
+    return {"metres": _TOLERANCE * distance + _METRES, "radians": _TOLERANCE * angle + _RADIANS / 10}
 
 
 def _typical(edge: Edge) -> tuple[float, float]:

@@ -12,10 +12,11 @@ from coframe.analysis.static_command import static_command
 from coframe.doctor._edge import angles_between
 from coframe.doctor._finding import Finding, Severity
 from coframe.doctor._robot_model import model
+from coframe.doctor.pose_mistakes import Explanation, explain
 from coframe.transform.transform import Transform
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Callable, Iterator
 
     from numpy.typing import NDArray
 
@@ -26,15 +27,73 @@ if TYPE_CHECKING:
 __all__ = ["CODE", "find"]
 
 CODE = "TF023"
+_HARM = "The published pose is wrong: collision checks and displays show a robot that differs from the real one."
+_ONE_PUBLISHER = (
+    "Publish the links of the robot description only with robot_state_publisher, and stop the other publisher of this "
+    "transform; or correct <origin> in the URDF, and restart robot_state_publisher after the change."
+)
 _METRES = 1e-3
 _RADIANS = 1e-3
 _MAX_COMPARED = 2000  # transforms per joint
 
 
+# Mistakes in joint positions: the clause after "if", what to do, and the positions that were used.
+_WrongPositions = tuple[str, str, "Callable[[NDArray[np.float64]], NDArray[np.float64]]"]
+_WRONG_POSITIONS: tuple[_WrongPositions, ...] = (
+    (
+        "the joint positions are used in radians: their values in degrees were used as radians",
+        "Use the positions of /joint_states as they are: they are in radians.",
+        np.degrees,
+    ),
+    (
+        "the joint positions are used as they are: they were converted from degrees to radians twice",
+        "Use the positions of /joint_states as they are: they are in radians.",
+        np.radians,
+    ),
+    (
+        "the joint positions have the opposite sign",
+        "Check the sign of the angle, or <axis> in the URDF.",
+        np.negative,
+    ),
+    (
+        "the angle in the quaternion is halved: sin(angle) was used for sin(angle / 2)",
+        "Use half the angle in a quaternion: z = math.sin(angle / 2), w = math.cos(angle / 2).",
+        lambda positions: 2.0 * positions,
+    ),
+    (
+        "the angle in the quaternion is doubled: it was halved twice",
+        "Use half the angle in a quaternion: z = math.sin(angle / 2), w = math.cos(angle / 2).",
+        lambda positions: 0.5 * positions,
+    ),
+)
+# For prismatic joints.
+_WRONG_DISTANCES: tuple[_WrongPositions, ...] = (
+    (
+        "the joint positions are used in metres: their values in millimetres were used",
+        "Use the positions of /joint_states as they are: they are in metres.",
+        lambda positions: 1e3 * positions,
+    ),
+    (
+        "the joint positions are used as they are: they were divided by 1000",
+        "Use the positions of /joint_states as they are: they are in metres.",
+        lambda positions: 1e-3 * positions,
+    ),
+    _WRONG_POSITIONS[2],
+)
+
+
 class _Difference(NamedTuple):
+    """The median difference between the rows of an edge and the expected poses, and the mistake that explains it."""
+
     metres: float
     radians: float
     compared: int
+    mistake: Explanation | None
+
+    @property
+    def text(self) -> str:
+        """The size of the difference, as a clause."""
+        return f"{self.metres:.3g} m and {degrees(self.radians):.3g} degrees"
 
 
 def find(observation: Observation) -> Iterator[Finding]:
@@ -46,7 +105,7 @@ def find(observation: Observation) -> Iterator[Finding]:
     for name, joint in robot.joints.items():
         edge = by_key.get((observation.link_name(joint.parent), observation.link_name(joint.child)))
         found = _difference(observation, robot, name, edge) if edge is not None else None
-        if edge is None or found is None or (found.metres < _METRES and found.radians < _RADIANS):
+        if edge is None or found is None or not _is_different(found):
             continue
         if joint.type == "fixed":
             yield _mount(edge, f"fixed joint {name!r}", robot.joint_transforms()[name], found)
@@ -54,11 +113,10 @@ def find(observation: Observation) -> Iterator[Finding]:
         yield Finding(
             code=CODE,
             severity=Severity.WARNING,
-            text=f"differs from joint {name!r} of the robot description by {found.metres:.3g} m and "
-            f"{degrees(found.radians):.3g} degrees (median of {found.compared})",
-            fix="Publish the links of the robot description only with robot_state_publisher, and stop the other "
-            "publisher of this transform; or correct <origin> in the URDF, and restart robot_state_publisher after "
-            "the change.",
+            text=f"differs from joint {name!r} of the robot description by {found.text} (median of {found.compared})"
+            + _agreement(found),
+            fix=_ONE_PUBLISHER if found.mistake is None else f"{found.mistake.fix} Or: {_ONE_PUBLISHER}",
+            harm=_HARM if found.mistake else "",
             edge=edge.key,
             first_stamp=edge.first_stamp,
             publishers=edge.publishers,
@@ -116,7 +174,7 @@ def _other_mounts(observation: Observation, robot: Robot) -> Iterator[Finding]:
         poses = poses or robot.frames()
         expected = poses[parent].inverse() @ poses[child]
         found = _deviation(edge, np.array([edge.count - 1]), expected)
-        if found.metres >= _METRES or found.radians >= _RADIANS:
+        if _is_different(found):
             yield _mount(edge, "the fixed joints between these links", expected, found)
 
 
@@ -126,15 +184,21 @@ def _mount(edge: Edge, joint: str, expected: Transform, found: _Difference) -> F
     return Finding(
         code=CODE,
         severity=Severity.WARNING,
-        text=f"differs from {joint} of the robot description by {found.metres:.3g} m and {degrees(found.radians):.3g} "
-        f"degrees: published {_described(published)}, described {_described(expected)}",
-        fix="Decide which pose is right. If that of the robot description is, let only robot_state_publisher publish "
+        text=f"differs from {joint} of the robot description by {found.text}: published {_described(published)}, "
+        f"described {_described(expected)}{_agreement(found)}",
+        fix=(found.mistake.fix if found.mistake else "Decide which pose is right.")
+        + " If that of the robot description is right, let only robot_state_publisher publish "
         f"it (its values: `{static_command(*edge.key, pose)}`); otherwise correct <origin> in the URDF to "
         f"{_origin(published)}, and restart robot_state_publisher.",
+        harm=_HARM if found.mistake else "",
         edge=edge.key,
         first_stamp=edge.first_stamp,
         publishers=edge.publishers,
     )
+
+
+def _agreement(found: _Difference) -> str:
+    return f"; {found.mistake.text('it')}" if found.mistake is not None else ""
 
 
 def _described(pose: Transform) -> str:
@@ -156,28 +220,46 @@ def _difference(observation: Observation, robot: Robot, name: str, edge: Edge) -
     """Return the median difference between an edge and its joint; None if nothing can be compared."""
     joint = robot.joints[name]
     if joint.type == "fixed":
-        rows = np.array([edge.count - 1])
-        expected = robot.joint_transforms()[name]
-    else:
-        if joint.size != 1:
-            return None
-        matched = _positions(observation, name, edge.stamp[:_MAX_COMPARED])
-        if matched is None:
-            return None
-        rows, positions = matched
-        try:
-            expected = robot.joint_transforms({name: positions})[name]
-        except ValueError:
-            return None
-    return _deviation(edge, rows, expected)
+        return _deviation(edge, np.array([edge.count - 1]), robot.joint_transforms()[name])
+    if joint.size != 1:
+        return None
+    matched = _positions(observation, name, edge.stamp[:_MAX_COMPARED])
+    if matched is None:
+        return None
+    rows, positions = matched
+    try:
+        found = _deviation(edge, rows, robot.joint_transforms({name: positions})[name])
+        if _is_different(found):
+            found = found._replace(mistake=_wrong_position(edge, rows, robot, name, positions) or found.mistake)
+    except ValueError:
+        return None
+    return found
 
 
-def _deviation(edge: Edge, rows: NDArray[np.intp], expected: Transform) -> _Difference:
-    """Return the median difference between rows of an edge and the expected pose or poses."""
-    rotations = np.broadcast_to(expected.quaternion, (len(rows), 4))
-    metres = np.linalg.norm(edge.values[rows, :3] - expected.translation, axis=1)
-    radians = angles_between(edge.rotations[rows], rotations)
-    return _Difference(float(np.median(metres)), float(np.median(radians)), len(rows))
+def _is_different(found: _Difference) -> bool:
+    return found.metres >= _METRES or found.radians >= _RADIANS
+
+
+def _wrong_position(
+    edge: Edge, rows: NDArray[np.intp], robot: Robot, name: str, positions: NDArray[np.float64]
+) -> Explanation | None:
+    """Return the mistake in the joint positions that explains the published transforms."""
+    for reading, fix, wrong in _WRONG_DISTANCES if robot.joints[name].type == "prismatic" else _WRONG_POSITIONS:
+        left = _deviation(edge, rows, robot.joint_transforms({name: wrong(positions)})[name], explained=False)
+        if not _is_different(left):
+            return Explanation(reading, fix, left.metres, left.radians)
+    return None
+
+
+def _deviation(edge: Edge, rows: NDArray[np.intp], expected: Transform, *, explained: bool = True) -> _Difference:
+    """Return the median difference between rows of an edge and the expected pose or poses, and what explains it."""
+    published = edge.poses(rows)
+    right = np.empty_like(published)
+    right[:, :3], right[:, 3:] = expected.translation, expected.quaternion
+    metres = float(np.median(np.linalg.norm(published[:, :3] - right[:, :3], axis=1)))
+    radians = float(np.median(angles_between(published[:, 3:], right[:, 3:])))
+    found = _Difference(metres, radians, len(rows), None)
+    return found._replace(mistake=explain(published, right)) if explained and _is_different(found) else found
 
 
 def _positions(

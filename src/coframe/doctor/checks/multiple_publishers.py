@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from coframe.doctor._finding import Finding, Severity
-from coframe.doctor._flicker import flicker
+from coframe.doctor._flicker import alternation_cause, flicker
+from coframe.doctor.pose_mistakes import explain_either
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -40,11 +41,12 @@ def _known_publishers(edge: Edge) -> Iterator[Finding]:
     differ = found is not None or (edge.static and not edge.constant)
     first, second, *_ = edge.publishers
     jumps = f": the pose jumps by {_size(found.distance, found.angle)} {found.jumps} times" if found else ""
+    cause = _cause(edge) if differ and edge.static else alternation_cause(edge, found) if found else ""
     yield Finding(
         code=CODE,
         severity=Severity.ERROR if differ else Severity.NOTE,
         text=f"{len(edge.publishers)} publishers"
-        + (f" with different poses{jumps}" if differ else " with equal or nearly equal poses"),
+        + (f" with different poses{jumps}{cause}" if differ else " with equal or nearly equal poses"),
         fix=f"Stop {first} or {second}, or disable the transform in one of them (lab: publish_arm:=false; "
         "robot_localization: publish_tf: false; diff_drive_controller: enable_odom_tf: false).",
         harm="" if differ else "As soon as one of them lags behind or publishes another pose, the transform flickers.",
@@ -54,6 +56,18 @@ def _known_publishers(edge: Edge) -> Iterator[Finding]:
     )
 
 
+def _cause(edge: Edge) -> str:
+    """Return a clause with the mistake that explains the difference between two publishers of a static transform."""
+    last = [np.flatnonzero(edge.publisher == number)[-1:] for number in dict.fromkeys(edge.publisher.tolist())]
+    first, second = map(edge.poses, last[:2])
+    explained = explain_either(first, second)
+    if explained is None:
+        return ""
+    mistake, in_first = explained
+    wrong, right = edge.publishers[:2] if in_first else edge.publishers[1::-1]
+    return f": {mistake.text(f'that of {right}', f'the pose of {wrong}')}"
+
+
 def _unknown_publishers(edge: Edge) -> Iterator[Finding]:
     found = flicker(edge)
     if found is not None:
@@ -61,7 +75,7 @@ def _unknown_publishers(edge: Edge) -> Iterator[Finding]:
             code=CODE,
             severity=Severity.ERROR,
             text=f"the pose jumps by {_size(found.distance, found.angle)} and back {found.jumps} times, as with two "
-            "publishers that disagree; the recording does not contain their names",
+            f"publishers that disagree{alternation_cause(edge, found)}; the recording does not contain their names",
             fix=f"On the running robot, `coframe doctor` names the publishers of {edge.name}: stop one of them.",
             edge=edge.key,
             first_stamp=int(edge.stamp[found.first]),

@@ -10,7 +10,7 @@ import numpy as np
 
 from coframe._output.formatting import times
 from coframe.doctor._finding import Finding, Severity
-from coframe.doctor._flicker import flicker
+from coframe.doctor._flicker import alternation_cause, flicker, jump_cause
 from coframe.time import SECOND
 
 if TYPE_CHECKING:
@@ -43,7 +43,7 @@ def find(observation: Observation) -> Iterator[Finding]:
                 code=CODE,
                 severity=Severity.WARNING,
                 text=f"alternates {found.jumps} times between two poses, {found.distance:.3g} m and "
-                f"{degrees(found.angle):.3g} degrees apart",
+                f"{degrees(found.angle):.3g} degrees apart{alternation_cause(edge, found)}",
                 fix=f"In {edge.publishers[0]}: check whether one filter has two inputs that disagree (odom0 and imu0 "
                 "of robot_localization), or whether two timers publish the same child_frame_id.",
                 edge=edge.key,
@@ -62,12 +62,16 @@ def _jumps(edge: Edge) -> Iterator[Finding]:
     if not len(rows):
         return
     worst = int(rows[np.argmax(edge.distances[rows] + edge.turns[rows])])
+    cause = jump_cause(edge, rows)
     yield Finding(
         code=CODE,
         severity=Severity.WARNING,
         text=f"jumps {times(len(rows))}, at worst {edge.distances[worst]:.3g} m and {degrees(edge.turns[worst]):.3g} "
-        f"degrees within {seconds[worst] * 1e3:.3g} ms",
-        fix="If the jump is not intended (initialpose, a reset), limit what the estimator accepts "
+        f"degrees within {seconds[worst] * 1e3:.3g} ms"
+        + (f"; after the jump, {cause.text('that before')}" if cause else ""),
+        fix=cause.fix
+        if cause
+        else "If the jump is not intended (initialpose, a reset), limit what the estimator accepts "
         "(robot_localization: odom0_pose_rejection_threshold). Publish jumps only in map -> odom: odom -> base_link "
         "must be continuous (REP-105).",
         edge=edge.key,

@@ -8,10 +8,12 @@ from typing import TYPE_CHECKING
 from coframe._output.formatting import times
 from coframe.doctor._edge import publishers_of
 from coframe.doctor._finding import Finding, Severity
+from coframe.doctor.pose_mistakes import explain_either
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+    from coframe.doctor._edge import Edge
     from coframe.doctor.observation import Observation
 
 __all__ = ["CODE", "find"]
@@ -29,10 +31,20 @@ def find(observation: Observation) -> Iterator[Finding]:
                 code=CODE,
                 severity=Severity.WARNING,
                 text=f"published {times(other.count)} on /tf_static and {times(edge.count)} on /tf; each change from "
-                "one to the other clears its history in every buffer",
+                f"one to the other clears its history in every buffer{_cause(other, edge)}",
                 fix="Publish it on one topic only. If it moves, remove it from the StaticTransformBroadcaster, or "
                 f"change the type of its URDF joint from fixed; otherwise stop publishing {edge.child!r} on /tf.",
                 edge=edge.key,
                 first_stamp=edge.first_stamp,
                 publishers=publishers_of([other, edge]),
             )
+
+
+def _cause(static: Edge, dynamic: Edge) -> str:
+    """Return a clause with the mistake that explains the difference of the two last poses; "" if there is none."""
+    explained = explain_either(static.last_pose, dynamic.last_pose)
+    if explained is None:
+        return ""
+    mistake, is_static = explained
+    wrong, right = ("/tf_static", "/tf") if is_static else ("/tf", "/tf_static")
+    return f"; {mistake.text(f'that on {right}', f'the pose on {wrong}')}"

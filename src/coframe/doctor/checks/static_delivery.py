@@ -9,6 +9,7 @@ import numpy as np
 
 from coframe._output.formatting import duration, listed, times
 from coframe.doctor._finding import Finding, Severity
+from coframe.doctor.pose_mistakes import explain_either
 from coframe.time import SECOND
 
 if TYPE_CHECKING:
@@ -106,7 +107,7 @@ def _outdated(edge: Edge) -> Iterator[Finding]:
         code=CODE,
         severity=Severity.NOTE if edge.constant else Severity.WARNING,
         text=f"published {times(len(stamps))} with stamps up to {duration(int(stamps.max() - stamps.min()))} apart"
-        + (" and equal values" if edge.constant else " and different values")
+        + (" and equal values" if edge.constant else f" and different values{_cause(edge)}")
         + ": the older ones are from processes that were started earlier and are still running",
         harm="A late joiner receives the message of each of these processes; if their values differ, the one that "
         "arrives last is used.",
@@ -115,3 +116,14 @@ def _outdated(edge: Edge) -> Iterator[Finding]:
         first_stamp=int(stamps.min()),
         publishers=edge.publishers,
     )
+
+
+def _cause(edge: Edge) -> str:
+    """Return a clause with the mistake that explains how the last value differs from the one before it."""
+    different = np.flatnonzero((edge.values != edge.values[-1]).any(axis=1))
+    explained = explain_either(edge.last_pose, edge.poses(different[-1:]))
+    if explained is None:
+        return ""
+    mistake, is_last = explained
+    wrong, right = ("last", "earlier") if is_last else ("earlier", "last")
+    return f" ({mistake.text(f'the {right} one', f'the {wrong} value')})"
