@@ -30,6 +30,7 @@ void define_sensors(nb::module_& module);
 void define_shared(nb::module_& module);
 void define_bags(nb::module_& module);
 void define_wire(nb::module_& module);
+void define_middleware(nb::module_& module);
 
 // An argument that may be None, because the functions themselves report what a frame name or a stamp must be.
 inline auto any(const char* name) { return nb::arg(name).none(); }

@@ -52,9 +52,11 @@ void end() {
 
 }  // namespace
 
-WithoutGil::~WithoutGil() {
+PyThreadState* leave_python() { return PyEval_SaveThread(); }
+
+void enter_python(PyThreadState* thread) {
   if (!may_cross()) wait_for_end_of_process();
-  PyEval_RestoreThread(thread_);
+  PyEval_RestoreThread(thread);
   crossing.fetch_sub(1);
 }
 

@@ -8,13 +8,17 @@
 
 namespace coframe::bindings {
 
+// Releases the GIL, and takes it again.
+PyThreadState* leave_python();
+void enter_python(PyThreadState* thread);
+
 // A scope without the GIL: other Python threads run, and nothing in it may use Python.
 class WithoutGil {
  public:
-  WithoutGil() : thread_(PyEval_SaveThread()) {}
+  WithoutGil() : thread_(leave_python()) {}
   WithoutGil(const WithoutGil&) = delete;
   WithoutGil& operator=(const WithoutGil&) = delete;
-  ~WithoutGil();
+  ~WithoutGil() { enter_python(thread_); }
 
  private:
   PyThreadState* thread_;

@@ -23,4 +23,5 @@ NB_MODULE(_core, module) {
   define_shared(module);
   define_bags(module);
   define_wire(module);
+  define_middleware(module);
 }

@@ -1093,3 +1093,5 @@ class EndpointReader:
         """
 
     def close(self) -> None: ...
+
+middleware: object  # a capsule: native/include/coframe/middleware.h

@@ -107,7 +107,7 @@ def _wire_option() -> click.Option:
     from coframe.wire import selection  # noqa: PLC0415 - the list of commands does not need DDS
 
     def checked(name: str) -> str:
-        if name not in selection.WIRES:
+        if name not in selection.wires():
             raise click.BadParameter(f"{name!r} is not {selection.alternatives()}.")
         return name
 
@@ -117,7 +117,7 @@ def _wire_option() -> click.Option:
 
     return click.Option(
         ["--wire"],
-        metavar=f"[{'|'.join(selection.WIRES)}]",
+        metavar=f"[{'|'.join(selection.wires())}]",
         type=checked,
         callback=choose,
         expose_value=False,

@@ -52,7 +52,7 @@ def _middleware(report: SystemReport) -> Iterator[Advice]:
     used = selection.row_of(report.wire.wire)
     implementation = {variable.name: variable.value for variable in report.variables}.get(selection.RMW_VARIABLE)
     others = selection.row_of_rmw(implementation or "")
-    if others != used:
+    if others.protocol != used.protocol:
         yield Advice(
             "note" if implementation is None else "warning",
             f"coframe uses {used.title}, but ROS 2 nodes that are started in this shell use "

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The middleware through which a connection joins the ROS graph. Each middleware is a row of `MIDDLEWARES`.
+"""The middleware through which a connection joins the ROS graph. Each middleware is a row of `middlewares`.
+
+Other distributions add rows through the entry points `GROUP`, as coframe-fastdds does.
 
 A call may name it (`coframe.connect(wire="zenoh")`), and so may the command line of a process (``--wire zenoh``).
 Otherwise the environment decides; see `select`. Connections of one process may use different middlewares: each
@@ -13,6 +15,7 @@ import os
 from importlib import import_module
 from typing import TYPE_CHECKING, Final, NamedTuple, cast
 
+from coframe._process.plugins import load_plugins, plugins
 from coframe._process.python_children import pass_to_children
 from coframe.errors import WireError
 
@@ -38,7 +41,8 @@ class MiddlewareRow(NamedTuple):
         rmw_name: What the names of its implementations of ROS 2 contain, such as "zenoh" for rmw_zenoh_cpp; "" for all
             that no other row recognizes.
         rmw: The implementation of ROS 2 that communicates best with it.
-        rmw_selects_it: Whether RMW_IMPLEMENTATION with this value selects it for coframe as well.
+        protocol: What it sends over the network: middlewares with the same protocol find each other.
+        rmw_selects_it: Whether RMW_IMPLEMENTATION with such a name selects it for coframe as well.
     """
 
     wire: str
@@ -46,6 +50,7 @@ class MiddlewareRow(NamedTuple):
     module: str
     rmw_name: str
     rmw: str
+    protocol: str
     rmw_selects_it: bool
 
     def load(self) -> Middleware:
@@ -53,13 +58,13 @@ class MiddlewareRow(NamedTuple):
         return cast("Middleware", import_module(self.module).MIDDLEWARE)
 
 
-# If the environment does not decide, the first one that is available is used.
-MIDDLEWARES: Final = (
-    MiddlewareRow("dds", "DDS", "coframe.wire.dds.middleware", "", "rmw_cyclonedds_cpp", rmw_selects_it=False),
-    MiddlewareRow("zenoh", "Zenoh", "coframe.wire.zenoh.middleware", "zenoh", "rmw_zenoh_cpp", rmw_selects_it=True),
+DEFAULT: Final = MiddlewareRow(
+    "dds", "DDS", "coframe.wire.dds.middleware", "", "rmw_cyclonedds_cpp", "rtps", rmw_selects_it=False
 )
-DEFAULT: Final = MIDDLEWARES[0]
-WIRES: Final = tuple(row.wire for row in MIDDLEWARES)
+ZENOH: Final = MiddlewareRow(
+    "zenoh", "Zenoh", "coframe.wire.zenoh.middleware", "zenoh", "rmw_zenoh_cpp", "zenoh", rmw_selects_it=True
+)
+GROUP: Final = "coframe.middlewares"  # the entry points whose objects are rows
 
 _chosen: dict[str, str] = {}  # the wire that the command line has chosen for this process
 _logged: set[str] = set()  # the middlewares whose automatic selection was logged
@@ -72,13 +77,25 @@ class Selection(NamedTuple):
     reason: str
 
 
+def middlewares() -> tuple[MiddlewareRow, ...]:
+    """Return the rows of all middlewares. If the environment does not decide, the first that is available is used."""
+    return (DEFAULT, *(row for _, row in load_plugins(GROUP, _logger.warning)), ZENOH)
+
+
+def wires() -> tuple[str, ...]:
+    """Return the names of all middlewares."""
+    return (DEFAULT.wire, *(plugin.name for plugin in plugins(GROUP)), ZENOH.wire)
+
+
 def row_of(wire: str) -> MiddlewareRow:
     """Return the row of a middleware.
 
     Raises:
         WireError: There is no middleware of this name.
     """
-    for row in MIDDLEWARES:
+    if wire == DEFAULT.wire:  # without a look at the entry points
+        return DEFAULT
+    for row in middlewares():
         if row.wire == wire:
             return row
     raise WireError(f"{wire!r} is not a middleware.", hint=f"Valid names: {alternatives()}.")
@@ -86,12 +103,13 @@ def row_of(wire: str) -> MiddlewareRow:
 
 def row_of_rmw(implementation: str) -> MiddlewareRow:
     """Return the row of the middleware that an implementation of ROS 2 uses: that of Zenoh for "rmw_zenoh_cpp"."""
-    return next((row for row in MIDDLEWARES if row.rmw_name and row.rmw_name in implementation), DEFAULT)
+    return next((row for row in middlewares() if row.rmw_name and row.rmw_name in implementation), DEFAULT)
 
 
 def alternatives() -> str:
     """Return the names of all middlewares as a text: "dds or zenoh"."""
-    return " or ".join(WIRES)
+    *others, last = wires()
+    return f"{', '.join(others)} or {last}"
 
 
 def choose(wire: str) -> None:
@@ -107,8 +125,9 @@ def choose(wire: str) -> None:
 def select(environment: Mapping[str, str] = os.environ) -> Selection:
     """Return the middleware to use where a call does not name one.
 
-    The first of these decides: ``--wire``; COFRAME_WIRE; RMW_IMPLEMENTATION=rmw_zenoh_cpp; a variable that configures
-    only one middleware (COFRAME_DDS_LIBRARY); what is installed, DDS first.
+    The first of these decides: ``--wire``; COFRAME_WIRE; RMW_IMPLEMENTATION=rmw_zenoh_cpp, or rmw_fastrtps_cpp where
+    coframe-fastdds is installed; a variable that configures only one middleware (COFRAME_DDS_LIBRARY); what is
+    installed, DDS first.
 
     Args:
         environment: The environment variables. ``--wire`` has priority only over those of this process.
@@ -124,15 +143,16 @@ def _requested(environment: Mapping[str, str]) -> Selection | None:
     if environment is os.environ and _chosen:
         return Selection(_chosen["wire"], "--wire is given")
     if wire := environment.get(VARIABLE, "").strip().lower():
-        if wire not in WIRES:
+        if wire not in wires():
             hint = f"Unset {VARIABLE} to use {DEFAULT.title}."
             raise WireError(f"{VARIABLE} is {wire!r}: it must be {alternatives()}.", hint=hint)
         return Selection(wire, f"{VARIABLE} is set")
+    rows = middlewares()
     implementation = environment.get(RMW_VARIABLE, "").strip()
-    for row in MIDDLEWARES:
-        if row.rmw_selects_it and implementation == row.rmw:
+    for row in rows:
+        if row.rmw_selects_it and row.rmw_name in implementation:
             return Selection(row.wire, f"{RMW_VARIABLE} is {implementation}")
-    for row in MIDDLEWARES:
+    for row in rows:
         for name in row.load().variables:
             if environment.get(name, "").strip():
                 return Selection(row.wire, f"{name} is set")
@@ -141,7 +161,7 @@ def _requested(environment: Mapping[str, str]) -> Selection | None:
 
 def _installed(environment: Mapping[str, str]) -> Selection:
     """Return the first middleware that is available; the default if there is none."""
-    first = next((row for row in MIDDLEWARES if row.load().is_available(environment)), DEFAULT)
+    first = next((row for row in middlewares() if row.load().is_available(environment)), DEFAULT)
     if first is DEFAULT:
         return Selection(first.wire, "it is the default")
     return Selection(first.wire, f"there is no {DEFAULT.title} library on this machine")

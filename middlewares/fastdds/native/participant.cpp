@@ -1,0 +1,333 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "participant.hpp"
+
+#include <pthread.h>
+
+#include <cstring>
+#include <random>
+
+namespace coframe::fastdds {
+
+const coframe_middleware* core = nullptr;
+
+namespace {
+
+std::atomic<bool> is_forked = false;
+[[maybe_unused]] const int registered = pthread_atfork(nullptr, nullptr, [] { is_forked = true; });
+
+// Other hosts and processes cannot choose GUIDs whose handles are equal.
+std::uint64_t random_number() {
+  std::random_device device;
+  return (static_cast<std::uint64_t>(device()) << 32) | device();
+}
+const std::uint64_t seed = random_number();
+const std::uint64_t factor = random_number() | 1;
+
+std::uint64_t mix(std::uint64_t value) {
+  value *= factor;
+  value ^= value >> 29;
+  value *= 0xbf58476d1ce4e5b9U;
+  value ^= value >> 32;
+  return value;
+}
+
+void set_own_transports(dds::DomainParticipantQos& qos, bool loopback_only) {
+  constexpr std::uint32_t kPeers =
+      120;  // participants of each peer that are looked for, all that a domain has ports for
+  auto memory = std::make_shared<transport::SharedMemTransportDescriptor>();
+  auto udp = std::make_shared<transport::UDPv4TransportDescriptor>();
+  udp->maxInitialPeersRange = kPeers;
+  if (loopback_only) udp->interfaceWhiteList.emplace_back("127.0.0.1");
+  qos.transport().use_builtin_transports = false;
+  qos.transport().user_transports = {memory, udp};
+}
+
+void add_peer(dds::DomainParticipantQos& qos, const std::string& address) {
+  rtps::Locator_t peer;
+  IPLocator::setIPv4(peer, address);
+  qos.wire_protocol().builtin.initialPeersList.push_back(peer);
+}
+
+bool is_loopback(const std::string& address) { return address.starts_with("127."); }
+
+void set_discovery(dds::DomainParticipantQos& qos, const ParticipantOptions& options) {
+  auto& builtin = qos.wire_protocol().builtin;
+  const rtps::Locator_t any;
+  if (options.range == "OFF") {
+    builtin.metatrafficMulticastLocatorList.clear();
+    builtin.metatrafficUnicastLocatorList.push_back(any);
+  } else if (options.range == "LOCALHOST") {
+    builtin.metatrafficMulticastLocatorList.clear();
+    builtin.metatrafficUnicastLocatorList.push_back(any);
+    add_peer(qos, "127.0.0.1");
+    bool local = true;
+    for (const std::string& peer : options.peers) {
+      add_peer(qos, peer);
+      local &= is_loopback(peer);
+    }
+    if (!options.has_profiles) set_own_transports(qos, local);
+  } else if (options.range == "SUBNET" && !options.peers.empty()) {
+    for (const std::string& peer : options.peers) add_peer(qos, peer);
+    add_peer(qos, "239.255.0.1");
+    if (!options.has_profiles) set_own_transports(qos, false);
+  }
+}
+
+dds::DomainParticipantQos make_qos(const ParticipantOptions& options) {
+  auto* factory = dds::DomainParticipantFactory::get_instance();
+  factory->load_profiles();
+  dds::DomainParticipantQos qos = factory->get_default_participant_qos();
+  qos.name(options.name.c_str());
+  qos.user_data().setValue({options.user_data.begin(), options.user_data.end()});
+  auto& builtin = qos.wire_protocol().builtin;
+  builtin.readerHistoryMemoryPolicy = rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
+  builtin.writerHistoryMemoryPolicy = rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
+  set_discovery(qos, options);
+  for (const auto& [name, value] : options.properties) qos.properties().properties().emplace_back(name, value);
+  return qos;
+}
+
+template <class Entity>
+Entity* created(Entity* entity, const char* what) {
+  if (entity == nullptr) throw Error(std::string("could not ") + what);
+  return entity;
+}
+
+Guid participant_of(const rtps::GUID_t& guid) {
+  return bytes_of(rtps::GUID_t(guid.guidPrefix, rtps::c_EntityId_RTPSParticipant));
+}
+
+template <class User>
+std::string text_of(const User& user_data) {
+  const auto& bytes = user_data.data_vec();
+  return {bytes.begin(), bytes.end()};
+}
+
+template <class Policies>
+Qos read_qos(const Policies& from, bool) {
+  Qos qos;
+#if COFRAME_FASTDDS_3
+  const auto& durability = from.durability;
+  const auto& reliability = from.reliability;
+  const auto& liveliness = from.liveliness;
+  const auto& deadline = from.deadline;
+  const auto& partition = from.partition;
+  const auto& latency = from.latency_budget;
+#else
+  const auto& durability = from.m_durability;
+  const auto& reliability = from.m_reliability;
+  const auto& liveliness = from.m_liveliness;
+  const auto& deadline = from.m_deadline;
+  const auto& partition = from.m_partition;
+  const auto& latency = from.m_latencyBudget;
+#endif
+  qos.transient_local = durability.kind >= dds::TRANSIENT_LOCAL_DURABILITY_QOS;
+  qos.reliable = reliability.kind == dds::RELIABLE_RELIABILITY_QOS;
+  qos.manual_liveliness = liveliness.kind != dds::AUTOMATIC_LIVELINESS_QOS;
+  qos.lease_ns = to_nanoseconds(liveliness.lease_duration);
+  qos.deadline_ns = to_nanoseconds(deadline.period);
+  qos.latency_budget_ns = to_nanoseconds(latency.duration);
+  qos.partitions = partition.getNames();
+  return qos;
+}
+
+}  // namespace
+
+Guid bytes_of(const rtps::GUID_t& guid) {
+  Guid bytes;
+  std::memcpy(bytes.data(), guid.guidPrefix.value, 12);
+  std::memcpy(bytes.data() + 12, guid.entityId.value, 4);
+  return bytes;
+}
+
+rtps::GUID_t guid_of(const Guid& bytes) {
+  rtps::GUID_t guid;
+  std::memcpy(guid.guidPrefix.value, bytes.data(), 12);
+  std::memcpy(guid.entityId.value, bytes.data() + 12, 4);
+  return guid;
+}
+
+Handle handle_of(const rtps::GUID_t& guid) {
+  const Guid bytes = bytes_of(guid);
+  std::uint64_t halves[2];
+  std::memcpy(halves, bytes.data(), sizeof halves);
+  return mix(mix(halves[0] ^ seed) ^ halves[1]);
+}
+
+bool forked() { return is_forked; }
+
+void check_not_forked() {
+  if (forked()) {
+    throw std::runtime_error("This process was forked while its parent used Fast DDS. Start processes with 'spawn'.");
+  }
+}
+
+void EndpointChanges::add(EndpointChange change) {
+  const std::lock_guard lock(mutex_);
+  changes_.insert_or_assign(change.handle, std::move(change));
+}
+
+std::vector<EndpointChange> EndpointChanges::take() {
+  std::unordered_map<Handle, EndpointChange> taken;
+  {
+    const std::lock_guard lock(mutex_);
+    taken.swap(changes_);
+  }
+  std::vector<EndpointChange> changes;
+  changes.reserve(taken.size());
+  for (auto& [handle, change] : taken) changes.push_back(std::move(change));
+  return changes;
+}
+
+Participant::Participant(const ParticipantOptions& options, void* changed) : options_(options), changed_(changed) {
+  check_not_forked();
+  const dds::DomainParticipantQos qos = make_qos(options);
+  // The listener receives discovery, and nothing about endpoints.
+  participant_ = created(dds::DomainParticipantFactory::get_instance()->create_participant(options.domain, qos, this,
+                                                                                           dds::StatusMask::none()),
+                         "create a participant");
+}
+
+Participant::~Participant() {
+  if (forked()) return;
+  participant_->set_listener(nullptr);
+  participant_->delete_contained_entities();
+  dds::DomainParticipantFactory::get_instance()->delete_participant(participant_);
+}
+
+void Participant::set_changed() {
+  if (!stopped_) core->set_event(changed_);
+}
+
+dds::Topic* Participant::take_topic(const std::string& name, const std::string& type) {
+  const std::lock_guard lock(mutex_);
+  const auto found = topics_.find(name);
+  if (found != topics_.end()) {
+    if (found->second.type != type) {
+      throw Error("could not create a topic with the type " + type + ": this process uses it with the type " +
+                  found->second.type);
+    }
+    ++found->second.users;
+    return found->second.topic;
+  }
+  dds::TypeSupport support(new BytesType(type));
+  if (!is_ok(support.register_type(participant_, type))) throw Error("could not register the type " + type);
+  dds::Topic* topic = created(participant_->create_topic(name, type, dds::TOPIC_QOS_DEFAULT), "create the topic");
+  topics_.emplace(name, SharedTopic{topic, type, 1});
+  return topic;
+}
+
+void Participant::return_topic(const std::string& name, const std::string& type) {
+  const std::lock_guard lock(mutex_);
+  const auto found = topics_.find(name);
+  if (found == topics_.end() || --found->second.users > 0) return;
+  participant_->delete_topic(found->second.topic);
+  topics_.erase(found);
+  participant_->unregister_type(type);  // fails while another topic has it
+}
+
+dds::Publisher* Participant::publisher(const std::vector<std::string>& partitions) {
+  const std::lock_guard lock(mutex_);
+  dds::Publisher*& publisher = publishers_[partitions];
+  if (publisher == nullptr) {
+    dds::PublisherQos qos = dds::PUBLISHER_QOS_DEFAULT;
+    Partitions names = partitions;
+    qos.partition().names(names);
+    publisher = created(participant_->create_publisher(qos), "create a publisher");
+  }
+  return publisher;
+}
+
+dds::Subscriber* Participant::subscriber(const std::vector<std::string>& partitions) {
+  const std::lock_guard lock(mutex_);
+  dds::Subscriber*& subscriber = subscribers_[partitions];
+  if (subscriber == nullptr) {
+    dds::SubscriberQos qos = dds::SUBSCRIBER_QOS_DEFAULT;
+    Partitions names = partitions;
+    qos.partition().names(names);
+    subscriber = created(participant_->create_subscriber(qos), "create a subscriber");
+  }
+  return subscriber;
+}
+
+void Participant::add_own(EndpointChanges& changes, const rtps::GUID_t& guid, const std::string& topic,
+                          const std::string& type, const Qos& qos, const std::string& user_data) {
+  changes.add({handle_of(guid), true, bytes_of(guid), participant_of(guid), topic, type, qos, user_data});
+  set_changed();
+}
+
+void Participant::remove_own(EndpointChanges& changes, const rtps::GUID_t& guid) {
+  changes.add({.handle = handle_of(guid), .alive = false, .guid = bytes_of(guid)});
+  set_changed();
+}
+
+// Called by Fast DDS, which no exception may reach. If memory runs out, an endpoint is not part of the graph.
+template <class Make>
+void Participant::store(EndpointChanges& changes, const rtps::GUID_t& guid, bool alive, Make&& make) noexcept {
+  try {
+    EndpointChange change{.handle = handle_of(guid), .alive = alive, .guid = bytes_of(guid)};
+    if (alive) {
+      change.participant = participant_of(guid);
+      make(change);
+    }
+    changes.add(std::move(change));
+  } catch (...) {
+  }
+  set_changed();
+}
+
+#if COFRAME_FASTDDS_3
+
+void Participant::on_data_writer_discovery(dds::DomainParticipant*, rtps::WriterDiscoveryStatus reason,
+                                           const rtps::PublicationBuiltinTopicData& info, bool& ignored) {
+  using Status = rtps::WriterDiscoveryStatus;
+  ignored = false;
+  const bool alive = reason == Status::DISCOVERED_WRITER || reason == Status::CHANGED_QOS_WRITER;
+  store(writers_, info.guid, alive, [&](EndpointChange& change) {
+    change.topic = info.topic_name.to_string();
+    change.type = info.type_name.to_string();
+    change.qos = read_qos(info, true);
+    change.qos.lifespan_ns = to_nanoseconds(info.lifespan.duration);
+    change.user_data = text_of(info.user_data);
+  });
+}
+
+void Participant::on_data_reader_discovery(dds::DomainParticipant*, rtps::ReaderDiscoveryStatus reason,
+                                           const rtps::SubscriptionBuiltinTopicData& info, bool& ignored) {
+  using Status = rtps::ReaderDiscoveryStatus;
+  ignored = false;
+  const bool alive = reason == Status::DISCOVERED_READER || reason == Status::CHANGED_QOS_READER;
+  store(readers_, info.guid, alive, [&](EndpointChange& change) {
+    change.topic = info.topic_name.to_string();
+    change.type = info.type_name.to_string();
+    change.qos = read_qos(info, false);
+    change.user_data = text_of(info.user_data);
+  });
+}
+
+#else
+
+void Participant::on_publisher_discovery(dds::DomainParticipant*, rtps::WriterDiscoveryInfo&& info) {
+  const auto& data = info.info;
+  store(writers_, data.guid(), info.status != rtps::WriterDiscoveryInfo::REMOVED_WRITER, [&](EndpointChange& change) {
+    change.topic = data.topicName().to_string();
+    change.type = data.typeName().to_string();
+    change.qos = read_qos(data.m_qos, true);
+    change.qos.lifespan_ns = to_nanoseconds(data.m_qos.m_lifespan.duration);
+    change.user_data = text_of(data.m_qos.m_userData);
+  });
+}
+
+void Participant::on_subscriber_discovery(dds::DomainParticipant*, rtps::ReaderDiscoveryInfo&& info) {
+  const auto& data = info.info;
+  store(readers_, data.guid(), info.status != rtps::ReaderDiscoveryInfo::REMOVED_READER, [&](EndpointChange& change) {
+    change.topic = data.topicName().to_string();
+    change.type = data.typeName().to_string();
+    change.qos = read_qos(data.m_qos, false);
+    change.user_data = text_of(data.m_qos.m_userData);
+  });
+}
+
+#endif
+
+}  // namespace coframe::fastdds

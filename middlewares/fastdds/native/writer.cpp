@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "writer.hpp"
+
+#include <limits>
+#include <mutex>
+#include <utility>
+
+#include "endpoint_qos.hpp"
+
+namespace coframe::fastdds {
+namespace {
+
+constexpr std::size_t kHeaderSize = 4;
+
+dds::DataWriterQos make_qos(const Participant& participant, dds::Publisher& publisher, const std::string& topic,
+                            const Qos& qos, const std::string& user_data) {
+  dds::DataWriterQos made = publisher.get_default_datawriter_qos();
+  const bool from_profile = participant.options().qos_from_profiles;
+  if (from_profile) publisher.get_datawriter_qos_from_profile(topic, made);
+  set_common_qos(made, qos, user_data, from_profile);
+  if (!from_profile) {
+    made.publish_mode().kind =
+        participant.options().asynchronous ? dds::ASYNCHRONOUS_PUBLISH_MODE : dds::SYNCHRONOUS_PUBLISH_MODE;
+  }
+  made.lifespan().duration = to_duration(qos.lifespan_ns);
+  return made;
+}
+
+}  // namespace
+
+Writer::Writer(std::shared_ptr<Participant> participant, std::string topic, std::string type, const Qos& qos,
+               const std::string& user_data, bool checks_transforms, void* on_change)
+    : participant_(std::move(participant)),
+      topic_(std::move(topic)),
+      type_(std::move(type)),
+      checks_transforms_(checks_transforms),
+      events_(on_change) {
+  check_not_forked();
+  publisher_ = participant_->publisher(qos.partitions);
+  dds::Topic* shared = participant_->take_topic(topic_, type_);
+  writer_ = publisher_->create_datawriter(shared, make_qos(*participant_, *publisher_, topic_, qos, user_data), this,
+                                          dds::StatusMask::all());
+  if (writer_ == nullptr) {
+    participant_->return_topic(topic_, type_);
+    throw Error("could not create a writer");
+  }
+  guid_ = writer_->guid();
+  participant_->add_own(participant_->writers(), guid_, topic_, type_, qos, user_data);
+}
+
+void Writer::close() noexcept {
+  if (forked()) return;
+  const std::unique_lock lock(closing_);
+  if (writer_ == nullptr) return;
+  dds::DataWriter* writer = std::exchange(writer_, nullptr);
+  writer->set_listener(nullptr);
+  publisher_->delete_datawriter(writer);
+  participant_->return_topic(topic_, type_);
+  participant_->remove_own(participant_->writers(), guid_);
+}
+
+dds::DataWriter& Writer::open() const {
+  check_not_forked();
+  if (writer_ == nullptr) throw Error("the endpoint is closed");
+  return *writer_;
+}
+
+bool Writer::accepts(std::span<const coframe_part> parts) const {
+  if (!checks_transforms_) return true;
+  // A TFMessage has no large arrays, so it is in one part.
+  return parts.size() == 1 && core->is_tf_message(static_cast<const std::uint8_t*>(parts[0].data), parts[0].size);
+}
+
+std::int64_t Writer::write(std::span<const coframe_part> parts, std::size_t size, const rtps::SampleIdentity* related) {
+  if (size < kHeaderSize) {
+    throw std::invalid_argument("The message is too short: a serialized message begins with 4 bytes of encapsulation.");
+  }
+  if (size > std::numeric_limits<std::uint32_t>::max() / 2) throw Error("could not write: the message is too large");
+  const std::shared_lock lock(closing_);
+  dds::DataWriter& writer = open();
+  Outgoing message{parts, static_cast<std::uint32_t>(size)};
+  rtps::WriteParams params;
+  if (related != nullptr) params.related_sample_identity(*related);
+#if COFRAME_FASTDDS_3
+  const Code code = writer.write(&message, params);
+  if (is_timeout(code)) throw Error("could not write: Timeout");
+  if (!is_ok(code)) throw Error("could not write: error " + std::to_string(code));
+#else
+  if (!writer.write(&message, params)) throw Error("could not write: Timeout");
+#endif
+  return static_cast<std::int64_t>(params.sample_identity().sequence_number().to64long());
+}
+
+void Writer::assert_liveliness() {
+  const std::shared_lock lock(closing_);
+  open().assert_liveliness();
+}
+
+bool Writer::wait_for_acks(std::int64_t timeout_ns) {
+  const std::shared_lock lock(closing_);
+  return is_ok(open().wait_for_acknowledgments(to_duration(timeout_ns)));
+}
+
+}  // namespace coframe::fastdds

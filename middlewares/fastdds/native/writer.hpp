@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+// Publishes serialized messages.
+#pragma once
+
+#include <memory>
+#include <shared_mutex>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "participant.hpp"
+#include "status_events.hpp"
+
+namespace coframe::fastdds {
+
+class Writer final : dds::DataWriterListener {
+ public:
+  // `on_change` (may be null) is set when a status changes.
+  Writer(std::shared_ptr<Participant> participant, std::string topic, std::string type, const Qos& qos,
+         const std::string& user_data, bool checks_transforms, void* on_change);
+  ~Writer() override { close(); }
+  void close() noexcept;
+  bool closed() const { return writer_ == nullptr; }
+
+  // Sends a message in parts, of `size` bytes together, and returns its sequence number. Throws std::invalid_argument
+  // for less than 4 bytes. `related` is the identity that accompanies requests and replies; it may be null.
+  std::int64_t write(std::span<const coframe_part> parts, std::size_t size,
+                     const rtps::SampleIdentity* related = nullptr);
+  // Returns whether a message may be written: damaged transforms may not.
+  bool accepts(std::span<const coframe_part> parts) const;
+
+  rtps::GUID_t guid() const { return guid_; }
+  StatusEvents& events() { return events_; }
+  const StatusEvents& events() const { return events_; }
+  void assert_liveliness();
+  // Waits until all reliable readers have received all messages. Returns false after the timeout.
+  bool wait_for_acks(std::int64_t timeout_ns);
+
+ private:
+  void on_publication_matched(dds::DataWriter*, const dds::PublicationMatchedStatus& status) override {
+    events_.add_matched(status, status.last_subscription_handle);
+  }
+  void on_offered_deadline_missed(dds::DataWriter*, const DeadlineMissedStatus& status) override {
+    events_.add_total(StatusEvents::kDeadlineMissed, status);
+  }
+  void on_offered_incompatible_qos(dds::DataWriter*, const dds::OfferedIncompatibleQosStatus& status) override {
+    events_.add_incompatible(status);
+  }
+  void on_liveliness_lost(dds::DataWriter*, const dds::LivelinessLostStatus& status) override {
+    events_.add_total(StatusEvents::kLiveliness, status);
+  }
+  dds::DataWriter& open() const;
+
+  const std::shared_ptr<Participant> participant_;
+  const std::string topic_, type_;
+  const bool checks_transforms_;
+  StatusEvents events_;
+  mutable std::shared_mutex closing_;  // held by users of the writer, and exclusively while it is closed
+  dds::Publisher* publisher_ = nullptr;
+  dds::DataWriter* writer_ = nullptr;
+  rtps::GUID_t guid_;
+};
+
+}  // namespace coframe::fastdds
