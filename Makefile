@@ -124,6 +124,7 @@ lint: $(STAMP) ## check style, words, import directions and generated files
 	$(BIN)/python scripts/check_spdx.py
 	$(BIN)/lint-imports --no-cache
 	$(BIN)/python scripts/generate_messages.py --check
+	$(BIN)/python scripts/generate_distributions.py --check
 	$(BIN)/python scripts/generate_protocol.py --check
 
 licences: $(STAMP) ## check the licences of all packages that coframe[all] installs
@@ -172,8 +173,9 @@ test-free-threaded: ## build CPython without the GIL, run tests of coframe with 
 release-check: ## check what is in dist/: metadata, sizes, licences of bundled parts, links, changelog
 	$(ANY_PYTHON) scripts/release_check.py
 
-generate: $(STAMP) ## generate the message classes from interfaces/, and the page's side of the viewer's protocol
+generate: $(STAMP) ## generate the message classes from interfaces/, the page about distributions, and the page's side of the viewer's protocol
 	$(BIN)/python scripts/generate_messages.py
+	$(BIN)/python scripts/generate_distributions.py
 	$(BIN)/python scripts/generate_protocol.py
 
 page: ## build the viewer's page from viewer/ into src/coframe/viewer/static (needs Node.js and npm)

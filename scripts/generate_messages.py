@@ -12,6 +12,7 @@ import sys
 from pathlib import Path
 from typing import NamedTuple
 
+from coframe.distributions import REMOVED
 from coframe.messages import _archive as archive
 from coframe.messages._constructors import default_assignments
 from coframe.messages._fields import number_of
@@ -22,6 +23,7 @@ from coframe.messages.definition import Array, NamespacedType
 
 ROOT = Path(__file__).resolve().parents[1]
 INTERFACES = ROOT / "interfaces"
+VARIANTS = ROOT / "distributions"  # The definitions of other distributions than the default one.
 GENERATED = ROOT / "src/coframe/messages/generated"
 SHIPPED = ROOT / "src/coframe/messages/shipped"
 ROS = ROOT / "src/ros"
@@ -83,6 +85,9 @@ def generate() -> dict[Path, str]:
         package = folder.name
         definitions = {path.relative_to(folder).with_suffix("").as_posix(): path for path in sorted(folder.glob("*/*"))}
         texts = {name: path.read_text("utf-8") for name, path in definitions.items()}
+        for path in sorted(VARIANTS.glob(f"*/{package}/*/*")):
+            distribution, _, kind, _ = path.relative_to(VARIANTS).parts
+            texts[f"{kind}/{path.stem} {distribution}"] = path.read_text("utf-8")
         files[SHIPPED / f"{package}.txt"] = archive.pack(texts)
         files[ROS / package / "py.typed"] = ""
         files[ROS / package / "__init__.py"] = (
@@ -128,6 +133,7 @@ class Module:
         self.package = package
         self.kind = kind
         self.messages: dict[str, Message] = {}
+        self.variants: dict[str, tuple[str, Message]] = {}  # The distribution and message, by name of the message.
         self.compounds: dict[str, list[str]] = {}  # The lines of each service or action class.
         self.imports: dict[str, set[str]] = {}
         self.names: dict[str, set[str]] = {"definition": set(), "message": set(), "hints": set()}
@@ -138,6 +144,10 @@ class Module:
         name = path.stem
         for message, structure in member_messages(self.package, self.kind, name, parts).items():
             self.messages[message] = Message(self.package, self.kind, message, structure)
+        for variant in VARIANTS.glob(f"*/{self.package}/{self.kind}/{path.name}"):
+            (structure,) = parse(variant.read_text("utf-8"), self.package)
+            message = Message(self.package, self.kind, name, structure)
+            self.variants[name] = (variant.relative_to(VARIANTS).parts[0], message)
         if self.kind == "srv":
             self._add_service(name)
         elif self.kind == "action":
@@ -190,7 +200,7 @@ class Module:
     def text(self) -> str:
         """Return the text of the module with the classes."""
         self.names["message"].add("Message")
-        classes = ["\n".join(self._class(message)) for message in self._in_order()]
+        classes = [self._classes(message) for message in self._in_order()]
         classes += ["\n".join(lines) for lines in self.compounds.values()]
         header = NOTICE.format(package=self.package, kind=self.kind)
         header += f'"""{self.docstring()}"""\n\nfrom __future__ import annotations\n\n'
@@ -200,6 +210,8 @@ class Module:
         header += f"from typing import TYPE_CHECKING, Any, Final{alias}\n\n"
         if any("np." in text for text in classes):
             header += "import numpy as np\n\n"
+        if self.variants:
+            header += "from coframe.distributions import follows\n"
         for module in ("definition", "message"):
             header += _import_line(f"coframe.messages.{module}", self.names[module])
         for module, names in sorted(self.imports.items()):
@@ -219,10 +231,12 @@ class Module:
     def public_text(self) -> str:
         """Return the text of the ROS package's module, from which users import the classes."""
         names = sorted([*self.messages, *self.compounds], key=_natural)
+        is_reduced = any(key.startswith(f"{self.package}/") for key in REMOVED)
         lines = [
             NOTICE.format(package=self.package, kind=self.kind).rstrip(),
             f'"""{self.docstring()}"""',
             "",
+            *(["from coframe.distributions import hide_removed"] if is_reduced else []),
             f"from coframe.messages.generated.{self.package}.{self.kind} import (",
             *(f"    {name}," for name in sorted(names, key=lambda name: _natural(name.lower()))),
             ")",
@@ -230,6 +244,7 @@ class Module:
             "__all__ = [",
             *(f'    "{name}",' for name in names),
             "]",
+            *(["", f'hide_removed(globals(), "{self.package}", "{self.kind}")'] if is_reduced else []),
         ]
         return "\n".join(lines) + "\n"
 
@@ -247,6 +262,15 @@ class Module:
         for message in self.messages.values():
             visit(message)
         return list(ordered.values())
+
+    def _classes(self, message: Message) -> str:
+        """Return the class of a message; if distributions differ, both classes and the choice between them."""
+        lines = self._class(message)
+        if message.name not in self.variants:
+            return "\n".join(lines)
+        distribution, variant = self.variants[message.name]
+        branches = [f'if TYPE_CHECKING or not follows("{distribution}"):', *_indented(lines)]
+        return "\n".join([*branches, "", "else:", *_indented(self._class(variant))])
 
     def _class(self, message: Message) -> list[str]:
         structure = message.structure
@@ -311,6 +335,10 @@ def _constructor(fields: list[Field]) -> list[str]:
         "            if fields:",
         "                super().__init__(**fields)",
     ]
+
+
+def _indented(lines: list[str]) -> list[str]:
+    return [line and f"    {line}" for line in lines]
 
 
 def _natural(name: str) -> list[tuple[str, int]]:

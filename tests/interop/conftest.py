@@ -72,8 +72,10 @@ def run_again(shared, session_network):
 
 
 def environment_of_coframe() -> dict[str, str]:
-    """Return the environment without a sourced ROS 2."""
-    return {name: value for name, value in os.environ.items() if name not in ROS_VARIABLES}
+    """Return the environment without a sourced ROS 2; coframe follows its distribution, or that of the recordings."""
+    distribution = os.environ.get("ROS_DISTRO", "humble") if "COFRAME_TEST_ROS" in os.environ else "humble"
+    others = {name: value for name, value in os.environ.items() if name not in ROS_VARIABLES}
+    return others | {"COFRAME_DISTRO": distribution}
 
 
 @pytest.fixture(scope="session")

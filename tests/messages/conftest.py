@@ -98,8 +98,8 @@ def random_message() -> Callable[[Any, random.Random], Any]:
 
 @pytest.fixture(scope="session")
 def store() -> Any:
-    """Return rosbags' types of Humble, and those that it reads from our definitions."""
-    store = get_typestore(Stores.ROS2_HUMBLE)
+    """Return rosbags' types of the default distribution, Jazzy, and those that it reads from our definitions."""
+    store = get_typestore(Stores.ROS2_JAZZY)
     types: dict[str, Any] = {}
     for name, text in MESSAGE_TEXTS.items():
         if name not in store.fielddefs:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The definitions equal those of ROS 2 Humble, and the generated classes are up to date."""
+"""The definitions equal those of ROS 2 Jazzy, the default, and the generated classes are up to date."""
 
 import json
 import subprocess
@@ -27,13 +27,15 @@ ROOT = Path(__file__).resolve().parents[2]
 INTERFACES = ROOT / "interfaces"
 IDL = {"bool": "boolean", "byte": "octet", "char": "uint8", "float32": "float", "float64": "double"}
 
-# Messages that rosbags does not have for Humble: VelocityStamped was added to Humble later, the others came with Iron.
+# Messages that rosbags does not have for Jazzy: Goals was added to Jazzy later, the others came with Lyrical.
 LATER = {
-    "geometry_msgs/msg/PolygonInstance",
-    "geometry_msgs/msg/PolygonInstanceStamped",
-    "geometry_msgs/msg/VelocityStamped",
-    "rcl_interfaces/msg/LoggerLevel",
-    "rcl_interfaces/msg/SetLoggerLevelsResult",
+    "nav_msgs/msg/Goals",
+    "nav_msgs/msg/Trajectory",
+    "nav_msgs/msg/TrajectoryPoint",
+    "rosbag2_interfaces/msg/MessagesLostEvent",
+    "rosbag2_interfaces/msg/MessagesLostEventTopicStat",
+    *(f"rosgraph_msgs/msg/{name}" for name in ("Action", "Graph", "InterfaceType", "Node", "QoSProfile", "Service")),
+    *(f"rosgraph_msgs/msg/{name}" for name in ("Topic", "TypeHash")),
 }
 
 SERVICES = {
@@ -73,21 +75,21 @@ def our_type(node: Any) -> Any:
 
 
 @pytest.fixture(scope="module")
-def humble() -> dict[str, Any]:
-    """Return the definitions that rosbags has of Humble, of packages that coframe has."""
+def jazzy() -> dict[str, Any]:
+    """Return the definitions that rosbags has of Jazzy, of packages that coframe has."""
     packages = {path.name for path in INTERFACES.iterdir()}
-    definitions = get_typestore(Stores.ROS2_HUMBLE).fielddefs
+    definitions = get_typestore(Stores.ROS2_JAZZY).fielddefs
     return {name: facts for name, facts in definitions.items() if name.split("/")[0] in packages}
 
 
-def test_no_message_of_the_packages_is_missing(humble: dict[str, Any]) -> None:
-    packages = {name.split("/")[0] for name in humble}
+def test_no_message_of_the_packages_is_missing(jazzy: dict[str, Any]) -> None:
+    packages = {name.split("/")[0] for name in jazzy}
     ours = {f"{path.parts[-3]}/msg/{path.stem}" for path in INTERFACES.glob("*/msg/*.msg")}
-    assert {name for name in ours if name.split("/")[0] in packages} == {*humble, *LATER}
+    assert {name for name in ours if name.split("/")[0] in packages} == {*jazzy, *LATER}
 
 
-def test_messages_have_the_fields_and_constants_of_humble(humble: dict[str, Any]) -> None:
-    for ros_type, (constants, fields) in humble.items():
+def test_messages_have_the_fields_and_constants_of_jazzy(jazzy: dict[str, Any]) -> None:
+    for ros_type, (constants, fields) in jazzy.items():
         cls = find(ros_type)
         expected = [(name, our_type(node)) for name, node in fields if name != "structure_needs_at_least_one_member"]
         assert [(slot[1:], type_) for slot, type_ in zip(cls.__slots__, cls.SLOT_TYPES, strict=True)] == expected, (

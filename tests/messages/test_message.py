@@ -376,7 +376,7 @@ class TestComparison:
 
 class TestConstants:
     def test_on_classes_and_objects(self) -> None:
-        assert (Marker.ARROW, Marker().DELETEALL, Log.DEBUG) == (0, 3, b"\n")
+        assert (Marker.ARROW, Marker().DELETEALL, Log.DEBUG) == (0, 3, 10)
 
     def test_cannot_be_assigned(self) -> None:
         with pytest.raises(AttributeError, match=r"Marker.ARROW is a constant"):

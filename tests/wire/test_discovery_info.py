@@ -21,7 +21,7 @@ NODES = st.lists(
 
 @pytest.mark.parametrize(
     ("distro", "size"),
-    [(None, 24), ("", 24), ("humble", 24), ("iron", 16), ("jazzy", 16), ("kilted", 16), ("rolling", 16)],
+    [(None, 16), ("", 16), ("humble", 24), ("iron", 16), ("jazzy", 16), ("kilted", 16), ("rolling", 16)],
 )
 def test_the_identifiers_of_each_distribution(distro, size):
     assert gid_size({} if distro is None else {"ROS_DISTRO": distro}) == size

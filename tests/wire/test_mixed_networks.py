@@ -84,27 +84,27 @@ def test_the_form_is_that_of_the_other_participants(participant, foreign, eventu
     participant.on_warning(warnings.append)
     participant.add_node("/", "ours")
     own = participant._session.native.guid
-    jazzy = foreign(16)
-    eventually(lambda: jazzy.size_of(own) == 16)
-    assert warnings == []
-    # Both forms are on the network now: the preferred one is used, and a warning says whose tools do not work.
     humble = foreign(24)
     eventually(lambda: humble.size_of(own) == 24)
+    assert warnings == []
+    # Both forms are on the network now: the preferred one is used, and a warning says whose tools do not work.
+    jazzy = foreign(16)
+    eventually(lambda: jazzy.size_of(own) == 16)
     eventually(lambda: warnings)
     (text,) = warnings
-    assert text.startswith("Nodes of ROS 2 Iron or later (/jazzy_node) cannot list the nodes of this process, because")
+    assert text.startswith("Nodes of ROS 2 Humble or earlier (/humble_node) cannot list the nodes of this process, because")
     assert set(participant.nodes()) == {("/", "ours"), ("/", "jazzy_node"), ("/", "humble_node")}
-    humble.close()
-    eventually(lambda: jazzy.size_of(own) == 16)
+    jazzy.close()
+    eventually(lambda: humble.size_of(own) == 24)
 
 
 @pytest.mark.dds_only("the other participant is one of DDS")
 def test_other_processes_of_coframe_are_not_followed(participant, child, foreign, eventually):
-    other = child("import coframe\nwith coframe.connect('other'): input()", ROS_DISTRO="jazzy")
+    other = child("import coframe\nwith coframe.connect('other'): input()", ROS_DISTRO="humble")
     eventually(lambda: ("/", "other") in participant.nodes())
-    assert participant._session._announcer.gid_size == 24
-    jazzy = foreign(16)
-    eventually(lambda: jazzy.size_of(participant._session.native.guid) == 16)
+    assert participant._session._announcer.gid_size == 16
+    humble = foreign(24)
+    eventually(lambda: humble.size_of(participant._session.native.guid) == 24)
     assert other.finish() == (0, "")
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import functools
 import importlib
+import os
 import sys
 from typing import TYPE_CHECKING, Any
 
@@ -16,6 +17,7 @@ from coframe._base_error import CoframeError
 from coframe._process.plugins import Plugin, PluginError, plugins
 from coframe.cli.commands import COMMANDS
 from coframe.cli.declaration import CommandGroup
+from coframe.distributions import NAMES, current
 
 if TYPE_CHECKING:
     from collections.abc import Collection
@@ -148,6 +150,14 @@ def _options() -> list[click.Parameter]:
             "Print the completion script for the current shell, to copy or customize it.",
             _show_completion,
         ),
+        click.Option(
+            ["--distro"],
+            type=click.Choice(sorted(NAMES), case_sensitive=False),
+            is_eager=True,
+            expose_value=False,
+            callback=_select_distribution,
+            help="ROS 2 distribution to follow.  [default: COFRAME_DISTRO, ROS_DISTRO or jazzy]",
+        ),
     ]
 
 
@@ -160,6 +170,12 @@ def _action(name: str, text: str, action: Any) -> click.Option:
             ctx.exit()
 
     return click.Option([name], is_flag=True, is_eager=True, expose_value=False, callback=run, help=text)
+
+
+def _select_distribution(ctx: click.Context, _parameter: click.Parameter, name: str | None) -> None:
+    if name and not ctx.resilient_parsing:
+        os.environ["COFRAME_DISTRO"] = name
+        current.cache_clear()
 
 
 def _print_version(_ctx: click.Context) -> None:

@@ -11,6 +11,7 @@ import re
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from coframe.distributions import removal
 from coframe.interfaces import sources
 from coframe.interfaces.definition_files import Definition, definitions_in, read
 from coframe.messages import _archive as archive
@@ -187,9 +188,13 @@ class Exports(NamedTuple):
 def exports(package: InterfacePackage, kind: str) -> Exports:
     """Return ``__all__``, ``__getattr__`` and ``__dir__`` of the module with the classes of one kind."""
     names = package.names(kind)
+    if package.folder is None:
+        names = [name for name in names if not removal(f"{package.name}/{kind}/{name}")]
 
     def get(name: str) -> Any:
         ros_type = f"{package.name}/{kind}/{name}"
+        if package.folder is None and (reason := removal(ros_type)):
+            raise ImportError(reason)
         if ros_type not in registry.classes:
             package.create(kind, name)
         if ros_type not in registry.classes:

@@ -11,9 +11,7 @@ from rclpy.action import ActionServer, CancelResponse
 from rclpy.duration import Duration
 from rclpy.task import Future
 from turtlesim._canvas import SIZE_IN_METERS, Canvas, Pen
-from turtlesim.action import RotateAbsolute
-from turtlesim.msg import Color, Pose
-from turtlesim.srv import SetPen, TeleportAbsolute, TeleportRelative
+from turtlesim._interfaces import Color, Pose, RotateAbsolute, SetPen, TeleportAbsolute, TeleportRelative
 
 if TYPE_CHECKING:
     from rclpy.action.server import ServerGoalHandle

@@ -11,7 +11,7 @@ from coframe.nodes.program import program, spin_until_shutdown
 from geometry_msgs.msg import Twist
 from rclpy.node import Node
 from std_srvs.srv import Empty
-from turtlesim.msg import Pose
+from turtlesim._interfaces import Pose
 
 __all__ = ["DrawSquare", "main"]
 

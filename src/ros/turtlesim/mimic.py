@@ -6,7 +6,7 @@ from __future__ import annotations
 from coframe.nodes.program import program, spin_until_shutdown
 from geometry_msgs.msg import Twist
 from rclpy.node import Node
-from turtlesim.msg import Pose
+from turtlesim._interfaces import Pose
 
 __all__ = ["Mimic", "main"]
 

@@ -13,7 +13,7 @@ from geometry_msgs.msg import Twist
 from rclpy.action import ActionClient
 from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
-from turtlesim.action import RotateAbsolute
+from turtlesim._interfaces import RotateAbsolute
 
 __all__ = ["TeleopTurtle", "main"]
 

@@ -17,8 +17,8 @@ from rclpy.validate_topic_name import validate_topic_name
 from std_srvs.srv import Empty
 from turtlesim._canvas import SIZE_IN_METERS, Canvas
 from turtlesim._drawing import Drawing
+from turtlesim._interfaces import Kill, Spawn
 from turtlesim._turtle import MAX_VALUE, Turtle, is_in_range
-from turtlesim.srv import Kill, Spawn
 
 if TYPE_CHECKING:
     from collections.abc import Callable

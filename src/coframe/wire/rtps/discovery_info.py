@@ -10,6 +10,7 @@ from __future__ import annotations
 import struct
 from typing import TYPE_CHECKING, NamedTuple
 
+from coframe.distributions import BEHAVIOURS, selected
 from coframe.wire.graph import NodeInfo
 from coframe.wire.names import MAX_NAME
 
@@ -22,7 +23,6 @@ TYPE = "rmw_dds_common::msg::dds_::ParticipantEntitiesInfo_"
 # Marks a writer on this topic whose form depends on the readers, so that no other process adapts to it.
 ADAPTS = "coframe=adapts;"
 
-_LONG_GID_DISTROS = ("foxy", "galactic", "humble")
 _GUID_SIZE = 16
 _MAX_LISTED_NAMES = 10  # in a warning
 _GID_SIZES = (24, 16)  # the longer form is the GUID, padded with zeros
@@ -38,9 +38,9 @@ class ParticipantInfo(NamedTuple):
 
 
 def gid_size(environment: Mapping[str, str]) -> int:
-    """Return the size of a published identifier in bytes: 24 up to Humble and if ROS_DISTRO is unset, else 16."""
-    distro = environment.get("ROS_DISTRO", "").strip().lower() or "humble"
-    return 24 if distro in _LONG_GID_DISTROS else 16
+    """Return the size of an identifier in bytes in the distribution that the environment selects."""
+    has_short = selected(environment) >= BEHAVIOURS["short_identifiers"].since
+    return 16 if has_short else 24
 
 
 def choose_gid_size(preferred: int, others: Collection[int]) -> int:
@@ -68,7 +68,7 @@ def unseen_text(size: int, others: Mapping[int, Collection[str]]) -> str:
     return (
         f"Nodes of {_USED_BY[unable[0]]} ({nodes}) cannot list the nodes of this process, because nodes of "
         f"{_USED_BY[size]} are in the same domain and the two describe nodes differently. Topics and services work. "
-        "Use another ROS_DOMAIN_ID for one of them, or set ROS_DISTRO to choose whose tools list this process."
+        "Use another ROS_DOMAIN_ID for one of them, or set COFRAME_DISTRO to choose whose tools list this process."
     )
 
 

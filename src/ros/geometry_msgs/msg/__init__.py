@@ -1,6 +1,7 @@
 # Written by scripts/generate_messages.py from interfaces/geometry_msgs/msg; do not edit.
 """Messages of geometry_msgs."""
 
+from coframe.distributions import hide_removed
 from coframe.messages.generated.geometry_msgs.msg import (
     Accel,
     AccelStamped,
@@ -70,3 +71,5 @@ __all__ = [
     "Wrench",
     "WrenchStamped",
 ]
+
+hide_removed(globals(), "geometry_msgs", "msg")

@@ -2,17 +2,23 @@
 """Messages of nav_msgs."""
 
 from coframe.messages.generated.nav_msgs.msg import (
+    Goals,
     GridCells,
     MapMetaData,
     OccupancyGrid,
     Odometry,
     Path,
+    Trajectory,
+    TrajectoryPoint,
 )
 
 __all__ = [
+    "Goals",
     "GridCells",
     "MapMetaData",
     "OccupancyGrid",
     "Odometry",
     "Path",
+    "Trajectory",
+    "TrajectoryPoint",
 ]

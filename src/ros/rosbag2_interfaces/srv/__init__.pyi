@@ -7,7 +7,7 @@ from typing import Final, TypeAlias
 from coframe.messages._hints import NumberArray, NumberSequence
 from coframe.messages.message import Action, Message, Service
 
-__all__ = ["Burst", "GetRate", "IsPaused", "Pause", "PlayNext", "Resume", "Seek", "SetRate", "Snapshot", "TogglePaused"]
+__all__ = ["Burst", "GetRate", "IsPaused", "Pause", "Play", "PlayNext", "Resume", "Seek", "SetRate", "Snapshot", "SplitBagfile", "Stop", "TogglePaused"]
 
 class Burst_Request(Message):
     num_messages: int
@@ -52,6 +52,20 @@ class Pause_Response(Message):
 class Pause(Service):
     Request: TypeAlias = Pause_Request
     Response: TypeAlias = Pause_Response
+
+class Play_Request(Message):
+    start_offset: builtin_interfaces.msg.Time
+    playback_duration: builtin_interfaces.msg.Duration
+    playback_until_timestamp: builtin_interfaces.msg.Time
+    def __init__(self, *, start_offset: builtin_interfaces.msg.Time = ..., playback_duration: builtin_interfaces.msg.Duration = ..., playback_until_timestamp: builtin_interfaces.msg.Time = ...) -> None: ...
+
+class Play_Response(Message):
+    success: bool
+    def __init__(self, *, success: bool = ...) -> None: ...
+
+class Play(Service):
+    Request: TypeAlias = Play_Request
+    Response: TypeAlias = Play_Response
 
 class PlayNext_Request(Message):
     def __init__(self) -> None: ...
@@ -108,6 +122,26 @@ class Snapshot_Response(Message):
 class Snapshot(Service):
     Request: TypeAlias = Snapshot_Request
     Response: TypeAlias = Snapshot_Response
+
+class SplitBagfile_Request(Message):
+    def __init__(self) -> None: ...
+
+class SplitBagfile_Response(Message):
+    def __init__(self) -> None: ...
+
+class SplitBagfile(Service):
+    Request: TypeAlias = SplitBagfile_Request
+    Response: TypeAlias = SplitBagfile_Response
+
+class Stop_Request(Message):
+    def __init__(self) -> None: ...
+
+class Stop_Response(Message):
+    def __init__(self) -> None: ...
+
+class Stop(Service):
+    Request: TypeAlias = Stop_Request
+    Response: TypeAlias = Stop_Response
 
 class TogglePaused_Request(Message):
     def __init__(self) -> None: ...

@@ -9,13 +9,36 @@ from typing import TYPE_CHECKING, Any, Final
 from coframe.messages.definition import BasicType, NamespacedType, UnboundedSequence, UnboundedString
 from coframe.messages.message import Message
 from coframe.messages.generated.builtin_interfaces.msg import Time
-from coframe.messages.generated.geometry_msgs.msg import Point, Pose, PoseStamped, PoseWithCovariance, TwistWithCovariance
+from coframe.messages.generated.geometry_msgs.msg import Accel, Point, Pose, PoseStamped, PoseWithCovariance, Twist, TwistWithCovariance, Wrench
 from coframe.messages.generated.std_msgs.msg import Header
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from coframe.messages._hints import NumberSequence
+
+
+class Goals(Message):
+    """Goal poses of a robot or of several robots."""
+
+    ROS_TYPE = "nav_msgs/msg/Goals"
+    SLOT_TYPES = (
+        NamespacedType(('std_msgs', 'msg'), 'Header'),
+        UnboundedSequence(NamespacedType(('geometry_msgs', 'msg'), 'PoseStamped')),
+    )
+
+    if TYPE_CHECKING:
+        header: Header
+        goals: list[PoseStamped]
+        def __init__(self, *, header: Header = ..., goals: list[PoseStamped] = ...) -> None: ...
+    else:
+        __slots__ = ["_header", "_goals"]
+
+        def __init__(self, **fields: Any) -> None:
+            self._header = fields.get("header") or Header()
+            self._goals = []
+            if fields:
+                super().__init__(**fields)
 
 
 class GridCells(Message):
@@ -153,5 +176,60 @@ class Path(Message):
         def __init__(self, **fields: Any) -> None:
             self._header = fields.get("header") or Header()
             self._poses = []
+            if fields:
+                super().__init__(**fields)
+
+
+class TrajectoryPoint(Message):
+    """The state of a robot at one time of a trajectory."""
+
+    ROS_TYPE = "nav_msgs/msg/TrajectoryPoint"
+    SLOT_TYPES = (
+        NamespacedType(('std_msgs', 'msg'), 'Header'),
+        NamespacedType(('geometry_msgs', 'msg'), 'Pose'),
+        NamespacedType(('geometry_msgs', 'msg'), 'Twist'),
+        NamespacedType(('geometry_msgs', 'msg'), 'Accel'),
+        NamespacedType(('geometry_msgs', 'msg'), 'Wrench'),
+    )
+
+    if TYPE_CHECKING:
+        header: Header
+        pose: Pose
+        velocity: Twist
+        acceleration: Accel
+        effort: Wrench
+        def __init__(self, *, header: Header = ..., pose: Pose = ..., velocity: Twist = ..., acceleration: Accel = ..., effort: Wrench = ...) -> None: ...
+    else:
+        __slots__ = ["_header", "_pose", "_velocity", "_acceleration", "_effort"]
+
+        def __init__(self, **fields: Any) -> None:
+            self._header = fields.get("header") or Header()
+            self._pose = fields.get("pose") or Pose()
+            self._velocity = fields.get("velocity") or Twist()
+            self._acceleration = fields.get("acceleration") or Accel()
+            self._effort = fields.get("effort") or Wrench()
+            if fields:
+                super().__init__(**fields)
+
+
+class Trajectory(Message):
+    """Poses, velocities and accelerations over time."""
+
+    ROS_TYPE = "nav_msgs/msg/Trajectory"
+    SLOT_TYPES = (
+        NamespacedType(('std_msgs', 'msg'), 'Header'),
+        UnboundedSequence(NamespacedType(('nav_msgs', 'msg'), 'TrajectoryPoint')),
+    )
+
+    if TYPE_CHECKING:
+        header: Header
+        points: list[TrajectoryPoint]
+        def __init__(self, *, header: Header = ..., points: list[TrajectoryPoint] = ...) -> None: ...
+    else:
+        __slots__ = ["_header", "_points"]
+
+        def __init__(self, **fields: Any) -> None:
+            self._header = fields.get("header") or Header()
+            self._points = []
             if fields:
                 super().__init__(**fields)

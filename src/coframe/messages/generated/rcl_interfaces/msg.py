@@ -6,6 +6,7 @@ from __future__ import annotations
 from array import array
 from typing import TYPE_CHECKING, Any, Final
 
+from coframe.distributions import follows
 from coframe.messages.definition import BasicType, BoundedSequence, NamespacedType, UnboundedSequence, UnboundedString
 from coframe.messages.message import Message
 from coframe.messages.generated.builtin_interfaces.msg import Time
@@ -91,47 +92,91 @@ class ListParametersResult(Message):
                 super().__init__(**fields)
 
 
-class Log(Message):
-    """Message rcl_interfaces/msg/Log."""
+if TYPE_CHECKING or not follows("humble"):
+    class Log(Message):
+        """Message rcl_interfaces/msg/Log."""
 
-    ROS_TYPE = "rcl_interfaces/msg/Log"
-    SLOT_TYPES = (
-        NamespacedType(('builtin_interfaces', 'msg'), 'Time'),
-        BasicType('uint8'),
-        UnboundedString(),
-        UnboundedString(),
-        UnboundedString(),
-        UnboundedString(),
-        BasicType('uint32'),
-    )
-    DEBUG: Final = b'\n'
-    INFO: Final = b'\x14'
-    WARN: Final = b'\x1e'
-    ERROR: Final = b'('
-    FATAL: Final = b'2'
+        ROS_TYPE = "rcl_interfaces/msg/Log"
+        SLOT_TYPES = (
+            NamespacedType(('builtin_interfaces', 'msg'), 'Time'),
+            BasicType('uint8'),
+            UnboundedString(),
+            UnboundedString(),
+            UnboundedString(),
+            UnboundedString(),
+            BasicType('uint32'),
+        )
+        DEBUG: Final = 10
+        INFO: Final = 20
+        WARN: Final = 30
+        ERROR: Final = 40
+        FATAL: Final = 50
 
-    if TYPE_CHECKING:
-        stamp: Time
-        level: int
-        name: str
-        msg: str
-        file: str
-        function: str
-        line: int
-        def __init__(self, *, stamp: Time = ..., level: int = ..., name: str = ..., msg: str = ..., file: str = ..., function: str = ..., line: int = ...) -> None: ...
-    else:
-        __slots__ = ["_stamp", "_level", "_name", "_msg", "_file", "_function", "_line"]
+        if TYPE_CHECKING:
+            stamp: Time
+            level: int
+            name: str
+            msg: str
+            file: str
+            function: str
+            line: int
+            def __init__(self, *, stamp: Time = ..., level: int = ..., name: str = ..., msg: str = ..., file: str = ..., function: str = ..., line: int = ...) -> None: ...
+        else:
+            __slots__ = ["_stamp", "_level", "_name", "_msg", "_file", "_function", "_line"]
 
-        def __init__(self, **fields: Any) -> None:
-            self._stamp = fields.get("stamp") or Time()
-            self._level = 0
-            self._name = ""
-            self._msg = ""
-            self._file = ""
-            self._function = ""
-            self._line = 0
-            if fields:
-                super().__init__(**fields)
+            def __init__(self, **fields: Any) -> None:
+                self._stamp = fields.get("stamp") or Time()
+                self._level = 0
+                self._name = ""
+                self._msg = ""
+                self._file = ""
+                self._function = ""
+                self._line = 0
+                if fields:
+                    super().__init__(**fields)
+
+else:
+    class Log(Message):
+        """Message rcl_interfaces/msg/Log."""
+
+        ROS_TYPE = "rcl_interfaces/msg/Log"
+        SLOT_TYPES = (
+            NamespacedType(('builtin_interfaces', 'msg'), 'Time'),
+            BasicType('uint8'),
+            UnboundedString(),
+            UnboundedString(),
+            UnboundedString(),
+            UnboundedString(),
+            BasicType('uint32'),
+        )
+        DEBUG: Final = b'\n'
+        INFO: Final = b'\x14'
+        WARN: Final = b'\x1e'
+        ERROR: Final = b'('
+        FATAL: Final = b'2'
+
+        if TYPE_CHECKING:
+            stamp: Time
+            level: int
+            name: str
+            msg: str
+            file: str
+            function: str
+            line: int
+            def __init__(self, *, stamp: Time = ..., level: int = ..., name: str = ..., msg: str = ..., file: str = ..., function: str = ..., line: int = ...) -> None: ...
+        else:
+            __slots__ = ["_stamp", "_level", "_name", "_msg", "_file", "_function", "_line"]
+
+            def __init__(self, **fields: Any) -> None:
+                self._stamp = fields.get("stamp") or Time()
+                self._level = 0
+                self._name = ""
+                self._msg = ""
+                self._file = ""
+                self._function = ""
+                self._line = 0
+                if fields:
+                    super().__init__(**fields)
 
 
 class LoggerLevel(Message):

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 
+from coframe.distributions import follows
 from coframe.messages.definition import Array, BasicType, NamespacedType, UnboundedSequence, UnboundedString
 from coframe.messages.message import Message
 from coframe.messages.generated.builtin_interfaces.msg import Time
@@ -20,90 +21,179 @@ if TYPE_CHECKING:
     from coframe.messages._hints import NumberArray, NumberSequence
 
 
-class BatteryState(Message):
-    """Message sensor_msgs/msg/BatteryState."""
+if TYPE_CHECKING or not follows("humble"):
+    class BatteryState(Message):
+        """Message sensor_msgs/msg/BatteryState."""
 
-    ROS_TYPE = "sensor_msgs/msg/BatteryState"
-    SLOT_TYPES = (
-        NamespacedType(('std_msgs', 'msg'), 'Header'),
-        BasicType('float'),
-        BasicType('float'),
-        BasicType('float'),
-        BasicType('float'),
-        BasicType('float'),
-        BasicType('float'),
-        BasicType('float'),
-        BasicType('uint8'),
-        BasicType('uint8'),
-        BasicType('uint8'),
-        BasicType('boolean'),
-        UnboundedSequence(BasicType('float')),
-        UnboundedSequence(BasicType('float')),
-        UnboundedString(),
-        UnboundedString(),
-    )
-    POWER_SUPPLY_STATUS_UNKNOWN: Final = 0
-    POWER_SUPPLY_STATUS_CHARGING: Final = 1
-    POWER_SUPPLY_STATUS_DISCHARGING: Final = 2
-    POWER_SUPPLY_STATUS_NOT_CHARGING: Final = 3
-    POWER_SUPPLY_STATUS_FULL: Final = 4
-    POWER_SUPPLY_HEALTH_UNKNOWN: Final = 0
-    POWER_SUPPLY_HEALTH_GOOD: Final = 1
-    POWER_SUPPLY_HEALTH_OVERHEAT: Final = 2
-    POWER_SUPPLY_HEALTH_DEAD: Final = 3
-    POWER_SUPPLY_HEALTH_OVERVOLTAGE: Final = 4
-    POWER_SUPPLY_HEALTH_UNSPEC_FAILURE: Final = 5
-    POWER_SUPPLY_HEALTH_COLD: Final = 6
-    POWER_SUPPLY_HEALTH_WATCHDOG_TIMER_EXPIRE: Final = 7
-    POWER_SUPPLY_HEALTH_SAFETY_TIMER_EXPIRE: Final = 8
-    POWER_SUPPLY_TECHNOLOGY_UNKNOWN: Final = 0
-    POWER_SUPPLY_TECHNOLOGY_NIMH: Final = 1
-    POWER_SUPPLY_TECHNOLOGY_LION: Final = 2
-    POWER_SUPPLY_TECHNOLOGY_LIPO: Final = 3
-    POWER_SUPPLY_TECHNOLOGY_LIFE: Final = 4
-    POWER_SUPPLY_TECHNOLOGY_NICD: Final = 5
-    POWER_SUPPLY_TECHNOLOGY_LIMN: Final = 6
+        ROS_TYPE = "sensor_msgs/msg/BatteryState"
+        SLOT_TYPES = (
+            NamespacedType(('std_msgs', 'msg'), 'Header'),
+            BasicType('float'),
+            BasicType('float'),
+            BasicType('float'),
+            BasicType('float'),
+            BasicType('float'),
+            BasicType('float'),
+            BasicType('float'),
+            BasicType('uint8'),
+            BasicType('uint8'),
+            BasicType('uint8'),
+            BasicType('boolean'),
+            UnboundedSequence(BasicType('float')),
+            UnboundedSequence(BasicType('float')),
+            UnboundedString(),
+            UnboundedString(),
+        )
+        POWER_SUPPLY_STATUS_UNKNOWN: Final = 0
+        POWER_SUPPLY_STATUS_CHARGING: Final = 1
+        POWER_SUPPLY_STATUS_DISCHARGING: Final = 2
+        POWER_SUPPLY_STATUS_NOT_CHARGING: Final = 3
+        POWER_SUPPLY_STATUS_FULL: Final = 4
+        POWER_SUPPLY_HEALTH_UNKNOWN: Final = 0
+        POWER_SUPPLY_HEALTH_GOOD: Final = 1
+        POWER_SUPPLY_HEALTH_OVERHEAT: Final = 2
+        POWER_SUPPLY_HEALTH_DEAD: Final = 3
+        POWER_SUPPLY_HEALTH_OVERVOLTAGE: Final = 4
+        POWER_SUPPLY_HEALTH_UNSPEC_FAILURE: Final = 5
+        POWER_SUPPLY_HEALTH_COLD: Final = 6
+        POWER_SUPPLY_HEALTH_WATCHDOG_TIMER_EXPIRE: Final = 7
+        POWER_SUPPLY_HEALTH_SAFETY_TIMER_EXPIRE: Final = 8
+        POWER_SUPPLY_TECHNOLOGY_UNKNOWN: Final = 0
+        POWER_SUPPLY_TECHNOLOGY_NIMH: Final = 1
+        POWER_SUPPLY_TECHNOLOGY_LION: Final = 2
+        POWER_SUPPLY_TECHNOLOGY_LIPO: Final = 3
+        POWER_SUPPLY_TECHNOLOGY_LIFE: Final = 4
+        POWER_SUPPLY_TECHNOLOGY_NICD: Final = 5
+        POWER_SUPPLY_TECHNOLOGY_LIMN: Final = 6
+        POWER_SUPPLY_TECHNOLOGY_TERNARY: Final = 7
+        POWER_SUPPLY_TECHNOLOGY_VRLA: Final = 8
 
-    if TYPE_CHECKING:
-        header: Header
-        voltage: float
-        temperature: float
-        current: float
-        charge: float
-        capacity: float
-        design_capacity: float
-        percentage: float
-        power_supply_status: int
-        power_supply_health: int
-        power_supply_technology: int
-        present: bool
-        cell_voltage = NumberSequence[float]()
-        cell_temperature = NumberSequence[float]()
-        location: str
-        serial_number: str
-        def __init__(self, *, header: Header = ..., voltage: float = ..., temperature: float = ..., current: float = ..., charge: float = ..., capacity: float = ..., design_capacity: float = ..., percentage: float = ..., power_supply_status: int = ..., power_supply_health: int = ..., power_supply_technology: int = ..., present: bool = ..., cell_voltage: Iterable[float] = ..., cell_temperature: Iterable[float] = ..., location: str = ..., serial_number: str = ...) -> None: ...
-    else:
-        __slots__ = ["_header", "_voltage", "_temperature", "_current", "_charge", "_capacity", "_design_capacity", "_percentage", "_power_supply_status", "_power_supply_health", "_power_supply_technology", "_present", "_cell_voltage", "_cell_temperature", "_location", "_serial_number"]
+        if TYPE_CHECKING:
+            header: Header
+            voltage: float
+            temperature: float
+            current: float
+            charge: float
+            capacity: float
+            design_capacity: float
+            percentage: float
+            power_supply_status: int
+            power_supply_health: int
+            power_supply_technology: int
+            present: bool
+            cell_voltage = NumberSequence[float]()
+            cell_temperature = NumberSequence[float]()
+            location: str
+            serial_number: str
+            def __init__(self, *, header: Header = ..., voltage: float = ..., temperature: float = ..., current: float = ..., charge: float = ..., capacity: float = ..., design_capacity: float = ..., percentage: float = ..., power_supply_status: int = ..., power_supply_health: int = ..., power_supply_technology: int = ..., present: bool = ..., cell_voltage: Iterable[float] = ..., cell_temperature: Iterable[float] = ..., location: str = ..., serial_number: str = ...) -> None: ...
+        else:
+            __slots__ = ["_header", "_voltage", "_temperature", "_current", "_charge", "_capacity", "_design_capacity", "_percentage", "_power_supply_status", "_power_supply_health", "_power_supply_technology", "_present", "_cell_voltage", "_cell_temperature", "_location", "_serial_number"]
 
-        def __init__(self, **fields: Any) -> None:
-            self._header = fields.get("header") or Header()
-            self._voltage = 0.0
-            self._temperature = 0.0
-            self._current = 0.0
-            self._charge = 0.0
-            self._capacity = 0.0
-            self._design_capacity = 0.0
-            self._percentage = 0.0
-            self._power_supply_status = 0
-            self._power_supply_health = 0
-            self._power_supply_technology = 0
-            self._present = False
-            self._cell_voltage = array("f")
-            self._cell_temperature = array("f")
-            self._location = ""
-            self._serial_number = ""
-            if fields:
-                super().__init__(**fields)
+            def __init__(self, **fields: Any) -> None:
+                self._header = fields.get("header") or Header()
+                self._voltage = 0.0
+                self._temperature = 0.0
+                self._current = 0.0
+                self._charge = 0.0
+                self._capacity = 0.0
+                self._design_capacity = 0.0
+                self._percentage = 0.0
+                self._power_supply_status = 0
+                self._power_supply_health = 0
+                self._power_supply_technology = 0
+                self._present = False
+                self._cell_voltage = array("f")
+                self._cell_temperature = array("f")
+                self._location = ""
+                self._serial_number = ""
+                if fields:
+                    super().__init__(**fields)
+
+else:
+    class BatteryState(Message):
+        """Message sensor_msgs/msg/BatteryState."""
+
+        ROS_TYPE = "sensor_msgs/msg/BatteryState"
+        SLOT_TYPES = (
+            NamespacedType(('std_msgs', 'msg'), 'Header'),
+            BasicType('float'),
+            BasicType('float'),
+            BasicType('float'),
+            BasicType('float'),
+            BasicType('float'),
+            BasicType('float'),
+            BasicType('float'),
+            BasicType('uint8'),
+            BasicType('uint8'),
+            BasicType('uint8'),
+            BasicType('boolean'),
+            UnboundedSequence(BasicType('float')),
+            UnboundedSequence(BasicType('float')),
+            UnboundedString(),
+            UnboundedString(),
+        )
+        POWER_SUPPLY_STATUS_UNKNOWN: Final = 0
+        POWER_SUPPLY_STATUS_CHARGING: Final = 1
+        POWER_SUPPLY_STATUS_DISCHARGING: Final = 2
+        POWER_SUPPLY_STATUS_NOT_CHARGING: Final = 3
+        POWER_SUPPLY_STATUS_FULL: Final = 4
+        POWER_SUPPLY_HEALTH_UNKNOWN: Final = 0
+        POWER_SUPPLY_HEALTH_GOOD: Final = 1
+        POWER_SUPPLY_HEALTH_OVERHEAT: Final = 2
+        POWER_SUPPLY_HEALTH_DEAD: Final = 3
+        POWER_SUPPLY_HEALTH_OVERVOLTAGE: Final = 4
+        POWER_SUPPLY_HEALTH_UNSPEC_FAILURE: Final = 5
+        POWER_SUPPLY_HEALTH_COLD: Final = 6
+        POWER_SUPPLY_HEALTH_WATCHDOG_TIMER_EXPIRE: Final = 7
+        POWER_SUPPLY_HEALTH_SAFETY_TIMER_EXPIRE: Final = 8
+        POWER_SUPPLY_TECHNOLOGY_UNKNOWN: Final = 0
+        POWER_SUPPLY_TECHNOLOGY_NIMH: Final = 1
+        POWER_SUPPLY_TECHNOLOGY_LION: Final = 2
+        POWER_SUPPLY_TECHNOLOGY_LIPO: Final = 3
+        POWER_SUPPLY_TECHNOLOGY_LIFE: Final = 4
+        POWER_SUPPLY_TECHNOLOGY_NICD: Final = 5
+        POWER_SUPPLY_TECHNOLOGY_LIMN: Final = 6
+
+        if TYPE_CHECKING:
+            header: Header
+            voltage: float
+            temperature: float
+            current: float
+            charge: float
+            capacity: float
+            design_capacity: float
+            percentage: float
+            power_supply_status: int
+            power_supply_health: int
+            power_supply_technology: int
+            present: bool
+            cell_voltage = NumberSequence[float]()
+            cell_temperature = NumberSequence[float]()
+            location: str
+            serial_number: str
+            def __init__(self, *, header: Header = ..., voltage: float = ..., temperature: float = ..., current: float = ..., charge: float = ..., capacity: float = ..., design_capacity: float = ..., percentage: float = ..., power_supply_status: int = ..., power_supply_health: int = ..., power_supply_technology: int = ..., present: bool = ..., cell_voltage: Iterable[float] = ..., cell_temperature: Iterable[float] = ..., location: str = ..., serial_number: str = ...) -> None: ...
+        else:
+            __slots__ = ["_header", "_voltage", "_temperature", "_current", "_charge", "_capacity", "_design_capacity", "_percentage", "_power_supply_status", "_power_supply_health", "_power_supply_technology", "_present", "_cell_voltage", "_cell_temperature", "_location", "_serial_number"]
+
+            def __init__(self, **fields: Any) -> None:
+                self._header = fields.get("header") or Header()
+                self._voltage = 0.0
+                self._temperature = 0.0
+                self._current = 0.0
+                self._charge = 0.0
+                self._capacity = 0.0
+                self._design_capacity = 0.0
+                self._percentage = 0.0
+                self._power_supply_status = 0
+                self._power_supply_health = 0
+                self._power_supply_technology = 0
+                self._present = False
+                self._cell_voltage = array("f")
+                self._cell_temperature = array("f")
+                self._location = ""
+                self._serial_number = ""
+                if fields:
+                    super().__init__(**fields)
 
 
 class RegionOfInterest(Message):
@@ -644,35 +734,70 @@ class MultiEchoLaserScan(Message):
                 super().__init__(**fields)
 
 
-class NavSatStatus(Message):
-    """Message sensor_msgs/msg/NavSatStatus."""
+if TYPE_CHECKING or not follows("humble"):
+    class NavSatStatus(Message):
+        """Message sensor_msgs/msg/NavSatStatus."""
 
-    ROS_TYPE = "sensor_msgs/msg/NavSatStatus"
-    SLOT_TYPES = (
-        BasicType('int8'),
-        BasicType('uint16'),
-    )
-    STATUS_NO_FIX: Final = -1
-    STATUS_FIX: Final = 0
-    STATUS_SBAS_FIX: Final = 1
-    STATUS_GBAS_FIX: Final = 2
-    SERVICE_GPS: Final = 1
-    SERVICE_GLONASS: Final = 2
-    SERVICE_COMPASS: Final = 4
-    SERVICE_GALILEO: Final = 8
+        ROS_TYPE = "sensor_msgs/msg/NavSatStatus"
+        SLOT_TYPES = (
+            BasicType('int8'),
+            BasicType('uint16'),
+        )
+        STATUS_UNKNOWN: Final = -2
+        STATUS_NO_FIX: Final = -1
+        STATUS_FIX: Final = 0
+        STATUS_SBAS_FIX: Final = 1
+        STATUS_GBAS_FIX: Final = 2
+        SERVICE_UNKNOWN: Final = 0
+        SERVICE_GPS: Final = 1
+        SERVICE_GLONASS: Final = 2
+        SERVICE_COMPASS: Final = 4
+        SERVICE_GALILEO: Final = 8
+        STATUS__DEFAULT: Final = -2
 
-    if TYPE_CHECKING:
-        status: int
-        service: int
-        def __init__(self, *, status: int = ..., service: int = ...) -> None: ...
-    else:
-        __slots__ = ["_status", "_service"]
+        if TYPE_CHECKING:
+            status: int
+            service: int
+            def __init__(self, *, status: int = ..., service: int = ...) -> None: ...
+        else:
+            __slots__ = ["_status", "_service"]
 
-        def __init__(self, **fields: Any) -> None:
-            self._status = 0
-            self._service = 0
-            if fields:
-                super().__init__(**fields)
+            def __init__(self, **fields: Any) -> None:
+                self._status = -2
+                self._service = 0
+                if fields:
+                    super().__init__(**fields)
+
+else:
+    class NavSatStatus(Message):
+        """Message sensor_msgs/msg/NavSatStatus."""
+
+        ROS_TYPE = "sensor_msgs/msg/NavSatStatus"
+        SLOT_TYPES = (
+            BasicType('int8'),
+            BasicType('uint16'),
+        )
+        STATUS_NO_FIX: Final = -1
+        STATUS_FIX: Final = 0
+        STATUS_SBAS_FIX: Final = 1
+        STATUS_GBAS_FIX: Final = 2
+        SERVICE_GPS: Final = 1
+        SERVICE_GLONASS: Final = 2
+        SERVICE_COMPASS: Final = 4
+        SERVICE_GALILEO: Final = 8
+
+        if TYPE_CHECKING:
+            status: int
+            service: int
+            def __init__(self, *, status: int = ..., service: int = ...) -> None: ...
+        else:
+            __slots__ = ["_status", "_service"]
+
+            def __init__(self, **fields: Any) -> None:
+                self._status = 0
+                self._service = 0
+                if fields:
+                    super().__init__(**fields)
 
 
 class NavSatFix(Message):
@@ -743,41 +868,82 @@ class PointCloud(Message):
                 super().__init__(**fields)
 
 
-class PointField(Message):
-    """One channel of a PointCloud2: name, offset in bytes, type and count."""
+if TYPE_CHECKING or not follows("lyrical"):
+    class PointField(Message):
+        """One channel of a PointCloud2: name, offset in bytes, type and count."""
 
-    ROS_TYPE = "sensor_msgs/msg/PointField"
-    SLOT_TYPES = (
-        UnboundedString(),
-        BasicType('uint32'),
-        BasicType('uint8'),
-        BasicType('uint32'),
-    )
-    INT8: Final = 1
-    UINT8: Final = 2
-    INT16: Final = 3
-    UINT16: Final = 4
-    INT32: Final = 5
-    UINT32: Final = 6
-    FLOAT32: Final = 7
-    FLOAT64: Final = 8
+        ROS_TYPE = "sensor_msgs/msg/PointField"
+        SLOT_TYPES = (
+            UnboundedString(),
+            BasicType('uint32'),
+            BasicType('uint8'),
+            BasicType('uint32'),
+        )
+        INT8: Final = 1
+        UINT8: Final = 2
+        INT16: Final = 3
+        UINT16: Final = 4
+        INT32: Final = 5
+        UINT32: Final = 6
+        FLOAT32: Final = 7
+        FLOAT64: Final = 8
 
-    if TYPE_CHECKING:
-        name: str
-        offset: int
-        datatype: int
-        count: int
-        def __init__(self, *, name: str = ..., offset: int = ..., datatype: int = ..., count: int = ...) -> None: ...
-    else:
-        __slots__ = ["_name", "_offset", "_datatype", "_count"]
+        if TYPE_CHECKING:
+            name: str
+            offset: int
+            datatype: int
+            count: int
+            def __init__(self, *, name: str = ..., offset: int = ..., datatype: int = ..., count: int = ...) -> None: ...
+        else:
+            __slots__ = ["_name", "_offset", "_datatype", "_count"]
 
-        def __init__(self, **fields: Any) -> None:
-            self._name = ""
-            self._offset = 0
-            self._datatype = 0
-            self._count = 0
-            if fields:
-                super().__init__(**fields)
+            def __init__(self, **fields: Any) -> None:
+                self._name = ""
+                self._offset = 0
+                self._datatype = 0
+                self._count = 0
+                if fields:
+                    super().__init__(**fields)
+
+else:
+    class PointField(Message):
+        """One channel of a PointCloud2: name, offset in bytes, type and count."""
+
+        ROS_TYPE = "sensor_msgs/msg/PointField"
+        SLOT_TYPES = (
+            UnboundedString(),
+            BasicType('uint32'),
+            BasicType('uint8'),
+            BasicType('uint32'),
+        )
+        INT8: Final = 1
+        UINT8: Final = 2
+        INT16: Final = 3
+        UINT16: Final = 4
+        INT32: Final = 5
+        UINT32: Final = 6
+        FLOAT32: Final = 7
+        FLOAT64: Final = 8
+        INT64: Final = 9
+        UINT64: Final = 10
+        BOOL: Final = 11
+
+        if TYPE_CHECKING:
+            name: str
+            offset: int
+            datatype: int
+            count: int
+            def __init__(self, *, name: str = ..., offset: int = ..., datatype: int = ..., count: int = ...) -> None: ...
+        else:
+            __slots__ = ["_name", "_offset", "_datatype", "_count"]
+
+            def __init__(self, **fields: Any) -> None:
+                self._name = ""
+                self._offset = 0
+                self._datatype = 0
+                self._count = 0
+                if fields:
+                    super().__init__(**fields)
 
 
 class PointCloud2(Message):
@@ -824,41 +990,82 @@ class PointCloud2(Message):
                 super().__init__(**fields)
 
 
-class Range(Message):
-    """One reading of a range sensor in m, angles in rad."""
+if TYPE_CHECKING or not follows("humble"):
+    class Range(Message):
+        """One reading of a range sensor in m, angles in rad."""
 
-    ROS_TYPE = "sensor_msgs/msg/Range"
-    SLOT_TYPES = (
-        NamespacedType(('std_msgs', 'msg'), 'Header'),
-        BasicType('uint8'),
-        BasicType('float'),
-        BasicType('float'),
-        BasicType('float'),
-        BasicType('float'),
-    )
-    ULTRASOUND: Final = 0
-    INFRARED: Final = 1
+        ROS_TYPE = "sensor_msgs/msg/Range"
+        SLOT_TYPES = (
+            NamespacedType(('std_msgs', 'msg'), 'Header'),
+            BasicType('uint8'),
+            BasicType('float'),
+            BasicType('float'),
+            BasicType('float'),
+            BasicType('float'),
+            BasicType('float'),
+        )
+        ULTRASOUND: Final = 0
+        INFRARED: Final = 1
 
-    if TYPE_CHECKING:
-        header: Header
-        radiation_type: int
-        field_of_view: float
-        min_range: float
-        max_range: float
-        range: float
-        def __init__(self, *, header: Header = ..., radiation_type: int = ..., field_of_view: float = ..., min_range: float = ..., max_range: float = ..., range: float = ...) -> None: ...
-    else:
-        __slots__ = ["_header", "_radiation_type", "_field_of_view", "_min_range", "_max_range", "_range"]
+        if TYPE_CHECKING:
+            header: Header
+            radiation_type: int
+            field_of_view: float
+            min_range: float
+            max_range: float
+            range: float
+            variance: float
+            def __init__(self, *, header: Header = ..., radiation_type: int = ..., field_of_view: float = ..., min_range: float = ..., max_range: float = ..., range: float = ..., variance: float = ...) -> None: ...
+        else:
+            __slots__ = ["_header", "_radiation_type", "_field_of_view", "_min_range", "_max_range", "_range", "_variance"]
 
-        def __init__(self, **fields: Any) -> None:
-            self._header = fields.get("header") or Header()
-            self._radiation_type = 0
-            self._field_of_view = 0.0
-            self._min_range = 0.0
-            self._max_range = 0.0
-            self._range = 0.0
-            if fields:
-                super().__init__(**fields)
+            def __init__(self, **fields: Any) -> None:
+                self._header = fields.get("header") or Header()
+                self._radiation_type = 0
+                self._field_of_view = 0.0
+                self._min_range = 0.0
+                self._max_range = 0.0
+                self._range = 0.0
+                self._variance = 0.0
+                if fields:
+                    super().__init__(**fields)
+
+else:
+    class Range(Message):
+        """One reading of a range sensor in m, angles in rad."""
+
+        ROS_TYPE = "sensor_msgs/msg/Range"
+        SLOT_TYPES = (
+            NamespacedType(('std_msgs', 'msg'), 'Header'),
+            BasicType('uint8'),
+            BasicType('float'),
+            BasicType('float'),
+            BasicType('float'),
+            BasicType('float'),
+        )
+        ULTRASOUND: Final = 0
+        INFRARED: Final = 1
+
+        if TYPE_CHECKING:
+            header: Header
+            radiation_type: int
+            field_of_view: float
+            min_range: float
+            max_range: float
+            range: float
+            def __init__(self, *, header: Header = ..., radiation_type: int = ..., field_of_view: float = ..., min_range: float = ..., max_range: float = ..., range: float = ...) -> None: ...
+        else:
+            __slots__ = ["_header", "_radiation_type", "_field_of_view", "_min_range", "_max_range", "_range"]
+
+            def __init__(self, **fields: Any) -> None:
+                self._header = fields.get("header") or Header()
+                self._radiation_type = 0
+                self._field_of_view = 0.0
+                self._min_range = 0.0
+                self._max_range = 0.0
+                self._range = 0.0
+                if fields:
+                    super().__init__(**fields)
 
 
 class RelativeHumidity(Message):

@@ -6,6 +6,7 @@ from __future__ import annotations
 from array import array
 from typing import TYPE_CHECKING, Any, Final
 
+from coframe.distributions import follows
 from coframe.messages.definition import BasicType, NamespacedType, UnboundedSequence, UnboundedString
 from coframe.messages.message import Message
 from coframe.messages.generated.builtin_interfaces.msg import Duration
@@ -163,94 +164,186 @@ class MeshFile(Message):
                 super().__init__(**fields)
 
 
-class Marker(Message):
-    """A shape to draw."""
+if TYPE_CHECKING or not follows("humble"):
+    class Marker(Message):
+        """A shape to draw."""
 
-    ROS_TYPE = "visualization_msgs/msg/Marker"
-    SLOT_TYPES = (
-        NamespacedType(('std_msgs', 'msg'), 'Header'),
-        UnboundedString(),
-        BasicType('int32'),
-        BasicType('int32'),
-        BasicType('int32'),
-        NamespacedType(('geometry_msgs', 'msg'), 'Pose'),
-        NamespacedType(('geometry_msgs', 'msg'), 'Vector3'),
-        NamespacedType(('std_msgs', 'msg'), 'ColorRGBA'),
-        NamespacedType(('builtin_interfaces', 'msg'), 'Duration'),
-        BasicType('boolean'),
-        UnboundedSequence(NamespacedType(('geometry_msgs', 'msg'), 'Point')),
-        UnboundedSequence(NamespacedType(('std_msgs', 'msg'), 'ColorRGBA')),
-        UnboundedString(),
-        NamespacedType(('sensor_msgs', 'msg'), 'CompressedImage'),
-        UnboundedSequence(NamespacedType(('visualization_msgs', 'msg'), 'UVCoordinate')),
-        UnboundedString(),
-        UnboundedString(),
-        NamespacedType(('visualization_msgs', 'msg'), 'MeshFile'),
-        BasicType('boolean'),
-    )
-    ARROW: Final = 0
-    CUBE: Final = 1
-    SPHERE: Final = 2
-    CYLINDER: Final = 3
-    LINE_STRIP: Final = 4
-    LINE_LIST: Final = 5
-    CUBE_LIST: Final = 6
-    SPHERE_LIST: Final = 7
-    POINTS: Final = 8
-    TEXT_VIEW_FACING: Final = 9
-    MESH_RESOURCE: Final = 10
-    TRIANGLE_LIST: Final = 11
-    ADD: Final = 0
-    MODIFY: Final = 0
-    DELETE: Final = 2
-    DELETEALL: Final = 3
+        ROS_TYPE = "visualization_msgs/msg/Marker"
+        SLOT_TYPES = (
+            NamespacedType(('std_msgs', 'msg'), 'Header'),
+            UnboundedString(),
+            BasicType('int32'),
+            BasicType('int32'),
+            BasicType('int32'),
+            NamespacedType(('geometry_msgs', 'msg'), 'Pose'),
+            NamespacedType(('geometry_msgs', 'msg'), 'Vector3'),
+            NamespacedType(('std_msgs', 'msg'), 'ColorRGBA'),
+            NamespacedType(('builtin_interfaces', 'msg'), 'Duration'),
+            BasicType('boolean'),
+            UnboundedSequence(NamespacedType(('geometry_msgs', 'msg'), 'Point')),
+            UnboundedSequence(NamespacedType(('std_msgs', 'msg'), 'ColorRGBA')),
+            UnboundedString(),
+            NamespacedType(('sensor_msgs', 'msg'), 'CompressedImage'),
+            UnboundedSequence(NamespacedType(('visualization_msgs', 'msg'), 'UVCoordinate')),
+            UnboundedString(),
+            UnboundedString(),
+            NamespacedType(('visualization_msgs', 'msg'), 'MeshFile'),
+            BasicType('boolean'),
+        )
+        ARROW: Final = 0
+        CUBE: Final = 1
+        SPHERE: Final = 2
+        CYLINDER: Final = 3
+        LINE_STRIP: Final = 4
+        LINE_LIST: Final = 5
+        CUBE_LIST: Final = 6
+        SPHERE_LIST: Final = 7
+        POINTS: Final = 8
+        TEXT_VIEW_FACING: Final = 9
+        MESH_RESOURCE: Final = 10
+        TRIANGLE_LIST: Final = 11
+        ARROW_STRIP: Final = 12
+        ADD: Final = 0
+        MODIFY: Final = 0
+        DELETE: Final = 2
+        DELETEALL: Final = 3
 
-    if TYPE_CHECKING:
-        header: Header
-        ns: str
-        id: int
-        type: int
-        action: int
-        pose: Pose
-        scale: Vector3
-        color: ColorRGBA
-        lifetime: Duration
-        frame_locked: bool
-        points: list[Point]
-        colors: list[ColorRGBA]
-        texture_resource: str
-        texture: CompressedImage
-        uv_coordinates: list[UVCoordinate]
-        text: str
-        mesh_resource: str
-        mesh_file: MeshFile
-        mesh_use_embedded_materials: bool
-        def __init__(self, *, header: Header = ..., ns: str = ..., id: int = ..., type: int = ..., action: int = ..., pose: Pose = ..., scale: Vector3 = ..., color: ColorRGBA = ..., lifetime: Duration = ..., frame_locked: bool = ..., points: list[Point] = ..., colors: list[ColorRGBA] = ..., texture_resource: str = ..., texture: CompressedImage = ..., uv_coordinates: list[UVCoordinate] = ..., text: str = ..., mesh_resource: str = ..., mesh_file: MeshFile = ..., mesh_use_embedded_materials: bool = ...) -> None: ...
-    else:
-        __slots__ = ["_header", "_ns", "_id", "_type", "_action", "_pose", "_scale", "_color", "_lifetime", "_frame_locked", "_points", "_colors", "_texture_resource", "_texture", "_uv_coordinates", "_text", "_mesh_resource", "_mesh_file", "_mesh_use_embedded_materials"]
+        if TYPE_CHECKING:
+            header: Header
+            ns: str
+            id: int
+            type: int
+            action: int
+            pose: Pose
+            scale: Vector3
+            color: ColorRGBA
+            lifetime: Duration
+            frame_locked: bool
+            points: list[Point]
+            colors: list[ColorRGBA]
+            texture_resource: str
+            texture: CompressedImage
+            uv_coordinates: list[UVCoordinate]
+            text: str
+            mesh_resource: str
+            mesh_file: MeshFile
+            mesh_use_embedded_materials: bool
+            def __init__(self, *, header: Header = ..., ns: str = ..., id: int = ..., type: int = ..., action: int = ..., pose: Pose = ..., scale: Vector3 = ..., color: ColorRGBA = ..., lifetime: Duration = ..., frame_locked: bool = ..., points: list[Point] = ..., colors: list[ColorRGBA] = ..., texture_resource: str = ..., texture: CompressedImage = ..., uv_coordinates: list[UVCoordinate] = ..., text: str = ..., mesh_resource: str = ..., mesh_file: MeshFile = ..., mesh_use_embedded_materials: bool = ...) -> None: ...
+        else:
+            __slots__ = ["_header", "_ns", "_id", "_type", "_action", "_pose", "_scale", "_color", "_lifetime", "_frame_locked", "_points", "_colors", "_texture_resource", "_texture", "_uv_coordinates", "_text", "_mesh_resource", "_mesh_file", "_mesh_use_embedded_materials"]
 
-        def __init__(self, **fields: Any) -> None:
-            self._header = fields.get("header") or Header()
-            self._ns = ""
-            self._id = 0
-            self._type = 0
-            self._action = 0
-            self._pose = fields.get("pose") or Pose()
-            self._scale = fields.get("scale") or Vector3()
-            self._color = fields.get("color") or ColorRGBA()
-            self._lifetime = fields.get("lifetime") or Duration()
-            self._frame_locked = False
-            self._points = []
-            self._colors = []
-            self._texture_resource = ""
-            self._texture = fields.get("texture") or CompressedImage()
-            self._uv_coordinates = []
-            self._text = ""
-            self._mesh_resource = ""
-            self._mesh_file = fields.get("mesh_file") or MeshFile()
-            self._mesh_use_embedded_materials = False
-            if fields:
-                super().__init__(**fields)
+            def __init__(self, **fields: Any) -> None:
+                self._header = fields.get("header") or Header()
+                self._ns = ""
+                self._id = 0
+                self._type = 0
+                self._action = 0
+                self._pose = fields.get("pose") or Pose()
+                self._scale = fields.get("scale") or Vector3()
+                self._color = fields.get("color") or ColorRGBA()
+                self._lifetime = fields.get("lifetime") or Duration()
+                self._frame_locked = False
+                self._points = []
+                self._colors = []
+                self._texture_resource = ""
+                self._texture = fields.get("texture") or CompressedImage()
+                self._uv_coordinates = []
+                self._text = ""
+                self._mesh_resource = ""
+                self._mesh_file = fields.get("mesh_file") or MeshFile()
+                self._mesh_use_embedded_materials = False
+                if fields:
+                    super().__init__(**fields)
+
+else:
+    class Marker(Message):
+        """A shape to draw."""
+
+        ROS_TYPE = "visualization_msgs/msg/Marker"
+        SLOT_TYPES = (
+            NamespacedType(('std_msgs', 'msg'), 'Header'),
+            UnboundedString(),
+            BasicType('int32'),
+            BasicType('int32'),
+            BasicType('int32'),
+            NamespacedType(('geometry_msgs', 'msg'), 'Pose'),
+            NamespacedType(('geometry_msgs', 'msg'), 'Vector3'),
+            NamespacedType(('std_msgs', 'msg'), 'ColorRGBA'),
+            NamespacedType(('builtin_interfaces', 'msg'), 'Duration'),
+            BasicType('boolean'),
+            UnboundedSequence(NamespacedType(('geometry_msgs', 'msg'), 'Point')),
+            UnboundedSequence(NamespacedType(('std_msgs', 'msg'), 'ColorRGBA')),
+            UnboundedString(),
+            NamespacedType(('sensor_msgs', 'msg'), 'CompressedImage'),
+            UnboundedSequence(NamespacedType(('visualization_msgs', 'msg'), 'UVCoordinate')),
+            UnboundedString(),
+            UnboundedString(),
+            NamespacedType(('visualization_msgs', 'msg'), 'MeshFile'),
+            BasicType('boolean'),
+        )
+        ARROW: Final = 0
+        CUBE: Final = 1
+        SPHERE: Final = 2
+        CYLINDER: Final = 3
+        LINE_STRIP: Final = 4
+        LINE_LIST: Final = 5
+        CUBE_LIST: Final = 6
+        SPHERE_LIST: Final = 7
+        POINTS: Final = 8
+        TEXT_VIEW_FACING: Final = 9
+        MESH_RESOURCE: Final = 10
+        TRIANGLE_LIST: Final = 11
+        ADD: Final = 0
+        MODIFY: Final = 0
+        DELETE: Final = 2
+        DELETEALL: Final = 3
+
+        if TYPE_CHECKING:
+            header: Header
+            ns: str
+            id: int
+            type: int
+            action: int
+            pose: Pose
+            scale: Vector3
+            color: ColorRGBA
+            lifetime: Duration
+            frame_locked: bool
+            points: list[Point]
+            colors: list[ColorRGBA]
+            texture_resource: str
+            texture: CompressedImage
+            uv_coordinates: list[UVCoordinate]
+            text: str
+            mesh_resource: str
+            mesh_file: MeshFile
+            mesh_use_embedded_materials: bool
+            def __init__(self, *, header: Header = ..., ns: str = ..., id: int = ..., type: int = ..., action: int = ..., pose: Pose = ..., scale: Vector3 = ..., color: ColorRGBA = ..., lifetime: Duration = ..., frame_locked: bool = ..., points: list[Point] = ..., colors: list[ColorRGBA] = ..., texture_resource: str = ..., texture: CompressedImage = ..., uv_coordinates: list[UVCoordinate] = ..., text: str = ..., mesh_resource: str = ..., mesh_file: MeshFile = ..., mesh_use_embedded_materials: bool = ...) -> None: ...
+        else:
+            __slots__ = ["_header", "_ns", "_id", "_type", "_action", "_pose", "_scale", "_color", "_lifetime", "_frame_locked", "_points", "_colors", "_texture_resource", "_texture", "_uv_coordinates", "_text", "_mesh_resource", "_mesh_file", "_mesh_use_embedded_materials"]
+
+            def __init__(self, **fields: Any) -> None:
+                self._header = fields.get("header") or Header()
+                self._ns = ""
+                self._id = 0
+                self._type = 0
+                self._action = 0
+                self._pose = fields.get("pose") or Pose()
+                self._scale = fields.get("scale") or Vector3()
+                self._color = fields.get("color") or ColorRGBA()
+                self._lifetime = fields.get("lifetime") or Duration()
+                self._frame_locked = False
+                self._points = []
+                self._colors = []
+                self._texture_resource = ""
+                self._texture = fields.get("texture") or CompressedImage()
+                self._uv_coordinates = []
+                self._text = ""
+                self._mesh_resource = ""
+                self._mesh_file = fields.get("mesh_file") or MeshFile()
+                self._mesh_use_embedded_materials = False
+                if fields:
+                    super().__init__(**fields)
 
 
 class InteractiveMarkerControl(Message):
