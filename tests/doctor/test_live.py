@@ -8,6 +8,7 @@ import shutil
 import signal
 import subprocess
 import sys
+import textwrap
 import time
 from subprocess import PIPE
 
@@ -201,6 +202,25 @@ def test_a_pause_does_not_enlarge_the_arrays_of_transforms(domain_id, eventually
         listening.poll()
         capacity = len(listening._collector._moving._columns["stamp"])
         assert capacity < 2000, "old rows and new ones were stored at the same time"
+
+
+@pytest.mark.slow
+def test_two_drivers_that_publish_scans_on_one_topic_are_named(start, only):
+    start("robot", ROBOT)
+    driver = """
+    from sensor_msgs.msg import LaserScan
+    publisher = node.create_publisher(LaserScan, "/scan", 10)
+    def scan():
+        message = LaserScan()
+        message.header.stamp, message.header.frame_id = node.get_clock().now().to_msg(), "lidar_link"
+        publisher.publish(message)
+    every(0.05, scan)
+    """
+    for name in ("front_driver", "rear_driver"):
+        start(name, textwrap.dedent(driver))
+    finding = only("TF028")
+    assert sorted(finding["publishers"]) == ["/front_driver", "/rear_driver"]
+    assert "alternate between 2 publishers" in finding["text"]
 
 
 @pytest.mark.slow

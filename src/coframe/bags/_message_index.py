@@ -159,6 +159,14 @@ class MessageIndex:
         rows = self._rows_of(topic)
         return self._bytes(rows.tracks[rows.of_track[row]], int(rows.positions[row]))
 
+    def head(self, topic: str, row: int, size: int) -> bytes:
+        """Return the first bytes of a message; empty if it can no longer be read."""
+        self._check_open()
+        rows = self._rows_of(topic)
+        with suppress(DamagedError, OSError):
+            return rows.tracks[rows.of_track[row]].storage.head(int(rows.positions[row]), size)
+        return b""
+
     def stamps(self, topic: str) -> NDArray[np.int64]:
         """Return the stamps of a topic's messages in receive order: (N,) nanoseconds."""
         if topic not in self._stamps:

@@ -19,6 +19,7 @@ from coframe.bags._recorded_message import RecordedMessage, RecordedTopic
 from coframe.bags._table import edge_table
 from coframe.bags.namespaces import TransformChoice, main_span
 from coframe.errors import DecodeError
+from coframe.messages.header_peek import HEADER_BYTES
 
 if TYPE_CHECKING:
     import os
@@ -279,6 +280,28 @@ class Recording:
         """
         first = self._index.first_message(self._index.find_topic(topic))
         return "" if first is None else self._frame(*first)
+
+    def frames(self, topic: str, rows: Iterable[int] | None = None) -> list[str]:
+        """Return the frame_id in the headers of a topic's messages, as published; "" where there is none.
+
+        Args:
+            topic: The name, with or without its leading slash.
+            rows: The numbers of the messages in receive order, from 0; None for all.
+
+        Raises:
+            RecordingError: The topic does not exist.
+        """
+        name = self._index.find_topic(topic)
+        numbers = list(range(len(self._index.received(name))) if rows is None else rows)
+        return [self._frame_of(name, row) for row in numbers] if self.may_have_header(name) else [""] * len(numbers)
+
+    def _frame_of(self, name: str, row: int) -> str:
+        channel = self._index.channel(name, row)
+        header = self.types.peek_header(channel, self._index.head(name, row, HEADER_BYTES))
+        if header is not None:
+            return header.frame
+        data = self._index.read(name, row)
+        return "" if data is None else self._frame(channel, data)
 
     def may_have_header(self, topic: str) -> bool:
         """Return whether messages of a topic have a field ``header``; True if their definition is unknown.

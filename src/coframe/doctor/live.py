@@ -449,17 +449,23 @@ def _sensors(topic: _Topic, start: int, rename: Callable[[str], str], node_of: C
     for head in topic.headers:
         if head.arrived >= start and head.frame:
             by_frame.setdefault(head.frame, []).append(head)
-    return [
-        Sensor(
-            topic.name,
-            topic.type,
-            rename(frame),
-            np.array([head.stamp for head in headers], dtype=np.int64),
-            np.array([head.arrived for head in headers], dtype=np.int64),
-            node_of(headers[-1].writer),
-        )
-        for frame, headers in by_frame.items()
-    ]
+    return [_sensor(topic, rename(frame), headers, node_of) for frame, headers in by_frame.items()]
+
+
+def _sensor(topic: _Topic, frame: str, headers: list[_ReceivedHeader], node_of: Callable[[int], str]) -> Sensor:
+    nodes = {writer: node_of(writer) for writer in dict.fromkeys(head.writer for head in headers)}
+    publishers = tuple(dict.fromkeys(filter(None, nodes.values())))
+    numbers = {writer: publishers.index(node) if node else -1 for writer, node in nodes.items()}
+    return Sensor(
+        topic.name,
+        topic.type,
+        frame,
+        np.array([head.stamp for head in headers], dtype=np.int64),
+        np.array([head.arrived for head in headers], dtype=np.int64),
+        nodes[headers[-1].writer],
+        publishers,
+        np.array([numbers[head.writer] for head in headers], dtype=np.int64),
+    )
 
 
 def _joints(topic: _Topic, start: int) -> ObservedJointStates:

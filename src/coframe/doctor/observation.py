@@ -33,6 +33,7 @@ __all__ = [
     "ObservedEndpoint",
     "ObservedJointStates",
     "ObservedLogLine",
+    "ObservedPositions",
     "Sensor",
     "TopicFacts",
     "Transforms",
@@ -82,6 +83,8 @@ class Sensor:
         stamp: (N,) stamps of their headers.
         arrived: (N,) times of their arrival.
         publisher: The full name of the node; "" if it is unknown.
+        publishers: The full names of all nodes that published these messages, as far as they are known.
+        source: (N,) index into `publishers` for each message; -1 if the node is unknown.
     """
 
     topic: str
@@ -90,6 +93,8 @@ class Sensor:
     stamp: NDArray[np.int64]
     arrived: NDArray[np.int64]
     publisher: str = ""
+    publishers: tuple[str, ...] = ()
+    source: NDArray[np.int64] = field(default_factory=lambda: np.empty(0, np.int64))
 
 
 @dataclass(frozen=True, eq=False)
@@ -99,6 +104,14 @@ class ObservedJointStates:
     topic: str
     stamp: NDArray[np.int64]
     positions: dict[str, NDArray[np.float64]]
+
+
+@dataclass(frozen=True, eq=False)
+class ObservedPositions:
+    """Positions in metres in successive messages of a topic with poses: parts of the recording, (N, 3) each."""
+
+    topic: str
+    parts: tuple[NDArray[np.float64], ...]
 
 
 @dataclass(frozen=True, eq=False)
@@ -147,6 +160,7 @@ class Observation:
         sensors: Messages with a header that names a frame.
         descriptions: The robot descriptions, in the order of arrival.
         joint_states: The joint states, one entry per topic.
+        positions: The positions in messages with poses, one entry per topic; recordings only.
         clock: Simulated time; None without /clock.
         travel: By publisher, the transport times of its transforms by the clocks of two machines; live only.
         log: Messages of nodes on /rosout.
@@ -169,6 +183,7 @@ class Observation:
     sensors: tuple[Sensor, ...] = ()
     descriptions: tuple[str, ...] = ()
     joint_states: tuple[ObservedJointStates, ...] = ()
+    positions: tuple[ObservedPositions, ...] = ()
     clock: ObservedClock | None = None
     travel: dict[str, NDArray[np.int64]] = field(default_factory=dict)
     log: tuple[ObservedLogLine, ...] = ()

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from itertools import islice
 from typing import TYPE_CHECKING, Any
 
@@ -16,11 +17,13 @@ from coframe.doctor._joints import joint_states
 from coframe.doctor.collector import Collector
 from coframe.doctor.observation import (
     DEFAULT_CACHE,
+    NEVER,
     Observation,
     ObservedClock,
     ObservedEndpoint,
     ObservedJointStates,
     ObservedLogLine,
+    ObservedPositions,
     Sensor,
     TopicFacts,
 )
@@ -42,6 +45,13 @@ __all__ = ["collecting", "observe_recording"]
 
 _MAX_DECODED = 2000  # limit of messages per topic
 _MAX_DESCRIPTIONS = 10
+_PARTS, _PART = 20, 25  # parts of a topic that are looked at, and successive messages in each
+_MIN_RATE = 1.0  # Hz; what is published more slowly, such as goals, need not be on one track
+_POSES = {
+    "nav_msgs/msg/Odometry": lambda message: message.pose.pose.position,
+    "geometry_msgs/msg/PoseStamped": lambda message: message.pose.position,
+    "geometry_msgs/msg/PoseWithCovarianceStamped": lambda message: message.pose.pose.position,
+}
 _LOGS = {"rcl_interfaces/msg/Log", "rosgraph_msgs/msg/Log"}
 
 
@@ -101,6 +111,7 @@ def observe_chosen(
                 sensors=tuple(s for s in facts.sensors if _belongs(s.topic, name, collectors)),
                 descriptions=tuple(text for topic, text in facts.descriptions if _belongs(topic, name, collectors)),
                 joint_states=tuple(j for j in facts.joints if _belongs(j.topic, name, collectors)),
+                positions=tuple(p for p in facts.positions if _belongs(p.topic, name, collectors)),
                 clock=facts.clock,
                 log=facts.log,
                 cache=cache,
@@ -148,7 +159,12 @@ class _Facts:
             for topic in recording.topics.values()
         }
         self.clock = self._clock()
-        self.sensors = [sensor for name in self.topics if (sensor := self._sensor(name)) is not None]
+        self.sensors = [sensor for name in self.topics for sensor in self._sensors(name)]
+        self.positions = [
+            ObservedPositions(name, tuple(self._parts(name)))
+            for name in self._of_type(set(_POSES))
+            if recording.topics[name].rate >= _MIN_RATE
+        ]
         self.descriptions = [
             (name, str(message.data))
             for name in self._of_type({"std_msgs/msg/String"})
@@ -193,14 +209,32 @@ class _Facts:
             except DecodeError:
                 continue
 
-    def _sensor(self, topic: str) -> Sensor | None:
-        """Return the headers of a topic; None if its messages have no frame."""
-        facts = self.topics[topic]
-        frame = self._recording.first_frame(topic)
-        if not frame.lstrip("/") or facts.type == "sensor_msgs/msg/JointState":
-            return None
-        stamps, received = self._recording.stamps(topic), self._recording.received(topic)
-        return Sensor(topic, facts.type, self._recording.frame(frame.lstrip("/")), stamps, received)
+    def _sensors(self, topic: str) -> Iterator[Sensor]:
+        """Yield the headers of a topic, one sensor for each frame; none if its messages have no frame."""
+        facts, recording = self.topics[topic], self._recording
+        first = recording.first_frame(topic)
+        if not first.lstrip("/") or facts.type == "sensor_msgs/msg/JointState":
+            return
+        stamps, received = recording.stamps(topic), recording.received(topic)
+        rows_of: dict[str, list[int]] = {}
+        if len(set(recording.frames(topic, np.concatenate(_spread(len(stamps))).tolist()))) > 1:
+            for row, frame in enumerate(recording.frames(topic)):
+                rows_of.setdefault(frame.lstrip("/"), []).append(row)
+        for name, rows in rows_of.items() or [(first.lstrip("/"), slice(None))]:
+            if name:
+                yield Sensor(topic, facts.type, recording.frame(name), stamps[rows], received[rows])
+
+    def _parts(self, topic: str) -> Iterator[NDArray[np.float64]]:
+        """Yield the positions in successive messages, for parts of the recording."""
+        stamps, position = self._recording.stamps(topic), _POSES[self.topics[topic].type]
+        for rows in _spread(len(stamps)):
+            messages = self._recording.messages(topic, int(stamps[rows].min(initial=NEVER)))
+            found = []
+            for recorded in islice(messages, len(rows)):
+                with suppress(DecodeError, AttributeError, TypeError, ValueError):
+                    point = position(recorded.message)
+                    found.append((float(point.x), float(point.y), float(point.z)))
+            yield np.array(found).reshape(-1, 3)
 
     def _joints(self, topic: str) -> ObservedJointStates | None:
         """Return the joint states of a topic; None if its messages have other fields."""
@@ -218,3 +252,10 @@ class _Facts:
         for arrived, message in zip(received.tolist(), self._decoded(topic, _MAX_DECODED), strict=False):
             if hasattr(message, "name") and hasattr(message, "msg"):
                 yield ObservedLogLine(str(message.name), str(message.msg), arrived)
+
+
+def _spread(messages: int) -> list[NDArray[np.int64]]:
+    """Return the numbers of successive messages in parts that are spread over a topic, or of all messages."""
+    if messages <= _PARTS * _PART:
+        return [np.arange(messages)]
+    return [start + np.arange(_PART) for start in np.linspace(0, messages - _PART, _PARTS).astype(np.int64)]

@@ -1,0 +1,111 @@
+# SPDX-License-Identifier: Apache-2.0
+"""TF028: sensor topics with the messages of two sources."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from coframe._output.formatting import count, listed
+from coframe.doctor._finding import Finding, Severity
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from numpy.typing import NDArray
+
+    from coframe.doctor.observation import Observation, ObservedPositions, Sensor
+
+__all__ = ["CODE", "find"]
+
+CODE = "TF028"
+_MIN_CHANGES = 5  # from one source to another
+_MIN_SHARE = 0.05  # of the messages that follow a message of another source
+_MIN_TRACKED = 20  # successive positions
+_APART = 10  # times the usual step: the distance between two sources
+_MIN_DISTANCE = 0.05  # metres
+_ONE_SOURCE = {
+    *(f"sensor_msgs/msg/{name}" for name in ("CameraInfo", "CompressedImage", "FluidPressure", "Image", "Imu")),
+    *(f"sensor_msgs/msg/{name}" for name in ("LaserScan", "MagneticField", "MultiEchoLaserScan", "NavSatFix")),
+    *(f"sensor_msgs/msg/{name}" for name in ("PointCloud2", "PointCloud")),
+    *(f"nav_msgs/msg/{name}" for name in ("OccupancyGrid", "Odometry", "Path")),
+    *(f"geometry_msgs/msg/{name}" for name in ("AccelStamped", "PoseStamped", "PoseWithCovarianceStamped")),
+    *(f"geometry_msgs/msg/{name}" for name in ("TwistStamped", "TwistWithCovarianceStamped", "WrenchStamped")),
+}
+_FIX = (
+    "Give each source a topic of its own: remap it in one of the launch files, or start each robot in a namespace. "
+    "Recordings of two robots: `coframe bag merge A B --prefix robot1/ --prefix robot2/`."
+)
+
+
+def find(observation: Observation) -> Iterator[Finding]:
+    """Yield a finding for each topic whose messages alternate between frames, nodes or places.
+
+    Topics of other types, such as markers, detections, joint states and logs, have several sources by design.
+    """
+    topics: dict[str, list[Sensor]] = {}
+    for sensor in observation.sensors:
+        if sensor.type in _ONE_SOURCE and len(sensor.stamp):
+            topics.setdefault(sensor.topic, []).append(sensor)
+    found = set()
+    for topic, sensors in topics.items():
+        nodes = tuple(dict.fromkeys(node for sensor in sensors for node in sensor.publishers))
+        if _alternate(sensors, [np.full(len(sensor.stamp), number) for number, sensor in enumerate(sensors)]):
+            found.add(topic)
+            names = listed(f"{sensor.frame!r} ({count(len(sensor.stamp), 'message')})" for sensor in sensors)
+            yield _finding(topic, f"the messages alternate between {len(sensors)} frames: {names}", nodes)
+        elif len(nodes) > 1 and _alternate(sensors, [_nodes(sensor, nodes) for sensor in sensors]):
+            found.add(topic)
+            yield _finding(topic, f"the messages alternate between {len(nodes)} publishers: {listed(nodes)}", nodes)
+    for one in observation.positions:
+        if one.topic not in found and (distance := _distance(one)):
+            text = f"the positions jump back and forth between two tracks, {distance:.3g} m apart"
+            yield _finding(one.topic, text)
+
+
+def _nodes(sensor: Sensor, nodes: tuple[str, ...]) -> NDArray[np.int64]:
+    """Return the number of the node of each message; messages of unknown nodes have that of the message before."""
+    numbers = np.array([nodes.index(node) for node in sensor.publishers], dtype=np.int64)
+    known = np.maximum.accumulate(np.where(sensor.source < 0, 0, np.arange(len(sensor.source))))
+    return numbers[np.maximum(sensor.source[known], 0)]
+
+
+def _alternate(sensors: list[Sensor], sources: list[NDArray[np.int64]]) -> bool:
+    """Return whether the sources of the messages change again and again."""
+    order = np.argsort(np.concatenate([sensor.arrived for sensor in sensors]), kind="stable")
+    changes = np.count_nonzero(np.diff(np.concatenate(sources)[order]))
+    return bool(changes >= max(_MIN_CHANGES, _MIN_SHARE * len(order)))
+
+
+def _distance(positions: ObservedPositions) -> float:
+    """Return how far apart two tracks are between which the positions jump; 0 if they are one track."""
+    return max((_between(part) for part in positions.parts if len(part) >= _MIN_TRACKED), default=0.0)
+
+
+def _between(points: NDArray[np.float64]) -> float:
+    """Return how far apart two tracks are between which successive positions jump; 0 if they are one track."""
+    farthest = int(np.argmax(np.linalg.norm(points[: _MIN_TRACKED // 2] - points[0], axis=1)))
+    ends = [points[0], points[farthest]]
+    steps: tuple[list[float], list[float]] = [], []
+    apart: list[float] = []
+    track = changes = 0
+    for point in points:
+        near = [float(np.linalg.norm(point - end)) for end in ends]
+        nearest = int(near[1] < near[0])
+        steps[nearest].append(near[nearest])
+        apart.append(near[1 - nearest])
+        changes += nearest != track
+        track, ends[nearest] = nearest, point
+    if min(map(len, steps)) < _MIN_CHANGES or changes < max(_MIN_CHANGES, _MIN_SHARE * len(points)):
+        return 0.0
+    step = max(float(np.median(each)) for each in steps)
+    distance = float(np.median(apart))
+    return distance if distance > max(_APART * step, _MIN_DISTANCE) else 0.0
+
+
+def _finding(topic: str, text: str, publishers: tuple[str, ...] = ()) -> Finding:
+    return Finding(
+        code=CODE, severity=Severity.WARNING, text=f"{text}: two sources on one topic?", fix=_FIX, topic=topic,
+        publishers=publishers,
+    )  # fmt: skip
