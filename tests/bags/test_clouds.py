@@ -342,10 +342,26 @@ def test_points_in_a_gap_of_the_transforms_are_reported_or_skipped(tmp_path, fra
             START + i * SWEEP for i in (2, 3, 4, 5, 14, 15, 16, 17)
         ]
         assert sum(limited.points_skipped.values()) > 0
-    ended = CliRunner().invoke(
-        app, ["cloud", str(path), "/points", "--frame", frame, "-o", str(tmp_path / "a.ply"), "--max-gap", "200ms"]
-    )
+        options = {"fixed": fixed, "max_gap": "200ms", "validity": True}
+        filled = list(Clouds(recording, "/points", frame, on_gap="nan", **options))
+        assert [len(cloud.points) for cloud in filled] == [len(WALL)] * 16
+        for cloud in filled:
+            in_gap = cloud.points["gap_ns"] > SECOND // 5
+            assert np.array_equal(np.isnan(cloud.points["x"]), in_gap)
+            assert kept[cloud.stamp] == np.count_nonzero(~in_gap)
+        with pytest.raises(coframe.ExtrapolationException, match=r"lie in a gap of 9\d\d ms"):
+            list(Clouds(recording, "/points", frame, on_gap="raise", **options))
+        with pytest.raises(ValueError, match="on_gap"):
+            Clouds(recording, "/points", frame, on_gap="clip", **options)
+    words = ["cloud", str(path), "/points", "--frame", frame, "-o", str(tmp_path / "a.npz"), "--max-gap", "200ms"]
+    ended = CliRunner().invoke(app, words)
     assert "they lie in a longer gap than permitted" in ended.stderr
+    assert CliRunner().invoke(app, [*words, "--on-gap", "raise"]).exit_code == 1
+    assert CliRunner().invoke(app, [*words, "--on-gap", "skip"]).exit_code == 2
+    ended = CliRunner().invoke(app, [*words, "--on-gap", "nan", "--validity"])
+    with np.load(tmp_path / "a.npz") as data:
+        assert np.isnan(data["x"]).any()
+        assert len(data["gap_ns"]) == 16 * len(WALL)
 
 
 def test_skipped_messages_are_counted_by_reason(path):

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Poses across a dropout of transforms: reported, refused, filled with NaN or omitted."""
 
+import json
 import warnings
 
 import numpy as np
@@ -10,8 +11,9 @@ from click.testing import CliRunner
 from recordings import SECOND, START
 
 import coframe
-from coframe.bags import TrajectoryQuery
+from coframe.bags import TrajectoryQuery, query_recording
 from coframe.cli.app import app
+from coframe.trajectories import read_trajectory
 
 PERIOD = SECOND // 100
 GAP = (100, 300)  # the first and the last sample before and after the dropout
@@ -171,3 +173,61 @@ def test_commands_report_gaps_and_have_an_option_for_them(bag):
     code, text, errors = run("lookup", bag, "map", "base", "--at", "2s", "--max-gap", "200ms")
     assert (code, text, "lies in a gap of 2 s" in errors) == (1, "", True)
     assert run("lookup", bag, "map", "base", "--at", "3.5s", "--max-gap", "200ms")[::2] == (0, "")
+    _, text, _ = run("lookup", bag, "map", "base", "--at", "2s", "--validity")
+    assert text.splitlines()[-1] == "- Interpolated over: 2 s between two samples of base"
+    _, text, _ = run("lookup", bag, "map", "base", "--at", "2s", "--validity", "--json")
+    assert (json.loads(text)["gap_ns"], json.loads(text)["outside_ns"]) == (2 * SECOND, 0)
+
+
+def test_a_trajectory_file_has_the_gap_of_each_pose_on_request(bag, tmp_path):
+    _, text, _ = run("trajectory", bag, "map", "base", "--rate", 10, "--format", "csv", "--validity")
+    header, *rows = (line.split(",") for line in text.splitlines())
+    assert header[-2:] == ["gap_ns", "outside_ns"]
+    # Every tenth sample is at the time of a pose.
+    assert [int(row[-2]) for row in rows] == [2 * SECOND if GAP[0] < 10 * i < GAP[1] else 0 for i in range(41)]
+    for name in ("a.npz", "a.csv"):
+        assert run("trajectory", bag, "map", "base", "-o", tmp_path / name, "--validity")[0] == 0
+        read = read_trajectory(tmp_path / name)
+        assert np.array_equal(read.stamps, at(*(i for i in range(401))))
+    with np.load(tmp_path / "a.npz") as data:
+        assert data["gap_ns"].max() == 2 * SECOND
+    assert run("trajectory", bag, "map", "base", "--validity")[0] == 2
+
+
+def test_a_dataset_has_the_gap_of_each_pose_on_request(bag, tmp_path):
+    parquet = pytest.importorskip("pyarrow.parquet")
+    for validity in (False, True):
+        query = TrajectoryQuery("map", "base", rate=10, validity=validity)
+        assert query_recording(str(bag), query, str(tmp_path)).poses == 41
+        (file,) = tmp_path.glob("[!_]*.parquet")
+        columns = parquet.read_table(file).to_pydict()
+        assert ("gap_ns" in columns) == validity
+    assert columns["gap_ns"].count(2 * SECOND) == 19
+
+
+def test_a_table_reports_refuses_or_marks_gaps(bag):
+    pytest.importorskip("pyarrow")
+    samples = 401 + 202
+    with coframe.open_bag(bag) as recording:
+        with pytest.warns(coframe.CoframeWarning, match=r"1 edge of the table has .* odom -> base for 2 s") as caught:
+            assert recording.table().num_rows == samples
+        assert [each.filename for each in caught] == [__file__]
+        with pytest.raises(coframe.ExtrapolationException, match="odom -> base has no sample for 2 s"):
+            recording.table(max_gap="200ms")
+        assert recording.table(max_gap="2s").num_rows == samples
+        assert recording.table(max_gap="200ms", on_gap="omit").num_rows == samples
+        marked = recording.table(max_gap="200ms", on_gap="nan", validity=True).to_pydict()
+        for options, error in (({"on_gap": "clip"}, ValueError), ({"max_gap": "0s"}, ValueError)):
+            with pytest.raises(error):
+                recording.table(**options)
+    (row,) = np.flatnonzero(np.isnan(marked["x"]))
+    assert len(marked["x"]) == samples + 1
+    assert [marked[name][row] for name in ("stamp_ns", "parent", "child", "gap_ns")] == [
+        at(200)[0],
+        "odom",
+        "base",
+        2 * SECOND,
+    ]
+    assert np.isnan(marked["qw"][row])
+    assert sorted(set(marked["gap_ns"])) == [0, PERIOD, 2 * SECOND]
+    assert marked["x"][row + 1] == pytest.approx(3.0)

@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from coframe.bags._trajectory_query import TrajectoryQuery
     from coframe.bags._writer import Writer
     from coframe.bags.batch import QueryResult, query_recording, query_recordings
+    from coframe.bags.copying import CopyReport, copy_recordings
     from coframe.bags.recording import RecordedMessage, RecordedTopic, Recording, open_bag
     from coframe.bags.summary import EdgeSummary, SensorSummary, Summary, TreeSummary, summarize
     from coframe.bags.time_points import parse_time_point
@@ -26,6 +27,7 @@ __all__ = [
     "FORMATS",
     "Cloud",
     "Clouds",
+    "CopyReport",
     "EdgeSummary",
     "OfferedQos",
     "QueryResult",
@@ -40,6 +42,7 @@ __all__ = [
     "TrajectoryQuery",
     "TreeSummary",
     "Writer",
+    "copy_recordings",
     "format_of",
     "from_yaml",
     "open_bag",
@@ -58,6 +61,7 @@ _MODULES = {
     "COMPRESSIONS": "coframe.bags._mcap_writer",
     "Cloud": "coframe.bags._clouds",
     "Clouds": "coframe.bags._clouds",
+    "CopyReport": "coframe.bags.copying",
     "EdgeSummary": "coframe.bags.summary",
     "FORMATS": "coframe.trajectories",
     "OfferedQos": "coframe.bags._offered_qos",
@@ -73,6 +77,7 @@ _MODULES = {
     "TrajectoryQuery": "coframe.bags._trajectory_query",
     "TreeSummary": "coframe.bags.summary",
     "Writer": "coframe.bags._writer",
+    "copy_recordings": "coframe.bags.copying",
     "format_of": "coframe.trajectories",
     "from_yaml": "coframe.bags._offered_qos",
     "open_bag": "coframe.bags.recording",

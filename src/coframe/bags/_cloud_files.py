@@ -156,14 +156,16 @@ def _write_one(path: Path, kind: str, clouds: Iterable[Cloud], source: _CloudSou
 class _Writer(Protocol):
     def add(self, cloud: Cloud) -> None: ...
     def finish(self) -> None: ...
+    def close(self) -> None: ...
 
 
 def _fill(writer: _Writer, clouds: Iterable[Cloud]) -> int:
     written = 0
-    for cloud in clouds:
-        writer.add(cloud)
-        written += len(cloud.points)
-    writer.finish()
+    with closing(writer):
+        for cloud in clouds:
+            writer.add(cloud)
+            written += len(cloud.points)
+        writer.finish()
     return written
 
 
@@ -195,6 +197,9 @@ class _Rows:
         if self.dtype is not None:
             self._stream.seek(0)
             self._stream.write(self.header(self.dtype, self.count))
+
+    def close(self) -> None:
+        """Release what the writer opened: nothing."""
 
     def rows(self, points: NDArray[Any]) -> NDArray[Any]:
         """Return the points as the dtypes of the format."""
@@ -271,7 +276,7 @@ class _Npz:
 
     def __init__(self, stream: BinaryIO, _xyz: str = "<f8") -> None:
         self._stream = stream
-        self._rows = tempfile.TemporaryFile()  # noqa: SIM115 - closed by finish()
+        self._rows = tempfile.TemporaryFile()  # noqa: SIM115 - closed by close()
         self._npy = _Npy(self._rows)
 
     def add(self, cloud: Cloud) -> None:
@@ -281,15 +286,18 @@ class _Npz:
     def finish(self) -> None:
         """Write the arrays."""
         self._npy.finish()
-        with self._rows as rows:
-            dtype, count = self._npy.dtype, self._npy.count
-            if dtype is None:
-                return
-            points: Any = np.empty(0, dtype)
-            if count:
-                points = np.memmap(rows, dtype, "r", len(self._npy.header(dtype, count)), (count,))
-            np.savez(self._stream, **{name: points[name] for name in dtype.names or ()})
-            del points  # Closes the memory map.
+        dtype, count = self._npy.dtype, self._npy.count
+        if dtype is None:
+            return
+        points: Any = np.empty(0, dtype)
+        if count:
+            points = np.memmap(self._rows, dtype, "r", len(self._npy.header(dtype, count)), (count,))
+        np.savez(self._stream, **{name: points[name] for name in dtype.names or ()})
+        del points  # Closes the memory map.
+
+    def close(self) -> None:
+        """Delete the temporary file."""
+        self._rows.close()
 
 
 class _BagTopic:
@@ -314,6 +322,9 @@ class _BagTopic:
 
     def finish(self) -> None:
         """Do nothing; all messages have been written."""
+
+    def close(self) -> None:
+        """Do nothing; the caller closes the recording."""
 
 
 # PointField constants by NumPy type name.

@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 import numpy as np
 
 from coframe import time
+from coframe._output.formatting import count, duration
 from coframe.analysis.liveness import usual_period
 from coframe.buffer.gaps import gap_limit, in_long_gap
-from coframe.errors import DecodeError, RecordingError, TransformException
+from coframe.errors import DecodeError, ExtrapolationException, RecordingError, TransformException
 from coframe.sensors import deskew, project_scan, transform_cloud
 from coframe.sensors.layout import field_of
 from coframe.sensors.motion import still_frame
@@ -33,6 +34,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from coframe.bags.recording import RecordedMessage, Recording
+    from coframe.buffer.gaps import OnGap
     from coframe.time import DurationLike, StampLike
 
 __all__ = ["Cloud", "Clouds"]
@@ -48,8 +50,8 @@ class Cloud(NamedTuple):
     Attributes:
         stamp: Stamp of the message in nanoseconds.
         frame: The frame in which the points are expressed.
-        points: A structured array, (N,): ``x``, ``y``, ``z`` in metres as float64, all finite, and the other fields of
-            the message with their types.
+        points: A structured array, (N,): ``x``, ``y``, ``z`` in metres as float64, all finite unless ``on_gap`` is
+            ``"nan"``, and the other fields of the message with their types.
         deskewed: Whether each point was transformed at its own time.
         used_times: Name of the field with these times, also if all points of the message have the same time; None if
             there is none, or if the points were not deskewed although their times differ.
@@ -90,8 +92,12 @@ class Clouds:
         fixed: A frame that does not move during a sweep. If omitted, it is ``frame``, or, if ``frame`` moves with the
             sensor, the nearest frame above that does not; see ``fixed_frames``.
         fields: The fields to keep in addition to x, y, z; None for all fields with one number per point.
-        max_gap: The longest interval between two transforms of an edge to interpolate over, such as ``"200ms"``: points
-            in longer gaps are skipped. None interpolates over any; see ``gaps``.
+        max_gap: The longest interval between two transforms of an edge to interpolate over, such as ``"200ms"``. None
+            interpolates over any; see ``gaps``.
+        on_gap: What to do with points in longer gaps: ``"omit"`` them, set their coordinates to ``"nan"``, or
+            ``"raise"`` an ExtrapolationException.
+        validity: Whether the points get the field ``gap_ns``: the longest interval between two transforms of an edge
+            that their pose was interpolated over, in nanoseconds (int64).
 
     Attributes:
         total: Number of messages to read.
@@ -110,7 +116,7 @@ class Clouds:
 
     Raises:
         RecordingError: The topic does not exist or has another type.
-        ValueError: ``deskew``, ``point_times`` or ``fields`` has an invalid value.
+        ValueError: ``deskew``, ``point_times``, ``fields`` or a value about gaps is invalid.
     """
 
     def __init__(
@@ -127,6 +133,8 @@ class Clouds:
         fixed: str | None = None,
         fields: Sequence[str] | None = None,
         max_gap: DurationLike | None = None,
+        on_gap: OnGap = "omit",
+        validity: bool = False,
     ) -> None:
         if deskew not in {"auto", "off"}:
             raise ValueError(f'deskew must be "auto" or "off", not {deskew!r}')
@@ -152,7 +160,9 @@ class Clouds:
         if self._type == LASER_SCAN and (unknown := set(self._fields or ()) - _SCAN_FIELDS):
             known = ", ".join(sorted(_SCAN_FIELDS))
             raise ValueError(f"Scans have no field named {', '.join(sorted(unknown))}. Known fields: {known}.")
-        self._max_gap = gap_limit(max_gap, "omit")
+        self._max_gap = gap_limit(max_gap, on_gap)
+        self._on_gap = on_gap
+        self._has_validity = validity
         self._reset()
 
     def _reset(self) -> None:
@@ -228,7 +238,7 @@ class Clouds:
             self._count(self.points_skipped, "have no finite coordinates", np.count_nonzero(~finite))
             points, times = points[finite], times[finite] if times is not None else None
             deskewed = self._move(points, times, frame, recorded.stamp)
-            outside = self._outside_gaps(times, frame, recorded.stamp)
+            gaps = self._gaps_of(times, frame, recorded.stamp)
         except TransformException as error:
             self.hint = self.hint or error.hint
             self._count(self.skipped, self._reason(error))
@@ -237,11 +247,10 @@ class Clouds:
         else:
             transformed = np.isfinite(points["x"])
             self._count(self.points_skipped, "have no transform at their own time", np.count_nonzero(~transformed))
-            if outside is not None:
-                self._count(
-                    self.points_skipped, "lie in a longer gap than permitted", np.count_nonzero(transformed & ~outside)
-                )
-                transformed &= outside
+            if self._max_gap is not None:
+                transformed = self._without_gaps(points, transformed, gaps, frame, recorded.stamp)
+            if self._has_validity:
+                points = _structured({**{name: points[name] for name in points.dtype.names or ()}, "gap_ns": gaps})
             if deskewed:
                 self._note_times(measured.read)
             read = measured.read if deskewed else None
@@ -267,22 +276,49 @@ class Clouds:
         self._count(self.fixed_frames, fixed)
         return True
 
-    def _outside_gaps(self, times: NDArray[np.int64] | None, frame: str, stamp: int) -> NDArray[np.bool_] | None:
-        """Return which points do not lie in a longer gap than permitted, or one value for all; None if any gap is."""
+    def _gaps_of(self, times: NDArray[np.int64] | None, frame: str, stamp: int) -> NDArray[np.int64]:
+        """Return over which gap the pose of each point is interpolated in nanoseconds, or one value for all."""
         buffer, fixed = self._recording.buffer, self._fixed_for(frame) or self.frame
         known = np.array([stamp]) if times is None else np.where(times == NO_TIME, stamp, times)
         legs = [(fixed, frame, known), (self.frame, fixed, np.array([stamp]))]
         legs = [leg for leg in legs if leg[0] != leg[1]]
+        gaps = np.zeros(1, dtype=np.int64)
+        if self._max_gap is not None or self._has_validity:
+            for target, source, stamps in legs:
+                gaps = np.maximum(gaps, buffer.validity(target, source, stamps).gaps)
         if self._max_gap is None:
             for target, source, stamps in legs:
                 if child := in_long_gap(buffer, target, source, stamps):
                     self._count(self.gaps, child)
                     break
-            return None
-        outside: NDArray[np.bool_] = np.ones(1, dtype=bool)
-        for target, source, stamps in legs:
-            outside = outside & (buffer.validity(target, source, stamps).gaps <= self._max_gap)
-        return outside
+        return gaps
+
+    def _without_gaps(
+        self,
+        points: NDArray[Any],
+        transformed: NDArray[np.bool_],
+        gaps: NDArray[np.int64],
+        frame: str,
+        stamp: int,
+    ) -> NDArray[np.bool_]:
+        """Return which points are kept; raise or set those in longer gaps to NaN on request."""
+        limit = self._max_gap or 0
+        inside = transformed & (gaps > limit)
+        if inside.any() and self._on_gap == "raise":
+            raise ExtrapolationException.with_details(
+                f"{count(int(inside.sum()), 'point')} of the message at {stamp} ns lie in a gap of "
+                f"{duration(int(gaps.max()))} between two transforms, which is longer than max_gap, {duration(limit)}",
+                target=self.frame,
+                source=frame,
+                requested=stamp,
+                hint="coframe doctor lists the gaps.",
+            )
+        self._count(self.points_skipped, "lie in a longer gap than permitted", np.count_nonzero(inside))
+        if self._on_gap == "omit":
+            return transformed & ~inside
+        for name in "xyz":
+            points[name][inside] = np.nan
+        return transformed
 
     def _fixed_for(self, frame: str) -> str | None:
         """Return the frame that does not move during a sweep of this sensor; None if nothing moves."""

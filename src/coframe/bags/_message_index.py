@@ -164,7 +164,8 @@ class MessageIndex:
         self._check_open()
         rows = self._rows_of(topic)
         with suppress(DamagedError, OSError):
-            return rows.tracks[rows.of_track[row]].storage.head(int(rows.positions[row]), size)
+            data: bytes = rows.tracks[rows.of_track[row]].storage.head(int(rows.positions[row]), size)
+            return data
         return b""
 
     def stamps(self, topic: str) -> NDArray[np.int64]:

@@ -46,6 +46,7 @@ class TrajectoryQuery:
         max_gap: The longest interval between two transforms that a pose may be interpolated over: nanoseconds, or a
             string such as ``"200ms"``; None interpolates over any.
         on_gap: What to do with a pose in a longer gap: ``"omit"`` it, fill it with ``"nan"``, or ``"raise"``.
+        validity: Whether the files of :func:`coframe.bags.query_recordings` get the columns of :meth:`validity_of`.
 
     Raises:
         ValueError: Both ``rate`` and ``stamps_of`` are given, or the rate or ``max_gap`` is out of range.
@@ -60,6 +61,7 @@ class TrajectoryQuery:
     transforms: TransformChoice = ALL_TRANSFORMS
     max_gap: int | str | None = None
     on_gap: OnGap = "omit"
+    validity: bool = False
 
     def __post_init__(self) -> None:
         if self.rate is not None and self.stamps_of is not None:
@@ -119,6 +121,21 @@ class TrajectoryQuery:
         if self.max_gap is not None:
             return ""
         return long_gap_text(recording.buffer, self.target, self.source, stamps)
+
+    def validity_of(self, recording: Recording, poses: Transform) -> dict[str, NDArray[np.int64]]:
+        """Return how far poses are from the samples that they were computed from; see :meth:`coframe.Buffer.validity`.
+
+        Args:
+            recording: The recording.
+            poses: Poses with stamps, as returned by :meth:`run`.
+
+        Returns:
+            ``gap_ns``, the interval that each pose was interpolated over, and ``outside_ns``, how far its time is
+            outside of the samples: (N,) nanoseconds each.
+        """
+        stamps = np.zeros(1, np.int64) if poses.stamps is None else np.atleast_1d(poses.stamps)
+        found = recording.buffer.validity(self.target, self.source, stamps)
+        return {"gap_ns": found.gaps, "outside_ns": found.outside}
 
     def _look_up(self, recording: Recording, stamps: NDArray[np.int64]) -> tuple[Transform, int]:
         may_miss = self.rate is not None or self.stamps_of is not None

@@ -124,7 +124,7 @@ class Writer:
         self._dump = _yaml_dump()
         compressor(compression)  # Raises before the folder is created.
         self._contents = _Contents()
-        self._numbers: dict[tuple[str, str], int] = {}
+        self._numbers: dict[tuple[str, str, str, str | None], int] = {}
         self._is_split = max_size is not None or self._max_duration is not None
         self._latched_space = LatchedSpace()
         self._closed = 0  # bytes of finished files
@@ -154,7 +154,7 @@ class Writer:
         definition: str | None = None,
         definition_format: str = "ros2msg",
     ) -> int:
-        """Add a topic; return its number, which is the same for the same name and type.
+        """Add a topic; return its number, which is the same for the same name, type, encoding and definition.
 
         Args:
             name: The name with a leading slash, such as "/tf".
@@ -167,7 +167,7 @@ class Writer:
         Raises:
             RecordingError: There are more topics than an MCAP file can have.
         """
-        key = (name, ros_type)
+        key = (name, ros_type, encoding, definition)
         if key not in self._numbers:
             if len(self._numbers) >= _MAX_TOPICS:
                 raise RecordingError(

@@ -29,6 +29,8 @@ from coframe.trajectories.formats import POSE_COLUMNS
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
 
+    from numpy.typing import NDArray
+
     from coframe.bags._trajectory_query import TrajectoryQuery
     from coframe.transform.transform import Transform
 
@@ -72,7 +74,7 @@ def query_recording(bag: str, query: TrajectoryQuery, folder: str) -> QueryResul
         folder: Folder of the dataset, which must exist.
 
     Returns:
-        The result. The file has the columns ``bag``, ``stamp_ns``, ``x`` ... ``qw``.
+        The result. The file has the columns ``bag``, ``stamp_ns``, ``x`` ... ``qw``, and those of the query's validity.
     """
     try:
         return _query(bag, query, Path(folder))
@@ -139,8 +141,9 @@ def _query(bag: str, query: TrajectoryQuery, folder: Path) -> QueryResult:
         stamps = np.zeros(0, np.int64) if found.stamps is None else np.atleast_1d(found.stamps)
         gaps = query.gap_text(recording, stamps)
         problems = (*recording.problems, gaps) if gaps else tuple(recording.problems)
+        others = query.validity_of(recording, found) if query.validity else {}
     result = QueryResult(bag, len(found) if found.shape else 1, missing, problems)
-    _write(part, found, result, fingerprint)
+    _write(part, found, others, result, fingerprint)
     return result
 
 
@@ -168,13 +171,15 @@ def _existing(part: Path, bag: str, fingerprint: bytes) -> QueryResult | None:
     return QueryResult(bag, int(metadata.num_rows), missing, tuple(problems), kept=True)
 
 
-def _write(part: Path, poses: Transform, result: QueryResult, fingerprint: bytes) -> None:
+def _write(
+    part: Path, poses: Transform, others: dict[str, NDArray[np.int64]], result: QueryResult, fingerprint: bytes
+) -> None:
     arrow: Any = importlib.import_module("pyarrow")
     parquet: Any = importlib.import_module("pyarrow.parquet")
     values = np.concatenate([np.atleast_2d(poses.translation), np.atleast_2d(poses.quaternion)], axis=1)
     stamps = np.zeros(1, dtype=np.int64) if poses.stamps is None else poses.stamps
     columns = {"bag": arrow.array([result.bag] * len(values)).dictionary_encode(), "stamp_ns": stamps}
-    columns |= dict(zip(POSE_COLUMNS, values.T.copy(), strict=True))
+    columns |= dict(zip(POSE_COLUMNS, values.T.copy(), strict=True)) | others
     temporary = part.with_name(f"_{part.name}.{os.getpid()}")  # dataset readers ignore names with this prefix
     try:
         metadata = {_METADATA_KEY: fingerprint, _REPORT_KEY: json.dumps([result.missing, result.problems])}

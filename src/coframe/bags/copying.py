@@ -11,10 +11,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 from coframe._output.formatting import count
+from coframe.bags._merging import MergedNames
 from coframe.bags._offered_qos import from_yaml
 from coframe.bags._recorded_types import RecordedTypes
 from coframe.bags._writer import Writer
 from coframe.bags.cdr_conversion import cdr_conversion, copied_definition
+from coframe.bags.message_frames import FrameNames
 from coframe.bags.recording import open_bag
 from coframe.bags.transforms import is_static
 from coframe.errors import RecordingError
@@ -29,7 +31,7 @@ if TYPE_CHECKING:
 __all__ = ["CopyReport", "copy_recordings"]
 
 _PROGRESS_STEP = 1000  # messages between two calls of the progress function
-_Message = tuple["Channel", int, bytes]
+_Message = tuple[int, "Channel", int, bytes]  # with the number of the recording
 
 
 class CopyReport(NamedTuple):
@@ -39,11 +41,13 @@ class CopyReport(NamedTuple):
         path: The new recording.
         messages: Number of messages in it.
         problems: What could not be read or converted, one message each.
+        notes: Topics of several recordings that were joined or kept apart, one message each.
     """
 
     path: Path
     messages: int
     problems: list[str]
+    notes: list[str]
 
 
 def copy_recordings(
@@ -52,6 +56,8 @@ def copy_recordings(
     *,
     topics: Iterable[str] | None = None,
     span: Callable[[Recording], tuple[int | None, int | None]] = lambda _recording: (None, None),
+    prefixes: Sequence[str] | None = None,
+    keep: Iterable[str] = (),
     compression: str = "zstd",
     progress: Callable[[str, int, int], object] = lambda _what, _done, _total: None,
 ) -> CopyReport:
@@ -60,16 +66,24 @@ def copy_recordings(
     Messages are read and written one by one; ROS 1 messages are converted to ROS 2. Static transforms received before
     the start of the span are copied as well, at its start.
 
+    Topics with the same name are joined. If the frames of each recording have a prefix of their own, such as
+    ``robot1/``, the topics are kept apart as ``/robot1/scan`` and so on, except those that all robots share, such as
+    ``/tf``, ``/clock`` and ``/rosout``. The notes of the report say which.
+
     Args:
         sources: Files, or folders of rosbag2.
         target: The new folder, which must not exist.
         topics: Names of the topics to copy; None for all. Each must exist in at least one recording.
         span: Returns the first receive time and the end (excluded) of the messages of a recording, in nanoseconds.
+        prefixes: A prefix for the frames and topics of each recording: ``["robot1/", "robot2/"]`` gives
+            ``robot1/base_link`` and ``/robot1/scan``.
+        keep: Frames without the prefix because they are shared: ``["map"]``.
         compression: ``zstd``, ``lz4`` or ``none``.
         progress: Called regularly with the step (``reading`` or ``writing``) and the completed and total amount.
 
     Raises:
         RecordingError: Nothing can be read, a topic does not exist, or the copy cannot be written.
+        ValueError: There is not one prefix for each recording, or one begins with a slash.
     """
     chosen = None if topics is None else list(topics)
     with ExitStack() as stack:
@@ -78,9 +92,10 @@ def copy_recordings(
             for source in sources
         ]
         selections = [_selected(recording, recordings, chosen) for recording in recordings]
+        merged = MergedNames(recordings, prefixes, keep)
         streams = [
-            _messages(recording, names, *span(recording))
-            for recording, names in zip(recordings, selections, strict=True)
+            _messages(number, recording, names, *span(recording))
+            for number, (recording, names) in enumerate(zip(recordings, selections, strict=True))
         ]
         total = sum(
             recording.topics[name].messages
@@ -94,13 +109,19 @@ def copy_recordings(
         writer = Writer(target, compression=compression)
         try:
             with writer:
-                _write(writer, heapq.merge(*streams, key=lambda message: message[1]), skipped, total, progress)
+                copy = _Copy(writer, merged, skipped)
+                for done, message in enumerate(heapq.merge(*streams, key=lambda message: message[2])):
+                    if done % _PROGRESS_STEP == 0:
+                        progress("writing", done, total)
+                    copy.add(*message)
+                progress("writing", total, total)
         except KeyboardInterrupt:  # An incomplete recording would look like a complete one.
             shutil.rmtree(writer.path, ignore_errors=True)
             raise
         problems = [problem for recording in recordings for problem in recording.problems]
         problems += [f"{topic}: {count(number, 'message')} could not be converted" for topic, number in skipped.items()]
-        return CopyReport(Path(target), writer.messages, list(dict.fromkeys(problems)))
+        problems += copy.problems
+        return CopyReport(Path(target), writer.messages, list(dict.fromkeys(problems)), merged.notes(selections))
 
 
 def _selected(recording: Recording, recordings: list[Recording], topics: list[str] | None) -> list[str]:
@@ -113,55 +134,79 @@ def _selected(recording: Recording, recordings: list[Recording], topics: list[st
     return [name for topic in topics for name in (topic, f"/{topic}") if name in recording.topics]
 
 
-def _messages(recording: Recording, topics: list[str], start: int | None, stop: int | None) -> Iterator[_Message]:
+def _messages(
+    number: int, recording: Recording, topics: list[str], start: int | None, stop: int | None
+) -> Iterator[_Message]:
     if start is not None:
         for channel, _, data in recording.in_order(filter(is_static, topics), None, start):
-            yield channel, start, data
-    yield from recording.in_order(topics, start, stop)
+            yield number, channel, start, data
+    for channel, received, data in recording.in_order(topics, start, stop):
+        yield number, channel, received, data
 
 
-def _write(
-    writer: Writer,
-    messages: Iterator[_Message],
-    skipped: Counter[str],
-    total: int,
-    progress: Callable[[str, int, int], object],
-) -> None:
-    routes: dict[Channel, tuple[int, Callable[[bytes], bytes]] | None] = {}
-    types = RecordedTypes()
-    for number, (channel, received, data) in enumerate(messages):
-        if number % _PROGRESS_STEP == 0:
-            progress("writing", number, total)
-        if channel not in routes:
-            routes[channel] = _route(writer, channel, types)
-        route = routes[channel]
+class _Route(NamedTuple):
+    """The number of a topic in the copy, and the conversion of its messages."""
+
+    topic: int
+    convert: Callable[[bytes], bytes]
+
+
+class _Copy:
+    """Converts and writes messages.
+
+    Args:
+        writer: The new recording.
+        merged: The new names.
+        skipped: Receives the number of messages that could not be converted, by topic.
+    """
+
+    def __init__(self, writer: Writer, merged: MergedNames, skipped: Counter[str]) -> None:
+        self._writer = writer
+        self._merged = merged
+        self._skipped = skipped
+        self._routes: dict[Channel, _Route | None] = {}
+        self._types = RecordedTypes()
+        self.problems: list[str] = []
+
+    def add(self, recording: int, channel: Channel, received: int, data: bytes) -> None:
+        """Write a message, or count it if that is not possible."""
+        if channel not in self._routes:
+            self._routes[channel] = self._route(recording, channel)
+        route = self._routes[channel]
         try:
-            converted = None if route is None else route[1](data)
+            converted = None if route is None else route.convert(data)
         except Exception:  # noqa: BLE001 - the libraries raise errors of many kinds for damaged bytes
             converted = None
         if route is None or converted is None or received < 0:
-            skipped[channel.topic] += 1
+            self._skipped[channel.topic] += 1
         else:
-            writer.write(route[0], converted, received)
-    progress("writing", total, total)
+            self._writer.write(route.topic, converted, received)
 
-
-def _route(writer: Writer, channel: Channel, types: RecordedTypes) -> tuple[int, Callable[[bytes], bytes]] | None:
-    """Return the topic number of a channel in the copy and the conversion of its messages; None if impossible."""
-    offered = from_yaml(channel.offered_qos)
-    if channel.encoding != "ros1":
-        definition, definition_format = copied_definition(channel, types)
-        topic = writer.add_topic(
-            channel.topic,
-            channel.type,
-            offered_qos=offered,
-            encoding=channel.encoding,
+    def _route(self, recording: int, channel: Channel) -> _Route | None:
+        """Return the route of a channel; None if its messages cannot be converted."""
+        converted = cdr_conversion(channel, self._types)
+        if channel.encoding == "ros1":
+            if converted is None:
+                return None
+            type_, definition, format_, encoding = converted.type, converted.definition, "ros2msg", "cdr"
+        else:
+            definition, format_ = copied_definition(channel, self._types)
+            type_, encoding = channel.type, channel.encoding
+        topic = self._writer.add_topic(
+            self._merged.topic(recording, channel.topic),
+            type_,
+            offered_qos=from_yaml(channel.offered_qos),
+            encoding=encoding,
             definition=definition,
-            definition_format=definition_format,
+            definition_format=format_,
         )
-        return topic, bytes
-    converted = cdr_conversion(channel, types)
-    if converted is None:
-        return None
-    topic = writer.add_topic(channel.topic, converted.type, offered_qos=offered, definition=converted.definition)
-    return topic, converted.convert
+        convert = bytes if converted is None else converted.convert
+        rename = self._merged.frames(recording)
+        if rename is None:
+            return _Route(topic, convert)
+        names = None if converted is None else FrameNames.of(channel, type_, self._types)
+        if names is None:
+            self.problems.append(f"{channel.topic}: frame names in {type_} were not given the prefix")
+        if names is None or not names.exist:
+            return _Route(topic, convert)
+        return _Route(topic, lambda data: names.rename(convert(data), rename)[0])

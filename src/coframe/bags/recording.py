@@ -30,8 +30,9 @@ if TYPE_CHECKING:
 
     from coframe.bags._contents import Contents
     from coframe.bags.storage import Channel
+    from coframe.buffer.gaps import OnGap
     from coframe.messages.slices import Slices
-    from coframe.time import StampLike
+    from coframe.time import DurationLike, StampLike
     from coframe.viewer import Viewer
 
 __all__ = ["RecordedMessage", "RecordedTopic", "Recording", "open_bag"]
@@ -326,11 +327,24 @@ class Recording:
         except (DecodeError, AttributeError):
             return ""
 
-    def table(self, format_: str = "arrow") -> Any:
+    def table(
+        self,
+        format_: str = "arrow",
+        *,
+        max_gap: DurationLike | None = None,
+        on_gap: OnGap = "raise",
+        validity: bool = False,
+    ) -> Any:
         """Return all transforms as one table, with one row per sample, one edge after the other.
 
         Args:
             format_: ``"arrow"`` for a ``pyarrow.Table``, ``"pandas"`` for a ``DataFrame``.
+            max_gap: The longest permitted interval between two samples of an edge, such as ``"200ms"``. None permits
+                any; a :class:`coframe.CoframeWarning` then reports those of more than ten periods and 500 ms.
+            on_gap: What to do about a longer one: ``"raise"`` an ExtrapolationException, mark it by a row of ``"nan"``
+                in its middle, so that plots and interpolations do not bridge it, or ``"omit"`` such rows.
+            validity: Whether to add the column ``gap_ns``: the time since the previous sample of the edge, 0 for the
+                first one and for static edges.
 
         Returns:
             The columns ``stamp_ns`` (int64; 0 if static), ``parent``, ``child``, ``x``, ``y``, ``z`` (metres, expressed
@@ -339,8 +353,10 @@ class Recording:
 
         Raises:
             RecordingError: The package is not installed.
+            ExtrapolationException: There is a longer gap.
+            ValueError: ``format_`` or ``on_gap`` is unknown, or ``max_gap`` is not positive.
         """
-        return edge_table(self.buffers.values(), format_)
+        return edge_table(self.buffers.values(), format_, max_gap=max_gap, on_gap=on_gap, validity=validity)
 
     def _read_all(self, name: str, rows: NDArray[np.intp]) -> Iterator[RecordedMessage]:
         for row in rows.tolist():

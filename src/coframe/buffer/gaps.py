@@ -29,6 +29,7 @@ __all__ = [
     "check_gap",
     "gap_error",
     "gap_limit",
+    "gaps_between",
     "in_long_gap",
     "long_gap_text",
     "note_gaps",
@@ -168,11 +169,16 @@ def _long_gaps(buffer: _core.Buffer, target: str, source: str) -> list[_Gap]:
         return cached[1]
     gaps = []
     for child, samples in _moving_edges(buffer, target, source):
-        if len(samples) > _MIN_INTERVALS:
-            starts = np.flatnonzero(np.diff(samples) > usual_gap(usual_period(samples)))
-            gaps += [_Gap(int(samples[i]), int(samples[i + 1]), child) for i in starts]
+        gaps += [_Gap(int(samples[i]), int(samples[i + 1]), child) for i in gaps_between(samples, None)]
     known[target, source] = changes, gaps
     return gaps
+
+
+def gaps_between(samples: NDArray[np.int64], limit: int | None) -> NDArray[np.intp]:
+    """Return after which samples of an edge there is a longer gap than the limit; None: an unusually long one."""
+    if limit is None and len(samples) <= _MIN_INTERVALS:
+        return np.empty(0, dtype=np.intp)
+    return np.flatnonzero(np.diff(samples) > (usual_gap(usual_period(samples)) if limit is None else limit))
 
 
 def _moving_edges(buffer: _core.Buffer, target: str, source: str) -> list[tuple[str, NDArray[np.int64]]]:

@@ -23,6 +23,8 @@ from coframe.cli.lifecycle import run_to_completion
 from coframe.cli.options import (
     TIMES,
     bag_argument,
+    checked_prefix,
+    keep_option,
     listener_options,
     namespace_option,
     recorded_listener_options,
@@ -191,17 +193,35 @@ def convert(
 @click.option(
     "--output", "-o", metavar="FOLDER", type=PATH, required=True, help="Folder to create for the new recording."
 )
+@click.option(
+    "--prefix",
+    "prefixes",
+    metavar="PREFIX",
+    multiple=True,
+    type=checked_prefix,
+    help="Prefix of the frames and topics of one recording; give one for each, in the same order. "
+    "'robot1/' gives robot1/base_link and /robot1/scan.",
+)
+@keep_option
 @compression_option
 def merge(
     bags: tuple[Path, ...],
     output: Path,
+    prefixes: tuple[str, ...],
+    keep: str,
     compression: str,
 ) -> None:
     """Merge several recordings into one, with the messages in receive order.
 
-    Example: coframe bag merge robot.mcap camera.mcap -o both
+    Topics with the same name are joined. If the frames of each recording have a prefix of their own, the topics are
+    kept apart as /robot1/scan and /robot2/scan; --prefix adds such prefixes. Shared topics such as /tf, /clock and
+    /rosout keep their names.
+
+    Example: coframe bag merge first.mcap second.mcap --prefix robot1/ --prefix robot2/ --keep map -o both
     """
-    _copy(bags, output, compression)
+    if prefixes and len(prefixes) != len(bags):
+        fail(f"--prefix: give one for each of the {len(bags)} recordings, in the same order", code=2)
+    _copy(bags, output, compression, prefixes=prefixes or None, keep=keep)
 
 
 @bag.command("slice", short_help="Copy a time span or selected topics of a recording.")
@@ -247,8 +267,8 @@ def _copy(sources: Sequence[Path], output: Path, compression: str, **selection: 
     with run_to_completion():
         with task_progress() as progress:
             report = copy_recordings(sources, output, compression=compression, progress=progress, **selection)
-        for problem in grouped_by_topic(report.problems):
-            warn(problem)
+        for sentence in grouped_by_topic([*report.problems, *report.notes]):
+            warn(sentence)
         print(printable(f"{report.path}: {count(report.messages, 'message')}"))
 
 

@@ -21,6 +21,7 @@ from coframe.cli.options import (
     namespace_option,
     on_gap_option,
     recorded_listener_options,
+    validity_option,
 )
 from coframe.cli.output import fail, printable, warn
 from coframe.cli.progress import item_progress
@@ -63,6 +64,7 @@ __all__ = ["batch"]
 )
 @max_gap_option
 @on_gap_option
+@validity_option
 @namespace_option
 @recorded_listener_options
 def batch(
@@ -78,6 +80,7 @@ def batch(
     workers: int | None,
     max_gap: PositiveDuration | None,
     on_gap: str,
+    validity: bool,
     namespace: str | None,
     tf_topic: str | None,
     tf_static_topic: str | None,
@@ -102,6 +105,7 @@ def batch(
             choice,
             max_gap=None if max_gap is None else int(max_gap),
             on_gap=cast("OnGap", on_gap),
+            validity=validity,
         )
     except ValueError as error:
         fail(str(error), code=2)

@@ -18,7 +18,9 @@ from coframe.cli.options import (
     bag_argument,
     max_gap_option,
     namespace_option,
+    on_gap_option,
     recorded_listener_options,
+    validity_option,
 )
 from coframe.cli.output import fail, fail_to_write, printable, warn
 from coframe.cli.progress import item_progress
@@ -28,6 +30,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from coframe.bags import Recording
+    from coframe.buffer.gaps import OnGap
 
 __all__ = ["cloud"]
 
@@ -72,6 +75,8 @@ __all__ = ["cloud"]
 @click.option("--voxel", metavar="METRES", type=float, help="Keep one point per cube with this edge length, in metres.")
 @click.option("--float64", is_flag=True, help="Write coordinates as float64 also to PCD and MCAP. [default: float32]")
 @max_gap_option
+@on_gap_option
+@validity_option
 @namespace_option
 @recorded_listener_options
 def cloud(
@@ -90,6 +95,8 @@ def cloud(
     voxel: float | None,
     float64: bool,
     max_gap: PositiveDuration | None,
+    on_gap: str,
+    validity: bool,
     namespace: str | None,
     tf_topic: str | None,
     tf_static_topic: str | None,
@@ -120,6 +127,8 @@ def cloud(
                 fixed=fixed,
                 fields=None if fields is None else [name for name in fields.split(",") if name],
                 max_gap=max_gap,
+                on_gap=cast("OnGap", on_gap),
+                validity=validity,
             )
         except ValueError as error:
             if hasattr(error, "hint"):

@@ -203,8 +203,8 @@ def _print_answer(buffer: Buffer, source: str, target: str, stamp: int, write: C
     return 1
 
 
-def as_json_line(transform: Transform) -> str:
-    """Return a transform as one line of JSON in full precision."""
+def as_json_line(transform: Transform, **more: int) -> str:
+    """Return a transform as one line of JSON in full precision, with more values at the end."""
     return json.dumps(
         {
             "target": transform.target,
@@ -212,6 +212,7 @@ def as_json_line(transform: Transform) -> str:
             "stamp_ns": transform.stamp,
             "translation": transform.translation.tolist(),
             "quaternion": transform.quaternion.tolist(),
+            **more,
         }
     )
 

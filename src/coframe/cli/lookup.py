@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING
 import click
 import numpy as np
 
-from coframe._output.formatting import seconds
+from coframe._output.escaping import shown
+from coframe._output.formatting import duration, seconds
 from coframe.bags import parse_time_point
 from coframe.bags.namespaces import TransformChoice
 from coframe.buffer.gaps import long_gap_text
@@ -38,6 +39,7 @@ if TYPE_CHECKING:
 
     from coframe.bags import Recording
     from coframe.buffer.buffer import Buffer
+    from coframe.buffer.gaps import Validity
     from coframe.transform.transform import Transform
 
 __all__ = ["lookup"]
@@ -72,6 +74,7 @@ _RETRY_PERIOD = 0.05  # seconds
     help="Live graph: time to wait for the transform.",
 )
 @max_gap_option
+@click.option("--validity", is_flag=True, help="Also print over which gap between two transforms it is interpolated.")
 @namespace_option
 @domain_option
 @recorded_listener_options
@@ -91,6 +94,7 @@ def lookup(
     source_time: str | None,
     duration: PositiveDuration,
     max_gap: PositiveDuration | None,
+    validity: bool,
     namespace: str | None,
     domain: int | None,
     tf_topic: str | None,
@@ -104,15 +108,20 @@ def lookup(
 
     Example: coframe lookup run.mcap map base_link --at 10s
     """
-    _check_time_travel(fixed, source_time, max_gap)
+    _check_time_travel(fixed, source_time, max_gap, validity)
     if len(names) not in {2, 3}:
         fail("Give the frames TARGET and SOURCE, or a recording and the two frames.", code=2)
     *bags, target, source = names
 
+    gap: Validity | None = None
+
     def transform(buffer: Buffer, parse: Callable[[str, str], int]) -> Transform:
+        nonlocal gap
         when = 0 if at is None else parse("--at", at)
         if fixed is None or source_time is None:
-            return _looked_up(buffer, target, source, when, max_gap)
+            found = _looked_up(buffer, target, source, when, max_gap)
+            gap = buffer.validity(target, source, [found.stamp or 0]) if validity else None
+            return found
         return buffer._lookup_full(target, when, source, parse("--source-time", source_time), fixed)
 
     with run_to_completion():
@@ -144,16 +153,27 @@ def lookup(
                     if awaited := ros.awaited_statics():
                         fail(str(error), awaited_statics_text(awaited))
                     raise
-        print(as_json_line(found) if as_json else format_transform(found, precision))
+        gaps = {} if gap is None else {"gap_ns": int(gap.gaps[0]), "outside_ns": int(gap.outside[0])}
+        print(as_json_line(found, **gaps) if as_json else format_transform(found, precision))
+        if gap is not None and not as_json:
+            print(_gap_line(gap))
 
 
-def _check_time_travel(fixed: str | None, source_time: str | None, max_gap: int | None) -> None:
+def _check_time_travel(fixed: str | None, source_time: str | None, max_gap: int | None, validity: bool) -> None:
     """End the command if one of the options for time travel is missing, or another one cannot be combined with it."""
     if (fixed is None) != (source_time is None):
         given, missing = ("--fixed", "--source-time") if source_time is None else ("--source-time", "--fixed")
         fail(f"{given} requires {missing}", "Time travel requires both options.", code=2)
     if max_gap is not None and fixed is not None:
         fail("--max-gap cannot be combined with --fixed", code=2)
+    if validity and fixed is not None:
+        fail("--validity cannot be combined with --fixed", code=2)
+
+
+def _gap_line(gap: Validity) -> str:
+    if not gap.gaps[0]:
+        return "- Interpolated over: 0 s, at the time of a sample"
+    return f"- Interpolated over: {duration(int(gap.gaps[0]))} between two samples of {shown(gap.edges[0])}"
 
 
 def _looked_up(buffer: Buffer, target: str, source: str, when: int, max_gap: int | None) -> Transform:

@@ -37,7 +37,9 @@ __all__ = [
     "domain_option",
     "duration_option",
     "keep_option",
+    "max_gap_option",
     "namespace_option",
+    "on_gap_option",
     "optional_bag_argument",
     "prefix_option",
     "recorded_tf_static_topic_option",
@@ -45,6 +47,7 @@ __all__ = [
     "tf_static_topic_option",
     "tf_topic_option",
     "topic_name",
+    "validity_option",
 ]
 
 # How a duration is written.
@@ -124,7 +127,12 @@ on_gap_option = click.option(
     "--on-gap",
     metavar="MODE",
     default="omit",
-    help="What to do with poses in longer gaps: omit, nan or raise, which ends the command with an error.",
+    help="What to do with poses or points in longer gaps: omit, nan or raise, which ends the command with an error.",
+)
+validity_option = click.option(
+    "--validity",
+    is_flag=True,
+    help="Also write over which gap each pose or point is interpolated: the column gap_ns.",
 )
 
 

@@ -21,11 +21,13 @@ from coframe.cli.options import (
     namespace_option,
     on_gap_option,
     recorded_listener_options,
+    validity_option,
 )
 from coframe.cli.output import fail, fail_to_write, warn
 from coframe.cli.progress import item_progress
 from coframe.cli.recordings import open_recording, parse_time
 from coframe.trajectories import FORMATS, format_of, write_trajectory
+from coframe.trajectories.formats import FORMATS_WITH_COLUMNS
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -56,6 +58,7 @@ __all__ = ["trajectory"]
 @click.option("--stop", metavar="TIME", help="End time, in the same format as --start.")
 @max_gap_option
 @on_gap_option
+@validity_option
 @namespace_option
 @recorded_listener_options
 def trajectory(
@@ -70,6 +73,7 @@ def trajectory(
     stop: str | None,
     max_gap: PositiveDuration | None,
     on_gap: str,
+    validity: bool,
     namespace: str | None,
     tf_topic: str | None,
     tf_static_topic: str | None,
@@ -80,7 +84,7 @@ def trajectory(
 
     Example: coframe trajectory run.mcap map base_link -o run.tum
     """
-    kind = _format(output, format_)
+    kind = _format(output, format_, with_columns=validity)
     try:
         query = TrajectoryQuery(
             target, source, rate, stamps_of, start, stop, max_gap=max_gap, on_gap=cast("OnGap", on_gap)
@@ -105,14 +109,14 @@ def trajectory(
 
         try:
             with item_progress("writing", len(stamps)) as progress:
-                write_trajectory(batches(), sys.stdout if output is None else output, kind, progress=progress)
+                columns = (lambda poses: query.validity_of(recording, poses)) if validity else None
+                file = sys.stdout if output is None else output
+                write_trajectory(batches(), file, kind, progress=progress, columns=columns)
         except OSError as error:
             if isinstance(error, BrokenPipeError):
                 raise
             fail_to_write(output, error)
-        if missing:
-            gaps = "" if max_gap is None else f", or none without a gap of more than {duration(max_gap)},"
-            warn(f"no transform{gaps} at {missing} of {count(len(stamps), 'time')}; those are omitted")
+        _print_missing(missing, len(stamps), max_gap)
         if output is not None:
             poses = count(len(stamps) - missing, "pose")
             print(
@@ -122,19 +126,27 @@ def trajectory(
             )
 
 
+def _print_missing(missing: int, times: int, max_gap: PositiveDuration | None) -> None:
+    if missing:
+        gaps = "" if max_gap is None else f", or none without a gap of more than {duration(max_gap)},"
+        warn(f"no transform{gaps} at {missing} of {count(times, 'time')}; those are omitted")
+
+
 def _check_times(recording: Recording, *times: str | None) -> None:
     for text in times:
         if text is not None:
             parse_time("--start/--stop", text, recording)
 
 
-def _format(output: Path | None, requested: str | None) -> str:
+def _format(output: Path | None, requested: str | None, *, with_columns: bool) -> str:
     try:
         kind = requested or ("tum" if output is None else format_of(output))
     except ValueError as error:
         fail(str(error), code=2)
     if kind not in FORMATS:
         fail(f"--format: unknown format {kind!r}. Formats: {', '.join(FORMATS)}", code=2)
+    if with_columns and kind not in FORMATS_WITH_COLUMNS:
+        fail(f"--validity: {kind} has no such column. Formats: {', '.join(FORMATS_WITH_COLUMNS)}", code=2)
     if output is None and kind in {"parquet", "npz"}:
         fail(f"{kind} is a binary format and cannot be printed", "Give a file: -o FILE", code=2)
     return kind

@@ -47,7 +47,7 @@ _MAX_DECODED = 2000  # limit of messages per topic
 _MAX_DESCRIPTIONS = 10
 _PARTS, _PART = 20, 25  # parts of a topic that are looked at, and successive messages in each
 _MIN_RATE = 1.0  # Hz; what is published more slowly, such as goals, need not be on one track
-_POSES = {
+_POSES: dict[str, Callable[[Any], Any]] = {
     "nav_msgs/msg/Odometry": lambda message: message.pose.pose.position,
     "geometry_msgs/msg/PoseStamped": lambda message: message.pose.position,
     "geometry_msgs/msg/PoseWithCovarianceStamped": lambda message: message.pose.pose.position,

@@ -19,17 +19,18 @@ from coframe.transform.transform import Transform
 
 if TYPE_CHECKING:
     import os
-    from collections.abc import Callable, Iterable, Iterator
+    from collections.abc import Callable, Iterable, Iterator, Mapping
     from contextlib import AbstractContextManager
 
     from numpy.typing import NDArray
 
-__all__ = ["EUROC_HEADER", "FORMATS", "POSE_COLUMNS", "format_of", "write_trajectory"]
+__all__ = ["EUROC_HEADER", "FORMATS", "FORMATS_WITH_COLUMNS", "POSE_COLUMNS", "format_of", "write_trajectory"]
 
 POSE_COLUMNS = ("x", "y", "z", "qx", "qy", "qz", "qw")
 # The header line of the EuRoC data set.
 EUROC_HEADER = "#timestamp [ns],p_RS_R_x [m],p_RS_R_y [m],p_RS_R_z [m],q_RS_w [],q_RS_x [],q_RS_y [],q_RS_z []"
 FORMATS = ("tum", "kitti", "euroc", "csv", "parquet", "npz")
+FORMATS_WITH_COLUMNS = ("csv", "parquet", "npz")
 _SUFFIXES = {
     ".tum": "tum",
     ".txt": "tum",
@@ -41,6 +42,7 @@ _SUFFIXES = {
 }
 # Text takes twenty times as much memory as numbers, so only this many rows are formatted at once.
 _ROWS = 10_000
+_Rows = tuple[Transform, "Mapping[str, NDArray[np.int64]]"]  # poses, and more columns
 
 
 def format_of(path: str | os.PathLike[str]) -> str:
@@ -61,6 +63,7 @@ def write_trajectory(
     format_: str | None = None,
     *,
     progress: Callable[[int], object] | None = None,
+    columns: Callable[[Transform], Mapping[str, NDArray[np.int64]]] | None = None,
 ) -> None:
     """Write a batch of stamped poses to a file.
 
@@ -75,31 +78,40 @@ def write_trajectory(
             (stamps in nanoseconds, x, y, z, qw, qx, qy, qz), ``csv`` (stamps in nanoseconds, columns with names),
             ``parquet`` or ``npz``; None chooses it by the suffix of the file name, or ``tum`` for a stream.
         progress: Called regularly with the number of poses written.
+        columns: Returns more columns for a batch, (N,) each; only for ``csv``, ``parquet`` and ``npz``.
 
     Raises:
-        ValueError: The format is unknown or not a text format although ``target`` is a stream, or there are no stamps.
+        ValueError: The format is unknown, has no more columns, or is not a text format although ``target`` is a stream,
+            or there are no stamps.
         RecordingError: pyarrow is not installed.
     """
     kind = format_ or (format_of(target) if not hasattr(target, "write") else "tum")
     if kind not in FORMATS:
         raise ValueError(f"No format named {kind!r}. Known formats: {', '.join(FORMATS)}.")
+    if columns is not None and kind not in FORMATS_WITH_COLUMNS:
+        raise ValueError(f"{kind} has a fixed number of columns. Formats: {', '.join(FORMATS_WITH_COLUMNS)}.")
     batches = _checked([poses] if isinstance(poses, Transform) else poses)
     first = next(batches, None)
     if first is None:
         raise ValueError("A trajectory needs at least one batch of poses; the iterable has none.")
     batches = _reporting(chain([first], batches), progress or (lambda _written: None))
+    rows = ((batch, {} if columns is None else columns(batch)) for batch in batches)
     if kind in _TEXT:
         with _text_stream(target) as stream:
-            for number, batch in enumerate(batches):
+            for number, (batch, others) in enumerate(rows):
                 if kind in _HEADERS and number == 0:
-                    stream.write(f"{_HEADERS[kind]}\n")
-                stream.writelines(f"{line}\n" for line in _TEXT[kind](batch))
+                    stream.write(",".join([_HEADERS[kind], *others]) + "\n")
+                lines = _TEXT[kind](batch)
+                if others:
+                    more = zip(*(values.tolist() for values in others.values()), strict=True)
+                    lines = (",".join([line, *map(str, each)]) for line, each in zip(lines, more, strict=True))
+                stream.writelines(f"{line}\n" for line in lines)
     elif hasattr(target, "write"):
         raise ValueError(f"{kind} is not a text format and cannot be written to a text stream: give a file name.")
     elif kind == "npz":
-        _write_npz(batches, Path(target))
+        _write_npz(list(rows), Path(target))
     else:
-        _write_parquet(batches, Path(target))
+        _write_parquet(rows, Path(target))
 
 
 def _checked(batches: Iterable[Transform]) -> Iterator[Transform]:
@@ -170,8 +182,9 @@ def _values(poses: Transform) -> NDArray[np.float64]:
     return np.concatenate([poses.translation, poses.quaternion], axis=1)
 
 
-def _write_npz(batches: Iterator[Transform], path: Path) -> None:
-    parts = list(batches)
+def _write_npz(rows: list[_Rows], path: Path) -> None:
+    parts = [part for part, _ in rows]
+    more: dict[str, Any] = {name: np.concatenate([others[name] for _, others in rows]) for name in rows[0][1]}
     with complete_or_absent(path) as name, name.open("wb") as file:
         np.savez(
             file,
@@ -180,10 +193,11 @@ def _write_npz(batches: Iterator[Transform], path: Path) -> None:
             quaternion=np.concatenate([part.quaternion for part in parts]),
             target=np.array(parts[0].target or ""),
             source=np.array(parts[0].source or ""),
+            **more,
         )
 
 
-def _write_parquet(batches: Iterator[Transform], path: Path) -> None:
+def _write_parquet(rows: Iterator[_Rows], path: Path) -> None:
     try:
         arrow: Any = importlib.import_module("pyarrow")
         parquet: Any = importlib.import_module("pyarrow.parquet")
@@ -194,10 +208,10 @@ def _write_parquet(batches: Iterator[Transform], path: Path) -> None:
     writer: Any = None
     with complete_or_absent(path) as name:
         try:
-            for poses in batches:
+            for poses, others in rows:
                 values = _values(poses)
                 columns = {column: values[:, i] for i, column in enumerate(POSE_COLUMNS)}
-                table = arrow.table({"stamp_ns": _stamps(poses), **columns})
+                table = arrow.table({"stamp_ns": _stamps(poses), **columns, **others})
                 about = {"target": poses.target or "", "source": poses.source or ""}
                 table = table.replace_schema_metadata(about)
                 writer = writer or parquet.ParquetWriter(name, table.schema)

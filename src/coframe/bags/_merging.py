@@ -1,0 +1,124 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The names of topics and frames when recordings are merged: those of several robots stay apart."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from coframe._output.formatting import listed
+from coframe.bags.transforms import ingest_for
+from coframe.frame_names import absolute, kept, renaming
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Sequence
+
+    from coframe import _core
+    from coframe.bags.recording import Recording
+
+__all__ = ["MergedNames"]
+
+# Topics that all robots share, as programs expect them under these names.
+_SHARED = {"/clock", "/diagnostics", "/diagnostics_agg", "/parameter_events", "/rosout", "/tf", "/tf_static"}
+_LOOKED_AT = 50  # messages of a topic whose frames are compared
+
+
+class MergedNames:
+    """The new names of the topics and frames of several recordings.
+
+    Args:
+        recordings: The recordings.
+        prefixes: The prefix of the frames and topics of each; None: frames keep their names, and topics that several
+            recordings contain are prefixed if the frames of each recording have a prefix of their own.
+        keep: Frames without the prefix.
+
+    Raises:
+        ValueError: The number of prefixes differs from that of the recordings, or one begins with a slash.
+    """
+
+    def __init__(
+        self, recordings: Sequence[Recording], prefixes: Sequence[str] | None, keep: Iterable[str] = ()
+    ) -> None:
+        if prefixes is not None and len(prefixes) != len(recordings):
+            raise ValueError(
+                f"each of the {len(recordings)} recordings needs one prefix, in the same order; {len(prefixes)} given"
+            )
+        self._recordings = recordings
+        self._prefixes = list(prefixes) if prefixes is not None else _own_prefixes(recordings)
+        self._renamings = [renaming(prefix, kept(keep)) for prefix in prefixes or [""] * len(recordings)]
+        self._is_given = prefixes is not None
+        self._shared: dict[str, list[int]] = {}  # the recordings that contain a topic
+        for number, recording in enumerate(recordings):
+            for name in recording.topics:
+                self._shared.setdefault(name, []).append(number)
+
+    def frames(self, recording: int) -> _core.Renaming | None:
+        """Return the renaming of the frames of a recording; None if they keep their names."""
+        return self._renamings[recording]
+
+    def topic(self, recording: int, name: str) -> str:
+        """Return the new name of a topic of a recording."""
+        prefix = self._prefixes[recording]
+        is_alone = len(self._shared.get(name, ())) < 2 and not self._is_given
+        if not prefix or is_alone or absolute(name) in _SHARED or absolute(name).startswith(f"/{prefix}"):
+            return name
+        return f"/{prefix}{absolute(name).lstrip('/')}"
+
+    def notes(self, topics: Sequence[Sequence[str]]) -> list[str]:
+        """Return which topics have the messages of several recordings, and which were kept apart.
+
+        Args:
+            topics: The topics that are copied, for each recording.
+        """
+        sources: dict[str, list[tuple[int, str]]] = {}
+        apart: dict[str, list[str]] = {}
+        for number, names in enumerate(topics):
+            for name in names:
+                if self._recordings[number].topics[name].messages:
+                    new = self.topic(number, name)
+                    sources.setdefault(new, []).append((number, name))
+                    if new != name and not self._is_given:
+                        apart.setdefault(name, []).append(new)
+        kept_apart = [
+            f"{name}: kept apart as {listed(new)}, because the frames have different prefixes"
+            for name, new in apart.items()
+        ]
+        joined = [
+            f"{name}: joined from {len(parts)} recordings{self._frames_of(parts)}"
+            for name, parts in sources.items()
+            if len(parts) > 1 and absolute(name) not in _SHARED
+        ]
+        return kept_apart + joined
+
+    def _frames_of(self, parts: list[tuple[int, str]]) -> str:
+        """Return the frames of the messages of a joined topic if they differ between the recordings."""
+        found = [_frames_in(self._recordings[number], name) - {""} for number, name in parts]
+        if not all(found) or len(set.union(*found)) == len(set.intersection(*found)):
+            return ""
+        names = listed(repr(frame) for frame in sorted(set.union(*found)))
+        return f", with messages in {names}: prefixes keep those of different robots apart"
+
+
+def _own_prefixes(recordings: Sequence[Recording]) -> list[str]:
+    """Return the prefix that the frames of each recording have; "" for all if not each has one of its own."""
+    found = [_own_prefix(recording) for recording in recordings]
+    return found if all(found) and len(set(found)) == len(found) > 1 else [""] * len(found)
+
+
+def _own_prefix(recording: Recording) -> str:
+    """Return the prefix, with its slash, of all frames but the roots; "" if there are several or none."""
+    edges = [edge for buffer in recording.buffers.values() for edge in buffer.edges() if edge.parent]
+    children = {edge.child for edge in edges}
+    roots = {edge.parent for edge in edges} - children
+    sensed = {frame for name in recording.topics if (frame := recording.first_frame(name).lstrip("/"))}
+    prefixes = {name.partition("/")[0] if "/" in name else "" for name in children | (sensed - roots)}
+    return f"{prefixes.pop()}/" if len(prefixes) == 1 and "" not in prefixes else ""
+
+
+def _frames_in(recording: Recording, topic: str) -> set[str]:
+    if any(ingest_for(channel) for channel in recording.channels() if channel.topic == topic):
+        return set()
+    messages = recording.topics[topic].messages
+    rows = np.unique(np.linspace(0, messages - 1, _LOOKED_AT).astype(np.int64)).tolist() if messages else []
+    return {frame.lstrip("/") for frame in recording.frames(topic, rows)}
