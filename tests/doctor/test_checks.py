@@ -20,6 +20,8 @@ from coframe.doctor._diagnosis import all_checks
 from coframe.doctor._edge import Edge
 from coframe.doctor._flicker import flicker
 from coframe.doctor._transforms import Transforms
+from coframe.doctor.rendering.plain import as_data
+from coframe.doctor.rendering.text import lines
 from coframe.messages import find
 
 URDF = """<robot name="r"><link name="base_link"/><link name="lidar"/><link name="wheel"/>
@@ -262,14 +264,44 @@ def test_stamps_behind_the_clock(only):
     run = Run.healthy(skip={"odom", "scan"})
     for i in range(600):
         run.drive(later(i / 50), stamp=later(i / 50) - 800 * MS)
-    assert "arrives 801 ms after its stamp" in only(run, "TF008").text
+    assert "its stamps are 801 ms +-0 ns behind the clock on arrival, at most 801 ms" in only(run, "TF008").text
 
 
 def test_two_clocks(only):
     run = Run.healthy()
     for i in range(600):
         run.drive(later(i / 50), "base_link", "arm", stamp=100 * SECOND + i * SECOND // 50)
-    assert "the stamps of base_link -> arm are on a clock that is hours off the system clock" in only(run, "TF009").text
+    text = "the stamps of base_link -> arm are 1699999900.001 s +-0 ns behind the system clock"
+    assert text in only(run, "TF009").text
+
+
+def test_clock_offset_with_spread_and_drift_is_one_number_everywhere(examine):
+    """The offset is 2 h and 3 ms, its noise 0.2 ms (one standard deviation), and the clock loses 40 ppm."""
+    run, random = Run.healthy(seconds=60), np.random.default_rng(3)
+    for i in range(3000):
+        lost = i / 50 * 40e-6
+        behind = 7200.0018 + lost + random.normal(0.0, 0.2e-3)  # seconds, and the message takes 1 ms
+        run.drive(later(i / 50), "base_link", "arm", stamp=later(i / 50 - behind))
+    report = examine(run)
+    (finding,) = report.findings
+    numbers = re.search(r"base_link -> arm are ([\d.]+) s \+-(\d+) us, drift ([\d.]+) ppm behind", finding.text)
+    assert float(numbers[1]) == pytest.approx(7200.004, abs=5e-4)
+    assert int(numbers[2]) == pytest.approx(200, abs=20)
+    assert float(numbers[3]) == pytest.approx(40, abs=1)
+    assert "a local time that is used as UTC" in finding.fix
+    offset = as_data(report)["clock_offsets"]["base_link -> arm"]
+    assert f"{offset['offset_ns'] / 1e9:.3f}" == numbers[1]
+    assert offset["drift_ppm"] == pytest.approx(float(numbers[3]), rel=0.01)
+    assert as_data(report)["clock_offsets"]["odom -> base_link"]["drift_ppm"] is None
+
+
+def test_edges_with_different_offsets_have_a_number_each(only):
+    run = Run.healthy()
+    for i in range(600):
+        run.drive(later(i / 50), "base_link", "arm", stamp=later(i / 50 - 4000))
+        run.drive(later(i / 50), "arm", "hand", stamp=later(i / 50 - 4001))
+    text = only(run, "TF009").text
+    assert "base_link -> arm are 4000.001 s +-0 ns, those of arm -> hand 4001.001 s +-0 ns behind the system" in text
 
 
 def test_sensor_on_the_system_clock_in_a_simulation(only):
@@ -292,8 +324,55 @@ def test_machine_with_a_wrong_clock(only):
         for parent, child in (("base_link", "arm"), ("arm", "hand")):
             run.drive(later(i / 50), parent, child, stamp=later(i / 50) + 350 * MS)
     finding = only(run, "TF010")
-    assert "349 ms ahead" in finding.text
+    assert "349 ms +-0 ns ahead" in finding.text
     assert "chrony" in finding.fix
+
+
+def lidar_scan(run, at, arrived):
+    """Add a sweep of 100 ms with a hit in each direction."""
+    message = find("sensor_msgs/msg/LaserScan")(
+        angle_increment=0.0628, time_increment=0.001, range_max=10.0, ranges=[2.0] * 101
+    )
+    message.header.stamp, message.header.frame_id = stamp_message(at), "lidar"
+    run.message("/scan", "sensor_msgs/msg/LaserScan", message, arrived)
+
+
+def lidar_cloud(run, at, arrived, unit=1e9, kind=6):
+    """Add a cloud whose points were measured over 100 ms, with times as uint32 (kind 6) or float32 (kind 7)."""
+    names = [("x", 7), ("y", 7), ("z", 7), ("t", kind)]
+    fields = [
+        find("sensor_msgs/msg/PointField")(name=n, offset=4 * i, datatype=k, count=1) for i, (n, k) in enumerate(names)
+    ]
+    points = np.zeros(101, dtype=[(n, "<u4" if k == 6 else "<f4") for n, k in names])
+    points["x"], points["t"] = np.linspace(1, 2, 101), np.linspace(0.0, 0.1 * unit, 101)
+    message = find("sensor_msgs/msg/PointCloud2")(
+        height=1, width=101, fields=fields, point_step=16, row_step=1616, data=points.tobytes(), is_dense=True
+    )
+    message.header.stamp, message.header.frame_id = stamp_message(at), "lidar"
+    run.message("/points", "sensor_msgs/msg/PointCloud2", message, arrived)
+
+
+@pytest.mark.parametrize(
+    "measure",
+    [
+        lidar_scan,
+        lidar_cloud,
+        lambda *arguments: lidar_cloud(*arguments, unit=1e6),
+        lambda *arguments: lidar_cloud(*arguments, unit=1.0, kind=7),
+    ],
+    ids=["scan", "cloud in ns", "cloud in us", "cloud in s"],
+)
+def test_points_need_transforms_until_the_end_of_the_sweep(examine, measure):
+    """The transforms of 50 Hz reach the stamp when the message arrives, but the end of its sweep only 60 ms later."""
+    run = Run.healthy(skip={"scan"})
+    for i in range(10, 100):
+        measure(run, later(i / 10), later(i / 10 + 0.04))
+    report = examine(run)
+    (sensor,) = report.sensors
+    assert sensor.sweep == pytest.approx(100 * MS, abs=MS)
+    assert sensor.possible == (0, 0, 90, 90)
+    text = "\n".join(line for _, line in lines(report))
+    assert "from lidar to odom until the end of each sweep, 100 ms after its stamp: 0 of 90 messages" in text
 
 
 def test_repeated_stamps(only):

@@ -123,8 +123,9 @@ def test_live_trees_name_their_publishers(inside, tmp_path, eventually):
     with output_path.open("w") as output:
         inside.start("-m", "coframe.cli", "frames", "--watch", "--json", stdout=output)
         inside.start("-m", "coframe.lab.complete_tf_tree")
-        eventually(lambda: len(frames()) == 11 and frames()["link1"]["edges"][-1]["transforms"] > 40)
-        eventually(lambda: 40 < frames()["link1"]["edges"][-1]["rate"] < 60)  # a busy machine publishes more slowly
+        # The rate of 50 Hz is tested on recordings: on a busy machine, the node itself publishes more slowly.
+        eventually(lambda: len(frames()) == 11 and (frames()["link1"]["edges"][-1]["rate"] or 0.0) > 1.0)
+        eventually(lambda: frames()["link1"]["edges"][-1]["publisher"] == "/complete_tf_tree")
     found = frames()
     # Transforms that arrive before the discovery of their publisher have no publisher name.
     assert {edge["publisher"] for frame in found.values() for edge in frame["edges"]} - {""} == {"/complete_tf_tree"}

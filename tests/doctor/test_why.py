@@ -3,6 +3,7 @@
 
 import itertools
 import json
+import re
 import signal
 import subprocess
 import sys
@@ -194,6 +195,55 @@ def test_three_common_errors_give_the_line_to_change(start, inside):
     assert "Stop /" in two["fix"]
     assert "lookup_transform('odom', 'lidar_link', ...)" in misspelt["hint"]
     assert any("--tf-topic /robot1/tf" in note for note in misspelt["notes"])
+
+
+LATE_CLOCK = """
+broadcaster = TransformBroadcaster(node)
+def move():
+    now = node.get_clock().now()
+    broadcaster.sendTransform(stamped("odom", "base_link", 0.0, now))
+    broadcaster.sendTransform(stamped("base_link", "arm", 0.0, now - Duration(seconds=5)))
+every(0.02, move)
+"""
+
+
+def test_a_clock_that_is_behind_is_not_a_stopped_publisher(start, inside):
+    """The doctor's number is the answer, and neither the chain nor the hint says that nothing is received."""
+    start("robot", LATE_CLOCK)
+    for options in (("--at", "now"), ()):
+        words = ("odom", "arm", *options, "--duration", "1500ms", "--json")
+        data = json.loads(inside.run("-m", "coframe.cli", "why", *words).stdout)
+        (finding,) = [one for one in data["findings"] if one["code"] == "TF008"]
+        seconds = re.search(r"its stamps are (\d+\.\d{3}) s \+-\S+ [mun]s.* behind the clock", finding["text"])[1]
+        assert 5.0 <= float(seconds) < 6.0
+        arm = data["edges"][-1]
+        assert (arm["child"], arm["stale"]) == ("arm", False)
+        assert "stale" not in arm["remark"]
+        if options:
+            assert data["hint"].startswith("The stamps of base_link -> arm are off, see TF008 below.")
+
+
+def test_two_clocks_of_a_recording(tmp_path):
+    run = Run.healthy()
+    for i in range(600):
+        at = START + i * SECOND // 50
+        run.drive(at, "base_link", "arm", stamp=at - 5000 * SECOND)
+    bag = run.write(tmp_path)
+    data = answer(bag, "odom", "arm")
+    assert data["hint"].startswith("The stamps of base_link -> arm are off, see TF009 below.")
+    offset = "base_link -> arm are 5000.001 s +-0 ns behind the system clock"
+    assert offset in data["findings"][0]["text"]
+    for command in (["doctor", bag], ["bag", "fix", bag, tmp_path / "copy"]):
+        result = CliRunner().invoke(app, list(map(str, command)))
+        assert (result.exit_code, offset in result.output) == (1, True)
+    assert result.output.count("remaining:") == 1, "the same problem is listed once"
+    tree = CliRunner().invoke(app, ["frames", str(bag)]).output
+    assert "stamps 5000.001 s +-0 ns behind the clock" in tree
+
+
+def test_now_is_no_time_of_a_recording(tmp_path):
+    result = CliRunner().invoke(app, ["why", str(Run.healthy(1).write(tmp_path)), "odom", "lidar", "--at", "now"])
+    assert (result.exit_code, "a recording has no current time" in result.output) == (2, True)
 
 
 @pytest.mark.slow

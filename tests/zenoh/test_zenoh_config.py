@@ -109,6 +109,13 @@ def test_a_router_file_is_named_by_the_variable_or_by_the_caller(tmp_path: Path)
 def test_invalid_files_and_endpoints_are_one_sentence(tmp_path: Path) -> None:
     with pytest.raises(WireError, match=r"The file /nowhere\.json5, named by ZENOH_SESSION_CONFIG_URI, does not exist"):
         config.session_config({"ZENOH_SESSION_CONFIG_URI": "/nowhere.json5"})
+    for arguments, source in (
+        (({},), "omit --config"),
+        (({"ZENOH_ROUTER_CONFIG_URI": "/nowhere.json5"},), "unset ZENOH_ROUTER_CONFIG_URI"),
+    ):
+        with pytest.raises(WireError, match=r"does not exist") as missing:
+            config.router_config(*arguments, file="/nowhere.json5" if "--config" in source else "")
+        assert f", or {source} to use the defaults of ROS 2." in missing.value.hint
     damaged = tmp_path / "damaged.json5"
     damaged.write_text("{mode: ")
     with pytest.raises(WireError, match=r"damaged.json5 cannot be read: expected array.* string\.") as caught:

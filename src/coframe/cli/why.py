@@ -10,6 +10,7 @@ import json
 import shlex
 import time
 from collections import deque
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple, NoReturn
 
@@ -19,6 +20,7 @@ from rich.console import Console, Group
 from rich.live import Live
 from rich.text import Text
 
+from coframe._output.formatting import listed
 from coframe.bags import parse_time_point
 from coframe.bags.namespaces import TransformChoice
 from coframe.buffer.explanation.drawing import remark, verdict
@@ -45,7 +47,7 @@ from coframe.time import SECOND, stamp_ns
 from coframe.type_names import TF_MESSAGE
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
+    from collections.abc import Iterable, Iterator, Sequence
 
     from coframe.bags import Recording
     from coframe.buffer.explanation import ChainEdge, Explanation
@@ -56,6 +58,7 @@ __all__ = ["why"]
 
 _NAMES = "[BAG] TARGET SOURCE"
 # The connection receives static transforms at about the same time as the doctor's node, which waits for them first.
+_CLOCK_CODES = {"TF008", "TF009", "TF010"}
 _SECOND_LISTENER = "500ms"
 _ASCII = str.maketrans("├└│─", "+`|-")
 _STYLES = {"error": "bold red", "warning": "yellow", "note": "cyan"}
@@ -142,6 +145,8 @@ def _answer_recorded(bag: Path, choice: TransformChoice, target: str, source: st
     collectors: dict[str, Collector] = {}
     with open_recording(bag, choice, collecting(collectors, choice)) as recording:
         check_has_transforms(recording)
+        if at is not None and at.strip() == "now":
+            fail("--at now: a recording has no current time. Give a time of the recording, or 'end'.", code=2)
         found = recording.buffer.why(target, source, None if at is None else parse_lookup_time("--at", at, recording))
         seen = [
             Observation(
@@ -152,7 +157,7 @@ def _answer_recorded(bag: Path, choice: TransformChoice, target: str, source: st
             )
             for name in sorted(collectors)
         ]
-        return _Answer(found, _relevant_reports(found, seen), list(_other_namespaces(found, recording)))
+        return _answer(found, seen, _other_namespaces(found, recording))
 
 
 def _answer_live(config: ListenerConfig, target: str, source: str, at: str | None, window: int) -> _Answer:
@@ -172,8 +177,29 @@ def _answer_live(config: ListenerConfig, target: str, source: str, at: str | Non
         seen = observer.observe()
         clock = int(seen.clock.stamp[-1]) if seen.clock is not None else None
         found = ros.buffer.why(target, source, _lookup_time(at, clock, window), now=clock)
-        notes = [*_awaited(found, ros), *_other_topics(found, ros)]
-        return _Answer(found, _relevant_reports(found, [seen]), notes)
+        return _answer(found, [seen], [*_awaited(found, ros), *_other_topics(found, ros)])
+
+
+def _answer(found: Explanation, seen: Sequence[Observation], notes: Iterable[str]) -> _Answer:
+    """Return the explanation with the findings about its edges; what arrives with old stamps is not stale."""
+    alive = {edge.key for one in seen if one.live for edge in one.dynamic if not one.is_stale(edge)}
+    edges = (edge._replace(stale=False) if (edge.parent, edge.child) in alive else edge for edge in found.edges)
+    found = replace(found, edges=tuple(edges))
+    reports = _relevant_reports(found, seen)
+    return _Answer(_with_clock_advice(found, reports), reports, list(notes))
+
+
+def _with_clock_advice(found: Explanation, reports: Iterable[Report]) -> Explanation:
+    """Return the explanation with the advice of the finding about the clock of its edges, if that is the cause."""
+    of_clocks = [one for report in reports for one in report.findings if one.code in _CLOCK_CODES]
+    if found.possible or found.roots is not None or found.unknown or not of_clocks:
+        return found
+    if found.span is not None and not any(edge.state == "too_new" for edge in found.edges):
+        return found
+    code = of_clocks[0].code
+    names = {" -> ".join(edge) for one in of_clocks for edge in (one.edge, *one.edges) if edge is not None}
+    subject = listed(edge.name for edge in found.edges if edge.name in names)
+    return replace(found, hint=f"The stamps of {subject} are off, see {code} below. See doctor code {code}.")
 
 
 def _watch(config: ListenerConfig, target: str, source: str, at: str | None, window: int, *, as_json: bool) -> NoReturn:

@@ -43,6 +43,7 @@ class SensorFacts(NamedTuple):
         frame: The frame in which its messages are expressed.
         root: The root of the tree of that frame; the frame itself if no transform contains it.
         messages: The number of messages.
+        sweep: The time from the stamp of a message to its last point, which also needs a transform; nanoseconds.
         possible: How many can be transformed immediately, and within 50, 100 and 200 ms of their arrival.
         median_wait: The median wait of the messages that can be transformed, in nanoseconds; None if there are none.
         longest_wait: The longest wait of these messages.
@@ -52,6 +53,7 @@ class SensorFacts(NamedTuple):
     frame: str
     root: str
     messages: int
+    sweep: int
     possible: tuple[int, int, int, int]
     median_wait: int | None
     longest_wait: int | None
@@ -150,6 +152,7 @@ def _facts(observation: Observation, sensor: Sensor) -> SensorFacts:
         sensor.frame,
         observation.root(sensor.frame),
         len(waits),
+        sensor.sweep,
         tuple(int(np.count_nonzero(waits <= timeout)) for timeout in TIMEOUTS),  # type: ignore[arg-type]
         int(np.median(finite)) if len(finite) else None,
         int(finite.max()) if len(finite) else None,

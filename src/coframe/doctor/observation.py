@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from coframe.analysis.clock_offset import clock_offset
 from coframe.analysis.clocks import clock_of, group_by_clock
 from coframe.analysis.liveness import is_stale
 from coframe.analysis.tree import FrameTrees
@@ -24,6 +25,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from coframe.analysis.clock_offset import ClockOffset
     from coframe.analysis.clocks import ClockName
 
 __all__ = [
@@ -33,6 +35,7 @@ __all__ = [
     "ObservedEndpoint",
     "ObservedJointStates",
     "ObservedLogLine",
+    "ObservedPoints",
     "ObservedPositions",
     "Sensor",
     "TopicFacts",
@@ -73,6 +76,27 @@ class TopicFacts:
 
 
 @dataclass(frozen=True, eq=False)
+class ObservedPoints:
+    """Points of one message of a lidar.
+
+    Attributes:
+        topic: The topic.
+        frame: The frame in which they are expressed.
+        stamp: The stamp of the message.
+        sweep: The time from the stamp to the last point; 0 if the points have no times.
+        times: (N,) the time of each point.
+        points: (N, 3) coordinates in metres.
+    """
+
+    topic: str
+    frame: str
+    stamp: int
+    sweep: int
+    times: NDArray[np.int64]
+    points: NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
 class Sensor:
     """Messages with a header that names a frame.
 
@@ -85,6 +109,7 @@ class Sensor:
         publisher: The full name of the node; "" if it is unknown.
         publishers: The full names of all nodes that published these messages, as far as they are known.
         source: (N,) index into `publishers` for each message; -1 if the node is unknown.
+        points: The points of some messages of a lidar, from recordings only.
     """
 
     topic: str
@@ -95,6 +120,12 @@ class Sensor:
     publisher: str = ""
     publishers: tuple[str, ...] = ()
     source: NDArray[np.int64] = field(default_factory=lambda: np.empty(0, np.int64))
+    points: tuple[ObservedPoints, ...] = ()
+
+    @cached_property
+    def sweep(self) -> int:
+        """The usual time from the stamp to the last point of a message; 0 if its points have no times."""
+        return int(np.median([one.sweep for one in self.points])) if self.points else 0
 
 
 @dataclass(frozen=True, eq=False)
@@ -308,6 +339,48 @@ class Observation:
             found |= {others[position]: f"other {number}" for position in group}
         return found
 
+    @cached_property
+    def usual_clock(self) -> str:
+        """The clock of most edges and sensors, if equal the known one; "" if there are none with stamps."""
+        counts: dict[str, int] = {}
+        for clock in self.clocks.values():
+            counts[clock] = counts.get(clock, 0) + 1
+        return min(counts, key=lambda clock: (-counts[clock], clock.startswith("other"), clock), default="")
+
+    def offset(self, name: str) -> ClockOffset:
+        """Return how far stamps are behind the usual clock on arrival.
+
+        All findings, ``coframe frames`` and ``coframe why`` give these numbers.
+
+        Args:
+            name: A key of :attr:`clocks`: the name of a dynamic edge, or the topic of a sensor.
+        """
+        if name not in self._offsets:
+            columns = [(edge.stamp, edge.arrived) for edge in self.dynamic if edge.name == name]
+            columns += [(sensor.stamp, sensor.arrived) for sensor in self.sensors if sensor.topic == name]
+            self._offsets[name] = self._offset(*[pair for pair in columns if pair[0].any()][-1])
+        return self._offsets[name]
+
+    @cached_property
+    def _offsets(self) -> dict[str, ClockOffset]:
+        return {}
+
+    def _offset(self, stamp: NDArray[np.int64], arrived: NDArray[np.int64]) -> ClockOffset:
+        stamp, arrived = stamp[stamp != 0], arrived[stamp != 0]
+        is_simulated = self.usual_clock == "simulated" and self.clock is not None
+        now = self.clock.at(arrived) if is_simulated and self.clock is not None else arrived
+        return clock_offset(now - self._usual_lag - stamp, arrived)
+
+    @cached_property
+    def _usual_lag(self) -> int:
+        """The usual delay of a clock that is neither the system clock nor simulated time; otherwise 0."""
+        if self.usual_clock in {"", "wall", "simulated"}:
+            return 0
+        names = {name for name, clock in self.clocks.items() if clock == self.usual_clock}
+        lags = [edge.arrived - edge.stamp for edge in self.dynamic if edge.name in names]
+        lags += [sensor.arrived - sensor.stamp for sensor in self.sensors if sensor.topic in names]
+        return int(np.median([int(np.median(lag)) for lag in lags]))
+
     def clock_of(self, stamp: NDArray[np.int64], arrived: NDArray[np.int64]) -> ClockName:
         """Return the clock of stamps, determined from their arrival times."""
         simulated = None if self.clock is None else float(np.median(self.clock.at(arrived) - stamp))
@@ -323,13 +396,15 @@ class Observation:
     def waits(self, sensor: Sensor) -> NDArray[np.int64]:
         """Return how long after the arrival of each message its transform to the root is available, (N,).
 
-        0 means immediately; NEVER, not at all. For the stamp 0, tf2 uses the latest transform.
+        The points of a lidar need transforms until the end of the sweep. 0 means immediately; NEVER, not at all. For
+        the stamp 0, tf2 uses the latest transform.
         """
+        last = np.where(sensor.stamp == 0, 0, sensor.stamp + sensor.sweep)
         ready = np.zeros(len(sensor.stamp), dtype=np.int64)
         for edge in self.path(sensor.frame):
             if not edge.static:
                 newest = np.maximum.accumulate(edge.stamp)
-                row = np.searchsorted(newest, sensor.stamp)
+                row = np.searchsorted(newest, last)
                 arrival = edge.arrived[np.minimum(row, edge.count - 1)]
                 is_covered = (sensor.stamp == 0) | ((row < edge.count) & (sensor.stamp >= edge.stamp.min()))
                 ready = np.maximum(ready, np.where(is_covered, arrival, NEVER))

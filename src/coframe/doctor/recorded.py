@@ -14,6 +14,7 @@ from coframe.bags.namespaces import TransformChoice, namespace_of
 from coframe.bags.recording import open_chosen
 from coframe.bags.transforms import ingest_for, is_static
 from coframe.doctor._joints import joint_states
+from coframe.doctor._sampled_points import sampled_points
 from coframe.doctor.collector import Collector
 from coframe.doctor.observation import (
     DEFAULT_CACHE,
@@ -220,9 +221,12 @@ class _Facts:
         if len(set(recording.frames(topic, np.concatenate(_spread(len(stamps))).tolist()))) > 1:
             for row, frame in enumerate(recording.frames(topic)):
                 rows_of.setdefault(frame.lstrip("/"), []).append(row)
+        points = sampled_points(recording, topic, facts.type)
         for name, rows in rows_of.items() or [(first.lstrip("/"), slice(None))]:
             if name:
-                yield Sensor(topic, facts.type, recording.frame(name), stamps[rows], received[rows])
+                frame = recording.frame(name)
+                own = tuple(one for one in points if one.frame == frame)
+                yield Sensor(topic, facts.type, frame, stamps[rows], received[rows], points=own)
 
     def _parts(self, topic: str) -> Iterator[NDArray[np.float64]]:
         """Yield the positions in successive messages, for parts of the recording."""

@@ -39,8 +39,8 @@ _HINTS = {
     ),
     "no_common_time": _Hint(
         "TF013",
-        "The samples of {limit} end before those of {parent} -> {child} begin, so the two have no common time. Is the "
-        "publisher of {limit} still running?",
+        "The samples of {limit} end before those of {parent} -> {child} begin, so the two have no common time. Has the "
+        "publisher of {limit} stopped, or does it use another clock?",
     ),
     "no_data": _Hint("TF012", "The buffer was cleared and has received no transform to {child} since then."),
     "not_begun": _Hint(
@@ -58,8 +58,9 @@ _HINTS = {
     ),
     "stopped": _Hint(
         "TF013",
-        "The newest sample of {parent} -> {child} is {age} old, so waiting does not help. Is its publisher{publisher} "
-        "still running? To get the last known pose: lookup_transform({target!r}, {source!r}, rclpy.time.Time()).",
+        "The newest sample of {parent} -> {child} is {age} old. Has its publisher{publisher} stopped, or are its "
+        "stamps behind the clock? To get the last known pose: lookup_transform({target!r}, {source!r}, "
+        "rclpy.time.Time()).",
     ),
     "too_new": _Hint(
         "TF025",

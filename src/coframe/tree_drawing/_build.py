@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from coframe.analysis.tree import FrameTrees
 from coframe.doctor.figures import edge_figures
+from coframe.doctor.wrong_stamps import wrong_offset
 from coframe.tree_drawing._forest import Forest, Frame
 
 if TYPE_CHECKING:
@@ -52,4 +53,5 @@ def _frame(number: int, trees: FrameTrees, figures: list[EdgeFigures], seen: Obs
         edges=tuple(figure for figure in figures if figure.parent == parent),
         other_edges=tuple(figure for figure in figures if figure.parent != parent),
         silence=seen.silence(edge) if edge is not None and seen.is_stale(edge) else None,
+        offset=None if edge is None else wrong_offset(seen, edge),
     )

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+    from coframe.analysis.clock_offset import ClockOffset
     from coframe.doctor.figures import EdgeFigures
 
 __all__ = ["Forest", "Frame"]
@@ -28,6 +29,7 @@ class Frame:
         edges: The statistics of the edge from its parent, one entry per publisher.
         other_edges: The statistics of the edges from other parents. A tree can contain only one of these edges.
         silence: How long no transform was received for the frame, if its edge is stale; else None.
+        offset: How far the stamps of its edge are off, if the doctor reports it (TF008, TF009); else None.
     """
 
     name: str
@@ -38,6 +40,7 @@ class Frame:
     edges: tuple[EdgeFigures, ...]
     other_edges: tuple[EdgeFigures, ...]
     silence: int | None
+    offset: ClockOffset | None = None
 
     @property
     def is_root(self) -> bool:

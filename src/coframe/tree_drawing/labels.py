@@ -9,10 +9,11 @@ from coframe._output.escaping import shown
 from coframe._output.formatting import count, duration, listed
 
 if TYPE_CHECKING:
+    from coframe.analysis.clock_offset import ClockOffset
     from coframe.doctor.figures import EdgeFigures
     from coframe.tree_drawing._forest import Forest, Frame
 
-__all__ = ["alarms", "edge_figures", "figures", "summary"]
+__all__ = ["alarms", "edge_figures", "figures", "stamps_off", "summary"]
 
 _MAX_LISTED_EDGES = 5
 
@@ -29,9 +30,16 @@ def alarms(frame: Frame) -> list[str]:
     found = [f"in a loop: below {shown(frame.parent)}"] if frame.is_root and frame.parent else []
     if frame.silence is not None:
         found.append(f"stale: no transform for {duration(frame.silence)}")
+    if frame.offset is not None:
+        found.append(stamps_off(frame.offset))
     found += [f"also below {shown(edge.parent)}{_by(edge)}" for edge in frame.other_edges[:_MAX_LISTED_EDGES]]
     more = len(frame.other_edges) - _MAX_LISTED_EDGES
     return [*found, f"and {more} more"] if more > 0 else found
+
+
+def stamps_off(offset: ClockOffset) -> str:
+    """Return how far stamps are off the clock of the others."""
+    return f"stamps {offset.size} {offset.direction} the clock"
 
 
 def edge_figures(edge: EdgeFigures) -> list[str]:

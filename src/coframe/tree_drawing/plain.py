@@ -32,6 +32,7 @@ def _frame(frame: Frame) -> dict[str, Any]:
         "children": list(frame.children),
         "static": frame.static,
         "silent_ns": frame.silence,
+        "stamps_behind_ns": frame.offset.offset if frame.offset else None,
         "edges": [edge._asdict() for edge in frame.edges],
         "other_edges": [edge._asdict() for edge in frame.other_edges],
     }

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from coframe._output.escaping import shown
 from coframe.time import MILLISECOND
+from coframe.tree_drawing.labels import stamps_off
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -57,6 +58,8 @@ def _rows(frame: Frame, last: list[bool]) -> Iterator[Row]:
         yield Row(below if number else to_name, name, _cells(edge), frame.name, frame.kind)
     if frame.is_root and frame.parent:
         yield Row(f"{below}in a loop: below ", shown(frame.parent), ("",) * 6, frame.name, "other")
+    if frame.offset is not None:
+        yield Row(below, stamps_off(frame.offset), ("",) * 6, frame.name, "other")
     for edge in frame.other_edges:
         yield Row(f"{below}also below ", shown(edge.parent), _cells(edge), frame.name, "other")
 

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """`coframe interface` about the user's own packages: what it prints about packages, definitions and mistakes."""
 
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -82,9 +83,32 @@ def test_invalid_definitions_are_reported_with_file_and_line(tmp_path: Path) -> 
     assert f"coframe: {folder}/Unknown.msg, line 2: field 'pose': no type cli_msgs/msg/Pose" in result.stderr
     assert "(Did you mean geometry_msgs/Pose or turtlesim/Pose?)" in result.stderr
     assert run("check").exit_code == 1
-    assert run("add", "nowhere").stderr == f"coframe: no folder {tmp_path}/nowhere\n"
+    assert run("add", "nowhere").stderr.startswith(f"coframe: There is no folder {tmp_path}/nowhere.\n")
     (tmp_path / "empty").mkdir()
     assert "no package with .msg, .srv, .action or .idl files in" in run("add", "empty").stderr
+
+
+@pytest.mark.parametrize("command", ["check", "add", "stubs"])
+@pytest.mark.parametrize(
+    ("path", "text"),
+    [
+        ("a/b/c", "There is no folder"),
+        (os.devnull, "is a device, a pipe or a socket, not a folder."),
+        ("pipe", "is a device, a pipe or a socket, not a folder."),
+        ("ws/src/my_msgs/msg/Num.msg", "is a file, not a folder."),
+        ("gone", "There is no folder"),
+    ],
+)
+def test_paths_that_are_no_folder_are_named_for_what_they_are(
+    tmp_path: Path, command: str, path: str, text: str
+) -> None:
+    if not hasattr(os, "mkfifo"):
+        pytest.skip("no named pipes")
+    os.mkfifo(tmp_path / "pipe")
+    (tmp_path / "gone").symlink_to("nowhere")
+    result = run(command, path)
+    assert (result.exit_code, text in result.stderr) == (1, True), result.stderr
+    assert "Give the folder of a program or of an interface package" in result.stderr
 
 
 @pytest.mark.slow

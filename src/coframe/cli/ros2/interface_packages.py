@@ -74,8 +74,7 @@ def add(path: Path) -> None:
     Example: coframe interface add ~/ros2_ws/src/my_msgs
     """
     folder = path.expanduser().absolute()
-    if not folder.is_dir():
-        fail(f"no folder {folder}")
+    _require_folder(folder)
     found = package_folders(InterfaceFolder("", folder, 8))
     if not found:
         fail(
@@ -141,9 +140,21 @@ def stubs(folder: Path | None, output: Path | None) -> None:
 def _search_from(folder: Path | None) -> None:
     if folder is None:
         return
-    if not folder.expanduser().is_dir():
-        fail(f"no folder {folder}")
+    _require_folder(folder.expanduser())
     add_start(folder.expanduser())
+
+
+def _require_folder(path: Path) -> None:
+    """End the command if a path is not a folder."""
+    hint = "Give the folder of a program or of an interface package, such as '.'."
+    if path.is_dir():
+        return
+    if path.is_file():
+        fail(f"{path} is a file, not a folder.", hint)
+    if path.exists():
+        fail(f"{path} is a device, a pipe or a socket, not a folder.", hint)
+    above = next((parent for parent in path.absolute().parents if parent.is_dir()), path.parent)
+    fail(f"There is no folder {path}.", f"{hint} The part that exists is {above}.")
 
 
 def _packages_in(source: InterfaceFolder) -> dict[str, Path]:

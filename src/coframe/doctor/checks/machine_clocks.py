@@ -74,12 +74,12 @@ def _by_stamps(observation: Observation) -> Iterator[Finding]:
     if not correct or len(off) < 2 or off[-1][0] - off[0][0] > _SPREAD:
         return
     edges = [edge for _, edge in off]
-    median = float(np.median([offset for offset, _ in off]))
+    shared = observation.offset(edges[len(edges) // 2].name)
     yield Finding(
         code=CODE,
         severity=Severity.WARNING,
-        text=f"the stamps of {listed(edge.name for edge in edges)} are all {duration(abs(median))} "
-        f"{'ahead of' if median < 0 else 'behind'} their arrival, but those of other edges are not: the clock of "
+        text=f"the stamps of {listed(edge.name for edge in edges)} are all {shared.size} "
+        f"{shared.direction} their arrival, but those of other edges are not: the clock of "
         "their machine is wrong",
         fix=_FIX,
         edge=edges[0].key,

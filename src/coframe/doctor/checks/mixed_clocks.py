@@ -9,6 +9,7 @@ from coframe._output.formatting import duration, listed, seconds
 from coframe.analysis.clocks import SAME_CLOCK
 from coframe.doctor._edge import publishers_of
 from coframe.doctor._finding import Finding, Severity
+from coframe.time import HOUR, SECOND
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -18,6 +19,17 @@ if TYPE_CHECKING:
 __all__ = ["CODE", "find"]
 
 CODE = "TF009"
+_FIX = (
+    "In a simulation, start every node with --ros-args -p use_sim_time:=true; on a real robot, none, and synchronize "
+    "the clocks of its machines (chronyc tracking). Replay a recording with its own clock (`coframe play BAG --clock`)."
+)
+_FIX_WITH_HOURS = (
+    "The difference is a number of whole hours: check the node for a local time that is used as UTC, and the time zone "
+    "of its machine."
+)
+_MAX_HOURS = 14  # The time zones of the world are up to 14 hours off UTC.
+_MAX_OFFSETS = 4  # different offsets in one text
+_KINDS = {"wall": ", the system clock", "simulated": ", simulated time"}
 
 
 def find(observation: Observation) -> Iterator[Finding]:
@@ -25,8 +37,8 @@ def find(observation: Observation) -> Iterator[Finding]:
     by_clock: dict[str, list[str]] = {}
     for name, clock in observation.clocks.items():
         by_clock.setdefault(clock, []).append(name)
-    usual, *others = sorted(by_clock, key=lambda clock: (-len(by_clock[clock]), clock)) or [""]
-    for clock in others:
+    usual = observation.usual_clock
+    for clock in sorted(by_clock.keys() - {usual}, key=lambda clock: (-len(by_clock[clock]), clock)):
         yield _finding(observation, usual, by_clock[usual], clock, by_clock[clock])
     if by_clock:
         yield from _static(observation, usual)
@@ -42,15 +54,15 @@ def _finding(observation: Observation, usual: str, usual_names: list[str], clock
     return Finding(
         code=CODE,
         severity=Severity.ERROR,
-        text=f"two clocks: the stamps of {listed(names)} are on {_called(clock)} ({seconds(stamps[0])}), those of "
-        f"{listed(usual_names)} on {_called(usual)}",
+        text=f"two clocks: the stamps of {_offsets(observation, names)} {_called(usual)} ({seconds(stamps[0])}"
+        f"{_KINDS.get(clock, '')}), which those of {listed(usual_names)} are on",
         fix="Use one clock for all nodes. "
         + (
             "Start these nodes with --ros-args -p use_sim_time:=true."
             if should_be_simulated
-            else "In a simulation, start every node with --ros-args -p use_sim_time:=true; on a real robot, none. "
-            "Replay a "
-            "recording with its own clock (`coframe play BAG --clock`)."
+            else _FIX_WITH_HOURS
+            if _is_whole_hours(observation.offset(names[0]).offset)
+            else _FIX
         ),
         edge=first.key if first else None,
         topic="" if first else sensors[0].topic,
@@ -91,7 +103,29 @@ def _static(observation: Observation, usual: str) -> Iterator[Finding]:
         )
 
 
+def _offsets(observation: Observation, names: list[str]) -> str:
+    """Return names with how far their stamps are off, as a clause; names with the same offset are joined."""
+    by_offset: dict[tuple[str, str], list[str]] = {}
+    for name in names:
+        offset = observation.offset(name)
+        by_offset.setdefault((offset.size, offset.direction), []).append(name)
+    pairs = list(by_offset.items())
+    shown = [*pairs[: _MAX_OFFSETS - 1], pairs[-1]] if len(pairs) > _MAX_OFFSETS else pairs
+    last = shown[-1][0][1]
+    parts = [
+        f"{listed(same)} {'are ' if number == 0 else ''}{size}"
+        + (f" {direction}" if direction != last or number + 1 == len(shown) else "")
+        for number, ((size, direction), same) in enumerate(shown)
+    ]
+    return ", those of ".join(parts)
+
+
+def _is_whole_hours(offset: float) -> bool:
+    hours = round(abs(offset) / HOUR)
+    return 1 <= hours <= _MAX_HOURS and abs(abs(offset) - hours * HOUR) < SECOND
+
+
 def _called(clock: str) -> str:
     return {"wall": "the system clock", "simulated": "simulated time"}.get(
-        clock, "a clock that is hours off the system clock"
+        clock, "a clock that is off the system clock"
     )

@@ -9,24 +9,21 @@ import numpy as np
 
 from coframe._output.formatting import duration
 from coframe.doctor._finding import Finding, Severity
-from coframe.time import MILLISECOND, SECOND
+from coframe.doctor.wrong_stamps import AHEAD, MIN_MESSAGES, is_ahead, is_ahead_by_design, is_behind
+from coframe.time import MILLISECOND
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from numpy.typing import NDArray
 
+    from coframe.analysis.clock_offset import ClockOffset
     from coframe.doctor._edge import Edge
     from coframe.doctor.observation import Observation
 
 __all__ = ["CODE", "find"]
 
 CODE = "TF008"
-_AHEAD = 20 * MILLISECOND
-_BEHIND = 500 * MILLISECOND
-# Localization nodes stamp map -> odom ahead of time, by their parameter transform_tolerance.
-_TOLERANCE = 2 * SECOND
-_MIN_MESSAGES = 5
 
 
 def find(observation: Observation) -> Iterator[Finding]:
@@ -37,16 +34,16 @@ def find(observation: Observation) -> Iterator[Finding]:
             yield _unset(edge)
             continue
         lags = observation.lags(edge.stamp, edge.arrived)
-        if lags is None or edge.count < _MIN_MESSAGES:
+        if lags is None or edge.count < MIN_MESSAGES:
             continue
-        if np.mean(lags < -_AHEAD) > 0.05:
-            yield _ahead(edge, lags)
-        elif np.median(lags) > _BEHIND:
-            yield _behind(edge, lags)
+        if is_ahead(lags):
+            yield _ahead(edge, lags, observation.offset(edge.name))
+        elif is_behind(lags):
+            yield _behind(edge, lags, observation.offset(edge.name))
     for sensor in observation.sensors:
         unset = int(np.count_nonzero(sensor.stamp == 0))
         # A few stamps of 0 are normal, because simulations begin at 0.
-        if unset >= _MIN_MESSAGES and unset > 0.05 * len(sensor.stamp):
+        if unset >= MIN_MESSAGES and unset > 0.05 * len(sensor.stamp):
             yield Finding(
                 code=CODE,
                 severity=Severity.WARNING,
@@ -76,15 +73,15 @@ def _unset(edge: Edge) -> Finding:
     )
 
 
-def _ahead(edge: Edge, lags: NDArray[np.int64]) -> Finding:
-    most, median = -int(lags.min()), -float(np.median(lags))
-    usual = most <= _TOLERANCE and (edge.constant or edge.child.rpartition("/")[2] == "odom")
-    row = int(np.argmax(lags < -_AHEAD))
+def _ahead(edge: Edge, lags: NDArray[np.int64], offset: ClockOffset) -> Finding:
+    most = -int(lags.min())
+    usual = is_ahead_by_design(edge, lags)
+    row = int(np.argmax(lags < -AHEAD))
     return Finding(
         code=CODE,
         severity=Severity.NOTE if usual else Severity.WARNING,
         text=f"{np.count_nonzero(lags < 0)} of {edge.count} stamps are ahead of the clock on arrival, by up to "
-        f"{duration(most)}, median {duration(median)}"
+        f"{duration(most)}; the median is {offset.size} {offset.direction} the clock"
         + ("; this is usual for localization and for constant transforms that are repeated" if usual else ""),
         fix="Nothing needs to be done if this is the transform_tolerance of the localization or the period of an old "
         "static_transform_publisher."
@@ -97,13 +94,13 @@ def _ahead(edge: Edge, lags: NDArray[np.int64]) -> Finding:
     )
 
 
-def _behind(edge: Edge, lags: NDArray[np.int64]) -> Finding:
+def _behind(edge: Edge, lags: NDArray[np.int64], offset: ClockOffset) -> Finding:
     timeout = np.ceil(lags.max() / (100 * MILLISECOND)) / 10
     return Finding(
         code=CODE,
         severity=Severity.WARNING,
-        text=f"arrives {duration(float(np.median(lags)))} after its stamp (median; at most "
-        f"{duration(int(lags.max()))})",
+        text=f"its stamps are {offset.size} {offset.direction} the clock on arrival, at most "
+        f"{duration(int(lags.max()))}",
         fix="Publish the transform as soon as it is measured, with the stamp of the measurement; with several "
         "machines, synchronize their clocks (chronyc tracking). Consumers have to wait for it: "
         f"lookup_transform(..., timeout=Duration(seconds={timeout:g})).",

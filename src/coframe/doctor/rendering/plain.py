@@ -32,6 +32,7 @@ def as_data(report: Report) -> dict[str, Any]:
                 "frame": sensor.frame,
                 "root": sensor.root,
                 "messages": sensor.messages,
+                "sweep_ns": sensor.sweep,
                 "possible_at_once": sensor.possible[0],
                 "possible_after_50_ms": sensor.possible[1],
                 "possible_after_100_ms": sensor.possible[2],
@@ -41,6 +42,10 @@ def as_data(report: Report) -> dict[str, Any]:
             }
             for sensor in report.sensors
         ],
+        "clock_offsets": {
+            name: {"offset_ns": offset.offset, "spread_ns": offset.spread, "drift_ppm": offset.drift}
+            for name, offset in ((name, seen.offset(name)) for name in seen.clocks)
+        },
         "topics": {facts.name: {"type": facts.type, "messages": facts.messages} for facts in seen.topics.values()},
         "unread": list(seen.unread),
     }

@@ -76,8 +76,9 @@ def _sensor(sensor: SensorFacts) -> str:
         if sensor.median_wait is None
         else f" (median wait {duration(sensor.median_wait)}, longest {duration(sensor.longest_wait or 0)})"
     )
+    until = f" until the end of each sweep, {duration(sensor.sweep)} after its stamp" if sensor.sweep else ""
     return (
-        f"{sensor.topic}: from {sensor.frame} to {sensor.root}: {at_once} of {sensor.messages} messages can be "
+        f"{sensor.topic}: from {sensor.frame} to {sensor.root}{until}: {at_once} of {sensor.messages} messages can be "
         "transformed at once, "
         + ", ".join(f"{number} after {after} ms" for number, after in zip(later, (50, 100, 200), strict=True))
         + waits

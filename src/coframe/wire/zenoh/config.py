@@ -201,12 +201,14 @@ def _check_named_files(config: zenoh.Config) -> None:
 
 
 def _from_file(module: Any, file: str, variable: str) -> zenoh.Config:
+    """Return the configuration in a file that an environment variable or an option names."""
+    remove = f"omit {variable}" if variable.startswith("--") else f"unset {variable}"
     try:
         check_regular(file, MAX_BYTES)
     except FileNotFoundError:
         raise WireError(
             f"The file {file}, named by {variable}, does not exist.",
-            hint="Name a configuration file of Zenoh (JSON5), or unset the variable to use the defaults of ROS 2.",
+            hint=f"Name a configuration file of Zenoh (JSON5), or {remove} to use the defaults of ROS 2.",
         ) from None
     except OSError as error:
         reason = error.strerror or type(error).__name__

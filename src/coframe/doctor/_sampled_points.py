@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The points of a few messages of a lidar: when its sweeps end, and what its mount can be compared with."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from coframe.analysis.liveness import usual_period
+from coframe.doctor.observation import ObservedPoints
+from coframe.errors import CoframeError, DecodeError
+from coframe.sensors import project_scan
+from coframe.sensors.layout import field_of
+from coframe.sensors.point_times import TIME_FIELDS, UnknownTimesError, times_in
+from coframe.type_names import LASER_SCAN, POINT_CLOUD
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from coframe.bags import Recording
+
+__all__ = ["sampled_points"]
+
+_MAX_MESSAGES = 12  # of a topic
+_MAX_POINTS = 3000  # of a message
+
+
+def sampled_points(recording: Recording, topic: str, type_: str) -> tuple[ObservedPoints, ...]:
+    """Return the points of some messages of a topic, evenly spread over the recording, without empty messages.
+
+    Args:
+        recording: The recording.
+        topic: The name of the topic.
+        type_: The type of its messages; other types than PointCloud2 and LaserScan have no points.
+    """
+    if type_ not in {LASER_SCAN, POINT_CLOUD}:
+        return ()
+    stamps = np.unique(recording.stamps(topic))
+    some = stamps[np.unique(np.linspace(0, len(stamps) - 1, _MAX_MESSAGES).astype(np.intp))] if len(stamps) else stamps
+    sampled = (_sample(recording, topic, stamp, round(usual_period(stamps))) for stamp in some.tolist())
+    return tuple(points for points in sampled if points is not None and len(points.points))
+
+
+def _sample(recording: Recording, topic: str, stamp: int, period: int) -> ObservedPoints | None:
+    """Return the points of the message with a stamp; None if it is damaged or has other fields."""
+    try:
+        recorded = recording.message_at(topic, stamp)
+        if recorded is None:
+            return None
+        message = recorded.message
+        frame = recording.frame(str(message.header.frame_id).lstrip("/"))
+        points, times = _scan(message) if hasattr(message, "ranges") else _cloud(message, stamp, period)
+    except (CoframeError, DecodeError, ValueError, TypeError, AttributeError, OverflowError):
+        return None
+    finite = np.isfinite(points).all(axis=1)
+    points, times = points[finite], times[finite] if times is not None else None
+    sweep = max(int(times.max()) - stamp, 0) if times is not None and len(times) else 0
+    some = slice(None, None, -(-len(points) // _MAX_POINTS) or 1)
+    times = np.full(len(points), stamp, dtype=np.int64) if times is None else times
+    return ObservedPoints(topic, frame, stamp, sweep, times[some], points[some])
+
+
+def _scan(message: Any) -> tuple[NDArray[np.float64], NDArray[np.int64] | None]:
+    hits = project_scan(message)
+    return np.asarray(hits.points, dtype=np.float64), hits.times if message.time_increment != 0 else None
+
+
+def _cloud(message: Any, stamp: int, period: int) -> tuple[NDArray[np.float64], NDArray[np.int64] | None]:
+    names = [field.name for field in message.fields if field.name in TIME_FIELDS and field.count <= 1]
+    points = np.stack([field_of(message, axis).reshape(-1).astype(np.float64) for axis in "xyz"], axis=1)
+    columns = {name: field_of(message, name).reshape(-1) for name in names}
+    structured = np.empty(len(points), dtype=[(name, values.dtype) for name, values in columns.items()])
+    for name, values in columns.items():
+        structured[name] = values
+    try:
+        read = times_in(structured, stamp, period=period) if names else None
+    except UnknownTimesError:
+        read = None
+    return points, read.times if read is not None else None
