@@ -15,7 +15,7 @@ PYTEST := env -u PYTHONDONTWRITEBYTECODE PYTHONPYCACHEPREFIX=$(CURDIR)/build/pyc
 BUILD_TOOLS = $(shell sed -n 's/^requires = \[\(.*\)\]/\1/p' pyproject.toml | sed 's/", "/" "/g')
 
 .DEFAULT_GOAL := help
-.PHONY: help setup build build-split demo test test-zenoh test-shared test-slow test-long test-ros test-ros-wheels sanitize sanitize-suite fuzz faults soak docs lint licences audit typecheck format conformance bench generate page page-check clean
+.PHONY: help setup build build-split demo test test-zenoh test-shared test-slow test-long test-ros test-ros-wheels sanitize sanitize-suite fuzz faults soak docs lint licenses audit typecheck format conformance bench generate page page-check clean
 
 help: ## list the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  make %-12s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -127,8 +127,8 @@ lint: $(STAMP) ## check style, words, import directions and generated files
 	$(BIN)/python scripts/generate_distributions.py --check
 	$(BIN)/python scripts/generate_protocol.py --check
 
-licences: $(STAMP) ## check the licences of all packages that coframe[all] installs
-	$(BIN)/python scripts/check_licences.py
+licenses: $(STAMP) ## check the licenses of all packages that coframe[all] installs
+	$(BIN)/python scripts/check_licenses.py
 
 $(VENV)/.audit: pyproject.toml | $(STAMP)
 	@$(BIN)/python -m pip install --quiet "pip>=25.1" && $(BIN)/python -m pip install --quiet --group audit && touch $@
@@ -170,7 +170,7 @@ test-root: ## install dist/ in an empty Debian root and run the installed-packag
 test-free-threaded: ## build CPython without the GIL, run tests of coframe with it and measure two threads: PYTHONS=/path/to/python3.14t skips the first
 	scripts/free_threaded.sh $(PYTHONS)
 
-release-check: ## check what is in dist/: metadata, sizes, licences of bundled parts, links, changelog
+release-check: ## check what is in dist/: metadata, sizes, licenses of bundled parts, links, changelog
 	$(ANY_PYTHON) scripts/release_check.py
 
 generate: $(STAMP) ## generate the message classes from interfaces/, the page about distributions, and the page's side of the viewer's protocol

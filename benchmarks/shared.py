@@ -5,7 +5,7 @@
 
 A broadcaster publishes 10 transforms at 1 kHz. READERS processes (50) look one up at 10 Hz in shared transforms, one
 process in those of its own listener, and READERS further processes in a buffer that they have filled: the programs
-themselves. What the others use more is the cost of listening, in per cent of one core. All run at the same time, so
+themselves. What the others use more is the cost of listening, in percent of one core. All run at the same time, so
 that the ratio does not depend on what else the machine does. The memory is what a reader has of its own (USS) beyond
 such a program. Then KILLS times (20) the process that receives is killed.
 """
@@ -106,7 +106,7 @@ def _processor_time(processes: list[subprocess.Popen[str]]) -> float:
 
 
 def _loads(*groups: list[subprocess.Popen[str]]) -> list[float]:
-    """Return the processor time of groups of processes, in per cent of one core."""
+    """Return the processor time of groups of processes, in percent of one core."""
     before = [_processor_time(group) for group in groups]
     time.sleep(SECONDS)
     return [100 * (_processor_time(group) - start) / SECONDS for group, start in zip(groups, before, strict=True)]

@@ -36,7 +36,7 @@ class Message(NamedTuple):
 
 
 class Error(NamedTuple):
-    """The worst errors of lookups in metres and radians."""
+    """The worst errors of lookups in meters and radians."""
 
     distance: float
     angle: float

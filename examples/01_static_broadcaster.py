@@ -31,7 +31,7 @@ class SensorMounts(Node):
         self.broadcaster.sendTransform([lidar, camera])
 
     def mount(self, child: str, *, x: float, z: float, pitch: float) -> TransformStamped:
-        """Return base_link -> child; x and z in metres, pitch (about y, positive looks down) in radians."""
+        """Return base_link -> child; x and z in meters, pitch (about y, positive looks down) in radians."""
         transform = TransformStamped()
         transform.header.stamp = self.get_clock().now().to_msg()
         transform.header.frame_id = "base_link"

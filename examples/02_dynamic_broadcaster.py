@@ -15,8 +15,8 @@ from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 from tf2_ros import TransformBroadcaster
 
-RADIUS = 2.0  # metres
-SPEED = 0.5  # radians per second around the centre
+RADIUS = 2.0  # meters
+SPEED = 0.5  # radians per second around the center
 RATE = 50.0  # hertz
 
 

@@ -14,7 +14,7 @@ from coframe.sensors import deskew
 
 SECOND = 1_000_000_000
 TURN = np.radians(90.0)  # radians per second
-WALL = 3.0  # metres from the robot, along y
+WALL = 3.0  # meters from the robot, along y
 
 
 def main() -> None:

@@ -5,7 +5,7 @@
 #   build_cyclonedds.sh SOURCE [FOLDER]
 #
 # SOURCE is the unpacked source or its archive (.tar.gz), such as the .orig.tar.gz of Debian's source package `cyclonedds`.
-# FOLDER, by default src/coframe/_bundled, gets the library and the licence: src/coframe/wire/dds/library.py finds it there.
+# FOLDER, by default src/coframe/_bundled, gets the library and the license: src/coframe/wire/dds/library.py finds it there.
 # Requires CMake 3.16 and a C compiler. Nothing but the library is built: no TLS, security plugins or shared memory.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)

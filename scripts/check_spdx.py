@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Check that each source file names its licence in one of its first lines.
+"""Check that each source file names its license in one of its first lines.
 
 Example:
     python scripts/check_spdx.py          list the files without an SPDX line

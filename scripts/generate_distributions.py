@@ -19,7 +19,7 @@ TEXT = """# Which distribution?
 
 <!-- Written by scripts/generate_distributions.py from src/coframe/distributions.py; do not edit. -->
 
-ROS 2 distributions differ in message definitions and in behaviour. coframe follows one of
+ROS 2 distributions differ in message definitions and in behavior. coframe follows one of
 {distributions}. The first of these that is set selects it, when a process starts:
 
 1. `coframe --distro NAME COMMAND`, for a command and the nodes that it starts;
@@ -62,11 +62,11 @@ Commands and recordings can still read messages of these types.
 |---|---|---|
 {removed}
 
-## Behaviour
+## Behavior
 
 | what | since | before | from then on |
 |---|---|---|---|
-{behaviours}
+{behaviors}
 """
 
 
@@ -82,7 +82,7 @@ def page() -> str:
             (f"`{name}`", row.since.title, row.what) for name, row in sorted(DEFINITIONS.items(), key=_by_since)
         ),
         removed=_rows((_removed_name(name), row.since.title, row.instead) for name, row in REMOVED.items()),
-        behaviours=_rows(
+        behaviors=_rows(
             (row.what, row.since.title, row.before, row.after)
             for row in sorted(BEHAVIOURS.values(), key=lambda row: row.since)
         ),

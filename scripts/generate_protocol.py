@@ -102,7 +102,7 @@ export type OptionSpec = {
       readonly unit?: string;
     }
   | { readonly kind: "flag"; readonly value: boolean }
-  | { readonly kind: "colour"; readonly value: string }
+  | { readonly kind: "color"; readonly value: string }
   | { readonly kind: "text"; readonly value: string }
   | {
       readonly kind: "choice";
@@ -259,7 +259,7 @@ def _option(option: Option) -> dict[str, Any]:
 _OPTION_KINDS = {
     NumberOption: "number",
     FlagOption: "flag",
-    ColorOption: "colour",
+    ColorOption: "color",
     ChoiceOption: "choice",
     TextOption: "text",
 }

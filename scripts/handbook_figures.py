@@ -68,7 +68,7 @@ class Drawing:
         )
 
     def box(self, at: Point, words: str, color: str = BLUE) -> None:
-        """Draw a box with a name, centred at a point."""
+        """Draw a box with a name, centerd at a point."""
         half = 4.3 * len(words) + 8
         self.parts.append(
             f'<rect x="{at[0] - half:.1f}" y="{at[1] - 14:.1f}" width="{2 * half:.1f}" height="28" rx="6" fill="#fff"'

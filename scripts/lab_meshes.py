@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Write the meshes of the lab's robot, src/coframe/lab/meshes/*.glb, from primitive solids.
 
-Lengths are in metres, in the frames of the links: x forward, y left, z up. The camera looks along z.
+Lengths are in meters, in the frames of the links: x forward, y left, z up. The camera looks along z.
 
 Example:
     python scripts/lab_meshes.py
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 TARGET = Path(__file__).parents[1] / "src" / "coframe" / "lab" / "meshes"
 
-ORANGE, DARK, GREY = (0.93, 0.42, 0.08), (0.06, 0.065, 0.07), (0.42, 0.45, 0.5)
+ORANGE, DARK, GRAY = (0.93, 0.42, 0.08), (0.06, 0.065, 0.07), (0.42, 0.45, 0.5)
 LIGHT, BLUE, GLASS = (0.78, 0.8, 0.82), (0.05, 0.25, 0.6), (0.03, 0.05, 0.12)
 SEGMENTS = 20
 
@@ -75,8 +75,8 @@ def cylinder(radius: float, bottom: float, top: float, bevel: float = 0.0) -> So
 def prism(outline: list[tuple[float, float]], bottom: float, top: float, bevel: float = 0.004) -> Solid:
     """Extrude a convex outline in x and y, counter-clockwise, along z, with bevelled edges at both ends."""
     points = np.array(outline)
-    centre = points.mean(axis=0)
-    inner = centre + (points - centre) * (1.0 - bevel / np.abs(points - centre).max(axis=0).min())
+    center = points.mean(axis=0)
+    inner = center + (points - center) * (1.0 - bevel / np.abs(points - center).max(axis=0).min())
     rings = [(inner, bottom), (points, bottom + bevel), (points, top - bevel), (inner, top)]
     corners: list[Any] = []
     count = len(points)
@@ -124,7 +124,7 @@ def base() -> list[Part]:
     places = [(x, y) for x in (-0.125, 0.125) for y in (-0.165, 0.165)]
     posts = [cylinder(0.008, 0.07, 0.262).moved(0.1, y) for y in (-0.125, 0.125)]
     return [
-        (GREY, prism(rounded(0.4, 0.29, 0.05), 0.02, 0.07, 0.008)),
+        (GRAY, prism(rounded(0.4, 0.29, 0.05), 0.02, 0.07, 0.008)),
         (LIGHT, prism(rounded(0.36, 0.25, 0.045), 0.07, 0.078)),
         (ORANGE, prism(rounded(0.012, 0.2, 0.005, 2), 0.035, 0.055, 0.002).moved(0.197)),
         *((DARK, wheel.moved(x, y, 0.045)) for x, y in places),
@@ -173,7 +173,7 @@ def gripper() -> list[Part]:
     fingers = [box((0.0, 0.055), (y - 0.007, y + 0.007), (-0.01, 0.01)) for y in (-0.036, 0.036)]
     tips = [box((0.03, 0.055), (y - 0.003, y + 0.003), (-0.009, 0.009), 0.001) for y in (-0.0275, 0.0275)]
     return [
-        (GREY, cylinder(0.016, -0.1, -0.02).along("x")),
+        (GRAY, cylinder(0.016, -0.1, -0.02).along("x")),
         (DARK, box((-0.03, 0.004), (-0.05, 0.05), (-0.016, 0.016), 0.005)),
         *((LIGHT, finger) for finger in fingers),
         *((ORANGE, tip) for tip in tips),
@@ -188,8 +188,8 @@ def imu() -> list[Part]:
 
 
 def glb(parts: list[Part]) -> bytes:
-    """Return a binary glTF file with one primitive per colour; z is up, as in the frames of links."""
-    colours = list(dict.fromkeys(colour for colour, _ in parts))
+    """Return a binary glTF file with one primitive per color; z is up, as in the frames of links."""
+    colors = list(dict.fromkeys(color for color, _ in parts))
     accessors: list[dict[str, Any]] = []
     views: list[dict[str, Any]] = []
     primitives: list[dict[str, Any]] = []
@@ -202,8 +202,8 @@ def glb(parts: list[Part]) -> bytes:
         accessors.append({**accessor, **bounds})
         return len(accessors) - 1
 
-    for number, colour in enumerate(colours):
-        solids = [solid for own, solid in parts if own == colour]
+    for number, color in enumerate(colors):
+        solids = [solid for own, solid in parts if own == color]
         rows = np.concatenate(
             [np.concatenate([solid.corners, solid.normals], axis=2).reshape(-1, 6) for solid in solids]
         ).astype("<f4")
@@ -221,8 +221,8 @@ def glb(parts: list[Part]) -> bytes:
             }
         )
     materials = [
-        {"pbrMetallicRoughness": {"baseColorFactor": [*colour, 1.0], "metallicFactor": 0.1, "roughnessFactor": 0.6}}
-        for colour in colours
+        {"pbrMetallicRoughness": {"baseColorFactor": [*color, 1.0], "metallicFactor": 0.1, "roughnessFactor": 0.6}}
+        for color in colors
     ]
     document = {
         "asset": {"version": "2.0", "generator": "scripts/lab_meshes.py"},

@@ -60,7 +60,7 @@ def check_files(dist: Path) -> Iterator[str]:
 
 
 def check_wheel(path: Path) -> Iterator[str]:
-    """Check sizes, and that every bundled part comes with its licence."""
+    """Check sizes, and that every bundled part comes with its license."""
     with zipfile.ZipFile(path) as wheel:
         names = wheel.namelist()
         bundled = [info for info in wheel.infolist() if info.filename.startswith(BUNDLED)]
@@ -80,17 +80,17 @@ def check_wheel(path: Path) -> Iterator[str]:
         yield f"{path.name}: the description has the link {link[0][2:-1]}, which the package index does not have"
     if WITHOUT_CYCLONEDDS.search(path.name) and not any(name.startswith(BUNDLED) for name in names):
         yield f"{path.name} has no DDS library, and no package has one: set COFRAME_BUNDLE (docs/releasing.md)"
-    yield from (f"{path.name}: {problem}" for problem in missing_licences(names, scripts))
+    yield from (f"{path.name}: {problem}" for problem in missing_licenses(names, scripts))
 
 
-def missing_licences(names: list[str], scripts: str) -> Iterator[str]:
-    """Check that the parts by others come with their licences: Cyclone DDS, JavaScript libraries, the viewer's page."""
+def missing_licenses(names: list[str], scripts: str) -> Iterator[str]:
+    """Check that the parts by others come with their licenses: Cyclone DDS, JavaScript libraries, the viewer's page."""
     bundled = [name for name in names if name.startswith(BUNDLED)]
     if bundled and not any("licen" in name.lower() or "notice" in name.lower() for name in bundled):
-        yield f"it contains {', '.join(bundled)} without a licence"
+        yield f"it contains {', '.join(bundled)} without a license"
     for name in names:
         if name.endswith(".min.js") and f"{name.removesuffix('.min.js')}.LICENSE" not in names:
-            yield f"it contains {name} without a licence"
+            yield f"it contains {name} without a license"
     packages = json.loads((ROOT / "viewer/package.json").read_text(encoding="utf-8"))["dependencies"]
     for package in packages:
         short = package.rpartition("/")[2]

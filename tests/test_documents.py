@@ -268,6 +268,6 @@ coframe.cli.main()
 """
     absent = {**os.environ, "COFRAME_DDS_LIBRARY": "/absent/libddsc.so"}
     result = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False, env=absent)
-    assert "Use one of these ways: " in result.stdout
+    assert "Use one of these options: " in result.stdout
     assert "pip install 'coframe[cli]'" in result.stderr
     assert "Traceback" not in result.stderr

@@ -25,7 +25,7 @@ bool is_meant_as_seconds(std::int64_t nanoseconds) { return nanoseconds > 0 && n
 }  // namespace
 
 BufferObject& buffer_of(nb::handle object) {
-  if (!nb::inst_ready(object)) throw nb::type_error("the buffer was not initialised: __init__ was not called");
+  if (!nb::inst_ready(object)) throw nb::type_error("the buffer was not initialized: __init__ was not called");
   return *nb::inst_ptr<BufferObject>(object);
 }
 

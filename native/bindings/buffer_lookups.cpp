@@ -288,7 +288,7 @@ Args:
         ``"200ms"``; None interpolates over any, as tf2.
 
 Returns:
-    A single transform: translation in metres, unit quaternion x, y, z, w, and the time of the lookup in
+    A single transform: translation in meters, unit quaternion x, y, z, w, and the time of the lookup in
     ``stamp``. Its ``extrapolated`` is the length of the extrapolation in nanoseconds.
 
 Raises:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sends messages with one call from Python: the message is serialised slot by slot and passed to DDS.
+// Sends messages with one call from Python: the message is serialized slot by slot and passed to DDS.
 #pragma once
 
 #include <nanobind/nanobind.h>
@@ -12,7 +12,7 @@
 
 namespace coframe::bindings {
 
-// Serialises and sends a message. Returns false if Python code has to serialise it.
+// Serializes and sends a message. Returns false if Python code has to serialize it.
 bool publish_message(const Writer& writer, const MessageCodec& codec, nb::handle message);
 
 // Returns a Python function that sends messages and returns whether it did. It leaves to Python code what the codec

@@ -26,14 +26,14 @@ class MessageCodec {
   // before them.
   MessageCodec(nb::type_object cls, nb::list fields, std::size_t ros1_prefix);
 
-  // Returns the CDR of a message; None if Python code has to serialise it.
+  // Returns the CDR of a message; None if Python code has to serialize it.
   nb::object encode(nb::handle message) const;
   // Returns the message in CDR bytes; None if Python code has to read it, or if more than `max_rest` bytes follow it.
   nb::object decode(std::span<const std::uint8_t> data, std::size_t max_rest = SIZE_MAX) const;
   // Returns a message of ROS 1; None if Python code has to read it.
   nb::object decode_ros1(std::span<const std::uint8_t> data) const;
 
-  // Writes a message. Returns false if Python code has to serialise it.
+  // Writes a message. Returns false if Python code has to serialize it.
   bool put_message(PyObject* message, Output& out) const;
   // The same for a message whose only field is a sequence of messages, which are in a list or tuple, or is one message.
   bool put_items(PyObject* items, Output& out) const;

@@ -27,7 +27,7 @@ TransformObject* self_of(PyObject* object) { return reinterpret_cast<TransformOb
 PyObject* or_none(PyObject* object) { return Py_NewRef(object ? object : Py_None); }
 
 // Arguments: 7 numbers, target, source, stamp, batch, and optionally the extrapolation.
-int initialise(PyObject* object, PyObject* arguments, PyObject* keywords) {
+int initialize(PyObject* object, PyObject* arguments, PyObject* keywords) {
   if (keywords && PyDict_GET_SIZE(keywords) != 0) {
     PyErr_SetString(PyExc_TypeError, "the values of a transform are given by position");
     return -1;
@@ -90,7 +90,7 @@ PyGetSetDef transform_properties[] = {
 
 PyType_Slot transform_slots[] = {
     {Py_tp_doc, const_cast<char*>("One pose with its frames and stamp, or a batch of them.")},
-    {Py_tp_init, reinterpret_cast<void*>(&initialise)},
+    {Py_tp_init, reinterpret_cast<void*>(&initialize)},
     {Py_tp_new, reinterpret_cast<void*>(&PyType_GenericNew)},
     {Py_tp_dealloc, reinterpret_cast<void*>(&deallocate_transform)},
     {Py_tp_getset, transform_properties},

@@ -180,11 +180,11 @@ void define_participant(nb::module_& wire) {
 }
 
 void define_writer(nb::module_& wire) {
-  nb::class_<PyWriter>(wire, "Writer", "A DDS writer of serialised messages.")
+  nb::class_<PyWriter>(wire, "Writer", "A DDS writer of serialized messages.")
       .def(nb::init<dds::Entity, dds::Entity, const QosProfile&, const std::string&, bool, std::shared_ptr<Event>>(),
            nb::arg("participant"), nb::arg("topic"), nb::arg("qos"), nb::arg("user_data"),
            nb::arg("checks_transforms") = false, nb::arg("on_change") = nb::none(), ReleaseGil())
-      .def("write", &write_bytes<&Writer::write>, nb::arg("message"), "Send one serialised message without the GIL.")
+      .def("write", &write_bytes<&Writer::write>, nb::arg("message"), "Send one serialized message without the GIL.")
       .def(
           "publish",
           [](const PyWriter& self, const MessageCodec& codec, nb::handle message) {
@@ -279,7 +279,7 @@ void define_store_properties(Class& cls, Of of) {
 }
 
 void define_readers(nb::module_& wire) {
-  auto reader = nb::class_<PyReader>(wire, "Reader", "A DDS reader of serialised messages.");
+  auto reader = nb::class_<PyReader>(wire, "Reader", "A DDS reader of serialized messages.");
   reader
       .def(nb::init<dds::Entity, dds::Entity, const QosProfile&, const std::string&, std::shared_ptr<Event>>(),
            nb::arg("participant"), nb::arg("topic"), nb::arg("qos"), nb::arg("user_data"), nb::arg("on_data").none(),
@@ -341,7 +341,7 @@ void define_readers(nb::module_& wire) {
           nb::arg("buffer"), nb::arg("is_static"), nb::arg("authority"), nb::arg("renaming") = nb::none(),
           nb::arg("on_data") = nb::none())
       .def("add", &add_message, nb::arg("writer"), nb::arg("message"),
-           "Store the transforms of one serialised message without the GIL.");
+           "Store the transforms of one serialized message without the GIL.");
   define_store_properties<TransformStore>(store, [](auto& self) -> auto& { return self; });
 
   nb::class_<PyEndpointReader>(wire, "EndpointReader", "The writers or readers found by DDS discovery.")
@@ -376,7 +376,7 @@ void define_wire(nb::module_& wire) {
         const auto* data = reinterpret_cast<const std::uint8_t*>(message.c_str());
         return check_tf_message(data, message.size()).reason == nullptr;
       },
-      nb::arg("message"), "Whether the bytes are a serialised TFMessage.");
+      nb::arg("message"), "Whether the bytes are a serialized TFMessage.");
   nb::class_<QosProfile>(wire, "QosProfile", "The policies that ROS programs set. Durations are in nanoseconds.")
       .def(
           "__init__",

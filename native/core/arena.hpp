@@ -11,7 +11,7 @@ class Arena {
   static constexpr std::size_t kAlignment = 64;                // a cache line
   static constexpr std::size_t kLarge = std::size_t{2} << 20;  // a large page
 
-  // The memory is not initialised. A block of kLarge bytes is requested as one large page, which is filled many times
+  // The memory is not initialized. A block of kLarge bytes is requested as one large page, which is filled many times
   // faster than small pages.
   explicit Arena(std::size_t size);
   Arena(const Arena&) = delete;

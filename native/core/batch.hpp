@@ -27,7 +27,7 @@ struct RowBlock {
 // one: no sample, a sample with another parent, the latest time, or velocities where samples share a stamp.
 void follow_block(const PathCache::Path& path, RowBlock& rows);
 
-// Returns the rows in order of time, so that neighbouring rows find their samples in the processor's cache.
+// Returns the rows in order of time, so that neighboring rows find their samples in the processor's cache.
 std::vector<std::uint32_t> order_by_time(const Stamp* stamps, std::size_t count);
 
 // The velocity of a frame in m/s and rad/s, expressed along the axes of the observing frame.

@@ -76,7 +76,7 @@ struct FrameSummary {
 // Statistics of the edge between a frame and its parent. Durations are in nanoseconds.
 struct EdgeSummary {
   FrameSummary frame;
-  double mean_interval, interval_deviation, longest_interval;  // between neighbouring samples; 0 if there are none
+  double mean_interval, interval_deviation, longest_interval;  // between neighboring samples; 0 if there are none
   std::uint64_t stored, late, repeated, old, self, nan, quaternion;
 };
 

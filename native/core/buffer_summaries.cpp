@@ -15,7 +15,7 @@ namespace coframe {
 
 namespace {
 
-// Mean, standard deviation and longest of the intervals between neighbouring samples.
+// Mean, standard deviation and longest of the intervals between neighboring samples.
 void measure_intervals(const History::View& samples, EdgeSummary& edge) {
   edge.mean_interval = edge.interval_deviation = edge.longest_interval = 0.0;
   if (samples.is_static() || samples.size() < 2) return;

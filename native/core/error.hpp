@@ -68,7 +68,7 @@ enum Refusal : unsigned {
   kNoChildFrame = 1u << 1,
   kNoParentFrame = 1u << 2,
   kNan = 1u << 3,
-  kDenormalisedQuaternion = 1u << 4,
+  kDenormalizedQuaternion = 1u << 4,
   kOldData = 1u << 5,
   kFrozen = 1u << 6,         // not a check of tf2: the buffer is frozen
   kTooManyFrames = 1u << 7,  // not a check of tf2: other nodes have published more names than the buffer stores

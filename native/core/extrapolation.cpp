@@ -20,9 +20,9 @@ Vector sum(double a, const Vector& u, double b, const Vector& v) {
   return {a * u.x + b * v.x, a * u.y + b * v.y, a * u.z + b * v.z};
 }
 
-// Returns the nearest neighbour of the first or last sample that has another stamp and the same parent; that sample
+// Returns the nearest neighbor of the first or last sample that has another stamp and the same parent; that sample
 // itself if there is none.
-std::size_t neighbour(const History::View& samples, std::size_t end, bool forward) {
+std::size_t neighbor(const History::View& samples, std::size_t end, bool forward) {
   const Stamp stamp = samples.time(end);
   for (std::size_t i = end; forward ? i > 0 : i + 1 < samples.size();) {
     i = forward ? i - 1 : i + 1;
@@ -35,7 +35,7 @@ std::size_t neighbour(const History::View& samples, std::size_t end, bool forwar
 }  // namespace
 
 // A screw motion (Chasles' theorem): rotation and translation along the axis grow in proportion, and across the axis
-// the frame rotates about the screw's centre.
+// the frame rotates about the screw's center.
 Pose part_of_motion(const Pose& motion, double share) {
   Pose part;
   const double* q = motion.q;
@@ -77,9 +77,9 @@ Found Extrapolation::at(const History::View& samples, Stamp stamp, Pose& pose, F
   const Sample last = samples.sample(end);
   pose = last.pose;
   parent = last.parent;
-  const std::size_t before = method == Method::twist ? neighbour(samples, end, forward) : end;
+  const std::size_t before = method == Method::twist ? neighbor(samples, end, forward) : end;
   if (before == end) return Found::ok;
-  Pose motion = last.pose;  // the end sample relative to its neighbour
+  Pose motion = last.pose;  // the end sample relative to its neighbor
   compose_inverse(samples.sample(before).pose, motion);
   const double step = static_cast<double>(distance(samples.time(end), samples.time(before)));
   pose = part_of_motion(motion, static_cast<double>(beyond) / step);

@@ -277,7 +277,7 @@ class History {
     last_.store(stamp, std::memory_order_release);
     return true;
   }
-  // Stores the leading rows of 7, x, y, z, qx, qy, qz, qw, that can be normalised and are each newer than all before;
+  // Stores the leading rows of 7, x, y, z, qx, qy, qz, qw, that can be normalized and are each newer than all before;
   // returns how many.
   std::size_t append_run(const HistoryContext& context, const Stamp* stamps, const double* rows, std::size_t count,
                          FrameId parent);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A rigid pose and its algebra: unit quaternions (x, y, z, w) and translations in metres.
+// A rigid pose and its algebra: unit quaternions (x, y, z, w) and translations in meters.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@ struct Pose {
 
 inline double dot(const double* a, const double* b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3]; }
 
-// Normalises `q` and picks the same sign as tf2, which converts to a rotation matrix and back: w positive where the
+// Normalizes `q` and picks the same sign as tf2, which converts to a rotation matrix and back: w positive where the
 // matrix has a positive trace (w^2 > 1/4), else the largest of x, y, z positive. A zero, infinite or NaN quaternion, or
 // one whose squared length underflows or overflows, becomes NaN.
 inline void canonicalise(double* q) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decodes tf2_msgs/TFMessage and tf/tfMessage as ROS 1 serialises them: little endian, unaligned, strings without NUL.
+// Decodes tf2_msgs/TFMessage and tf/tfMessage as ROS 1 serializes them: little endian, unaligned, strings without NUL.
 #pragma once
 
 #include "core/cdr.hpp"

@@ -14,7 +14,7 @@ namespace coframe {
 
 // How far an interpolated transform of an edge may be from the original one.
 struct MaxError {
-  double distance = 0.0;  // metres
+  double distance = 0.0;  // meters
   double angle = 0.0;     // radians
 
   static constexpr double kMaxAngle = 0.7853981633974483;  // 45 degrees, see thinning.cpp

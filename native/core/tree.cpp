@@ -31,13 +31,13 @@ inline Pose canonical_pose(const TransformValues& values) {
   return pose;
 }
 
-// tf2 checks the quaternion after normalising it, so only a quaternion that cannot be normalised is rejected, by both
+// tf2 checks the quaternion after normalising it, so only a quaternion that cannot be normalized is rejected, by both
 // checks.
 unsigned check_values(const Pose& pose) {
   const double sum = pose.q[0] + pose.p[0] + pose.p[1] + pose.p[2];
   if (sum == sum) return 0;  // otherwise one of them is NaN, or they are infinite
   unsigned refusals = 0;
-  if (std::isnan(pose.q[0])) refusals |= kNan | kDenormalisedQuaternion;
+  if (std::isnan(pose.q[0])) refusals |= kNan | kDenormalizedQuaternion;
   for (double value : pose.p) {
     if (std::isnan(value)) refusals |= kNan;
   }
@@ -58,7 +58,7 @@ void Frame::Counts::add(Insertion outcome) {
 void Frame::Counts::refuse(unsigned refusals) {
   if (refusals & kSelfTransform) self.add(1);
   if (refusals & kNan) nan.add(1);
-  if (refusals & kDenormalisedQuaternion) quaternion.add(1);
+  if (refusals & kDenormalizedQuaternion) quaternion.add(1);
 }
 
 void Frame::Counts::copy(const Counts& other) {
@@ -466,7 +466,7 @@ std::vector<LogLine> refusal_texts(unsigned refusals, std::string_view parent, s
     lines.push_back({true, numbers("TF_NAN_INPUT: Ignoring transform for child_frame_id \"%s\" from authority \"%s\" "
                                    "because of a nan value in the transform (%f %f %f) (%f %f %f %f)")});
   }
-  if (refusals & kDenormalisedQuaternion) {
+  if (refusals & kDenormalizedQuaternion) {
     lines.push_back({true, format("TF_DENORMALIZED_QUATERNION: Ignoring transform for child_frame_id \"%s\" from "
                                   "authority \"%s\" because of an invalid quaternion in the transform (%f %f %f %f)",
                                   child_name.c_str(), who.c_str(), pose.q[0], pose.q[1], pose.q[2], pose.q[3])});

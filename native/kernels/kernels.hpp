@@ -34,7 +34,7 @@ struct Points {
   double *x, *y, *z;
 };
 
-// The motion of an edge between two neighbouring samples, interpolated like interpolate() does: on a straight line and
+// The motion of an edge between two neighboring samples, interpolated like interpolate() does: on a straight line and
 // along the shortest arc.
 struct Motion {
   Pose older, newer;
@@ -53,7 +53,7 @@ struct alignas(64) PoseRows {
   double p[3][kRowBlock];
 };
 
-// Many velocities in metres and radians per second, with one array per number.
+// Many velocities in meters and radians per second, with one array per number.
 struct alignas(64) TwistRows {
   double linear[3][kRowBlock];
   double angular[3][kRowBlock];
@@ -85,7 +85,7 @@ struct JointMotion {
   JointKind kind = JointKind::fixed;
   Pose origin;
   double half_turn[4];      // joints that rotate: the origin's quaternion times half a turn about the axis
-  double directions[2][3];  // joints that translate: the displacement per metre; planar joints have two directions
+  double directions[2][3];  // joints that translate: the displacement per meter; planar joints have two directions
 };
 
 struct Span {

@@ -50,8 +50,8 @@ void gather(const char* data, std::ptrdiff_t step, std::size_t n, double* out) {
     std::memcpy(out + i, data + static_cast<std::ptrdiff_t>(i) * step, sizeof(double));
 }
 
-// Normalises quaternions; returns false if one is zero.
-bool normalise(double (*columns)[kRowBlock], std::size_t n) {
+// Normalizes quaternions; returns false if one is zero.
+bool normalize(double (*columns)[kRowBlock], std::size_t n) {
   for (std::size_t i = 0; i < n; ++i) {
     double largest = 0.0, squares = 0.0;
     for (int k = 0; k < 4; ++k) largest = std::max(largest, std::abs(columns[k][i]));
@@ -159,7 +159,7 @@ bool JointTree::read(std::size_t joint, const std::vector<JointPositions>& given
   }
   if (kind == JointKind::floating) {
     if (!source.from) std::fill(columns[6], columns[6] + end, 1.0);
-    return normalise(columns + 3, n);
+    return normalize(columns + 3, n);
   }
   if (size == 1 && (source.multiplier != 1.0 || source.offset != 0.0)) {
     for (std::size_t i = 0; i < end; ++i) columns[0][i] = source.multiplier * columns[0][i] + source.offset;

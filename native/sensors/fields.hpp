@@ -8,7 +8,7 @@
 
 namespace coframe {
 
-// Points in rows, as in an organised cloud. Points are numbered row by row.
+// Points in rows, as in an organized cloud. Points are numbered row by row.
 struct Grid {
   std::size_t rows, width;
   std::size_t count() const { return rows * width; }

@@ -465,7 +465,7 @@ std::shared_ptr<Segment> Segment::open(const std::string& folder, const std::str
 namespace coframe {
 
 std::shared_ptr<Segment> Segment::open(const std::string&, const std::string&, Stamp, std::size_t) {
-  throw SegmentError("sharing transforms between processes is supported on Linux only");
+  throw SegmentError("sharing transforms between processes is supported only on Linux");
 }
 
 }  // namespace coframe

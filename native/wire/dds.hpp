@@ -36,7 +36,7 @@ struct SampleInfo {
   std::uint32_t absolute_generation_rank;
 };
 
-struct Serdata;  // a reference-counted serialised sample
+struct Serdata;  // a reference-counted serialized sample
 struct Sertype;  // the type of a topic's samples
 struct Qos;
 struct Listener;
@@ -107,7 +107,7 @@ struct TypeDescriptor {
   const char* name;
   const void* keys;
   std::uint32_t instruction_count;
-  const std::uint32_t* instructions;  // for the serialiser
+  const std::uint32_t* instructions;  // for the serializer
   const char* meta;
   Blob type_information, type_mapping;
   std::uint32_t representations;
@@ -257,7 +257,7 @@ inline IoVector io_vector(const void* data, std::size_t size) {
 // Returns the type of an entity's samples; null with Cyclone DDS 0.10. It lives as long as the entity.
 const Sertype* type_of(Entity entity);
 
-// Sends serialised bytes: 4 bytes of encapsulation, all in the first part, then CDR. `size` is that of all parts. They
+// Sends serialized bytes: 4 bytes of encapsulation, all in the first part, then CDR. `size` is that of all parts. They
 // are copied. `type` is that of the writer.
 Code write(Entity writer, const Sertype* type, std::span<const IoVector> parts, std::size_t size);
 

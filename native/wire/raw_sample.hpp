@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Serialised bytes in the form of a sample of Cyclone DDS 0.10.
+// Serialized bytes in the form of a sample of Cyclone DDS 0.10.
 //
 // A sample must have the type of its writer, and 0.10 has no function that returns that type. But dds_writecdr accepts
 // samples of other types and converts them: it asks the sample for its bytes and copies them into a sample of the

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Receives serialised messages of any type. The thread that waits for the event takes them.
+// Receives serialized messages of any type. The thread that waits for the event takes them.
 #pragma once
 
 #include <atomic>

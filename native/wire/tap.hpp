@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Receives serialised messages with their arrival times. The user polls for them.
+// Receives serialized messages with their arrival times. The user polls for them.
 #pragma once
 
 #include <cstddef>

@@ -12,7 +12,7 @@ namespace {
 
 void check_encapsulation(std::size_t size) {
   if (size < 4)
-    throw std::invalid_argument("The message is too short: a serialised message begins with 4 bytes of encapsulation.");
+    throw std::invalid_argument("The message is too short: a serialized message begins with 4 bytes of encapsulation.");
 }
 
 bool is_damaged_tf_message(const dds::IoVector& bytes) {

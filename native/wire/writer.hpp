@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Publishes serialised messages.
+// Publishes serialized messages.
 #pragma once
 
 #include <atomic>

@@ -28,7 +28,7 @@ class Transform:
     ) -> None: ...
     @property
     def values(self) -> tuple[float, float, float, float, float, float, float]:
-        """(x, y, z, qx, qy, qz, qw) as floats, translation in metres; for a batch an array of shape (..., 7)."""
+        """(x, y, z, qx, qy, qz, qw) as floats, translation in meters; for a batch an array of shape (..., 7)."""
 
     @property
     def stamp(self) -> int | None:
@@ -112,7 +112,7 @@ class Buffer:
                 ``"200ms"``; None interpolates over any, as tf2.
 
         Returns:
-            A single transform: translation in metres, unit quaternion x, y, z, w, and the time of the lookup in
+            A single transform: translation in meters, unit quaternion x, y, z, w, and the time of the lookup in
             ``stamp``. Its ``extrapolated`` is the length of the extrapolation in nanoseconds.
 
         Raises:
@@ -698,7 +698,7 @@ class Relay:
     def __init__(self, static: bool, period: int, max_error: tuple[float, float] | None = None) -> None:
         """Write all edges at once if `static`, else at most one transform of each edge per `period` nanoseconds.
 
-        With `max_error`, in metres and radians, transforms are sent only if interpolation would otherwise be wrong by
+        With `max_error`, in meters and radians, transforms are sent only if interpolation would otherwise be wrong by
         more than that; a robot that moves is sent at least once per `period`.
 
         Raises:

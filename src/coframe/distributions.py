@@ -22,7 +22,7 @@ __all__ = [
     "NAMES",
     "REMOVED",
     "VARIABLES",
-    "Behaviour",
+    "Behavior",
     "Definition",
     "Distribution",
     "Removed",
@@ -84,14 +84,14 @@ class Removed(NamedTuple):
     instead: str
 
 
-class Behaviour(NamedTuple):
-    """A behaviour that differs between distributions.
+class Behavior(NamedTuple):
+    """A behavior that differs between distributions.
 
     Attributes:
         what: What differs.
-        since: The first distribution with the newer behaviour.
-        before: The behaviour of the distributions before it.
-        after: The behaviour from then on.
+        since: The first distribution with the newer behavior.
+        before: The behavior of the distributions before it.
+        after: The behavior from then on.
     """
 
     what: str
@@ -127,15 +127,15 @@ REMOVED: Final[Mapping[str, Removed]] = {
 }
 """What distributions no longer have, by type, or by package with a slash at its end."""
 
-BEHAVIOURS: Final[Mapping[str, Behaviour]] = {
-    "short_identifiers": Behaviour(
+BEHAVIOURS: Final[Mapping[str, Behavior]] = {
+    "short_identifiers": Behavior(
         "identifiers in `ros_discovery_info`, if no other participant or both forms are in the domain",
         _JAZZY,
         "24 bytes",
         "16 bytes",
     ),
 }
-"""The behaviours that differ, by the key that :func:`since` takes."""
+"""The behaviors that differ, by the key that :func:`since` takes."""
 
 
 def selected(environment: Mapping[str, str]) -> Distribution:
@@ -175,7 +175,7 @@ def follows(variant: str) -> bool:
 
 
 def since(key: str) -> bool:
-    """Return whether this process has the newer form of a behaviour of `BEHAVIOURS`."""
+    """Return whether this process has the newer form of a behavior of `BEHAVIOURS`."""
     return current() >= BEHAVIOURS[key].since
 
 

@@ -85,7 +85,7 @@ def absolute(topic: str) -> str:
 
 
 def belongs(topic: str, tf_topic: str, tf_static_topic: str) -> bool:
-    """Return whether a topic belongs to the robot of these transform topics: one of them, or in their namespace.
+    """Return whether a topic belongs to the robot: it is one of these transform topics, or is in their namespace.
 
     Example:
         >>> belongs("/robot1/scan", "/robot1/tf", "/tf_static"), belongs("/robot2/scan", "/robot1/tf", "/tf_static")

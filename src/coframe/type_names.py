@@ -15,5 +15,5 @@ LASER_SCAN: Final = "sensor_msgs/msg/LaserScan"
 
 
 def is_tf_message(ros_type: str) -> bool:
-    """Return whether a type, named as in ROS 1 or in ROS 2, is that of the messages with transforms."""
+    """Return whether a type name of ROS 1 or ROS 2 is the type of transform messages."""
     return ros_type.replace("/msg/", "/") in TF_MESSAGES_OF_ROS1

@@ -95,9 +95,9 @@ def doctor_edges(world):
 
 def frames_drawing(world):
     forest = grow(world.observation())
-    labelled = {name for name, frame in forest.frames.items() if any("stale" in line for line in alarms(frame))}
-    assert labelled == {name for name, frame in forest.frames.items() if frame.kind == "stale"}
-    return labelled
+    labeled = {name for name, frame in forest.frames.items() if any("stale" in line for line in alarms(frame))}
+    assert labeled == {name for name, frame in forest.frames.items() if frame.kind == "stale"}
+    return labeled
 
 
 def monitor_json(world):

@@ -59,7 +59,7 @@ def test_hints_do_not_suggest_another_frame(name, other):
 
 def test_two_trees_are_not_connected_because_of_a_common_word():
     edge = missing_edge(["odom", "base_link"], ["lidar_link", "lidar"])
-    assert edge is None or not edge.misspelt
+    assert edge is None or not edge.misspelled
 
 
 def test_very_long_names_are_not_compared():

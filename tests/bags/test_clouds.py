@@ -198,7 +198,7 @@ TIMES_IN_UNITS = {
 
 @pytest.mark.parametrize("unit", TIMES_IN_UNITS)
 def test_the_unit_of_point_times_follows_from_the_sweep(unit, tmp_path):
-    """Drivers use any unit; a wrong one would leave the points where they are or smear them by metres."""
+    """Drivers use any unit; a wrong one would leave the points where they are or smear them by meters."""
     name, kind, values = TIMES_IN_UNITS[unit]
     before = SWEEP if "before" in unit else 0
     rows = tf_rows()
@@ -297,7 +297,7 @@ def test_written_clouds_are_not_deskewed_twice(path, tmp_path, kind):
 
 @pytest.mark.parametrize("kind", ["pcd", "mcap", "ply"])
 def test_float32_far_from_the_origin_is_said_once_and_avoidable(tmp_path, kind):
-    """In UTM coordinates, float32 puts points into steps of half a metre."""
+    """In UTM coordinates, float32 puts points into steps of half a meter."""
     stamp = START + SECOND
     far = coframe.Transform([500_000.125, 5_400_000.5, 400.0])
     rows = [("/tf_static", START, recordings.cdr("utm", "lidar", far, START))]
@@ -471,9 +471,9 @@ def test_other_topics_and_unknown_fields_are_errors_with_hints(path, tmp_path):
             Clouds(recording, "nothing", "map")
         with pytest.raises(coframe.RecordingError, match=r"No message on /points can be tra.* attic: LookupExc"):
             write_clouds(Clouds(recording, "/points", "attic"), tmp_path / "a.ply")
-        clouds = Clouds(recording, "/points", "map", fields=["colour"])
+        clouds = Clouds(recording, "/points", "map", fields=["color"])
         assert list(clouds) == []
-        assert "the points have no field 'colour'" in next(iter(clouds.skipped))
+        assert "the points have no field 'color'" in next(iter(clouds.skipped))
     assert not list(tmp_path.glob("*a.ply*"))
 
 

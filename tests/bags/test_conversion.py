@@ -123,7 +123,7 @@ def test_a_type_with_new_fields_in_ros2_gets_their_defaults(tmp_path):
 @pytest.mark.parametrize(
     ("ros_type", "definition"),
     [
-        ("std_msgs/msg/String", "string data\nint32 colour"),  # a field that ROS 2 does not have
+        ("std_msgs/msg/String", "string data\nint32 color"),  # a field that ROS 2 does not have
         ("my_robot/msg/Wheel", "Missing missing"),
     ],
 )

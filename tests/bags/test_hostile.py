@@ -259,7 +259,7 @@ def test_messages_that_unpack_to_512_megabytes_are_refused(tmp_path):
     recording = coframe.open_bag(bag)
     recordings.assert_same(recording.buffer)
     problems = " ".join(recording.problems)
-    assert problems.count("bytes, the limit") == 2
+    assert problems.count("to more than the maximum of") == 2
 
 
 def test_a_file_that_was_compressed_as_a_whole_does_not_fill_the_disk(tmp_path, monkeypatch):
@@ -271,7 +271,7 @@ def test_a_file_that_was_compressed_as_a_whole_does_not_fill_the_disk(tmp_path, 
     packed.write_bytes(packed.read_bytes() + zeros(64 << 20))
     with coframe.open_bag(bag) as recording:
         recordings.assert_same(recording.buffer)
-        assert f"{packed.name} unpacks to more than 8388608 bytes" in " ".join(recording.problems)
+        assert f"{packed.name} unpacks to more than the maximum of 8388608 bytes" in " ".join(recording.problems)
 
 
 def test_empty_blocks_without_end_are_not_read(tmp_path):
@@ -301,4 +301,4 @@ def test_messages_with_a_high_ratio_have_a_budget_together(tmp_path, monkeypatch
             found = [message for message in recording.messages(topic) if len(message.data) == 8 << 20]
             assert len(found) == 4
         assert "a message of" in " ".join(recording.problems)
-        assert "bytes, the limit" in " ".join(recording.problems)
+        assert "to more than the maximum of" in " ".join(recording.problems)

@@ -22,7 +22,7 @@ def folder(shared):
 
 
 def assert_close(ours, theirs, tolerance):
-    """Compare poses (..., 7): a quaternion and its negative are the same rotation, and tf2 normalises them."""
+    """Compare poses (..., 7): a quaternion and its negative are the same rotation, and tf2 normalizes them."""
     theirs = theirs.copy()
     theirs[..., 3:] /= np.linalg.norm(theirs[..., 3:], axis=-1, keepdims=True)
     theirs[..., 3:] *= np.sign((ours[..., 3:] * theirs[..., 3:]).sum(axis=-1, keepdims=True))

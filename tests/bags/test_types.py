@@ -69,7 +69,7 @@ def test_other_readers_open_recordings_of_all_packages(tmp_path, define_in):
     define_in(
         tmp_path,
         "pumps_msgs",
-        Level="# in metres\nfloat64 depth 1.5\nstd_msgs/Header header\nTank[<=3] tanks\n",
+        Level="# in meters\nfloat64 depth 1.5\nstd_msgs/Header header\nTank[<=3] tanks\n",
         Tank="uint8 ROUND=1\nstring<=9 name\n",
     )
     types = [
@@ -94,7 +94,7 @@ def test_other_readers_open_recordings_of_all_packages(tmp_path, define_in):
     assert read["pumps_msgs/msg/Level"].depth == 1.5
     schemas = {schema.name: schema for schema in schemas_of(next((tmp_path / "run").glob("*.mcap")))}
     assert schemas["pumps_msgs/msg/Level"].data.decode() == (
-        "# in metres\nfloat64 depth 1.5\nstd_msgs/Header header\nTank[<=3] tanks\n\n"
+        "# in meters\nfloat64 depth 1.5\nstd_msgs/Header header\nTank[<=3] tanks\n\n"
         f"{'=' * 80}\nMSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id\n\n"
         f"{'=' * 80}\nMSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec\n\n"
         f"{'=' * 80}\nMSG: pumps_msgs/Tank\nuint8 ROUND=1\nstring<=9 name\n"

@@ -87,7 +87,7 @@ def test_short_option_of_the_help(monkeypatch):
 
 
 def test_unknown_commands_and_options_are_reported():
-    for words, text in ((["frobnicate"], "No such command"), (["doctor", "--colour"], "No such option")):
+    for words, text in ((["frobnicate"], "No such command"), (["doctor", "--color"], "No such option")):
         result = CliRunner().invoke(app, words)
         assert result.exit_code == 2
         assert text in result.output

@@ -130,7 +130,7 @@ def test_live_commands_without_a_dds_library(run, tmp_path):
     for words, (code, text) in zip(commands, results, strict=True):
         assert code == 1, (words, text)
         assert "libddsc" in text, (words, text)
-        assert "Use one of these ways: " in text, (words, text)
+        assert "Use one of these options: " in text, (words, text)
         assert "Traceback" not in text, (words, text)
 
 

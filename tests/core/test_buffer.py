@@ -191,7 +191,7 @@ def test_set_raises_what_tf2_logs():
         coframe.Buffer().set("a", "a", coframe.Transform(), static=True)
 
 
-def test_unnormalised_quaternion_is_normalised_and_made_canonical():
+def test_unnormalized_quaternion_is_normalized_and_made_canonical():
     buffer = coframe.Buffer()
     assert buffer._set_values("a", "b", SECOND, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, -2.0, False, "me") == 0
     assert buffer.lookup("a", "b").values[3:] == (0.0, 0.0, 0.0, 1.0)

@@ -169,7 +169,7 @@ def test_commands_report_gaps_and_have_an_option_for_them(bag):
     assert run("trajectory", bag, "map", "base", "--max-gap", "200ms", "--on-gap", "skip")[0] == 2
 
     code, text, errors = run("lookup", bag, "map", "base", "--at", "2s")
-    assert (code, "without a sample of 'base'; --max-gap 200ms makes this an error" in errors) == (0, True)
+    assert (code, "without a sample of 'base'; use --max-gap 200ms to get an error instead" in errors) == (0, True)
     code, text, errors = run("lookup", bag, "map", "base", "--at", "2s", "--max-gap", "200ms")
     assert (code, text, "lies in a gap of 2 s" in errors) == (1, "", True)
     assert run("lookup", bag, "map", "base", "--at", "3.5s", "--max-gap", "200ms")[::2] == (0, "")

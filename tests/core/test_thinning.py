@@ -244,7 +244,7 @@ def test_lookups_stay_within_the_maximum_error(trajectory, distance, angle):
 
 # Of the bytes of each recording, at most a fifth is sent. At 10 Hz this is possible only where more is published.
 @pytest.mark.parametrize(
-    ("name", "rate", "text", "reach"),  # the last one is the longest distance between two frames, in metres
+    ("name", "rate", "text", "reach"),  # the last one is the longest distance between two frames, in meters
     [
         ("turtlesim_tf_demo.bag", 10.0, "1mm,0.1deg", 16.0),
         ("tb3_tf_missing_static", 10.0, "1mm,0.1deg", 2.0),

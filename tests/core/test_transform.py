@@ -183,7 +183,7 @@ def test_missing_scipy_is_one_sentence(monkeypatch):
 
 
 @pytest.mark.parametrize("size", [1e-320, 1e-200, 1.0, 1e200, 1e308])
-def test_quaternions_of_any_length_are_normalised(size):
+def test_quaternions_of_any_length_are_normalized(size):
     np.testing.assert_allclose(Transform(quaternion=[0.0, 0.0, 0.0, size]).quaternion, [0, 0, 0, 1])
     half = Transform(quaternion=[[size, 0.0, 0.0, size], [0.0, 0.0, 0.0, 1.0]]).quaternion
     np.testing.assert_allclose(half, [[np.sqrt(0.5), 0, 0, np.sqrt(0.5)], [0, 0, 0, 1]], atol=1e-3)

@@ -114,7 +114,7 @@ def test_two_trees_name_their_roots_and_the_likely_missing_edge():
     ("asked", "word"),
     [("camera_lnk", "'camera_link'"), ("robot1/camera_link", "'camera_link'"), ("/camera_link", "'camera_link'")],
 )
-def test_misspelt_frame_name_suggests_the_right_one(asked, word):
+def test_misspelled_frame_name_suggests_the_right_one(asked, word):
     buffer = coframe.Buffer()
     buffer.set("base_link", "camera_link", NOW, static=True)
     why = buffer.why("base_link", asked)

@@ -79,10 +79,10 @@ def test_the_scripts_of_the_lab(shared, tmp_path):
     static = lost(found["static_tf_broadcaster.py"])
     assert list(static) == ["camera_link is at the correct position"]
     assert "0.707" in static["camera_link is at the correct position"]["cause"]
-    assert list(lost(found["dynamic_tf_broadcaster.py"])) == ["no other source moves the arm at the same time"]
+    assert list(lost(found["dynamic_tf_broadcaster.py"])) == ["no other publisher moves the arm at the same time"]
     listener = lost(found["tf_listener.py"])
-    assert list(listener) == ["each pose is right at its stamp"]
-    assert "use transform.header.stamp, not now()" in listener["each pose is right at its stamp"]["cause"]
+    assert list(listener) == ["each pose is correct at its stamp"]
+    assert "use transform.header.stamp, not now()" in listener["each pose is correct at its stamp"]["cause"]
     sensor = found["sensor_transform.py"]
     assert sensor["earned"] == 0
     assert sensor["problem"].endswith("it has a publisher on /scan_base_frame, but publish() is never called.")
@@ -283,7 +283,7 @@ def test_an_error_of_a_program_names_its_line_and_is_the_cause_of_all_lost_point
     number = next(number for number, line in enumerate(text.splitlines(), 1) if "q.x = 0" in line)
     (found,) = grade("static").values()
     assert f"in line {number} of static_tf_broadcaster.py: AssertionError: The 'x' field must be" in found["problem"]
-    assert {fact["cause"] for fact in lost(found).values()} == {"the program ended before it published anything"}
+    assert {fact["cause"] for fact in lost(found).values()} == {"the program exited before it published anything"}
 
 
 def test_a_missing_rotation_is_named():

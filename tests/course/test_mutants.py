@@ -21,7 +21,7 @@ CRITERIA = {STATIC: "static", DYNAMIC: "dynamic", LISTENER: "listener", SENSOR: 
 # File, text, its replacement, and words of the facts that must lose points.
 MUTANTS = {
     "wrong parent of the camera": (STATIC, '"end_effector", "camera', '"base_link", "camera', ["the parent"]),
-    "misspelt sensor": (
+    "misspelled sensor": (
         STATIC,
         '"imu_link"',
         '"imu_lnik"',

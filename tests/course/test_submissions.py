@@ -100,7 +100,7 @@ SPECIAL = {
     "loop": (lambda path: path.symlink_to(path.name), "Too many levels"),
     "nothing": (lambda path: path.symlink_to("missing"), "No such file"),
     "process": (lambda path: path.symlink_to("/proc/self/environ"), "outside the folder"),
-    "large": (lambda path: path.write_bytes(bytes(2 << 20)), "more than 1 MiB"),
+    "large": (lambda path: path.write_bytes(bytes(2 << 20)), "larger than the maximum of 1 MiB"),
     "sparse": (lambda path: [path.touch(), os.truncate(path, 1 << 40)], "cannot be read"),
 }
 

@@ -106,7 +106,7 @@ def test_usual_edge_between_two_trees_is_named(only):
     assert "the transform map -> odom is probably missing" in only(run, "TF001").text
 
 
-def test_misspelt_frame_is_recognized_with_the_line_to_change(only):
+def test_misspelled_frame_is_recognized_with_the_line_to_change(only):
     run = Run.healthy(skip={"scan", "static"})
     run.tf("base_lnk", "lidar", START, (0.1, 0, 0), static=True)
     finding = only(run, "TF001")
@@ -419,7 +419,7 @@ def test_edge_with_a_low_rate(only):
     assert "published only every 1 s" in only(run, "TF013").text
 
 
-def test_sensor_with_a_misspelt_frame(only):
+def test_sensor_with_a_misspelled_frame(only):
     run = Run.healthy(skip={"scan"})
     for i in range(100):
         run.scan(later(i / 10), "lider")

@@ -224,7 +224,7 @@ def test_two_drivers_that_publish_scans_on_one_topic_are_named(start, only):
 
 
 @pytest.mark.slow
-def test_misspelt_frame_gives_the_line_to_change(start, only):
+def test_misspelled_frame_gives_the_line_to_change(start, only):
     start("robot", ROBOT)
     start("mounts", 'StaticTransformBroadcaster(node).sendTransform(stamped("base_lnk", "camera_link"))')
     finding = only("TF001")

@@ -49,7 +49,7 @@ def test_wrong_rotations_are_explained(name, angles):
     assert found is not None
     if np.count_nonzero(angles) == 3:
         assert name in found.reading
-    assert found.metres < 1e-9
+    assert found.meters < 1e-9
     assert found.radians < 1e-3
 
 
@@ -63,8 +63,8 @@ def test_an_inverted_transform_is_one_mistake(angles):
 @pytest.mark.parametrize(
     ("wrong", "name"),
     [
-        (PLACE * 1000, "millimetres"),
-        (PLACE * 100, "centimetres"),
+        (PLACE * 1000, "millimeters"),
+        (PLACE * 100, "centimeters"),
         (PLACE / 0.0254, "inches"),
         (PLACE / 1000, "divided by 1000 twice"),
         (PLACE * [1, -1, 1], "the sign of y is changed"),
@@ -80,7 +80,7 @@ def test_wrong_translations_are_explained(wrong, name):
 def test_two_mistakes_are_named_together():
     turn = Rotation.from_euler("xyz", MOUNTS[0], True)
     wrong = pose(Rotation.from_quat(np.roll(turn.as_quat(), 1)), PLACE * 1000)
-    both = "its quaternion is read as w, x, y, z and its translation is read in millimetres"
+    both = "its quaternion is read as w, x, y, z and its translation is read in millimeters"
     assert reading(wrong, pose(turn)) == both
 
 

@@ -66,12 +66,12 @@ def moving(run, arm=lambda q: q, slide=lambda q: q):
             "A quaternion of ROS is x, y, z, w",
         ),
         (-TURN.inv().apply(PLACE), TURN.inv().as_quat(), "if it is inverted", "publish transform.inverse()"),
-        (PLACE * 1000, TURN.as_quat(), "if its translation is read in millimetres", "divide by 1000"),
+        (PLACE * 1000, TURN.as_quat(), "if its translation is read in millimeters", "divide by 1000"),
         (PLACE, Rotation.from_euler("xyz", np.degrees([0.1, -0.4, 1.2])).as_quat(), "used as radians", "math.radians"),
         (PLACE, (TURN**2).as_quat(), "if its angle is halved", "math.sin(yaw / 2)"),
         (PLACE, Rotation.from_euler("xyz", [1.2, -0.4, 0.1]).as_quat(), "the order yaw, pitch, roll", "order"),
     ],
-    ids=["w first", "inverted", "millimetres", "degrees", "half angle", "order of angles"],
+    ids=["w first", "inverted", "millimeters", "degrees", "half angle", "order of angles"],
 )
 def test_wrong_mounts_are_explained_by_the_robot_description(found, place, turn, cause, fix):
     run = described()
@@ -99,9 +99,9 @@ def test_a_mount_that_was_only_moved_has_no_cause(found):
         ({"arm": np.radians}, "arm", "converted from degrees to radians twice"),
         ({"arm": np.negative}, "arm", "the joint positions have the opposite sign"),
         ({"arm": lambda q: 2 * q}, "arm", "sin(angle) was used for sin(angle / 2)"),
-        ({"slide": lambda s: 1000 * s}, "slide", "their values in millimetres were used"),
+        ({"slide": lambda s: 1000 * s}, "slide", "their values in millimeters were used"),
     ],
-    ids=["degrees", "twice", "sign", "half angle", "millimetres"],
+    ids=["degrees", "twice", "sign", "half angle", "millimeters"],
 )
 def test_wrong_joints_are_explained_by_the_joint_states(found, wrong, edge, cause):
     run = described()
@@ -136,10 +136,10 @@ def flickering(wrong):
     [
         (lambda place, turn: (place, np.roll(turn.as_quat(), 1)), "if its quaternion is read as w, x, y, z"),
         (lambda place, turn: (-turn.inv().apply(place), turn.inv().as_quat()), "if it is inverted"),
-        (lambda place, turn: (place * 1000, turn.as_quat()), "if its translation is read in millimetres"),
+        (lambda place, turn: (place * 1000, turn.as_quat()), "if its translation is read in millimeters"),
         (lambda place, turn: (place + 0.2, turn.as_quat()), None),
     ],
-    ids=["w first", "inverted", "millimetres", "another place"],
+    ids=["w first", "inverted", "millimeters", "another place"],
 )
 def test_two_publishers_that_disagree(found, wrong, cause):
     finding = found(flickering(wrong), "TF003")

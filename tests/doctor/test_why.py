@@ -183,7 +183,7 @@ def test_three_common_errors_give_the_line_to_change(start, inside):
     assert at_now in hints["lidar_link"]
     assert "lookup_transform('odom', 'lidar_link', ...)" in hints["lidar_lnk"]
 
-    (late, misspelt), codes = answers(("odom", "lidar_link", "--at", "now"), ("odom", "lidar_lnk"))
+    (late, misspelled), codes = answers(("odom", "lidar_link", "--at", "now"), ("odom", "lidar_lnk"))
     assert codes == [1, 1]
     (edge,) = [edge for edge in late["edges"] if edge["state"] != "ok"]
     assert (edge["parent"], edge["child"], edge["state"]) == ("odom", "base_link", "too_new")
@@ -193,8 +193,8 @@ def test_three_common_errors_give_the_line_to_change(start, inside):
     (two,) = [finding for finding in late["findings"] if finding["code"] == "TF003"]
     assert sorted(two["publishers"]) == ["/filter", "/robot"]
     assert "Stop /" in two["fix"]
-    assert "lookup_transform('odom', 'lidar_link', ...)" in misspelt["hint"]
-    assert any("--tf-topic /robot1/tf" in note for note in misspelt["notes"])
+    assert "lookup_transform('odom', 'lidar_link', ...)" in misspelled["hint"]
+    assert any("--tf-topic /robot1/tf" in note for note in misspelled["notes"])
 
 
 LATE_CLOCK = """

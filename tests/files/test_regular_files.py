@@ -31,9 +31,9 @@ def test_a_file_is_read_up_to_its_limit(tmp_path):
     assert read_regular_text(path, 13) == "first\nsecond"
     with open_regular(str(path)) as file:
         assert file.read(5) == b"first"
-    with pytest.raises(UnsuitableFileError, match=r"text.txt cannot be read: it has more than 12 bytes, the limit"):
+    with pytest.raises(UnsuitableFileError, match=r"cannot be read: it is larger than the maximum of 12 bytes"):
         read_regular(path, 12)
-    with pytest.raises(UnsuitableFileError, match="more than 12 bytes"):
+    with pytest.raises(UnsuitableFileError, match="larger than the maximum of 12 bytes"):
         check_regular(path, 12)
     check_regular(path, 13)
     check_regular(path)
@@ -42,7 +42,7 @@ def test_a_file_is_read_up_to_its_limit(tmp_path):
 def test_the_limit_is_stated_in_mebibytes(tmp_path):
     path = tmp_path / "large"
     path.write_bytes(bytes((2 << 20) + 1))
-    with pytest.raises(UnsuitableFileError, match="it has more than 2 MiB, the limit"):
+    with pytest.raises(UnsuitableFileError, match="it is larger than the maximum of 2 MiB"):
         read_regular(path, 2 << 20)
 
 

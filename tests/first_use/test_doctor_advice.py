@@ -204,14 +204,14 @@ def test_only_sensors_get_the_suggestion_of_a_static_mount(findings, frame, stat
     ],
 )
 def test_two_trees_are_not_connected_by_a_static_transform_that_must_move(parent, child, node):
-    edge = MissingEdge(parent, child, misspelt=False)
+    edge = MissingEdge(parent, child, misspelled=False)
     for advice in (edge.fix, edge.hint):
         assert f"Your {node} does not broadcast {parent} -> {child} (often an option such as publish_tf" in advice
         assert "static" not in advice.lower()
 
 
 def test_mount_between_two_trees_can_be_static():
-    edge = MissingEdge("base_link", "lidar", misspelt=False)
+    edge = MissingEdge("base_link", "lidar", misspelled=False)
     assert "coframe static --frame-id base_link --child-frame-id lidar" in edge.fix
     assert "StaticTransformBroadcaster" in edge.hint
 

@@ -2,7 +2,7 @@
 """Fuzzes all targets, or some, and prints a table: ``make fuzz SECONDS=60 ARGS="urdf mcap"``.
 
 The corpora of the repository (``corpus/TARGET.zip``) and the seeds are unpacked into ``build/fuzz/corpus``, where runs
-add the inputs that reach new code; the next run continues from there. ``--keep`` minimises them into the repository.
+add the inputs that reach new code; the next run continues from there. ``--keep`` minimizes them into the repository.
 """
 
 from __future__ import annotations
@@ -160,7 +160,7 @@ def read_log(name: str, log: Path, code: int) -> Outcome:
 
 
 def keep(name: str) -> str:
-    """Minimise the corpus of a target and pack it into the repository."""
+    """Minimize the corpus of a target and pack it into the repository."""
     folder, packed = corpus_of(name), CORPORA / f"{name}.zip"
     with scratch_folder() as scratch:
         merged = Path(scratch) / "merged"
@@ -236,7 +236,7 @@ def main() -> int:
     parser.add_argument("--seconds", type=int, default=60, help="total time, divided between the targets (60)")
     parser.add_argument("--seed", type=int, default=0, help="repeat the mutations of a run (default: random)")
     parser.add_argument("--extra", type=Path, action="append", default=[], help="a folder with more seeds")
-    parser.add_argument("--keep", action="store_true", help="minimise the corpora into the repository; no fuzzing")
+    parser.add_argument("--keep", action="store_true", help="minimize the corpora into the repository; no fuzzing")
     options = parser.parse_args()
     if unknown := set(options.targets) - set(ALL):
         parser.error(f"unknown targets: {', '.join(sorted(unknown))}. Known: {', '.join(ALL)}")

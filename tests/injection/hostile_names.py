@@ -18,7 +18,7 @@ NAMES = [
 ]
 MAX_LINE_LENGTH = 4000  # characters
 
-# What no command prints by itself; its own sequences for colours and the cursor are allowed in a terminal.
+# What no command prints by itself; its own sequences for colors and the cursor are allowed in a terminal.
 _FORBIDDEN = ("\x1b[2J", "\x1b]", "\x07", "\u202e", "\x9b")
 _OWN_SEQUENCES = re.compile(r"\x1b\[[0-9;?]*[A-HJKhlm]|[\r\t]")
 

@@ -90,7 +90,7 @@ def test_texts_of_files(files, tmp_path, case):
 
 @pytest.fixture(scope="module")
 def graph():
-    """A process with hostile nodes in its own domain; the environment of its neighbours."""
+    """A process with hostile nodes in its own domain; the environment of its neighbors."""
     pytest.importorskip("dds_library", reason="nodes are found over DDS")
     domain = str(100 + os.getpid() % 100)
     program = [sys.executable, str(Path(__file__).with_name("hostile_node.py"))]

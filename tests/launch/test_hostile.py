@@ -19,7 +19,7 @@ BOMB = "a0: &a0 [x, x]\n" + "".join(f"a{n}: &a{n} [{', '.join([f'*a{n - 1}'] * 9
 YAML = {
     "bomb": (BOMB, "more than 262144 values"),
     "deep": ("[" * 50_000, "nested more than 100 levels deep"),
-    "large": ("a: " + "x" * (17 << 20), "more than 16 MiB"),
+    "large": ("a: " + "x" * (17 << 20), "larger than the maximum of 16 MiB"),
 }
 
 
@@ -37,7 +37,7 @@ def test_yaml(tmp_path, kind, read):
     ("text", "message"),
     [
         ("<launch>" + "<group>" * 5000, "nested more than 100 levels deep"),
-        ("<launch>" + " " * (17 << 20) + "</launch>", "more than 16 MiB"),
+        ("<launch>" + " " * (17 << 20) + "</launch>", "larger than the maximum of 16 MiB"),
         ('<!DOCTYPE l [<!ENTITY a "b">]><launch>&a;</launch>', "defines entities"),
         ("<launch>\x00</launch>", "not valid XML"),
         ('<?xml version="1.0" encoding="nonsense"?><launch/>', "not valid XML"),

@@ -156,7 +156,7 @@ def test_functions_coroutines_and_loops(launched):
 def test_a_loop_has_a_limited_length(launched, length):
     code, lines = launched(ForLoop(length, function=lambda i: None))  # noqa: ARG005
     assert code == 1
-    assert f"ForLoop has the length {length}, and the limit is 10000" in lines[0]
+    assert f"ForLoop has the length {length}, which exceeds the limit of 10000" in lines[0]
 
 
 def test_output_of_processes(launched, tmp_path):

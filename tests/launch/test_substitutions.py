@@ -163,7 +163,7 @@ def test_text_with_substitutions(context, text, expected):
         ("$(var x", r"a '\)' is missing after"),
         ("$(var 'x)", "a closing ' is missing"),
         ("$()", "expected the name of a substitution"),
-        ("$(eval 1 + 1)", "takes 1 to 2 arguments, not 3; write quotes around an argument with spaces"),
+        ("$(eval 1 + 1)", "takes 1 to 2 arguments, not 3; put quotes around an argument that contains spaces"),
         ("$(var " * 2000, "expected the name of a substitution"),
     ],
 )

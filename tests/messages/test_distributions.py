@@ -144,7 +144,7 @@ def test_types_that_a_distribution_does_not_have_are_still_found_for_reading(tmp
     assert run(code, "lyrical", tmp_path) == "0.0\n"
 
 
-def test_every_behaviour_says_what_differs() -> None:
+def test_every_behavior_says_what_differs() -> None:
     for key, row in BEHAVIOURS.items():
         assert row.before != row.after, key
         assert not row.what.endswith("."), key

@@ -201,7 +201,7 @@ class Explorer {
     return true;
   }
 
-  // The pose is that of a sample, or between the neighbours of the requested time before or after the change.
+  // The pose is that of a sample, or between the neighbors of the requested time before or after the change.
   bool is_expected() const { return agrees(before_) || agrees(after_); }
   bool agrees(const Samples& samples) const {
     if (samples.size() == 1) return is_pose_at(answer_->pose, "map", samples.begin()->first.first);

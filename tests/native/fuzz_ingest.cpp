@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Serialised TFMessages, most of them malformed, are ingested by a buffer and by relays under a sanitizer.
+// Serialized TFMessages, most of them malformed, are ingested by a buffer and by relays under a sanitizer.
 // Deterministic.
 
 #include <algorithm>

@@ -78,7 +78,7 @@ class Block {
   std::byte* start_;
 };
 
-// The pose of every sample follows from its parent and its stamp, so a mixture of two is recognised.
+// The pose of every sample follows from its parent and its stamp, so a mixture of two is recognized.
 inline TransformValues values_of(const std::string& parent, Stamp stamp) {
   const double x = static_cast<double>(stamp - kStart) * 1e-9;
   const double y = parent.back();

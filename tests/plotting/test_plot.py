@@ -14,7 +14,7 @@ from runs import MS, SECOND, START, Run
 import coframe
 from coframe.cli.app import app
 from coframe.plotting import Figure, PlotError, Series, evaluate
-from coframe.plotting._figure import COLOURS, MAX_DRAWN_VALUE
+from coframe.plotting._figure import COLORS, MAX_DRAWN_VALUE
 from coframe.plotting._html_page import MAX_POINTS, as_html
 from coframe.plotting.values import coordinate
 
@@ -198,15 +198,15 @@ def test_long_curves_keep_their_peaks():
     assert (len(data["y"]) <= MAX_POINTS + 2, data["of"]) == (True, 1_000_000)
 
 
-def luminance(colour):
-    channels = [int(colour[i : i + 2], 16) / 255 for i in (1, 3, 5)]
+def luminance(color):
+    channels = [int(color[i : i + 2], 16) / 255 for i in (1, 3, 5)]
     return np.dot([0.2126, 0.7152, 0.0722], [c / 12.92 if c < 0.04 else ((c + 0.055) / 1.055) ** 2.4 for c in channels])
 
 
 @pytest.mark.parametrize("background", ["#ffffff", "#15181d"])
-def test_colours_are_readable_in_light_and_dark(background):
-    for colour in COLOURS:
-        darker, brighter = sorted((luminance(colour), luminance(background)))
+def test_colors_are_readable_in_light_and_dark(background):
+    for color in COLORS:
+        darker, brighter = sorted((luminance(color), luminance(background)))
         assert (brighter + 0.05) / (darker + 0.05) > 3.5
 
 

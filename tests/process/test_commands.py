@@ -80,7 +80,7 @@ def test_static_with_both_argument_styles(processes):
         (["static", "0", "0", "a", "b"], 1, "Extra unparsed arguments on command-line"),
         (["static", "--child-frame-id", "b"], 1, "Frame id must not be empty"),
         (["static", "--frame-id", "b"], 1, "Child frame id must not be empty"),
-        (["static", "--frame-id=a", "--colour=red"], 1, "Extra unparsed arguments on command-line: --colour"),
+        (["static", "--frame-id=a", "--color=red"], 1, "Extra unparsed arguments on command-line: --color"),
         (["static", "--frame-id", "a", "--child-frame-id", "\udcff"], 2, "the argument '\\udcff' is not valid UTF-8"),
         (
             ["static", "--frame-id=a", "--child-frame-id=b", "--tf-static-topic", "x y"],

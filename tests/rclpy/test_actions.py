@@ -373,7 +373,7 @@ def test_the_server_rejects_goals_and_requests_beyond_the_limit(
         assert result_of(client, result).status == GoalStatus.STATUS_SUCCEEDED
     assert result_of(client, client.send_goal_async(fibonacci.Goal(order=1))).accepted, "a goal has finished"
     assert not all(result.done() for result in results)
-    assert printed().count("Rejecting goals: the goals that are not finished would be more than 2 or 64 MiB") == 1
+    assert printed().count("Rejecting goals: the unfinished goals would exceed the maximum of 2 or 64 MiB") == 1
     assert printed().count("Ignoring requests: 3 wait for the result of one goal.") == 1
 
 

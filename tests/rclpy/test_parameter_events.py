@@ -157,7 +157,7 @@ def test_other_nodes_cannot_add_parameters_without_limit(ask, monkeypatch):
     assert send("set_parameters", [Parameter("p3", value="x" * (5 << 20))]).results[0].reason == full
     assert node.get_parameter("p3").value == 3
     long = send("set_parameters", [Parameter("x" * 300, value=3)]).results[0].reason
-    assert long == "The name of a new parameter has more than 256 bytes, the limit."
+    assert long == "The name of a new parameter is longer than the maximum of 256 bytes."
     node.declare_parameter("y" * 300, 1)
     send("delete_parameters", ["p1"])
     assert send("set_parameters", [Parameter("y" * 300, value=2)]).results[0].successful, "the node declared it"

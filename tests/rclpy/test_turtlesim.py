@@ -160,7 +160,7 @@ def test_turtles_with_bad_names_and_too_many_turtles_are_not_spawned(
     printed = capfd.readouterr().err
     assert "[a b] cannot be the name of a turtle: " in printed
     assert "The name of a turtle has at most 64 characters" in printed
-    assert "There are 2 turtles, the limit" in printed
+    assert "There are already 2 turtles, which is the maximum" in printed
     assert "\x1b" not in printed
     tutorial.until(lambda: tutorial.at(MIDDLE, MIDDLE, 0.0))
 

@@ -35,7 +35,7 @@ PROGRAM = """
             return response
 
         def shipped_as_data(self) -> int:
-            goal = NavigateToPose.Goal(behaviour_tree="tree.xml")  # wrong
+            goal = NavigateToPose.Goal(behavior_tree="tree.xml")  # wrong
             goal.pose.header.frame_id = 1  # wrong
             cylinder = SolidPrimitive(type=SolidPrimitive.CYLINDER, dimensions=[1.0, 2.0])
             cylinder.dimensions[0] = "high"  # wrong

@@ -259,7 +259,7 @@ def test_topics_beyond_the_limit_are_reported_and_transforms_come_first(tmp_path
     moved = listen("/tf", TF)
     with coframe.play(tmp_path / "run", delay=SETTLED) as player:
         assert player.wait("20s")
-        assert player.problems == ["4 topics are not replayed: 3 is the limit. Select topics."]
+        assert player.problems == ["4 topics are not replayed: the maximum is 3. Select topics."]
     assert [len(samples()) for samples in received] == [1, 0, 0, 0, 0]
     assert len(moved()) == 1
 

@@ -25,7 +25,7 @@ def make_package(folder, name=None):
 
 def test_packages_are_found_in_all_search_paths(tmp_path, monkeypatch):
     own = make_package(tmp_path / "ws" / "src" / "own")
-    make_package(tmp_path / "ws" / "src" / "neighbour")
+    make_package(tmp_path / "ws" / "src" / "neighbor")
     make_package(tmp_path / "listed" / "deep" / "folder_of_another_name", "by_manifest")
     make_package(tmp_path / "prefix" / "share" / "installed")
     make_package(tmp_path / "old" / "noetic")
@@ -34,7 +34,7 @@ def test_packages_are_found_in_all_search_paths(tmp_path, monkeypatch):
     monkeypatch.setenv("AMENT_PREFIX_PATH", str(tmp_path / "prefix"))
     monkeypatch.setenv("ROS_PACKAGE_PATH", str(tmp_path / "old"))
     packages = Packages(own / "urdf" / "robot.urdf")
-    for name in ("own", "neighbour", "by_manifest", "plain", "installed", "noetic"):
+    for name in ("own", "neighbor", "by_manifest", "plain", "installed", "noetic"):
         assert packages.find(name).is_dir(), name
     assert packages.resolve("package://by_manifest/meshes/hand.stl").read_text() == "solid"
     renamed = make_package(tmp_path / "share" / "folder-name", "manifest_name")

@@ -261,8 +261,8 @@ def test_messages_from_rosbags_are_accepted():
 def test_results_do_not_depend_on_the_number_of_threads(threads, random):
     points = random.normal(size=(10_000, 4)).astype(np.float32)
     assert np.array_equal(transform_cloud(points, TRANSFORM, threads=threads), transform_cloud(points, TRANSFORM))
-    organised = filled(LAYOUTS["unaligned"], (13, 77))
-    assert np.array_equal(transform_cloud(organised, TRANSFORM, threads=threads), transform_cloud(organised, TRANSFORM))
+    organized = filled(LAYOUTS["unaligned"], (13, 77))
+    assert np.array_equal(transform_cloud(organized, TRANSFORM, threads=threads), transform_cloud(organized, TRANSFORM))
 
 
 def test_a_cloud_in_another_frame_is_refused():
@@ -340,7 +340,7 @@ UTM = coframe.Transform([500_000.125, 5_400_000.5, 400.0], target="utm", source=
 
 @pytest.mark.parametrize("kind", ["message", "structured", "plain", "drop-in"])
 def test_float32_far_from_the_origin_is_a_warning(kind):
-    """UTM coordinates in float32 are multiples of half a metre."""
+    """UTM coordinates in float32 are multiples of half a meter."""
     points = np.zeros(3, [(axis, "f4") for axis in "xyz"])
     cloud = {"structured": points, "plain": np.zeros((3, 3), np.float32)}.get(kind, message_of(points))
     stamped = find("geometry_msgs/msg/TransformStamped")()

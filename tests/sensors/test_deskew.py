@@ -133,7 +133,7 @@ def test_fields_of_times(buffer, motion, points, random):
         deskew(points, times / 1e9, buffer, "odom", source="lidar")
 
 
-def test_a_time_for_each_column_of_an_organised_cloud(buffer, motion, random):
+def test_a_time_for_each_column_of_an_organized_cloud(buffer, motion, random):
     points = random.normal(size=(16, 100, 3))
     columns = motion.first + np.arange(100) * 1_000_000
     result = deskew(points, columns, buffer, "odom", source="lidar")

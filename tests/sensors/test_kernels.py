@@ -13,7 +13,7 @@ import coframe
 from coframe import _core
 from coframe.sensors import deskew
 
-# Between neighbouring samples, in radians: from none to half a turn, on both sides of where the slerp series changes.
+# Between neighboring samples, in radians: from none to half a turn, on both sides of where the slerp series changes.
 TURNS = [0.0, 1e-15, 1e-12, 1e-9, 1e-6, 1e-3, 5e-3, 0.0116, 0.0118, 0.1, 0.123, 0.124, 0.5, 0.58, 0.6, 1.0, 2.0, 3.0]
 TURNS += [np.pi - 1e-3, np.pi - 1e-6, np.pi - 1e-9, np.pi]
 SHARES = 33
@@ -121,7 +121,7 @@ def test_all_levels_transform_points_equally(dtypes, rounding):
     plain = answers.pop("plain")
     assert plain.size > 300_000
     for level, moved in answers.items():
-        # Each of four links adds an error of its own to points that are some metres away.
+        # Each of four links adds an error of its own to points that are some meters away.
         np.testing.assert_allclose(moved, plain, rtol=rounding, atol=1e-14, err_msg=level)
 
 

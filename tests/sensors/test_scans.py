@@ -117,7 +117,7 @@ def test_scans_from_rosbags_are_accepted():
 
 
 def test_scans_of_a_ros_installation_become_its_clouds(monkeypatch):
-    """Messages of a ROS installation are recognised by their module."""
+    """Messages of a ROS installation are recognized by their module."""
     import sensor_msgs.msg
 
     class Cloud(sensor_msgs.msg.PointCloud2):

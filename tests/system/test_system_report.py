@@ -93,7 +93,7 @@ def test_without_a_library():
     data = json.loads(result.stdout)
     assert result.returncode == 1
     assert texts(data, "error") == ["The DDS library /absent/libddsc.so in COFRAME_DDS_LIBRARY does not exist."]
-    assert "Use one of these ways: " in data["findings"][0]["action"]
+    assert "Use one of these options: " in data["findings"][0]["action"]
     assert data["probe"] is data["nodes"] is None
     assert data["installation"]["packages"]["numpy"]
 

@@ -186,8 +186,8 @@ def test_transform_of_stamped_data(buffer, stamped):
     moved = buffer.transform(point, "a")
     assert (moved.point.x, moved.point.y) == (1.0, 5.0)
     assert moved.header.frame_id == "a"
-    travelled = buffer.transform_full(point, "b", Time(seconds=2), "a")
-    assert travelled.point.x == -1.0
+    traveled = buffer.transform_full(point, "b", Time(seconds=2), "a")
+    assert traveled.point.x == -1.0
     assert buffer.transform(point, "a", new_type=PointStamped) == moved
 
 

@@ -133,7 +133,7 @@ def test_rows_of_nan_that_coframe_wrote_are_left_out_with_a_word(tmp_path, name)
     found, reported = read(tmp_path / name)
     assert found.translation[:, 0].tolist() == [1, 2, 3]
     [sentence] = reported
-    assert sentence.endswith(": 1 row of NaN left out")
+    assert sentence.endswith(": 1 row of NaN skipped")
 
 
 def test_the_wrong_order_of_a_quaternion_is_reported(tmp_path):

@@ -13,7 +13,7 @@ START = 1_700_000_000 * SECOND
 
 
 def spiral(count=100, seed=None, step=SECOND // 20):
-    """Return a moving robot; with a seed, with noise of a few centimetres and hundredths of a radian."""
+    """Return a moving robot; with a seed, with noise of a few centimeters and hundredths of a radian."""
     t = np.arange(count) / 10
     translation = np.stack([np.cos(t), np.sin(t), t / 5], axis=1)
     rpy = np.stack([0.1 * np.sin(t), 0.1 * t, t], axis=1)
@@ -119,14 +119,14 @@ def test_trajectories_without_stamps_are_paired_in_order():
         ("0.21s", [5]),
         ("2m", [2, 4, 6, 8]),
         ("2.5m", [3, 6, 9]),
-        (Delta(3.0, "metres"), [3, 6, 9]),
+        (Delta(3.0, "meters"), [3, 6, 9]),
     ],
 )
 def test_relative_errors_end_where_the_delta_is_reached(delta, ends):
     drive = coframe.Transform(np.arange(10)[:, None] * [1.0, 0, 0], stamp=np.arange(10) * SECOND // 20)
     result = compare_trajectories(drive, drive, delta=delta)
     assert result.rpe.index.tolist() == list(ends)
-    assert result.delta.unit in {"frames", "seconds", "metres"}
+    assert result.delta.unit in {"frames", "seconds", "meters"}
 
 
 def test_a_delta_longer_than_the_trajectory_is_an_error():

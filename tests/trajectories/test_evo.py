@@ -64,7 +64,7 @@ def assert_equal(found, metric, pair):
 
 
 @pytest.mark.parametrize("align", ["none", "se3", "sim3"])
-@pytest.mark.parametrize("delta", [Delta(1), Delta(7), Delta(0.35, "metres")], ids=str)
+@pytest.mark.parametrize("delta", [Delta(1), Delta(7), Delta(0.35, "meters")], ids=str)
 def test_errors_equal_those_of_evo(pair, align, delta):
     reference, estimate = pair
     found = compare_trajectories(reference, estimate, align=align, delta=delta)
@@ -77,7 +77,7 @@ def test_errors_equal_those_of_evo(pair, align, delta):
     translation, rotation = metrics.PoseRelation.translation_part, metrics.PoseRelation.rotation_angle_rad
     assert_equal(found.ape.translation_statistics, metrics.APE(translation), theirs)
     assert_equal(found.ape.rotation_statistics, metrics.APE(rotation), theirs)
-    unit = {"frames": metrics.Unit.frames, "metres": metrics.Unit.meters}[delta.unit]
+    unit = {"frames": metrics.Unit.frames, "meters": metrics.Unit.meters}[delta.unit]
     assert_equal(found.rpe.translation_statistics, metrics.RPE(translation, delta.value, unit), theirs)
     assert_equal(found.rpe.rotation_statistics, metrics.RPE(rotation, delta.value, unit), theirs)
 

@@ -133,7 +133,7 @@ def test_a_file_with_more_poses_than_the_limit_is_refused(tmp_path, monkeypatch,
         write_trajectory(poses, path, suffix)
         if count == 100:
             assert read_trajectory(path).shape == (100,)
-    with pytest.raises(TrajectoryError, match=r"long\.\w+ has more than 100 poses, the limit") as caught:
+    with pytest.raises(TrajectoryError, match=r"long\.\w+ has more than the maximum of 100 poses") as caught:
         read_trajectory(path)
     assert "Split the file" in caught.value.hint
 

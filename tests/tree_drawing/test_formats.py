@@ -94,9 +94,9 @@ def test_png(forest, monkeypatch):
     assert picture.height / drawing.height == pytest.approx(2.0, rel=0.01)
     for box in (shape for shape in drawing.shapes if isinstance(shape, Box) and shape.title):
         inside = picture.crop([round(edge * scale) for edge in (box.x, box.y, box.x + box.width, box.y + box.height)])
-        colours = [f"#{red:02x}{green:02x}{blue:02x}" for _, (red, green, blue) in inside.getcolors(1 << 16)]
-        assert box.fill in colours, box.title
-        assert len(colours) > 10, "the name is written in the box"
+        colors = [f"#{red:02x}{green:02x}{blue:02x}" for _, (red, green, blue) in inside.getcolors(1 << 16)]
+        assert box.fill in colors, box.title
+        assert len(colors) > 10, "the name is written in the box"
         # Texts end inside their boxes, so the pixels just right of the box are white, or those of a line.
         right = round((box.x + box.width + 2.0) * scale)
         margin = picture.crop((right, round((box.y + 3.0) * scale), right + 2, round((box.y + 12.0) * scale)))

@@ -162,7 +162,7 @@ def decode(data):
             head.flags & binary_messages.CloudFlag.COLORS,
         )
         content.scalars = np.frombuffer(data, "<f4", head.points, at) if has_scalars else None
-        content.colours = np.frombuffer(data, np.uint8, head.points * 4, at).reshape(-1, 4) if has_colors else None
+        content.colors = np.frombuffer(data, np.uint8, head.points * 4, at).reshape(-1, 4) if has_colors else None
         return "cloud", content
     if kind == binary_messages.BinaryKind.GRID:
         head = GRID.unpack(data)

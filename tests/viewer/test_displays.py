@@ -62,7 +62,7 @@ def ros(domain_id):
 
 @pytest.fixture
 def robot(ros):
-    """Move base along the x axis of map at 1 m/s for the last ten seconds; the lidar is one metre above it."""
+    """Move base along the x axis of map at 1 m/s for the last ten seconds; the lidar is one meter above it."""
     now = time.time_ns()
     for tenth in range(101):
         ros.buffer.set(
@@ -330,12 +330,12 @@ def test_a_cloud_of_a_million_points(ros, robot, view, open_tab):
     np.testing.assert_array_equal(shown.scalars[::1000], points[::1000, 2])
 
 
-def test_the_colours_of_a_cloud(decoded):
+def test_the_colors_of_a_cloud(decoded):
     columns = {"x": [1.0, np.nan], "y": [0.0, 0.0], "z": [2.0, 0.0], "intensity": [5.0, 6.0]}
     made = cloud("map", 0, {**columns, "rgb": [0x00FF8001, 0]}, {"rgb": "<u4"})
     shown = decoded(draw_cloud(made, Options()).data)
     assert shown.points.tolist() == [[1.0, 0.0, 2.0]], "points that are not finite are omitted"
-    assert shown.colours.tolist() == [[0xFF, 0x80, 0x01, 255]]
+    assert shown.colors.tolist() == [[0xFF, 0x80, 0x01, 255]]
     for color_by, expected in (("intensity", [5.0]), ("axis", [2.0]), ("distance", [5**0.5])):
         shown = decoded(draw_cloud(made, Options(color_by=color_by, axis=2)).data)
         np.testing.assert_allclose(shown.scalars, expected)

@@ -22,7 +22,7 @@ TIMEOUT = 30.0  # Seconds.
 
 
 def jumping(frame="base_link"):
-    """Return a run in which a frame jumps by three metres once."""
+    """Return a run in which a frame jumps by three meters once."""
     run = Run.healthy(skip={"odom", "scan", "static"})
     for i in range(600):
         run.drive(START + i * SECOND // 50, child=frame, offset=3.0 if i > 300 else 0.0)

@@ -86,7 +86,7 @@ def test_a_part_of_a_curve_has_its_own_detail(view, open_tab, recording):
 @pytest.mark.parametrize(
     ("expression", "text"),
     [
-        ("odom:base_link.colour", "must end with a quantity, not 'colour'"),
+        ("odom:base_link.color", "must end with a quantity, not 'color'"),
         ("odom:nowhere.x", "nowhere"),
         ("/nothing.rate", "has no topic '/nothing'"),
         ("/scan.header", "is a message, not a number"),

@@ -197,7 +197,7 @@ def test_saving_without_a_loaded_file_writes_a_file_that_rviz_reads():
         ("- " * 250_000, "nested more than 100 levels deep"),
         ("? " * 250_000, "nested more than 100 levels deep"),
         ("{a: " * 200_000, "nested more than 100 levels deep"),
-        ("x" * (2 << 20), "more than 1 MiB"),
+        ("x" * (2 << 20), "larger than the maximum of 1 MiB"),
         ("a: 2020-99-99", "is not valid YAML"),
         ("a: !!bool x", "its tag"),
         ("a: !!int ''", "its tag"),

@@ -41,8 +41,8 @@ WRONG = {
     "points: 1 of 2 rows contain NaN": lambda scene: scene.add_points("x", [[0, 0, 0], [0, NAN, 0]]),
     "points: expected an array of numbers, not of text": lambda scene: scene.add_points("x", [["a", "b", "c"]]),
     "points: expected an array of numbers": lambda scene: scene.add_points("x", [[0, 0, 0], [0, 0]]),
-    "points: 1e+12 is more than 1e+09": lambda scene: scene.add_points("x", [[1e12, 0, 0]]),
-    "colors: 2 colours for 1 points": lambda scene: scene.add_points("x", [[0, 0, 0]], np.zeros((2, 3))),
+    "points: 1e+12 is more than the maximum of 1e+09": lambda scene: scene.add_points("x", [[1e12, 0, 0]]),
+    "colors: 2 colors for 1 points": lambda scene: scene.add_points("x", [[0, 0, 0]], np.zeros((2, 3))),
     "colors: expected the shape (N, 3)": lambda scene: scene.add_points("x", [[0, 0, 0]], np.zeros(3)),
     "colors: 1.5 is out of range; expected floats from 0 to 1": lambda scene: scene.add_points(
         "x", [[0, 0, 0]], [[1.5, 0, 0]]
@@ -50,7 +50,7 @@ WRONG = {
     "colors: nan is out of range": lambda scene: scene.add_points("x", [[0, 0, 0]], [[NAN, 0, 0]]),
     "color: 300 is out of range; expected integers from 0 to 255": lambda scene: scene.add_box("x", color=(300, 0, 0)),
     "color: (1, 0, 0) is nearly black": lambda scene: scene.add_box("x", color=(1, 0, 0)),
-    "color: expected text such as '#ff8000'": lambda scene: scene.add_box("x", color="red"),
+    "color: expected a string such as '#ff8000'": lambda scene: scene.add_box("x", color="red"),
     "opacity: expected a number from 0 to 1, not 2": lambda scene: scene.add_box("x", opacity=2),
     "point_size: expected a finite number": lambda scene: scene.add_points("x", [[0, 0, 0]], point_size=NAN),
     "faces: no vertex has the index 3; there are 3": lambda scene: scene.add_mesh("x", TRIANGLE[0], [[0, 1, 3]]),
@@ -58,10 +58,10 @@ WRONG = {
     "faces: expected whole numbers": lambda scene: scene.add_mesh("x", TRIANGLE[0], [[0.0, 1.0, 2.0]]),
     "faces: a mesh needs": lambda scene: scene.add_mesh("x", TRIANGLE[0]),
     "image: expected the shape (height, width)": lambda scene: scene.add_image("x", np.zeros((2, 2, 5))),
-    "text: expected text, not 3": lambda scene: scene.add_text("x", 3),
+    "text: expected a string, not 3": lambda scene: scene.add_text("x", 3),
     "name: '' has an empty part": lambda scene: scene.add_frame(""),
     "name: 'a//b' has an empty part": lambda scene: scene.add_frame("a//b"),
-    "name: expected text": lambda scene: scene.add_frame(7),
+    "name: expected a string": lambda scene: scene.add_frame(7),
     "frame: no frame named 'base_lnk'": lambda scene: scene.add_frame("x", frame="base_lnk"),
     "frame: 'map' differs from the target frame of the pose, 'base_link'": lambda scene: scene.add_frame(
         "x", frame="map", pose=coframe.Transform(target="base_link")
@@ -102,7 +102,7 @@ def test_handles_have_the_values_that_were_assigned(scene):
     np.testing.assert_array_equal(cloud.color, [0, 0, 1])
     cloud.colors = np.array([[0.0, 0.5, 1.0], [1.0, 1.0, 1.0]])
     np.testing.assert_array_equal(cloud.colors, [[0, 128, 255, 255], [255, 255, 255, 255]])
-    with pytest.raises(SceneError, match="points: 3 points for 2 colours"):
+    with pytest.raises(SceneError, match="points: 3 points for 2 colors"):
         cloud.points = np.zeros((3, 3))
     cloud.update(np.zeros((3, 3)))
     assert cloud.colors is None
@@ -174,17 +174,17 @@ def test_limits_are_errors(scene, gui, monkeypatch):
     monkeypatch.setattr(nodes, "MAX_NODE_BYTES", 1 << 20)
     monkeypatch.setattr(widgets, "MAX_WIDGETS", 1)
     cloud = scene.add_points("a", np.zeros((50_000, 3)))
-    with pytest.raises(SceneError, match="would have more than 1 MiB"):
+    with pytest.raises(SceneError, match="would be larger than the maximum of 1 MiB"):
         scene.add_points("b", np.zeros((50_000, 3)))
-    with pytest.raises(SceneError, match="would have more than 1 MiB"):
+    with pytest.raises(SceneError, match="would be larger than the maximum of 1 MiB"):
         cloud.points = np.zeros((100_000, 3))
     scene.add_points("a", np.zeros((60_000, 3)))  # in place of the first one
     scene.add_frame("b")
-    with pytest.raises(SceneError, match="name: the scene has 2 nodes, the limit"):
+    with pytest.raises(SceneError, match="name: the scene has the maximum of 2 nodes"):
         scene.add_frame("c")
     scene.add_frame("b")
     gui.add_button("a")
-    with pytest.raises(SceneError, match="the page has 1 widgets, the limit"):
+    with pytest.raises(SceneError, match="the page has the maximum of 1 widgets"):
         gui.add_button("b")
 
 
@@ -396,7 +396,7 @@ def test_values_that_the_program_assigns_are_checked(gui):
         choice.options = []
     with pytest.raises(SceneError, match="max: expected a number above min"):
         gui.add_slider("Speed", min=1, max=1, step=1, initial_value=1)
-    with pytest.raises(SceneError, match="initial_value: 11 is not between"):
+    with pytest.raises(SceneError, match="initial_value: 11 is not in the range"):
         gui.add_slider("Speed", min=0, max=10, step=1, initial_value=11)
     with pytest.raises(SceneError, match="step: expected a number of at least"):
         gui.add_slider("Speed", min=0.0, max=1.0, step=0.0, initial_value=0.0)

@@ -128,7 +128,7 @@ def test_connections_have_a_limit(monkeypatch, caplog):
         held = [socket.create_connection(address, timeout=20) for _ in range(3)]
         with socket.create_connection(address, timeout=20) as fourth:
             assert ended(fourth)
-        assert "3 connections, the limit" in caplog.text
+        assert "the maximum of 3 connections" in caplog.text
         held.pop().close()
         assert get(viewer, "/")[0] == 200
         for one in held:
@@ -144,6 +144,6 @@ def test_few_descriptors_leave_some_for_the_viewer_itself(monkeypatch, caplog):
             held.enter_context(socket.create_connection(address, timeout=20))
         with socket.create_connection(address, timeout=20) as another:
             assert ended(another)
-        assert caplog.text.count("8 connections, the limit") == 1
+        assert caplog.text.count("the maximum of 8 connections") == 1
         held.close()
         assert get(viewer, "/")[0] == 200

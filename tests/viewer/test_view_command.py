@@ -44,7 +44,7 @@ def test_the_demo_in_a_tab(open_tab):
         tab.send("subscribe", id=1, topic="/scan", options={})
         update = tab.frame_update(lambda update: update.displays)
         drawn = tab.drawings[next(iter(update.displays))]
-        # The lab's hall: all walls and pillars are within ten metres.
+        # The lab's hall: all walls and pillars are within ten meters.
         assert len(drawn.points) > 50
         assert np.isfinite(drawn.points).all()
         assert np.abs(drawn.points).max() < 20.0

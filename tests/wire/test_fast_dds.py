@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Neighbours on Fast DDS, the default middleware of ROS 2: a C++ program on Debian's libfastrtps-dev."""
+"""Neighbors on Fast DDS, the default middleware of ROS 2: a C++ program on Debian's libfastrtps-dev."""
 
 import shutil
 import subprocess

@@ -97,7 +97,7 @@ def test_a_library_of_another_release(tmp_path, usable):
     assert place.version == "12.1.0"
     text = load_in_a_process(COFRAME_DDS_LIBRARY=str(tmp_path / "libddsc.so.12.1.0"))
     assert f"The DDS library {tmp_path}/libddsc.so.12.1.0 (version 12.1.0, from COFRAME_DDS_LIBRARY)" in text
-    assert "cannot be used: it has another binary interface. coframe supports Cyclone DDS 0.10 and 11." in text
+    assert "cannot be used: it has an incompatible binary interface. coframe supports Cyclone DDS 0.10 and 11." in text
 
 
 def test_a_library_without_the_functions(tmp_path):
@@ -133,6 +133,6 @@ def test_without_any_library():
     )
     text = load_in_a_process(code)
     assert "Joining the ROS graph requires the DDS library libddsc, which is not installed." in text
-    assert "Use one of these ways: " in text
+    assert "Use one of these options: " in text
     assert ("pip install 'coframe[dds]'" in text) == library._package_has_wheels()
     assert ("apt-get install libddsc0" in text) == (sys.platform == "linux")

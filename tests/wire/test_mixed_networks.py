@@ -92,7 +92,9 @@ def test_the_form_is_that_of_the_other_participants(participant, foreign, eventu
     eventually(lambda: jazzy.size_of(own) == 16)
     eventually(lambda: warnings)
     (text,) = warnings
-    assert text.startswith("Nodes of ROS 2 Humble or earlier (/humble_node) cannot list the nodes of this process, because")
+    assert text.startswith(
+        "Nodes of ROS 2 Humble or earlier (/humble_node) cannot list the nodes of this process, because"
+    )
     assert set(participant.nodes()) == {("/", "ours"), ("/", "jazzy_node"), ("/", "humble_node")}
     jazzy.close()
     eventually(lambda: humble.size_of(own) == 24)

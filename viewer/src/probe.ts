@@ -9,7 +9,7 @@ import type { NodesView } from "./scene/nodes";
 import type { View } from "./scene/view";
 
 interface FrameProbe {
-  /** Expressed in the fixed frame, in metres. */
+  /** Expressed in the fixed frame, in meters. */
   position: Vector;
   quaternion: number[];
   visible: boolean;
@@ -60,7 +60,7 @@ export function exposeProbe(model: Model, view: View, displays: Displays, nodes:
       const { live, playing } = model.clock;
       return !live && !playing && !model.seeking && view.shown === model.frameUpdate;
     },
-    /** The camera, expressed in the fixed frame, in metres. */
+    /** The camera, expressed in the fixed frame, in meters. */
     get camera() {
       const { camera } = view.renderer;
       const { origin } = view.framePoses;

@@ -4,7 +4,7 @@ import { describe, expect, it } from "vitest";
 import { Forest, Model } from "../src/model/model";
 import type { ClientMessage, FrameUpdate } from "../src/protocol/messages";
 import { decodeCounts } from "../src/panels/sparklines";
-import { cssColour, Options, rvizColour } from "../src/displays/options";
+import { cssColor, Options, rvizColor } from "../src/displays/options";
 import * as format from "../src/util/format";
 
 const frame = (name: string, parent: number, component = 0) => ({ name, parent, static: false, component });
@@ -82,15 +82,15 @@ describe("display options", () => {
   const options = (values: Record<string, never | string | number | boolean | null>) =>
     new Options(values, [
       { key: "Alpha", kind: "number", value: 0.5, min: 0, max: 1, step: 0.1 },
-      { key: "Color", kind: "colour", value: "#010203" },
+      { key: "Color", kind: "color", value: "#010203" },
       { key: "Style", kind: "choice", value: "Points", choices: ["Points", "Boxes"] },
     ]);
 
   it("use the default for invalid values", () => {
     const given = options({ Alpha: 7, Color: "255; 170; 0", Style: "Boxes" });
-    expect([given.number("Alpha"), given.colour("Color"), given.choice("Style")]).toEqual([1, "#ffaa00", "Boxes"]);
+    expect([given.number("Alpha"), given.color("Color"), given.choice("Style")]).toEqual([1, "#ffaa00", "Boxes"]);
     const wrong = options({ Alpha: "x", Color: "999; 0; 0", Style: "Teapots" });
-    expect([wrong.number("Alpha"), wrong.colour("Color"), wrong.choice("Style")]).toEqual([0.5, "#010203", "Points"]);
+    expect([wrong.number("Alpha"), wrong.color("Color"), wrong.choice("Style")]).toEqual([0.5, "#010203", "Points"]);
     expect(options({ Alpha: null }).number("Alpha")).toBe(0.5);
   });
 
@@ -108,9 +108,9 @@ describe("display options", () => {
     expect([camera?.hasEffect(rectified), image?.hasEffect(rectified)]).toEqual([true, false]);
   });
 
-  it("convert colours to and from the format of RViz", () => {
-    expect(rvizColour(cssColour("48; 48; 48") as string)).toBe("48; 48; 48");
-    expect(cssColour([0, 255, 16])).toBe("#00ff10");
+  it("convert colors to and from the format of RViz", () => {
+    expect(rvizColor(cssColor("48; 48; 48") as string)).toBe("48; 48; 48");
+    expect(cssColor([0, 255, 16])).toBe("#00ff10");
   });
 });
 
@@ -124,7 +124,7 @@ describe("formatted numbers", () => {
   it("are short in columns", () => {
     expect([0.0123, 5, 250, 90000].map(format.duration)).toEqual(["12 ms", "5.0 s", "4 min", "25 h"]);
     expect([50, 99.97, 12345, null].map(format.rate)).toEqual(["50.0 Hz", "100 Hz", "12.3 kHz", ""]);
-    expect([0.0042, 1.5, 12000].map(format.metres)).toEqual(["4.2 mm", "1.500 m", "12.00 km"]);
+    expect([0.0042, 1.5, 12000].map(format.meters)).toEqual(["4.2 mm", "1.500 m", "12.00 km"]);
   });
 
   it("are decoded from base64, also if it is invalid", () => {

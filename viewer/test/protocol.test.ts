@@ -57,7 +57,7 @@ describe("frame updates", () => {
 });
 
 describe("display messages", () => {
-  it("of clouds contain scalars or colours", () => {
+  it("of clouds contain scalars or colors", () => {
     const head = (flags: number): Parameters<typeof pack> => [
       ["u32", 2, 5, 6, 2, flags],
       ["f64", 10],

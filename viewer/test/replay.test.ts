@@ -163,7 +163,7 @@ describe("a replay", () => {
     expect([x, y].map((value) => Math.round(value * 1e3) / 1e3 + 0)).toEqual([0, -1.5]);
   });
 
-  it("reports topics and colours that it does not contain", () => {
+  it("reports topics and colors that it does not contain", () => {
     const { source, texts } = play({ ...block, displays: [scans] });
     source.send({ type: "subscribe", id: 1, topic: "/scan", options: { color_by: "intensity" } });
     source.send({ type: "subscribe", id: 2, topic: "/other", options: {} });
@@ -173,7 +173,7 @@ describe("a replay", () => {
     ).toEqual([
       [1, "no message before this time", "1 of 2 frames"],
       [2, "This replay does not contain topic /other.", undefined],
-      [1, "This replay contains only the colours that it was saved with.", "1 of 2 frames"],
+      [1, "This replay contains only the colors that it was saved with.", "1 of 2 frames"],
     ]);
   });
 

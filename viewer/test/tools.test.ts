@@ -68,7 +68,7 @@ describe("the point under the pointer", () => {
   });
 });
 
-it("the luminance of a colour distinguishes dark and light backgrounds", () => {
+it("the luminance of a color distinguishes dark and light backgrounds", () => {
   expect([luminance("#000000"), luminance("#ffffff")]).toEqual([0, expect.closeTo(1)]);
   expect(luminance("#303030")).toBeLessThan(0.179);
   expect(luminance("#808080")).toBeGreaterThan(0.179);

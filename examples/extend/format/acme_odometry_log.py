@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Odometry logs as recordings: lines with seconds, x, y in metres and yaw in radians."""
+"""Odometry logs as recordings: lines with seconds, x, y in meters and yaw in radians."""
 
 import math
 from collections.abc import Iterator

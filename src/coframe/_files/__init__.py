@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Files that may be damaged, hostile or incomplete: how they are read with bounds, and how they are written."""
+"""Read files that may be damaged, hostile or incomplete with bounds, and write files completely or not at all."""

@@ -83,7 +83,7 @@ def print_bounded(text: str, *, error: bool = False) -> None:
 
 
 def _fitting(lines: list[str], room: int) -> int:
-    """Return how many lines, counted from the first, fit."""
+    """Return how many of the first lines can be shown."""
     for number, line in enumerate(lines):
         room -= _weight(line)
         if room < 0:

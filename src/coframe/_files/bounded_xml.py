@@ -30,7 +30,7 @@ def read_xml(file: str | os.PathLike[str] | IO[Any]) -> ET.Element:
     if hasattr(file, "read"):
         text = file.read(MAX_BYTES + 1)
         if len(text) > MAX_BYTES:
-            raise ValueError(f"it has more than {MAX_BYTES >> 20} MiB, the limit")
+            raise ValueError(f"it is larger than the maximum of {MAX_BYTES >> 20} MiB")
     else:
         text = read_regular(file, MAX_BYTES)
     if ("<!ENTITY" if isinstance(text, str) else b"<!ENTITY") in text:

@@ -64,7 +64,7 @@ def _within_limits(text: str | bytes, max_bytes: int, load: Callable[[Any, Any],
     """Check the limits, then return the result of a function that takes the yaml module and a loader."""
     yaml: Any = importlib.import_module("yaml")
     if len(text) > max_bytes:
-        raise ValueError(f"it has more than {max_bytes >> 20} MiB, the limit")
+        raise ValueError(f"it is larger than the maximum of {max_bytes >> 20} MiB")
     base = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
     try:
         # PyYAML recurses without a limit and follows aliases of aliases; the event stream reveals both before that.

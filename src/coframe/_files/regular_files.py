@@ -130,7 +130,7 @@ def reading_hint(error: OSError) -> str:
 
 def _too_large(path: str | os.PathLike[str], max_bytes: int) -> UnsuitableFileError:
     limit = f"{max_bytes >> 20} MiB" if max_bytes >= 1 << 20 else f"{max_bytes} bytes"
-    return UnsuitableFileError(errno.EFBIG, f"it has more than {limit}, the limit", os.fspath(path))
+    return UnsuitableFileError(errno.EFBIG, f"it is larger than the maximum of {limit}", os.fspath(path))
 
 
 def _open(path: str, _flags: int) -> int:

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Text and HTML that people read: numbers with units, names from outside, tables."""
+"""Text and HTML for users: numbers with units, untrusted names, tables."""

@@ -2,7 +2,7 @@
 """Small HTML tables, as notebooks show values.
 
 Names of frames, topics and nodes come from the network, so all text is escaped and shortened. The styles set no
-colours: the tables are readable on light and on dark backgrounds.
+colors: the tables are readable on light and on dark backgrounds.
 """
 
 from __future__ import annotations

@@ -17,12 +17,12 @@ LAST_WARNING = f"No more warnings are shown: there were {MAX_WARNINGS}. Check wh
 
 
 class WarnOnce:
-    """Passes on each warning only the first time, and at most a number of warnings in total.
+    """Issues each warning only once, up to a maximum number of warnings.
 
     Args:
         warn: Called with each new warning.
         most: The maximum number of warnings.
-        last: Passed on in place of the first one beyond that number; "": nothing.
+        last: Issued once instead of the first warning beyond that number; "" for none.
     """
 
     def __init__(self, warn: Callable[[str], object], most: int = MAX_WARNINGS, last: str = LAST_WARNING) -> None:
@@ -32,12 +32,12 @@ class WarnOnce:
         self._keys: set[Hashable] = set()
 
     def __call__(self, text: str, key: Hashable = None, warn: Callable[[str], object] | None = None) -> None:
-        """Pass on a warning unless it is empty or was already passed on.
+        """Issue a warning unless it is empty or was already issued.
 
         Args:
             text: The warning.
-            key: What it is about; None: its text. Warnings with the same key are the same.
-            warn: Called in place of the function of the constructor.
+            key: Identifies the warning, by default by its text. Warnings with the same key are issued once.
+            warn: Called instead of the function given to the constructor.
         """
         key = text if key is None else key
         if not text or self.knows(key):
@@ -48,5 +48,5 @@ class WarnOnce:
             (warn or self._warn)(shown)
 
     def knows(self, key: Hashable) -> bool:
-        """Return whether a warning about something is not passed on: it was already, or there were too many."""
+        """Return whether a warning with this key is suppressed: it was already issued, or there were too many."""
         return key in self._keys or len(self._keys) > self._most

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Packages that only some features need: which extra of coframe installs each, and how they are imported."""
+"""Import optional packages, and name the extra of coframe that installs each of them."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ def import_optional(module: str, purpose: str, extra: str) -> Any:
 
     Args:
         module: Name of the module.
-        purpose: What needs the module: the subject of the error message.
+        purpose: The feature that needs the module; the subject of the error message.
         extra: The extra that installs it.
 
     Raises:

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Plug-ins: what other distributions add to coframe through entry points.
+"""Plug-ins: objects that other distributions add to coframe through entry points.
 
-A distribution names its objects in its ``pyproject.toml``; installing it is all that a user does::
+A distribution declares its objects in its ``pyproject.toml``; users only have to install it::
 
     [project.entry-points."coframe.commands"]
     hello = "robot_tools.hello:hello"
@@ -39,7 +39,7 @@ _ENTRY: Final = re.compile(r"([^=#;\[]+?)\s*=\s*([\w.]+(?::[\w.]+)?)\s*(?:\[.*\]
 
 
 class PluginError(CoframeError, RuntimeError):
-    """A plug-in that cannot be loaded, or that is not what its group expects."""
+    """A plug-in cannot be loaded, or is not of the kind that its group expects."""
 
     def __init__(self, text: str, *, hint: str = "") -> None:
         super().__init__(text)
@@ -52,7 +52,7 @@ class Plugin(NamedTuple):
     Attributes:
         group: The group, such as ``coframe.commands``.
         name: The name within the group.
-        target: What is loaded: ``package.module:object``, or a module.
+        target: The object to load: ``package.module:object``, or a module.
         package: The distribution, with the name that ``pip`` accepts.
     """
 
@@ -90,7 +90,7 @@ class Plugin(NamedTuple):
 
 
 def plugins(group: str) -> list[Plugin]:
-    """Return the entry points of a group in the order of ``sys.path``; of two with one name, the first.
+    """Return the entry points of a group in the order of ``sys.path``; for duplicate names, only the first one.
 
     Args:
         group: The group, such as ``coframe.commands``.
@@ -108,7 +108,7 @@ def plugins(group: str) -> list[Plugin]:
 
 
 def load_plugins(group: str, report: Callable[[str], None]) -> Iterator[tuple[Plugin, Any]]:
-    """Load the entry points of a group, each with its object; those that fail are reported and left out.
+    """Load the entry points of a group, each with its object; failing ones are reported and skipped.
 
     Args:
         group: The group, such as ``coframe.commands``.
@@ -132,7 +132,7 @@ def _modified(folder: str) -> int:
 
 @functools.lru_cache(maxsize=256)
 def _entry_points(folder: str, _modified: int) -> tuple[Plugin, ...]:
-    """Return all entry points below a folder of ``sys.path``; a change of the folder makes them outdated."""
+    """Return all entry points in a folder of ``sys.path``; they are read again when the folder changes."""
     try:
         names = sorted(os.listdir(folder))  # noqa: PTH208 - as above
     except (OSError, ValueError):

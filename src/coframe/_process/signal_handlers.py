@@ -17,7 +17,7 @@ _Handler = Callable[[int, FrameType | None], object]
 class SignalHandlers:
     """The signal handlers that one part of the program has installed. Use only in the main thread.
 
-    They stop what runs in this process: its nodes, its event loop, its command. None of that exists in a forked child,
+    They stop the nodes, the event loop or the command of this process. None of these exist in a forked child,
     so the child gets the previous handlers back. Otherwise SIGTERM would not end the workers of a
     `multiprocessing.Pool`, and the Pool would wait for them forever.
     """

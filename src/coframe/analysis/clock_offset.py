@@ -90,16 +90,16 @@ def _slope(x: NDArray[np.float64], y: NDArray[np.float64]) -> float:
         return 0.0
     order = np.argsort(x, kind="stable")
     parts = np.array_split(order, bins)
-    centres = np.array([np.median(x[part]) for part in parts])
+    centers = np.array([np.median(x[part]) for part in parts])
     medians = np.array([np.median(y[part]) for part in parts])
-    if np.ptp(centres) == 0.0:
+    if np.ptp(centers) == 0.0:
         return 0.0
     rows, columns = np.triu_indices(bins, 1)
-    apart = centres[columns] - centres[rows]
+    apart = centers[columns] - centers[rows]
     slope = float(np.median((medians[columns] - medians[rows])[apart > 0] / apart[apart > 0]))
-    rest = medians - slope * centres
+    rest = medians - slope * centers
     rest -= np.median(rest)
-    change = abs(slope) * float(np.ptp(centres))
-    error = float(np.sqrt(np.sum(rest**2) / (bins - 2) / np.sum((centres - centres.mean()) ** 2)))
+    change = abs(slope) * float(np.ptp(centers))
+    error = float(np.sqrt(np.sum(rest**2) / (bins - 2) / np.sum((centers - centers.mean()) ** 2)))
     is_linear = float(np.abs(rest).max()) <= _MAX_CURVATURE * change
     return slope if is_linear and abs(slope) > _SIGNIFICANT * error else 0.0

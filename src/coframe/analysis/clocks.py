@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The rule that decides which clock stamps come from: the system clock, simulated time, or another clock."""
+"""Decide which clock stamps come from: the system clock, simulated time, or another clock."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The rules for gaps and stale edges, and a tracker that applies them to a buffer.
+"""Rules for gaps and stale edges, and a tracker that applies them to a buffer.
 
 All parts of coframe use this module: the doctor, the drawings, ``monitor``, ``why``, the terminal screens, the viewer,
 :meth:`coframe.Buffer.edges` and the publishers and relays of transforms.
@@ -47,8 +47,8 @@ def usual_period(stamps: NDArray[np.int64]) -> float:
     """Return the usual period of an edge: the median interval between consecutive different stamps.
 
     Args:
-        stamps: (N,) int64 nanoseconds, in any order: those of all transforms that the caller has, such as those of a
-            recording or of a buffer.
+        stamps: (N,) int64 nanoseconds, in any order: the stamps of all known transforms, such as those in a recording
+        or a buffer.
 
     Returns:
         Nanoseconds; 0.0 with fewer than two different stamps, where the period is unknown.
@@ -115,11 +115,11 @@ def stale_limit(period: float | NDArray[np.float64]) -> float | NDArray[np.float
 def is_stale(silence: float, period: float, *, static: bool = False) -> bool:
     """Return whether an edge, or a publisher, is stale.
 
-    An edge is stale when it is not static and nothing was received for it for longer than :data:`STALE_AFTER` and
+    An edge is stale when it is not static and no transform was received for longer than :data:`STALE_AFTER` and
     longer than :data:`STALE_PERIODS` times its usual period.
 
     Args:
-        silence: The time since something was received for it, in nanoseconds.
+        silence: The time since the last transform was received, in nanoseconds.
         period: Its usual period in nanoseconds; 0 where it is unknown.
         static: Whether it is static.
 

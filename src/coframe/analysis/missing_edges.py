@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The edge that is most likely missing between two trees, by the names of their frames."""
+"""Find the edge that is most likely missing between two trees by their frame names."""
 
 from __future__ import annotations
 
@@ -42,24 +42,24 @@ class MissingEdge(NamedTuple):
     Attributes:
         parent: A frame of one tree.
         child: The root of the other tree.
-        misspelt: Whether one of the two names is probably a misspelling of the other.
+        misspelled: Whether one of the two names is probably a misspelling of the other.
     """
 
     parent: str
     child: str
-    misspelt: bool
+    misspelled: bool
 
     @property
     def text(self) -> str:
         """The probable cause, as a clause."""
-        if self.misspelt:
+        if self.misspelled:
             return f"{self.child!r} looks like a misspelling of {self.parent!r}"
         return f"the transform {self.parent} -> {self.child} is probably missing"
 
     @property
     def fix(self) -> str:
         """What to do, for findings: the line of code to change, or the command to run."""
-        if self.misspelt or estimator_advice(self.parent, self.child):
+        if self.misspelled or estimator_advice(self.parent, self.child):
             return self.hint
         edge, command = f"{self.parent} -> {self.child}", static_command(self.parent, self.child)
         return f"If {edge} never moves, run `{command}`; otherwise start the node that publishes it."
@@ -67,7 +67,7 @@ class MissingEdge(NamedTuple):
     @property
     def hint(self) -> str:
         """What to do, for exceptions: in terms of the Python API."""
-        if self.misspelt:
+        if self.misspelled:
             return (
                 f"In the node that publishes {self.child!r}, change the line to t.header.frame_id = {self.parent!r} "
                 f"(or t.child_frame_id); the two names must be the same."
@@ -113,7 +113,7 @@ def estimator_advice(parent: str, child: str, node: str = "") -> str:
 
 
 def is_sensor_frame(frame: str) -> bool:
-    """Return whether a frame name looks like that of a sensor, which is usually mounted at a constant pose.
+    """Return whether a frame name looks like the name of a sensor, which is usually mounted at a constant pose.
 
     Example:
         >>> is_sensor_frame("front_laser"), is_sensor_frame("imu_link"), is_sensor_frame("odom")
@@ -123,7 +123,7 @@ def is_sensor_frame(frame: str) -> bool:
 
 
 def unknown_mount(root: str) -> str:
-    """Return what to do about a tree with this root if no missing edge is more likely than others."""
+    """Return advice about a tree with this root if no missing edge is more likely than others."""
     if _without_prefix(root) in _ESTIMATED:
         return (
             f"Start the node that publishes a transform with child_frame_id = {root!r}: odometry, localization or SLAM."
@@ -137,7 +137,7 @@ def unknown_mount(root: str) -> str:
 def missing_edge(first: Sequence[str], second: Sequence[str]) -> MissingEdge | None:
     """Return the edge that is most likely missing between two trees, or None if none is likely.
 
-    Misspelt names are tried first, then the usual pairs of frames.
+    Misspelled names are tried first, then the usual pairs of frames.
 
     Args:
         first: The frames of the larger tree, its root first.
@@ -145,21 +145,21 @@ def missing_edge(first: Sequence[str], second: Sequence[str]) -> MissingEdge | N
 
     Example:
         >>> missing_edge(["odom", "base_link"], ["base_lnk", "lidar"])
-        MissingEdge(parent='base_link', child='base_lnk', misspelt=True)
+        MissingEdge(parent='base_link', child='base_lnk', misspelled=True)
         >>> missing_edge(["odom", "base_footprint"], ["base_link", "wheel"])
-        MissingEdge(parent='base_footprint', child='base_link', misspelt=False)
+        MissingEdge(parent='base_footprint', child='base_link', misspelled=False)
     """
     sides = ((second[0], first), (first[0], second))
     for root, frames in sides:
         if similar := similar_frames(root, frames[:MAX_COMPARED_FRAMES]):
-            return MissingEdge(similar[0], root, misspelt=True)
+            return MissingEdge(similar[0], root, misspelled=True)
     for parent, child in _USUAL:
         for root, frames in sides:
             if _without_prefix(root) != child:
                 continue
             above = [frame for frame in frames if _without_prefix(frame) == parent and _prefix(frame) == _prefix(root)]
             if above:
-                return MissingEdge(above[0], root, misspelt=False)
+                return MissingEdge(above[0], root, misspelled=False)
     return None
 
 

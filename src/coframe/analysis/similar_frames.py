@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Frames that may have been meant by a name: only the part that distinguishes a name counts.
+"""Find frames with a similar name, comparing only the distinguishing part of the names.
 
-Most names of a robot end with the same word: ``lidar_link`` and ``base_link`` look similar, but one is not a misspelt
+Most names of a robot end with the same word: ``lidar_link`` and ``base_link`` look similar, but one is not a misspelled
 form of the other. Words that both names contain are therefore not compared.
 """
 

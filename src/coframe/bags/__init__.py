@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Recordings without ROS: rosbag2 (MCAP, SQLite) and bags of ROS 1."""
+"""Recordings without ROS: rosbag2 (MCAP, SQLite) and ROS 1 bags."""
 
 import importlib
 from typing import TYPE_CHECKING, Any

@@ -47,8 +47,7 @@ def write_clouds(
 ) -> int:
     """Stream the points of all messages to a file; memory use does not depend on the number of messages.
 
-    The times of points that were deskewed get a name that no reader takes for times to deskew by: ``t`` becomes
-    ``deskewed_t``.
+    The time field of deskewed points is renamed, so that no reader deskews them again: ``t`` becomes ``deskewed_t``.
 
     Args:
         clouds: The clouds.
@@ -56,10 +55,10 @@ def write_clouds(
             as one cloud. A file that ends with ``.mcap`` is a new recording with one PointCloud2 per message. Any other
             name is a folder with one file per message, named by its stamp.
         format_: Format of the files in a folder: ``"ply"`` (default), ``"pcd"``, ``"npz"`` or ``"npy"``.
-        voxel: Keep only the first point in each voxel with this edge length in metres. If one cloud is written, its
+        voxel: Keep only the first point in each voxel with this edge length in meters. If one cloud is written, its
             points are kept in memory.
-        float64: Write coordinates as float64 also to PCD and MCAP, where float32 is usual. Without it, a
-            :class:`coframe.CoframeWarning` says if float32 rounds them by more than a millimetre.
+        float64: Also write the coordinates in PCD and MCAP files as float64, where float32 is usual. Without it, a
+        :class:`coframe.CoframeWarning` is issued if float32 rounds them by more than a millimeter.
         progress: Called with the number of messages read so far.
 
     Returns:
@@ -118,7 +117,7 @@ class _CloudSource:
 
 
 def _with_marked_times(cloud: Cloud) -> Cloud:
-    """Rename the times of points that were deskewed, so that no reader deskews them again."""
+    """Rename the time field of deskewed points, so that no reader deskews them again."""
     names = cloud.points.dtype.names or ()
     if cloud.used_times not in names:
         return cloud
@@ -356,7 +355,7 @@ def _fields(dtype: np.dtype[Any]) -> str:
 
 
 def _cast_coordinates(points: NDArray[Any], kinds: dict[str, str], xyz: str) -> NDArray[Any]:
-    """Do as :func:`_cast`; warn if this rounds coordinates."""
+    """Call :func:`_cast`, and warn if it rounds coordinates."""
     result = _cast(points, kinds, xyz=xyz)
     position = (result["x"], result["y"], result["z"])
     warn_of_rounding(farthest(position), position, _FLOAT64_ADVICE)

@@ -50,7 +50,7 @@ class Cloud(NamedTuple):
     Attributes:
         stamp: Stamp of the message in nanoseconds.
         frame: The frame in which the points are expressed.
-        points: A structured array, (N,): ``x``, ``y``, ``z`` in metres as float64, all finite unless ``on_gap`` is
+        points: A structured array, (N,): ``x``, ``y``, ``z`` in meters as float64, all finite unless ``on_gap`` is
             ``"nan"``, and the other fields of the message with their types.
         deskewed: Whether each point was transformed at its own time.
         used_times: Name of the field with these times, also if all points of the message have the same time; None if
@@ -110,9 +110,9 @@ class Clouds:
         times_read: Number of deskewed messages, by how their times were interpreted.
         fixed_given: Whether ``fixed`` was given.
         fixed_frames: Number of deskewed messages, by the frame that was assumed not to move during a sweep.
-        not_deskewed: Number of messages that were transformed as a whole although they have times, by reason.
+        not_deskewed: Number of messages that have point times but were not deskewed, by reason.
         gaps: Number of messages that lie in an unusually long gap of an edge, if there is no ``max_gap``, by edge.
-        doubts: Number of messages with suspicious times, by what is suspicious.
+        doubts: Number of messages with suspicious times, by reason.
 
     Raises:
         RecordingError: The topic does not exist or has another type.
@@ -203,7 +203,7 @@ class Clouds:
         """Return one cloud with the first point in each voxel; only these points are kept in memory.
 
         Args:
-            voxel: Edge length of the voxels in metres.
+            voxel: Edge length of the voxels in meters.
 
         Returns:
             A cloud with the stamp of the last message; None if there are no messages.
@@ -376,7 +376,7 @@ class Clouds:
         return _Measured(_structured(columns), hits.times if self._deskews and message.time_increment != 0 else None)
 
     def _reason(self, error: TransformException) -> str:
-        """Return the message of the first error that differs from this one only in its times."""
+        """Return the first error message that differs from this one only in its times."""
         key = (type(error), error.target, error.source, error.edge)
         return self._reasons.setdefault(key, f"{type(error).__name__}: {error}")
 

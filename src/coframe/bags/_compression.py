@@ -86,7 +86,7 @@ def unpack_message(compression: str, data: bytes | memoryview, largest: int = MA
     limit = min(largest, max(_PLAUSIBLE, _MAX_RATIO * len(data)))
     # One byte more than the limit shows that the message is too large, even if the file states another size.
     if _stated_size(compression, data) > limit or len(unpacked := unpack(compression, data, limit + 1)) > limit:
-        raise DamagedError(f"a message of {len(data)} bytes unpacks to more than {limit} bytes, the limit")
+        raise DamagedError(f"a message of {len(data)} bytes unpacks to more than the maximum of {limit} bytes")
     return unpacked
 
 

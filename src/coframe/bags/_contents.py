@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Reads the files of a recording once: all transforms, and where each message is."""
+"""Read the files of a recording once: all transforms, and the position of each message."""
 
 from __future__ import annotations
 
@@ -46,14 +46,14 @@ _BURST_SHARE = 0.01  # of the recording's duration
 
 @dataclass(frozen=True)
 class Contents:
-    """What a recording contains; :class:`coframe.bags.Recording` describes the attributes with the same names.
+    """The contents of a recording; :class:`coframe.bags.Recording` describes the attributes with the same names.
 
     Attributes:
         path: The recording.
-        problems: What could not be read so far.
+        problems: The problems found so far.
         closing: Closes the files.
         types: The types of the messages.
-        index: Where each message is.
+        index: The position of each message.
         received_span: First and last receive time; None without messages.
     """
 
@@ -81,7 +81,7 @@ def read_contents(
 
     Args:
         path: A file, or a folder with files.
-        choice: Which transforms are read, and how their frames are named.
+        choice: Selects the transforms to read, and the names of their frames.
         progress: Called regularly with the number of bytes read and the total number of bytes.
         on_transforms: Called with all messages that contain transforms, in batches.
 

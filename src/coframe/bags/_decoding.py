@@ -28,8 +28,8 @@ def decoder(channel: Channel, types: RecordedTypes, problems: Problems) -> Calla
     """Return the function that decodes the messages of a channel.
 
     ROS messages become instances of coframe's class if the definition in the recording matches it, otherwise of a class
-    created from that definition. Protobuf messages become objects of the protobuf package, JSON becomes what
-    :func:`json.loads` returns. Messages of unknown types are returned as bytes, and a problem is added.
+    created from that definition. Protobuf messages become objects of the protobuf package, JSON becomes the result of
+    :func:`json.loads`. Messages of unknown types are returned as bytes, and a problem is added.
 
     Returns:
         A function that raises a DecodeError if the bytes are damaged.

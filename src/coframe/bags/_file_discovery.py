@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Find the files of a recording below a path, and open each with the reader for its format.
 
-The first bytes of a file decide its format. Names and metadata.yaml only help to find and order the files.
+The first bytes of a file determine its format. Names and metadata.yaml only help to find and order the files.
 """
 
 from __future__ import annotations
@@ -52,8 +52,8 @@ _OTHER_FILES = {
     b"\xfd7zXZ\0": "it is compressed with xz; unpack it with unxz",
     b"PK\x03\x04": "it is a zip archive; unpack it with unzip",
     b"7z\xbc\xaf": "it is a 7z archive; unpack it",
-    b"<!DOCTYPE": "it is a web page, as failed downloads leave it",
-    b"<html": "it is a web page, as failed downloads leave it",
+    b"<!DOCTYPE": "it is a web page, probably from a failed download",
+    b"<html": "it is a web page, probably from a failed download",
     bytes(16): "it begins with zeros; its beginning was never written, or is lost",
 }
 _UNPACKED_PIECE = 1 << 20  # bytes
@@ -217,7 +217,7 @@ def _unpacked(file: Path, problems: Problems, closing: ExitStack) -> tuple[Path,
         reader = zstandard.ZstdDecompressor().stream_reader(source)
         while piece := reader.read(_UNPACKED_PIECE):
             if whole.tell() + len(piece) > budget:
-                problems.add(f"{file.name} unpacks to more than {budget} bytes, the limit; the rest was not read")
+                problems.add(f"{file.name} unpacks to more than the maximum of {budget} bytes; the rest was not read")
                 break
             whole.write(piece)
         if source.is_implausible:
@@ -226,7 +226,7 @@ def _unpacked(file: Path, problems: Problems, closing: ExitStack) -> tuple[Path,
 
 
 class _PackedFile:
-    """A compressed file that ends early if its bytes unpack to fewer: empty blocks can fill a file."""
+    """A compressed file that ends early if it unpacks to fewer bytes than it has (empty blocks can fill a file)."""
 
     def __init__(self, packed: BinaryIO, whole: BinaryIO) -> None:
         self._packed = packed

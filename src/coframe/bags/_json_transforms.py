@@ -97,7 +97,7 @@ def _collect_inner(value: dict[str, Any], fields: dict[str, Any]) -> list[str]:
 
 
 def _numbers(value: Any, what: str, axes: str) -> list[float]:
-    """Return the components of a vector or quaternion; those that are left out are 0, as protobuf defines it."""
+    """Return the components of a vector or quaternion; omitted ones are 0, as in protobuf."""
     components = _object({} if value is None else value, what)
     if others := sorted(set(components) - set(axes)):
         raise ValueError(f"the {what} has the fields {_names(others)}, not {', '.join(axes)}")
@@ -108,7 +108,7 @@ def _nanoseconds(stamp: Any) -> int:
     """Return a time in nanoseconds.
 
     Raises:
-        ValueError: It is in a form that is not known for sure, such as a number without a unit.
+        ValueError: Its format is ambiguous, such as a number without a unit.
     """
     if isinstance(stamp, str) and (match := _RFC_3339.fullmatch(stamp.strip())):
         day, clock, fraction, offset = match.groups()

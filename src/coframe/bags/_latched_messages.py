@@ -20,7 +20,7 @@ MAX_BYTES = 64 << 20
 
 
 class LatchedSpace:
-    """Limits the number and bytes of all latched messages of a recording, which must not fill the memory."""
+    """Limits the number and size of all latched messages of a recording, so that they do not fill the memory."""
 
     def __init__(self) -> None:
         self._messages = 0
@@ -45,7 +45,7 @@ class LatchedMessage(NamedTuple):
 
     Attributes:
         data: The serialized message.
-        published: When it was published, in nanoseconds.
+        published: The publication time in nanoseconds.
     """
 
     data: bytes
@@ -104,7 +104,7 @@ class LatchedMessages:
             self._space.give_back(len(self._messages.pop(number).data))
 
     def _keys(self, data: bytes, publisher: Hashable) -> frozenset[Hashable]:
-        """Return what a message describes: its child frames, or its publisher."""
+        """Return the keys that a message replaces: its child frames, or its publisher."""
         if self._is_static:
             try:
                 frames = frozenset(

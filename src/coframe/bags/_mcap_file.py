@@ -95,7 +95,7 @@ class McapStorage(ChunkedStorage):
         self.add_problem(f"truncated at byte {end} of {self.size}; the recorder may have been killed")
 
     def _is_followed(self, opcode: int, end: int) -> bool:
-        """Return whether a record is of a type that a later version of MCAP may define, with another record behind."""
+        """Return whether a record may have a type of a later version of MCAP and is followed by another record."""
         head = self.bytes_at(end, _RECORD.size)
         if opcode == 0 or _is_record(opcode) or len(head) < _RECORD.size:
             return False

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A file whose format yields messages one after the other, without access to single ones."""
+"""A file whose format can only be read sequentially, without access to single messages."""
 
 from __future__ import annotations
 

@@ -103,7 +103,7 @@ class MessageIndex:
         return track
 
     def close(self) -> None:
-        """Let all further reads raise an error, because the files are closed."""
+        """Make all further reads raise an error, because the files are closed."""
         self._closed = True
 
     def topics(self) -> list[str]:

@@ -37,9 +37,9 @@ class OfferedQos(NamedTuple):
 
     Attributes:
         depth: History depth in messages.
-        reliable: Reliable, as opposed to best effort.
-        transient_local: Late joiners receive the last messages.
-        keep_all: The history keeps all messages, regardless of its depth.
+        reliable: Whether the publisher is reliable, not best effort.
+        transient_local: Whether late joiners receive the last messages.
+        keep_all: Whether the history keeps all messages, regardless of its depth.
     """
 
     depth: int = 10
@@ -49,7 +49,7 @@ class OfferedQos(NamedTuple):
 
 
 def to_yaml(profiles: Iterable[OfferedQos]) -> str:
-    """Return the YAML of metadata versions 4 to 8, which later versions of rosbag2 read, too."""
+    """Return the YAML of metadata versions 4 to 8, which later versions of rosbag2 also read."""
     return "".join(
         _PROFILE.format(
             history=_KEEP_ALL if profile.keep_all else _KEEP_LAST,

@@ -41,10 +41,10 @@ _Key = tuple[str, str, str, bytes]
 
 
 class _Beginning(NamedTuple):
-    """Cached knowledge about the beginning of a type's messages.
+    """Cached information about the beginning of the messages of a type.
 
     Attributes:
-        first: What they begin with; None if it is not a stamp or is unknown.
+        first: The first field; None if it is not a stamp or is unknown.
         has_header: Whether they have a field ``header``; None if that is unknown.
     """
 

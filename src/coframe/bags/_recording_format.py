@@ -72,7 +72,7 @@ class FileWriter(Protocol):
 class RecordingFormat:
     """A file format of recordings. A subclass describes one; its instances have no state.
 
-    A format of your own overrides `name`, `suffixes` and `messages`, and is installed as an entry point of the group
+    Your own format overrides `name`, `suffixes` and `messages`, and is installed as an entry point of the group
     ``coframe.recordings``. All of coframe then reads such files: `open_bag`, the commands, the doctor, the viewer.
 
     Attributes:
@@ -105,8 +105,8 @@ class RecordingFormat:
         """Yield the messages of a file, in any order: topic, receive time in nanoseconds, and message.
 
         Messages are instances of ROS's classes, such as ``geometry_msgs.msg.PoseStamped`` or the class that
-        ``coframe.messages.find("tf2_msgs/msg/TFMessage")`` returns. Raise any exception where the file is damaged: the
-        messages before it are used, and the text of the exception becomes a problem of the recording.
+        ``coframe.messages.find("tf2_msgs/msg/TFMessage")`` returns. If the file is damaged, raise any exception: the
+        messages before it are used, and its text is added to the problems of the recording.
 
         Args:
             path: The file.
@@ -156,7 +156,7 @@ class RecordingFormat:
         raise CoframeError(f"{path} cannot be written: recordings in the format {self.name} are only read")
 
     def recording_name(self, file: str) -> str:
-        """Return what the names of the files of one recording have in common: ``run`` for ``run_0`` and ``run_1``.
+        """Return the common part of the file names of a recording: ``run`` for ``run_0`` and ``run_1``.
 
         Args:
             file: The name of a file without its suffix.

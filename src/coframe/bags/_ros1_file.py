@@ -31,7 +31,7 @@ _MAX_HEADER_BYTES = 1 << 16
 
 
 class Ros1Storage(ChunkedStorage):
-    """A bag of ROS 1."""
+    """A ROS 1 bag."""
 
     format = ROS1
 

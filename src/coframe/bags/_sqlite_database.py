@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Open untrusted SQLite files: nothing is written next to them, and the work of each query is limited.
+"""Open untrusted SQLite files without writing next to them, and limit the work of each query.
 
 A database of a few kilobytes can describe endless rows: pages shared by several rows, pages that contain themselves,
 views that are programs.
@@ -89,7 +89,7 @@ class Database:
             condition: The rows to read, as an SQL condition after WHERE; "" for all.
 
         Raises:
-            sqlite3.Error: The database is damaged, or is not a simple one with a plain table of this name.
+            sqlite3.Error: The database is damaged, or has no plain table of this name.
         """
         if any(hidden for *_, hidden in self._query(f"PRAGMA table_xinfo({table})")):
             # Their expressions can take any amount of memory and time.

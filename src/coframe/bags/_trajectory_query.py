@@ -42,9 +42,9 @@ class TrajectoryQuery:
         start: The first stamp: nanoseconds, or a string that :func:`coframe.bags.parse_time_point` parses for each
             recording.
         stop: The last stamp, as nanoseconds or a string.
-        transforms: Which transforms of a recording are read, and how their frames are named.
-        max_gap: The longest interval between two transforms that a pose may be interpolated over: nanoseconds, or a
-            string such as ``"200ms"``; None interpolates over any.
+        transforms: Selects the transforms to read, and the names of their frames.
+        max_gap: The maximum interval between two transforms for interpolation: nanoseconds, or a string such as
+        ``"200ms"``; None means no limit.
         on_gap: What to do with a pose in a longer gap: ``"omit"`` it, fill it with ``"nan"``, or ``"raise"``.
         validity: Whether the files of :func:`coframe.bags.query_recordings` get the columns of :meth:`validity_of`.
 
@@ -117,7 +117,7 @@ class TrajectoryQuery:
             yield self._look_up(recording, stamps[start : start + BATCH])
 
     def gap_text(self, recording: Recording, stamps: NDArray[np.int64]) -> str:
-        """Return how many poses lie in unusually long gaps, if there is no limit for them; or ""."""
+        """Return a message about poses in unusually long gaps; "" if there are none or `max_gap` is set."""
         if self.max_gap is not None:
             return ""
         return long_gap_text(recording.buffer, self.target, self.source, stamps)

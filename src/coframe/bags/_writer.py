@@ -82,8 +82,9 @@ class Writer:
         path: The folder, which must not exist.
         compression: Compression of the chunks of MCAP files: ``zstd``, ``lz4`` or ``none``.
         storage: Format of the files: ``mcap`` or ``sqlite3``, as rosbag2 names them.
-        max_size: Size in bytes at which a new file begins; None for no limit.
-        max_duration: Duration after which a new file begins, such as "10min", a timedelta or nanoseconds; None for no
+        max_size: File size in bytes at which a new file is started; None for no limit.
+        max_duration: Duration after which a new file is started, such as "10min", a timedelta or nanoseconds; None for
+        no
             limit.
 
     Attributes:

@@ -49,7 +49,7 @@ class QueryResult(NamedTuple):
         bag: Path of the recording.
         poses: Number of poses written.
         missing: Number of stamps omitted because there is no transform.
-        problems: What could not be read or is unusual, one message each.
+        problems: Read errors and unusual data, one message each.
         error: Why the query failed; "" if it succeeded.
         kept: Whether the file from an earlier run was kept.
     """
@@ -100,9 +100,9 @@ def query_recordings(
         query: The query.
         folder: Folder of the dataset: one Parquet file per recording, which pyarrow
             (``pyarrow.dataset.dataset(folder)``), pandas, Dask and DuckDB read as one table.
-        on: Where to run: ``"processes"`` of this machine, ``"dask"`` or ``"ray"``. Dask uses the cluster of
-            ``DASK_SCHEDULER_ADDRESS`` or of its configuration, Ray that of ``RAY_ADDRESS``; without these, they start
-            workers on this machine. The workers must have coframe and the same paths.
+        on: The engine: ``"processes"`` on this machine, ``"dask"`` or ``"ray"``. Dask uses the cluster of
+        ``DASK_SCHEDULER_ADDRESS`` or of its configuration, and Ray uses the cluster of ``RAY_ADDRESS``; without these,
+        they start workers on this machine. The workers must have coframe and the same paths.
         workers: Number of workers; by default one per processor, with Dask and Ray their own default.
         progress: Called with each result as soon as it is available.
 
@@ -148,7 +148,7 @@ def _query(bag: str, query: TrajectoryQuery, folder: Path) -> QueryResult:
 
 
 def _fingerprint(bag: str, query: TrajectoryQuery) -> bytes:
-    """Return what the result depends on: the query, and the sizes and modification times of the recording's files."""
+    """Return a fingerprint of the query and of the sizes and modification times of the recording's files."""
     path = Path(bag)
     files = sorted(path.iterdir()) if path.is_dir() else [path]
     state = [(file.name, file.stat().st_size, file.stat().st_mtime_ns) for file in files if file.is_file()]

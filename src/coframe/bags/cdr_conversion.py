@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Conversion of recorded messages of ROS 1 to CDR."""
+"""Convert recorded ROS 1 messages to CDR."""
 
 from __future__ import annotations
 
@@ -26,11 +26,11 @@ __all__ = ["Conversion", "cdr_conversion", "copied_definition", "decode_transfor
 
 
 class Conversion(NamedTuple):
-    """How the messages of a channel become messages of ROS 2 in CDR.
+    """The conversion of a channel's messages to ROS 2 messages in CDR.
 
     Attributes:
-        type: The type of ROS 2.
-        definition: Its definition, as ``ros2msg``; None: that of coframe.
+        type: The ROS 2 type.
+        definition: Its definition, as ``ros2msg``; None for coframe's definition.
         convert: Converts the bytes of a message. It raises an Exception if they are damaged.
     """
 
@@ -42,8 +42,8 @@ class Conversion(NamedTuple):
 def cdr_conversion(channel: Channel, types: RecordedTypes) -> Conversion | None:
     """Return how the messages of a channel are converted to CDR; None if that is not possible.
 
-    A type of ROS 1 that coframe has with other fields is converted by the names of the fields: new ones have their
-    default. A type that coframe does not have keeps its name and its fields, as those of the teams themselves do.
+    If coframe's type has other fields, fields are matched by name, and new fields have default values. A type that
+    coframe does not have, such as your own, keeps its name and fields.
     """
     if channel.encoding == "cdr":
         return Conversion(channel.type, None, bytes)
@@ -66,7 +66,7 @@ def cdr_conversion(channel: Channel, types: RecordedTypes) -> Conversion | None:
 
 
 def _has_fields(cls: Any, recorded: Any) -> bool:
-    """Return whether a class has all fields of a recorded one; capital letters make no difference."""
+    """Return whether a class has all fields of a recorded one, ignoring case."""
     if recorded is cls:
         return True
     own, theirs = _message_classes(cls), _message_classes(recorded)
@@ -105,7 +105,7 @@ def copied_definition(channel: Channel, types: RecordedTypes) -> tuple[str | Non
     """Return the definition and its format for a copy of a channel whose messages are copied unchanged.
 
     Returns:
-        None as the definition means coframe's own: the names in DDS IDL differ from that of the type.
+        The definition is None for coframe's own, because the names in DDS IDL differ from the type name.
     """
     if channel.definition_format == "omgidl" and types.own_class(channel) is not None:
         return None, "ros2msg"

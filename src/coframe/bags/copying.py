@@ -40,7 +40,7 @@ class CopyReport(NamedTuple):
     Attributes:
         path: The new recording.
         messages: Number of messages in it.
-        problems: What could not be read or converted, one message each.
+        problems: Read and conversion errors, one message each.
         notes: Topics of several recordings that were joined or kept apart, one message each.
     """
 

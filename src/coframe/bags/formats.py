@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The file formats of recordings: one class each.
 
-All lists of formats and suffixes in coframe come from here. The first bytes of a file decide its format. Names only
+All lists of formats and suffixes in coframe come from here. The first bytes of a file determine its format. Names only
 help to find and order the files.
 """
 
@@ -90,7 +90,7 @@ class Sqlite(RecordingFormat):
 
 
 class Ros1(RecordingFormat):
-    """Bags of ROS 1."""
+    """ROS 1 bags."""
 
     name = "ROS 1 bag"
     suffixes = (".bag",)
@@ -100,7 +100,7 @@ class Ros1(RecordingFormat):
     _DATE = re.compile(r"[_-]?\d{4}(-\d\d){5}$", re.ASCII)
 
     def refusal(self, beginning: bytes) -> str:
-        """Refuse bags of version 1."""
+        """Reject bags of version 1."""
         if not beginning.startswith(self._OLD):
             return ""
         return "bags of version 1 are not supported; convert it to version 2.0 with `rosbag fix` of ROS 1"
@@ -112,7 +112,7 @@ class Ros1(RecordingFormat):
         return Ros1Storage(path, problems)
 
     def recording_name(self, file: str) -> str:
-        """Return the common part of names; that of each file has its start time as well: ``2024-05-01-10-00-00_0``."""
+        """Return the common part of the file names, without the start time of each file: ``2024-05-01-10-00-00_0``."""
         bare = bare_name(file)
         return file if bare is None else self._DATE.sub("", bare)
 
@@ -127,7 +127,7 @@ _SUFFIX: Final = re.compile(r"\.[a-z0-9_-]+")
 
 @functools.cache
 def formats() -> tuple[RecordingFormat, ...]:
-    """Return all formats in the order in which they are tried: those of coframe, then those of other distributions."""
+    """Return all formats in the order in which they are tried: coframe's own, then those of other distributions."""
     found = list(BUILT_IN)
     for plugin, loaded in load_plugins(GROUP, report):
         problem = _problem(loaded, found)
@@ -148,7 +148,7 @@ def _problem(loaded: Any, others: list[RecordingFormat]) -> str:
     if not (isinstance(endings, tuple) and endings and all(_SUFFIX.fullmatch(str(ending)) for ending in endings)):
         return "has no suffixes such as ('.log',), in small letters"
     if any(each.name == name for each in others):
-        return f"has the name {name!r}, which another format has as well"
+        return f"has the name {name!r}, which another format also has"
     return ""
 
 
@@ -167,7 +167,7 @@ def storage_formats(*, written: bool = False) -> dict[str, RecordingFormat]:
 
 
 def file_kinds() -> str:
-    """Return what files of recordings are, for texts: ``.mcap, .db3 or .bag file``."""
+    """Return a description of recording files for messages: ``.mcap, .db3 or .bag file``."""
     *first, last = suffixes()
     return f"{', '.join(first)} or {last} file"
 
@@ -184,16 +184,16 @@ def matches(format_: RecordingFormat, path: Path, beginning: bytes) -> bool:
 
 
 def has_known_suffix(path: Path) -> bool:
-    """Return whether a path has the suffix of a format, also before that of a compressed file."""
+    """Return whether a path has the suffix of a format, also in front of a compression suffix."""
     return PurePath(path.name.removesuffix(COMPRESSED)).suffix.lower() in suffixes()
 
 
 def is_recording(path: Path) -> bool:
-    """Return whether a path is that of a file named like a recording, or of a folder of rosbag2."""
+    """Return whether a path is a file named like a recording, or a rosbag2 folder."""
     return is_file(path / METADATA) or (has_known_suffix(path) and is_file(path))
 
 
 def recording_name(path: Path, format_: RecordingFormat) -> str:
-    """Return what the names of the files of one recording have in common: ``run`` for ``run_0.mcap``."""
+    """Return the common part of the file names of a recording: ``run`` for ``run_0.mcap``."""
     name = path.name.removesuffix(COMPRESSED)
     return format_.recording_name(name.rpartition(".")[0] or path.name)

@@ -35,13 +35,14 @@ __all__ = [
 
 @dataclass(frozen=True)
 class TransformChoice:
-    """Which transforms of a recording are read, and how their frames are named.
+    """Selects the transforms of a recording to read, and the names of their frames.
 
     Attributes:
-        namespace: Only the transforms of this namespace: ``/robot1`` for ``/robot1/tf``; None: all.
-        tf_topic: Only the transforms on this topic and on ``tf_static_topic``. None: all, or ``/tf`` if only the other
-            topic is given.
-        tf_static_topic: Only the transforms on this topic and on ``tf_topic``. None: all, or ``/tf_static``.
+        namespace: Read only the transforms of this namespace: ``/robot1`` for ``/robot1/tf``; None for all.
+        tf_topic: Read only the transforms on this topic and on ``tf_static_topic``. None means all topics, or ``/tf``
+        if only the other topic is given.
+        tf_static_topic: Read only the transforms on this topic and on ``tf_topic``. None means all topics, or
+        ``/tf_static``.
         prefix: A prefix for the names of frames, used as given.
         keep: The frames without the prefix.
         transforms: Whether transforms are read at all.
@@ -171,7 +172,7 @@ class TransformCollector:
     def common_buffer(
         self, buffers: dict[str, Buffer], messages: Callable[[], Iterable[tuple[Channel, Slices]]]
     ) -> Buffer:
-        """Return one buffer for all namespaces; that of the first namespace if several contain the same frame.
+        """Return one buffer for all namespaces, or the first namespace's buffer if several contain the same frame.
 
         Args:
             buffers: The buffers by namespace.

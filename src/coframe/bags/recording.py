@@ -55,8 +55,8 @@ def open_bag(
     Args:
         path: A file, or a folder of rosbag2, with or without its metadata.
         namespace: Read only the transforms of a namespace, such as ``/robot1`` for ``/robot1/tf``; None: all.
-        tf_topic: Read only the transforms on this topic and on ``tf_static_topic``. None: all, or ``/tf`` if only the
-            other topic is given.
+        tf_topic: Read only the transforms on this topic and on ``tf_static_topic``. None means all topics, or ``/tf``
+        if only the other topic is given.
         tf_static_topic: Read only the transforms on this topic and on ``tf_topic``. None: all, or ``/tf_static``.
         prefix: A prefix for the frame names in the buffers: ``robot1/`` gives ``robot1/base_link``.
         keep: Frames without the prefix because they are shared: ``["map"]``.
@@ -66,7 +66,7 @@ def open_bag(
             and the bytes.
 
     Returns:
-        The recording. Its ``problems`` describe what could not be read.
+        The recording. Its ``problems`` describe the parts that could not be read.
 
     Raises:
         RecordingError: Nothing can be read, or a given topic other than /tf and /tf_static does not exist.
@@ -107,7 +107,7 @@ class Recording:
         files: The path and the size in bytes of each file.
         formats: The file formats, usually one.
         compression: The compression of chunks or messages: ``zstd``, ``lz4``, ``bz2`` or ``none``.
-        choice: Which transforms were read, to open the recording again.
+        choice: The selected transforms, to open the recording again.
         types: The types of its messages.
     """
 
@@ -140,7 +140,7 @@ class Recording:
 
     @property
     def problems(self) -> list[str]:
-        """What could not be read or is unusual, one message each. Reading messages can add more."""
+        """Read errors and unusual data, one message each. Reading messages can add more."""
         return self._problems.sentences()
 
     @property
@@ -169,7 +169,7 @@ class Recording:
 
     @property
     def duration(self) -> int:
-        """Time from :attr:`received_start` to :attr:`received_end` in nanoseconds: how long was recorded."""
+        """Time from :attr:`received_start` to :attr:`received_end` in nanoseconds: the recorded duration."""
         return self.received_end - self.received_start
 
     @cached_property
@@ -347,7 +347,7 @@ class Recording:
                 first one and for static edges.
 
         Returns:
-            The columns ``stamp_ns`` (int64; 0 if static), ``parent``, ``child``, ``x``, ``y``, ``z`` (metres, expressed
+            The columns ``stamp_ns`` (int64; 0 if static), ``parent``, ``child``, ``x``, ``y``, ``z`` (meters, expressed
             in the parent), ``qx``, ``qy``, ``qz``, ``qw``, ``static``, ``topic`` (on which the edge was last
             published).
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The file format of frozen buffers: how a buffer is written, and how its header is read.
+"""The file format of frozen buffers: write a buffer, and read and check a header.
 
 A frozen file is little endian throughout:
 

@@ -25,7 +25,7 @@ Array: TypeAlias = "NDArray[np.float64]"
 
 
 class Buffer(_core.Buffer):
-    """The part of :class:`coframe.Buffer` with lookups at many times; error messages contain its name."""
+    """The lookups of :class:`coframe.Buffer` at many times; error messages contain the name of this class."""
 
     @overload
     def lookup_many(
@@ -114,7 +114,7 @@ class Buffer(_core.Buffer):
             source: The source frame.
             stamps: Times of the lookups, shape (N,), int64 nanoseconds or datetime64, in any order; 0 means the
                 latest.
-            out: float64 array to fill and return instead of a new batch. Shape (N, 7) receives x, y, z in metres and
+            out: float64 array to fill and return instead of a new batch. Shape (N, 7) receives x, y, z in meters and
                 qx, qy, qz, qw; shape (N, 4, 4) receives matrices.
             threads: Number of threads to use.
             on_error: What to do with a time without a transform: ``"raise"`` the exception of :meth:`lookup`, fill
@@ -122,8 +122,8 @@ class Buffer(_core.Buffer):
             twist: Whether to also return the twist of ``source`` relative to ``target``.
             extrapolate: As in :meth:`lookup`.
             hold: As in :meth:`lookup`.
-            max_gap: The longest interval between two samples of an edge that a pose may be interpolated over, such as
-                ``"200ms"``. None interpolates over any, as tf2; in a recording, a :class:`coframe.CoframeWarning` then
+            max_gap: The maximum interval between two samples of an edge for interpolation, such as ``"200ms"``. None
+            means no limit, as in tf2; in a recording, a :class:`coframe.CoframeWarning` then
                 reports gaps of more than ten periods of an edge and 500 ms.
             on_gap: What to do with a time in a longer gap: ``"raise"`` an ExtrapolationException, fill its row with
                 ``"nan"``, or ``"omit"`` its row. :meth:`validity` returns the gap of each time.
@@ -191,7 +191,7 @@ class Buffer(_core.Buffer):
         return ~inside
 
     def validity(self, target: str, source: str, stamps: ArrayLike) -> Validity:
-        """Return how far the poses at many times are from the samples that they are computed from.
+        """Return how far many times are from the samples that their poses are interpolated from.
 
         Args:
             target: The target frame.
@@ -236,10 +236,10 @@ class Buffer(_core.Buffer):
 
         Args:
             target: The target frame, in which the poses are expressed.
-            source: The source frame, whose poses these are.
+            source: The source frame, whose poses are returned.
             start: Time of the first pose; None starts when all edges have data.
             stop: Time of the last pose; None stops when an edge has no more data.
-            max_translation: Maximum distance between two successive poses, in metres.
+            max_translation: Maximum distance between two successive poses, in meters.
             max_rotation: Maximum rotation between two successive poses, in radians. With one of these two limits, the
                 result has as few poses as the limits allow: where nothing moves, only the first and the last pose.
             max_gap: As in :meth:`lookup_many`.
@@ -270,7 +270,7 @@ class Buffer(_core.Buffer):
         return path
 
     def _lookup_quietly(self, target: str, source: str, stamps: NDArray[np.int64]) -> Transform:
-        """Return a batch without a word about gaps."""
+        """Return a batch without a warning about gaps."""
         times = stamps.copy()
         rows = np.empty((times.size, 7))
         self._lookup_rows(target, source, times, rows, None, None, "raise", 1)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Checks of the arguments that a buffer stores, and the errors for transforms that tf2 rejects."""
+"""Check the arguments that a buffer stores, and create the errors for transforms that tf2 rejects."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def check_single(parent: str, child: str, transform: Transform, stamp: StampLike
     """Check that `set` can store a transform.
 
     Raises:
-        InvalidArgumentException: It is a batch, is between other frames, or has no stamp.
+        InvalidArgumentException: It is a batch, has other frames, or has no stamp.
         TypeError: It is not a :class:`coframe.Transform`.
     """
     if not isinstance(transform, _core.Transform):
@@ -51,7 +51,7 @@ def rows_of(
     """Return the stamps, shape (N,), and poses, shape (N, 7), that `set_many` stores.
 
     Raises:
-        InvalidArgumentException: The poses are between other frames, or have no stamps.
+        InvalidArgumentException: The poses have other frames, or have no stamps.
         ValueError: The shapes do not match.
     """
     if isinstance(poses, _core.Transform):

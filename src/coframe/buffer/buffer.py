@@ -92,7 +92,7 @@ class Buffer(many_lookups.Buffer):
 
         Raises:
             InvalidArgumentException: tf2 rejects the transform (empty or equal frame names, NaN, ...), with tf2's
-                message; or the transform is between other frames, has no stamp, or the buffer is frozen.
+                message; or the transform has other frames or no stamp, or the buffer is frozen.
             TypeError: ``transform`` is not a :class:`coframe.Transform`.
         """
         refusals = self._set_plain(parent, child, transform, stamp, static) if authority is DEFAULT_AUTHORITY else None
@@ -128,10 +128,10 @@ class Buffer(many_lookups.Buffer):
 
         Args:
             parent: The parent frame, in which the poses are expressed.
-            child: The child frame, whose poses these are.
+            child: The child frame, whose poses are stored.
             stamps: Times of the samples, shape (N,), int64 nanoseconds or datetime64, in any order; None uses the
                 stamps of the batch.
-            poses: A batch of shape (N,), or an array of shape (N, 7): x, y, z in metres and qx, qy, qz, qw.
+            poses: A batch of shape (N,), or an array of shape (N, 7): x, y, z in meters and qx, qy, qz, qw.
             static: Whether the transform is valid for all time; if so, the last sample is used.
             authority: Name of the publisher, as shown in reports.
 

@@ -93,7 +93,7 @@ class Dispatcher:
     def wait(
         self, start: StartWait, on_end: Callable[[Transform | None], object], timeout: int | None = None
     ) -> Cancel:
-        """Call `on_end` once: with the transform as soon as it is available, or with None after the timeout.
+        """Call `on_end` once: with the transform when it becomes available, or with None after the timeout.
 
         Args:
             start: Starts the native wait.
@@ -259,7 +259,7 @@ def _call(callback: Callable[[Any], object], argument: Any) -> None:
     try:
         callback(argument)
     except Exception:  # noqa: BLE001 - an exception in a callback of the user must not prevent the next callbacks
-        _log.exception("A callback of a buffer failed")
+        _log.exception("A buffer callback failed")
 
 
 _all: weakref.WeakSet[Dispatcher] = weakref.WeakSet()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Gaps between the samples of the edges between two frames: over which a pose was interpolated."""
+"""Gaps between the samples of edges, over which poses are interpolated."""
 
 from __future__ import annotations
 
@@ -43,10 +43,10 @@ _MIN_INTERVALS = 10  # With fewer, the usual period of an edge is not known.
 
 
 class Validity(NamedTuple):
-    """How far poses are from the samples that they were computed from.
+    """The distance in time of poses from the samples that they were interpolated from.
 
     Attributes:
-        gaps: The longest interval between two samples of an edge that the pose was interpolated over, in nanoseconds:
+        gaps: The longest interval between two samples over which the pose was interpolated, in nanoseconds:
             (N,); 0 at the stamps of samples and for static edges.
         outside: How far the time is before the first or after the last sample of an edge, in nanoseconds: (N,).
         edges: The child frame of the edge with that gap, or else of the one that has no samples: (N,); "" for none.
@@ -101,7 +101,7 @@ def gap_limit(max_gap: DurationLike | None, on_gap: str) -> int | None:
 def gap_error(
     found: Validity, row: int, limit: int, target: str, source: str, stamp: int, *, rows: int = 1
 ) -> ExtrapolationException:
-    """Return the exception for a pose that is interpolated over a gap that is too long."""
+    """Return the exception for a pose interpolated over a gap that is too long."""
     gap, child = int(found.gaps[row]), str(found.edges[row])
     others = f" (one of {count(rows, 'such time')})" if rows > 1 else ""
     return ExtrapolationException.with_details(
@@ -124,7 +124,7 @@ def check_gap(buffer: _core.Buffer, target: str, source: str, stamp: int, max_ga
 
 
 def long_gap_text(buffer: _core.Buffer, target: str, source: str, stamps: NDArray[np.int64]) -> str:
-    """Return how many of the times lie in unusually long gaps of a recording or another complete buffer; or ""."""
+    """Return a message about times in unusually long gaps of a complete buffer, such as a recording, or ""."""
     if not stamps.size or not (buffer.frozen or buffer.cache_ns < 0):
         return ""
     inside = np.zeros(len(stamps), dtype=bool)
@@ -143,7 +143,7 @@ def long_gap_text(buffer: _core.Buffer, target: str, source: str, stamps: NDArra
 
 
 def in_long_gap(buffer: _core.Buffer, target: str, source: str, stamps: NDArray[np.int64]) -> str:
-    """Return the child frame of an edge of which some of the times lie in an unusually long gap; "" if none does."""
+    """Return the child frame of an edge with an unusually long gap around one of the times; "" if there is none."""
     for gap in _long_gaps(buffer, target, source):
         if ((stamps > gap.start) & (stamps < gap.end)).any():
             return gap.child
@@ -151,14 +151,14 @@ def in_long_gap(buffer: _core.Buffer, target: str, source: str, stamps: NDArray[
 
 
 def note_gaps(buffer: _core.Buffer, target: str, source: str, stamps: NDArray[np.int64]) -> None:
-    """Warn the caller of a method of the buffer once of poses in unusually long gaps.
+    """Warn the caller of a buffer method once about poses in unusually long gaps.
 
     Parts of coframe that look up many poses report gaps in their own way.
     """
     if text := long_gap_text(buffer, target, source, stamps):
         caller = sys._getframe(2).f_globals.get("__name__", "")  # noqa: SLF001
         if not str(caller).startswith("coframe."):
-            warnings.warn(f'{text}; max_gap="200ms" finds them', CoframeWarning, stacklevel=3)
+            warnings.warn(f'{text}; use max_gap="200ms" to find them', CoframeWarning, stacklevel=3)
 
 
 def _long_gaps(buffer: _core.Buffer, target: str, source: str) -> list[_Gap]:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""``coframe bag info``: shows the contents of a recording; ``coframe bag fix``: writes a repaired copy."""
+"""``coframe bag``: shows, repairs, converts, merges and slices recordings."""
 
 from __future__ import annotations
 
@@ -111,7 +111,7 @@ def info(
     "--statics",
     metavar="OTHER",
     type=PATH,
-    help="Recording to take missing static transforms from.",
+    help="Recording from which to take missing static transforms.",
 )
 @listener_options
 @compression_option
@@ -127,9 +127,9 @@ def fix(
 ) -> None:
     """Write a repaired copy of the recording BAG to the folder OUT, and list what was repaired.
 
-    The copy contains everything that can be read, with an index, metadata, the static transforms at its start, and no
-    leading slashes in frame names. What remains, such as a missing transform or a wrong clock, is listed, and the exit
-    code is then 1. BAG is not changed. --prefix applies to the frame names in all messages; with
+    The copy contains all readable messages, an index and metadata. It starts with the static transforms, and its frame
+    names have no leading slashes. Problems that remain, such as a missing transform or a wrong clock, are listed; the
+    exit code is then 1. BAG is not changed. --prefix applies to the frame names in all messages; with
     --tf-topic /robot1/tf, only to messages on topics in /robot1.
 
     Example: coframe bag fix broken.mcap repaired
@@ -158,7 +158,7 @@ def fix(
         if remaining:
             fail(
                 f"{count(len(remaining), 'problem')} of the recording cannot be fixed in a copy.",
-                f"`coframe doctor {report.path}` says what to do about transforms.",
+                f"`coframe doctor {report.path}` describes what to do about transforms.",
             )
 
 

@@ -72,8 +72,10 @@ __all__ = ["cloud"]
 @click.option(
     "--fields", metavar="FIELDS", help="Fields to keep in addition to x,y,z, e.g. intensity,ring. [default: all]"
 )
-@click.option("--voxel", metavar="METRES", type=float, help="Keep one point per cube with this edge length, in metres.")
-@click.option("--float64", is_flag=True, help="Write coordinates as float64 also to PCD and MCAP. [default: float32]")
+@click.option("--voxel", metavar="METERS", type=float, help="Keep one point per cube with this edge length, in meters.")
+@click.option(
+    "--float64", is_flag=True, help="Also write the coordinates in PCD and MCAP files as float64. [default: float32]"
+)
 @max_gap_option
 @on_gap_option
 @validity_option
@@ -156,7 +158,7 @@ def _write(clouds: Clouds, output: Path, format_: str | None, voxel: float | Non
 
 
 def _amounts(clouds: Clouds, points: int) -> str:
-    """Return how many points of how many messages were written, deskewed, thinned and omitted."""
+    """Return a summary of the numbers of written, deskewed, thinned and omitted points and messages."""
     parts = [f"{clouds.deskewed} deskewed"] if clouds.deskewed else []
     if points < clouds.points:
         parts.append(f"thinned from {count(clouds.points, 'point')}")
@@ -181,7 +183,7 @@ def _print_notes(clouds: Clouds) -> None:
             f"{count(number, 'message')} in gaps without a sample of {child!r} were interpolated; --max-gap omits them"
         )
     for doubt, number in clouds.doubts.items():
-        warn(f"{count(number, 'message')}: {doubt}. Is the unit right? --point-times FIELD:UNIT states it")
+        warn(f"{count(number, 'message')}: {doubt}. Check the unit, and set it with --point-times FIELD:UNIT")
     for reason, number in clouds.not_deskewed.items():
         warn(f"did not deskew the points of {count(number, 'message')}: {reason} (--point-times, --deskew off)")
     for reason, number in clouds.skipped.items():

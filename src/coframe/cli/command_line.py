@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The command line: the commands of the table and those of plug-ins, each imported when it is called."""
+"""The command line: coframe's commands and the commands of plug-ins, each imported when it is called."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ class CommandLine(CommandGroup):
         self._has_plugins = shown is None
 
     def list_commands(self, ctx: click.Context) -> list[str]:  # noqa: ARG002 - click's signature
-        """Return the names of the commands: those of coframe, then those of plug-ins."""
+        """Return the names of coframe's commands, then of the plug-ins' commands."""
         return [*self._rows, *self._plugins]
 
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:  # noqa: ARG002
@@ -73,7 +73,7 @@ class CommandLine(CommandGroup):
         return self.commands.get(cmd_name)
 
     def command_lines(self, ctx: click.Context) -> list[tuple[str, str]]:  # noqa: ARG002
-        """Return the names of the commands with their lines in the help."""
+        """Return the names of the commands with their summaries."""
         own = [(name, row.line) for name, row in self._rows.items()]
         return [*own, *((name, _line(plugin)) for name, plugin in self._plugins.items())]
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The table of commands: one row for each, with everything that other modules need.
+"""The table of commands, with one row per command and all properties that other modules need.
 
 A new command is a module with a click command, and a row here. Tests fail until the row is correct.
 """
@@ -40,7 +40,11 @@ COMMANDS: dict[str, CommandRow] = {
         "Start a simulated robot and show its moving transform tree.", "demo", ("dds", "viewer"), graph=True, ros=True
     ),
     "lab": CommandRow(
-        "Do and grade the lab: new, run, check, break.", "lab", ("dds", "viewer", "robots"), graph=True, ros=True
+        "Work on the lab and grade it: new, run, check, break.",
+        "lab",
+        ("dds", "viewer", "robots"),
+        graph=True,
+        ros=True,
     ),
     "view": CommandRow(
         "Show frames, sensor data and markers in a browser tab.",

@@ -65,7 +65,7 @@ _SUFFIXES = tuple(f".{kind}" for kind in (*FIGURE_FORMATS, "json", "csv"))
     "--delta",
     metavar="DELTA",
     default="1",
-    help="Distance between the poses of a relative error: 10 (poses), 0.5m, or 1s.",
+    help="Distance between the two poses of each relative error: 10 (poses), 0.5m, or 1s.",
 )
 @click.option(
     "--output",
@@ -75,7 +75,7 @@ _SUFFIXES = tuple(f".{kind}" for kind in (*FIGURE_FORMATS, "json", "csv"))
     multiple=True,
     help=f"Write a plot or data: {', '.join(_SUFFIXES)}; repeatable.",
 )
-@click.option("--json", "as_json", is_flag=True, help="Print JSON, in metres and radians.")
+@click.option("--json", "as_json", is_flag=True, help="Print JSON, in meters and radians.")
 @namespace_option
 @recorded_listener_options
 def compare(
@@ -94,7 +94,7 @@ def compare(
 ) -> None:
     """Compare the trajectory EST with the trajectory REF: absolute (APE) and relative (RPE) pose errors.
 
-    Each pose is paired with the one with the nearest stamp. The results equal those of the tool evo.
+    Poses are paired by nearest stamp. The results equal those of evo.
 
     Example: coframe compare truth.tum run.mcap:map:base_link --align se3
     """
@@ -192,7 +192,7 @@ def _write(path: Path, result: Comparison, title: str) -> None:
 
 
 def _csv(result: Comparison) -> str:
-    """Return a row for each pair of poses; relative errors are in the row of the later pose, in metres and radians."""
+    """Return a row for each pair of poses; relative errors are in the row of the later pose, in meters and radians."""
     relative = {
         row: values
         for row, *values in zip(

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How commands are declared: click's decorators, and classes for features that click does not have.
+"""Declarations of commands: click's decorators, and classes for features that click lacks.
 
-These are help for arguments, line wrapping that does not break names, suggestions for misspelled names, and the option
-``--wire`` of every command that joins the ROS graph.
+These features are help for arguments, line wrapping that does not break names, suggestions for misspelled names, and
+the option ``--wire`` of every command that joins the ROS graph.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ PASS_WORDS_ON: Final = {"ignore_unknown_options": True, "allow_extra_args": True
 
 
 class Argument(click.Argument):
-    """An argument with a text for the help, or a function that returns the text."""
+    """An argument with a help text, or with a function that returns it."""
 
     def __init__(self, names: list[str], *, help: str | Callable[[], str] = "", **attributes: Any) -> None:  # noqa: A002 - click's name
         super().__init__(names, **attributes)
@@ -92,7 +92,7 @@ class CommandGroup(click.Group):
         help_format.write_section(formatter, "Commands", self.command_lines(ctx))
 
     def command_lines(self, ctx: click.Context) -> list[tuple[str, str]]:
-        """Return the names of the commands with their lines in the help."""
+        """Return the names of the commands with their summaries."""
         commands = ((name, self.get_command(ctx, name)) for name in self.list_commands(ctx))
         return [(name, command.short_help or "") for name, command in commands if command and not command.hidden]
 

@@ -75,7 +75,7 @@ _CPU_SHARE = 0.006
     metavar="DURATION",
     type=PositiveDuration,
     default=_TEN_SECONDS,
-    help="Cache length that listeners are assumed to use.",
+    help="Cache length to assume for listeners.",
 )
 @namespace_option
 @domain_option

@@ -60,7 +60,7 @@ SLIDERS = "/coframe_joints/sliders"
 )
 @click.option("--source", metavar="TOPIC", multiple=True, help="Also read joint states from TOPIC; repeatable.")
 @click.option(
-    "--zero", metavar="JOINT=VALUE", multiple=True, help="Rest position of a joint, in radians or metres; repeatable."
+    "--zero", metavar="JOINT=VALUE", multiple=True, help="Rest position of a joint, in radians or meters; repeatable."
 )
 @click.option(
     "--delta",
@@ -91,8 +91,8 @@ def joints(
 ) -> None:
     """Publish the joint states of the robot in FILE on /joint_states, like ROS 2's joint_state_publisher.
 
-    The terminal shows a slider for each movable joint. Select a joint with up and down, and move it with left and
-    right. Arguments of a xacro file are written as NAME:=VALUE. Arguments after --ros-args are passed to the node.
+    The terminal shows a slider for each movable joint. Select a joint with the up and down keys, and move it with the
+    left and right keys. Pass xacro arguments as NAME:=VALUE. Arguments after --ros-args are passed to the node.
     --tf-topic, --tf-static-topic, --prefix and --keep apply to the viewer that --gui opens.
 
     Example: coframe joints arm.urdf.xacro --zero joint1=0.5 --rate 30
@@ -142,7 +142,7 @@ def _zeros(robot: Robot | None, words: Iterable[str]) -> dict[str, float]:
         except ValueError:
             fail(
                 f"--zero {word}: {text!r} is not a number.",
-                "Give the position in radians, or in metres for a prismatic joint.",
+                "Give the position in radians, or in meters for a prismatic joint.",
                 code=2,
             )
     return found

@@ -53,11 +53,11 @@ folder_argument = argument(
     help=f"Folder of the lab. [default: the current folder if it contains {FILE}, otherwise lab]",
 )
 variant_option = click.option(
-    "--variant", metavar="SEED", type=int, help="Seed of a variant with its own lengths, mounts and rates."
+    "--variant", metavar="SEED", type=int, help="Seed of a variant with different lengths, sensor mounts and rates."
 )
 lab = CommandGroup(
     "lab",
-    help="Do the lab and grade it: create a folder, run its nodes, check them.\n\nExample: coframe lab new",
+    help="Work on the lab: create a folder, run its nodes and grade them.\n\nExample: coframe lab new",
 )
 
 
@@ -115,7 +115,7 @@ def run(
 @lab.command(short_help="Grade one student's folder, or a whole class.")
 @folder_argument
 @click.option("--all", "everyone", is_flag=True, help="Grade all folders in FOLDER, one per student.")
-@click.option("--output", "-o", metavar="FILE", type=PATH, help="With --all: write a table as CSV.")
+@click.option("--output", "-o", metavar="FILE", type=PATH, help="With --all: write the grades as a CSV table.")
 @click.option(
     "--only", metavar="CRITERION", multiple=True, help=f"Check only this criterion: {', '.join(CRITERIA)}; repeatable."
 )
@@ -123,7 +123,9 @@ def run(
 @click.option("--json", "as_json", is_flag=True, help="Print the report as JSON.")
 @click.option("--gradescope", metavar="FILE", type=PATH, help="Write Gradescope's results.json.")
 @click.option("--classroom", metavar="FILE", type=PATH, help="Write the result for GitHub Classroom.")
-@click.option("--record", metavar="FOLDER", type=PATH, help="Record all topics, to inspect them in the viewer.")
+@click.option(
+    "--record", metavar="FOLDER", type=PATH, help="Record all topics to this folder, for inspection in the viewer."
+)
 @click.option(
     "--jobs",
     "-j",
@@ -144,7 +146,7 @@ def check(
     record: Path | None,
     jobs: int,
 ) -> None:
-    """Grade the nodes of a folder by what they publish: 100 points, plus 10 for each of four extensions.
+    """Grade the nodes in a folder by what they publish: up to 100 points, plus 10 for each of four extensions.
 
     The nodes run with a simulated clock and limits on time, memory and output. The exit code is 0 regardless of the
     grade.
@@ -206,7 +208,7 @@ def break_(
 ) -> None:
     """Start the robot of the lab with one of ten faults. Find it with the viewer, echo, monitor and frames.
 
-    coframe doctor and the findings in the viewer are hints.
+    coframe doctor and the viewer's findings count as hints.
 
     Then give your answer: coframe lab break N --answer "FAULT".
 
@@ -229,7 +231,7 @@ def break_(
     metavar="[CHAPTER]",
     type=click.IntRange(min=1),
     required=False,
-    help="Number of a chapter. [default: the contents]",
+    help="Number of the chapter. [default: the table of contents]",
 )
 @click.option("--output", "-o", metavar="FOLDER", type=PATH, help="Write all chapters as web pages with images.")
 @click.option("--browser/--no-browser", default=True, help="With -o: open the pages in the browser.")
@@ -238,7 +240,7 @@ def handbook(
     output: Path | None,
     browser: bool,
 ) -> None:
-    """Print the contents of the handbook, or a chapter of it, or write it as web pages.
+    """Print the table of contents or a chapter of the handbook, or write the handbook as web pages.
 
     Example: coframe lab handbook -o handbook
     """

@@ -45,7 +45,7 @@ _SUFFIXES = (".launch.py", ".launch.xml", ".launch.yaml", ".launch.yml", "_launc
     metavar="COMMAND",
     default="",
     show_default=False,
-    help="Command with which all processes are started, e.g. 'gdb --args'.",
+    help="Run all processes with this command in front, e.g. 'gdb --args'.",
 )
 @click.option(
     "--launch-prefix-filter",

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How commands end: on Ctrl-C, on SIGTERM, on a closed pipe, and with library errors."""
+"""Exit codes and messages of commands on Ctrl-C, SIGTERM, a closed pipe, and library errors."""
 
 from __future__ import annotations
 
@@ -67,7 +67,7 @@ def run_to_completion() -> Iterator[None]:
 
 @contextlib.contextmanager
 def _printed_warnings() -> Iterator[None]:
-    """Print each different warning of the library once, without the line of code that Python names."""
+    """Print each distinct library warning once, without the source line that Python adds."""
     printed: set[str] = set()
     show = warnings.showwarning
 
@@ -85,7 +85,7 @@ def _printed_warnings() -> Iterator[None]:
 
 
 def _as_option(argument: re.Match[str]) -> str:
-    """Return the option of commands that has the name of an argument of the library."""
+    """Return the command-line option for an argument of the library."""
     name, value = argument.groups()
     return f"--{name.replace('_', '-')}" + ("" if value == "True" else f" {value.strip(chr(34))}")
 

@@ -177,12 +177,12 @@ def _gap_line(gap: Validity) -> str:
 
 
 def _looked_up(buffer: Buffer, target: str, source: str, when: int, max_gap: int | None) -> Transform:
-    """Return the transform; say if it is interpolated over an unusually long gap."""
+    """Return the transform; print a warning if it is interpolated over an unusually long gap."""
     found = buffer.lookup(target, source, when, max_gap=max_gap)
     if max_gap is None:
         text = long_gap_text(buffer, target, source, np.array([found.stamp or 0], dtype=np.int64))
         if text:
-            warn(f"{text}; --max-gap 200ms makes this an error")
+            warn(f"{text}; use --max-gap 200ms to get an error instead")
     return found
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The arguments for a node (``--ros-args``) or a xacro file (``NAME:=VALUE``) on a command line."""
+"""Command-line arguments for a node (``--ros-args``) or a xacro file (``NAME:=VALUE``)."""
 
 from __future__ import annotations
 

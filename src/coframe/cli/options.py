@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Options shared by several commands, and how their values are parsed.
+"""Options shared by several commands, and the parsers of their values.
 
 An option has the same name, the same value name and the same description in every command.
 """
@@ -54,7 +54,7 @@ __all__ = [
 DURATIONS = "Write a number of seconds, or a number with a unit: 3, 3s, 500ms, 10min."
 _BARE_NUMBER = re.compile(r"\d+(\.\d+)?", re.ASCII)
 # How a time of a recording is written.
-TIMES = "seconds (1666859837.36), 10s after the start, -2s before the end, ISO 8601, 'start' or 'end'"
+TIMES = "seconds (1666859837.36), offset from the start (10s) or from the end (-2s), ISO 8601, 'start' or 'end'"
 
 
 class Duration(int):
@@ -121,7 +121,7 @@ max_gap_option = click.option(
     "--max-gap",
     metavar="DURATION",
     type=PositiveDuration,
-    help="Longest time between two transforms of an edge to interpolate over, e.g. 200ms. [default: any]",
+    help="Maximum gap between two transforms of an edge for interpolation, e.g. 200ms. [default: no limit]",
 )
 on_gap_option = click.option(
     "--on-gap",
@@ -223,7 +223,11 @@ prefix_option = click.option(
     help="Prefix for all frame names, including the slash, e.g. robot1/.",
 )
 keep_option = click.option(
-    "--keep", metavar="FRAMES", default="", show_default=False, help="Shared frames that get no prefix, e.g. map,world."
+    "--keep",
+    metavar="FRAMES",
+    default="",
+    show_default=False,
+    help="Shared frames that are not prefixed, e.g. map,world.",
 )
 
 

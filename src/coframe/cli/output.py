@@ -48,7 +48,7 @@ def fail(text: str, hint: str = "", *, code: int = 1, details: str = "") -> NoRe
 
 
 def fail_to_write(path: Path | None, error: OSError) -> NoReturn:
-    """End the command because a file, or standard output if there is no path, could not be written."""
+    """End the command because a file (or, without a path, standard output) could not be written."""
     name = "standard output" if path is None else path
     fail(f"{name} cannot be written: {error.strerror or error}", advice_for_writing(error))
 

@@ -112,8 +112,9 @@ def play(
 ) -> None:
     """Replay the recording BAG: publish its messages in order and at their original rate, static transforms first.
 
-    In a terminal, space pauses, right publishes the next message, and up and down change the speed. --prefix applies to
-    the frame names in all messages. Messages recorded on /tf are published on --tf-topic.
+    In a terminal, the space bar pauses, the right arrow key publishes the next message, and the up and down arrow keys
+    change the speed. --prefix applies to the frame names in all messages. Messages recorded on /tf are published on
+    --tf-topic.
 
     Example: coframe play run --rate 2 --clock
     """

@@ -206,7 +206,7 @@ class _Progress:
 
 
 def _finish(recorder: Recorder) -> None:
-    """Close the files, and print what was recorded and what was not."""
+    """Close the files, and print a summary of recorded and omitted messages."""
     try:
         recorder.close()
     finally:

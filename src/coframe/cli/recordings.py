@@ -47,7 +47,7 @@ def open_recording(
 def check_has_transforms(recording: Recording) -> None:
     """End the command if the recording contains no transforms."""
     if not any(buffer.frame_names() for buffer in recording.buffers.values()):
-        fail(f"{recording.path} contains no transforms", "Its topics are listed by: coframe bag info")
+        fail(f"{recording.path} contains no transforms", "To list its topics, run: coframe bag info")
 
 
 def parse_time(option: str, text: str, recording: Recording) -> int:

@@ -100,7 +100,7 @@ def relay(
     status: bool,
     domain: int | None,
 ) -> None:
-    """Relay the transforms of several robots to one topic, or split one topic into one for each robot.
+    """Relay the transforms of several robots to one topic, or split one topic into one topic per robot.
 
     Problems are reported as warnings: robots that stop publishing, wrong clocks, frames that two robots publish, and
     frame names with leading slashes or incomplete prefixes.

@@ -188,7 +188,7 @@ class _View:
 
     def table(self) -> Table:
         """Return the table with one row for each robot."""
-        title = f"{count(len(self._names), 'robot')}, poses relative to {self._shown('map')} (metres, degrees)"
+        title = f"{count(len(self._names), 'robot')}, poses relative to {self._shown('map')} (meters, degrees)"
         table = Table(title=title, title_justify="left", box=None, padding=(0, 2, 0, 0), pad_edge=False)
         for column in ("robot", "state", "frames", "rate Hz", "age ms", "clock ms", "x", "y", "yaw"):
             table.add_column(column, justify="left" if column in {"robot", "state"} else "right", no_wrap=True)

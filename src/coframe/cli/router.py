@@ -45,11 +45,11 @@ def router(
     listen: tuple[str, ...],
     connect: tuple[str, ...],
 ) -> None:
-    """Run a Zenoh router, which connects Zenoh nodes with each other and across networks.
+    """Run a Zenoh router, which connects Zenoh nodes to each other, also across networks.
 
-    The defaults are those of ROS 2's rmw_zenohd, except that the router listens only on this machine. A line is printed
-    for each process that connects or disconnects. Anyone who can reach an endpoint without certificates can read and
-    publish everything.
+    The defaults are those of ROS 2's rmw_zenohd, except that the router listens only on this machine. The router prints
+    a line whenever a process connects or disconnects. Without certificates, anyone who can reach an endpoint can read
+    and publish everything.
 
     Example: coframe router --listen tcp/0.0.0.0:7447
     """

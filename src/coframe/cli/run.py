@@ -39,7 +39,7 @@ __all__ = ["run"]
     metavar="COMMAND",
     default="",
     show_default=False,
-    help="Command with which the executable is started, e.g. 'gdb --args'.",
+    help="Run the executable with this command in front, e.g. 'gdb --args'.",
 )
 def run(
     context: click.Context,

@@ -38,7 +38,7 @@ Usage: coframe static [OPTIONS] --frame-id FRAME --child-frame-id CHILD
 Options:
   --frame-id FRAME         Parent frame.
   --child-frame-id CHILD   Child frame.
-  --x X, --y Y, --z Z      Translation in metres. [default: 0]
+  --x X, --y Y, --z Z      Translation in meters. [default: 0]
   --roll ROLL, --pitch PITCH, --yaw YAW
                            Rotation as angles in radians about the fixed axes
                            x, y and z. [default: 0]
@@ -51,9 +51,9 @@ Options:
   --tf-topic TOPIC         Accepted for uniformity; has no effect.
   --prefix PREFIX          Prefix for all frame names, including the slash, e.g.
                            robot1/.
-  --keep FRAMES            Shared frames that get no prefix, e.g. map,world.
+  --keep FRAMES            Shared frames that are not prefixed, e.g. map,world.
   --ros-args -r __node:=NAME -r __ns:=/NAMESPACE -r /tf_static:=TOPIC
-                           Names of the node and of the topic.
+                           Rename the node and the topic.
   --wire [dds|zenoh]       Middleware to use. [default: $COFRAME_WIRE, or DDS]
   --help                   Show this message and exit.
 """

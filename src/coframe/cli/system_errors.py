@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What to do about errors of the operating system."""
+"""Advice about operating system errors."""
 
 from __future__ import annotations
 

@@ -96,7 +96,7 @@ def trajectory(
         _check_times(recording, start, stop)
         stamps = query.stamps(recording)
         if text := query.gap_text(recording, stamps):
-            warn(f"{text}; --max-gap 200ms omits them")
+            warn(f"{text}; use --max-gap 200ms to omit them")
         missing, first, last = 0, int(stamps[-1]), int(stamps[0])
 
         def batches() -> Iterator[Transform]:

@@ -26,16 +26,16 @@ __all__ = ["tree_table"]
 
 
 def tree_table(buffer: Buffer, reference: str, liveness: LivenessTracker, *, most: int, wide: bool = True) -> Group:
-    """Return a table with each frame below its parent, and poses in metres and degrees.
+    """Return a table with each frame below its parent, and poses in meters and degrees.
 
     Args:
         buffer: The buffer that contains the frames.
         reference: The frame in which poses are expressed.
         liveness: Determines which frames are stale; updated by the table.
         most: Maximum number of rows.
-        wide: Whether the terminal has at least 100 columns, enough to show millimetres.
+        wide: Whether the terminal has at least 100 columns, enough to show millimeters.
     """
-    title = Text(f"transform tree, poses relative to {shown(reference)} (metres, degrees)")
+    title = Text(f"transform tree, poses relative to {shown(reference)} (meters, degrees)")
     table = Table(title=title, title_justify="left", box=None, padding=(0, 1, 0, 0), pad_edge=False)
     for column in ("frame", "parent"):
         table.add_column(column, no_wrap=True)

@@ -66,14 +66,14 @@ no_browser_option = click.option("--no-browser", is_flag=True, help="Print the a
     help="Recording to read; omit it, or pass 'live', for the live ROS graph.",
 )
 @click.option(
-    "--display-config", "-d", "rviz", metavar="FILE", type=PATH, help="RViz configuration file (.rviz) of RViz 2 or 1."
+    "--display-config", "-d", "rviz", metavar="FILE", type=PATH, help="Configuration file (.rviz) of RViz 2 or RViz 1."
 )
 @click.option(
     "--fixed",
     metavar="FRAME",
     default="",
     show_default=False,
-    help="Fixed frame, in which everything is drawn. [default: the root of the tree]",
+    help="Fixed frame: the frame in which everything is drawn. [default: the root of the tree]",
 )
 @port_option
 @host_option

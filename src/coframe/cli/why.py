@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """``coframe why``: explains why a transform between two frames is or is not available.
 
-The arguments are those of ``coframe lookup``, so that a user who gets an error there changes only the command.
+The arguments are the same as for ``coframe lookup``, so that a user who gets an error there only has to change the
+command.
 """
 
 from __future__ import annotations

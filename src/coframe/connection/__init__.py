@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A buffer that is connected to the ROS graph, the transforms that it publishes and those that processes share."""
+"""The connection of a buffer to the ROS graph, and transforms that processes share."""
 
 from coframe.connection.connection import Connection, connect
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The buffer of a connection, which says that the transforms stored by the program are not published."""
+"""The buffer of a connection, which warns that transforms stored by the program are not published."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _logger = logging.getLogger("coframe.wire")
 
 
 class ConnectionBuffer(Buffer):
-    """A buffer that receives transforms; what the program stores itself stays in this process, which is logged once."""
+    """A buffer that receives transforms; it logs once that transforms stored by the program are not published."""
 
     _explained = False
 
@@ -35,7 +35,7 @@ class ConnectionBuffer(Buffer):
         static: bool = False,
         authority: str = DEFAULT_AUTHORITY,
     ) -> bool:
-        """Store a transform as :meth:`coframe.Buffer.set` does, in this process only: nothing is published."""
+        """Store a transform as :meth:`coframe.Buffer.set` does, only in this process: nothing is published."""
         stored = super().set(parent, child, transform, stamp, static=static, authority=authority)
         self._explain(parent, child, static=static)
         return stored
@@ -50,7 +50,7 @@ class ConnectionBuffer(Buffer):
         static: bool = False,
         authority: str = DEFAULT_AUTHORITY,
     ) -> int:
-        """Store transforms as :meth:`coframe.Buffer.set_many` does, in this process only: nothing is published."""
+        """Store transforms as :meth:`coframe.Buffer.set_many` does, only in this process: nothing is published."""
         stored = super().set_many(parent, child, stamps, poses, static=static, authority=authority)
         self._explain(parent, child, static=static)
         return stored
@@ -61,7 +61,7 @@ class ConnectionBuffer(Buffer):
         self._explained = True
         broadcaster = "StaticTransformBroadcaster" if static else "TransformBroadcaster"
         _logger.warning(
-            "The transform %s -> %s is stored in the buffer of this process only; set() publishes nothing. To publish "
+            "The transform %s -> %s is stored only in the buffer of this process; set() publishes nothing. To publish "
             "transforms, use tf2_ros.%s, or a publisher of tf2_msgs/TFMessage: connection.publisher(%r, TFMessage).",
             shown(parent),
             shown(child),

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The ways in which the buffer of a connection receives transforms: the first row of `RECEIVERS` that applies."""
+"""The ways in which a connection can receive transforms; the first applicable row of `RECEIVERS` is used."""
 
 from __future__ import annotations
 
@@ -25,10 +25,10 @@ _logger = logging.getLogger("coframe.wire")
 
 
 class Request(NamedTuple):
-    """What a connection asks for.
+    """The parameters of a connection that select its receiver.
 
     Attributes:
-        config: What is received.
+        config: The topics, frames, cache, domain and middleware.
         buffer: The buffer to fill.
         join: Joins the graph, unless the connection has done so.
         on_local_change: A method of the connection that is called when the program changes a buffer that reads shared
@@ -44,11 +44,11 @@ class Request(NamedTuple):
 
 
 class Receiver(Protocol):
-    """What fills the buffer of a connection."""
+    """Fills the buffer of a connection."""
 
     @property
     def shared(self) -> bool:
-        """Whether the buffer reads the transforms that one process receives for all."""
+        """Whether the buffer reads transforms that one process receives for all processes."""
 
     @property
     def participant(self) -> Participant:
@@ -85,7 +85,7 @@ class SharedReceiver:
     """The transforms that one process of this user receives for all.
 
     Attributes:
-        transforms: The shared transforms, as this process uses them.
+        transforms: The shared transforms.
     """
 
     shared = True
@@ -126,13 +126,13 @@ class SharedReceiver:
         return self.transforms.readers
 
     def close(self) -> None:
-        """Stop reading the shared transforms. The buffer keeps what it contains."""
+        """Stop reading the shared transforms. The buffer keeps its contents."""
         self._buffer._on_local_change(None)  # noqa: SLF001 - sharing requires private members
         self.detach()
         self.leave()
 
     def detach(self) -> None:
-        """Make the buffer one of its own, with what it contains."""
+        """Detach the buffer, and copy the stored transforms into it."""
         self._buffer._stop_following()  # noqa: SLF001 - sharing requires private members
 
     def leave(self) -> None:
@@ -146,12 +146,12 @@ class SharedReceiver:
 
 
 class ReceiverRow(NamedTuple):
-    """A way to receive.
+    """A way to receive transforms.
 
     Attributes:
         name: Its name.
         applies: Returns whether a connection uses it, unless an earlier row applies.
-        open: Opens it; returns None if it turns out that it is not possible on this system.
+        open: Opens it; returns None if that is not possible on this system.
     """
 
     name: str
@@ -166,6 +166,6 @@ RECEIVERS: Final = (
 
 
 def open_receiver(request: Request) -> Receiver:
-    """Receive transforms in the way of the first row that applies and is possible on this system."""
+    """Receive transforms as the first applicable row that is possible on this system."""
     opened = (row.open(request) for row in RECEIVERS if row.applies(request))
     return next(receiver for receiver in opened if receiver is not None)

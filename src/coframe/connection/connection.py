@@ -159,7 +159,7 @@ class Connection:
 
     Attributes:
         buffer: The buffer, which contains all received transforms.
-        config: What the connection receives: topics, frame names, cache, domain and middleware.
+        config: The topics, frame names, cache, domain and middleware of the connection.
     """
 
     def __init__(
@@ -287,7 +287,7 @@ class Connection:
         return complete
 
     def _has_statics(self) -> bool:
-        """Return whether discovery has had its time, and each publisher of static transforms has delivered them."""
+        """Return whether the discovery time has passed, and each publisher of static transforms has delivered them."""
         if self._receiver is None or time.monotonic_ns() - self._opened < _DISCOVERY:
             return False
         readers = [reader for reader in self._receiver.readers if reader.static]
@@ -397,19 +397,19 @@ def connect(
 ) -> Connection:
     """Join the ROS 2 graph and receive its transforms into a buffer in the background.
 
-    The discovery of other nodes takes some tenths of a second. Dynamic transforms that were published before it are not
-    received: a TransformBroadcaster that sends once before this node exists does not reach it; a
+    The discovery of other nodes takes a few tenths of a second. Dynamic transforms that were published before are not
+    received: a TransformBroadcaster that sends only once, before this node exists, does not reach it; a
     StaticTransformBroadcaster does. Transforms that the program itself stores with ``buffer.set`` are not published.
 
     By default, only nodes on this machine are discovered. ROS_AUTOMATIC_DISCOVERY_RANGE=SUBNET includes the local
-    network; ROS_LOCALHOST_ONLY and ROS_STATIC_PEERS are supported, too.
+    network; ROS_LOCALHOST_ONLY and ROS_STATIC_PEERS are also supported.
 
     Args:
         node_name: The name of the node.
         node_namespace: The namespace of the node: "/" or "/a/b".
         domain: The ROS domain, 0 to 232. If None, it is ROS_DOMAIN_ID, or 0 if that is not set.
-        wire: The middleware, "dds" or "zenoh". If None, it is COFRAME_WIRE, or what RMW_IMPLEMENTATION and this machine
-            suggest. Connections of one process may use different ones.
+        wire: The middleware, "dds" or "zenoh". If None, it is COFRAME_WIRE, or chosen from RMW_IMPLEMENTATION and the
+        installed libraries. Connections of one process may use different ones.
         namespace: The namespace of the topics of transforms: "/robot1" for /robot1/tf and /robot1/tf_static.
         tf_topic: The topic of dynamic transforms. If None, it is /tf in the namespace.
         tf_static_topic: The topic of static transforms. If None, it is /tf_static in the namespace.
@@ -417,7 +417,7 @@ def connect(
             keeps everything.
         prefix: The prefix of the frames in the buffer, used as given: "robot1/" turns "base_link" into
             "robot1/base_link".
-        keep: The frames that are shared by robots and get no prefix: ["map"].
+        keep: The frames that are shared by robots and not prefixed: ["map"].
         shared: Whether to read the transforms from memory that all processes of this user on this machine share. The
             first process receives the transforms for all; if it ends, another one takes over. A buffer that the program
             changes (`set`, `clear`, ...) is detached. Linux only: on other platforms, a warning is logged and this

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a listener receives: topics, frame names, cache, domain and middleware, as one value that is checked once."""
+"""The configuration of a listener (topics, frame names, cache, domain and middleware) as one checked value."""
 
 from __future__ import annotations
 
@@ -33,9 +33,9 @@ _TEN_SECONDS: Final = 10 * SECOND  # as tf2's buffer
 
 @dataclass(frozen=True)
 class ListenerConfig:
-    """What a listener receives, and how its buffer stores it. Created by `of`, which checks the values.
+    """The configuration of a listener and its buffer. Created by `of`, which checks the values.
 
-    Two listeners whose configurations are equal receive the same: processes share the transforms of these.
+    Processes share the transforms of listeners with equal configurations, because these receive the same data.
 
     Attributes:
         tf_topic: The topic of dynamic transforms.
@@ -68,7 +68,7 @@ class ListenerConfig:
         domain: int | None = None,
         wire: str | None = None,
     ) -> Self:
-        """Check what a caller has asked for, and replace None by the defaults.
+        """Check the arguments of a caller, and replace None with the defaults.
 
         Args:
             namespace: The namespace of the topics: "/robot1" for /robot1/tf and /robot1/tf_static.
@@ -76,8 +76,8 @@ class ListenerConfig:
             tf_static_topic: The topic of static transforms. If None, it is /tf_static in the namespace.
             prefix: The prefix of the frames in the buffer.
             keep: The frames without a prefix.
-            cache: The length of the cache: a string such as "10s", nanoseconds or a timedelta. If None, everything is
-                kept.
+            cache: The length of the cache: a string such as "10s", nanoseconds or a timedelta. If None, all transforms
+            are kept.
             domain: The ROS domain. If None, it is ROS_DOMAIN_ID, or 0 if that is not set.
             wire: The middleware. If None, the selected one; see `coframe.wire.selection`.
 
@@ -120,9 +120,9 @@ class ListenerConfig:
         return frame_names.renaming(self.prefix, self.keep)
 
     def frame(self, name: str) -> str:
-        """Return the name in the buffer of a frame in a message."""
+        """Return the buffer's name for a frame in a message."""
         return name.removeprefix("/") if self.renaming is None else self.renaming(name)
 
     def with_cache(self, cache: int) -> Self:
-        """Return the same with another length of the cache, in nanoseconds."""
+        """Return this configuration with another cache length, in nanoseconds."""
         return replace(self, cache=cache)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Transforms in memory that all processes of a user on this machine share: one process receives, all read."""
+"""Transforms in memory shared by all processes of a user on this machine: one process receives, all read."""
 
 from __future__ import annotations
 
@@ -43,17 +43,17 @@ _EXIT_TIMEOUT = 1.0  # seconds
 
 
 def open_segment(config: ListenerConfig, generation: int = 0) -> _core.Segment:
-    """Open the memory of the transforms that processes with this configuration share.
+    """Open the shared memory of the transforms for this configuration.
 
     Args:
-        config: What is received.
+        config: The topics, frames, cache, domain and middleware.
         generation: The number of the memory; see `SharedTransforms`.
 
     Raises:
         SegmentError: This system cannot share transforms.
     """
     if not hasattr(os, "getuid"):
-        raise _core.SegmentError("sharing transforms between processes is supported on Linux only")
+        raise _core.SegmentError("sharing transforms between processes is supported only on Linux")
     # The name differs for every configuration, network namespace and configuration of the middleware.
     text = repr((*astuple(config), selection.network(config.wire), _network(), generation))
     name = f"{config.domain}-{hashlib.sha256(text.encode()).hexdigest()[:16]}"
@@ -61,7 +61,7 @@ def open_segment(config: ListenerConfig, generation: int = 0) -> _core.Segment:
 
 
 class SharedTransforms:
-    """The shared transforms of one configuration, as this process uses them. Created by `join`.
+    """The shared transforms of one configuration in this process. Created by `join`.
 
     The first process becomes the writer: it receives the transforms. If it ends, another one takes over.
 
@@ -97,7 +97,7 @@ class SharedTransforms:
         """Return the shared transforms of a configuration. Each call needs one call of `leave`.
 
         Args:
-            config: What is received.
+            config: The topics, frames, cache, domain and middleware.
             on_mismatch: The attributes of the subscriptions to dynamic and static transforms, if this process has not
                 joined before; see `LocalEndpoint`.
 
@@ -131,7 +131,7 @@ class SharedTransforms:
 
     @classmethod
     def close_all(cls) -> None:
-        """Stop receiving, at the exit of the interpreter."""
+        """Stop receiving when the interpreter exits."""
         for shared in list(cls._instances.values()):
             shared.close()
 
@@ -296,7 +296,7 @@ class _Hub:
 
 
 def _remove_abandoned(folder: Path) -> None:
-    """Remove the memory of processes that were all killed. Every process locks the memory that it uses."""
+    """Remove shared memory whose processes were all killed. Every process locks the memory that it uses."""
     import fcntl  # noqa: PLC0415 - not on Windows, where there is no shared memory
 
     for path in folder.iterdir():

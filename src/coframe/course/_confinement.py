@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Confine the programs of one grade: the command and the environment with which each is started."""
+"""Confine the programs of one grading run: build the command and the environment of each program."""
 
 from __future__ import annotations
 
@@ -69,7 +69,7 @@ def passed_variables() -> dict[str, str]:
 
 
 class Confinement:
-    """Restricts what the programs of one grade may do.
+    """Restricts the programs of one grading run.
 
     Attributes:
         has_namespaces: Whether each program has its own file system and process list.
@@ -154,7 +154,7 @@ class Confinement:
 
 
 def protection_problem(*, has_namespaces: bool) -> str:
-    """Describe what this system does not protect from a program; "" if it protects everything."""
+    """Describe the protection that this system lacks against a program; "" if protection is complete."""
     sentences = []
     if not has_namespaces:
         sentences.append(

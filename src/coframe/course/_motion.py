@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The motion of the simulated robot in closed form, as a student's nodes have to publish it."""
+"""The analytic motion of the simulated robot, which a student's nodes have to publish."""
 
 from __future__ import annotations
 

@@ -28,7 +28,7 @@ HOMES = "home"  # the folder for the home folders of all programs
 MAX_FILES = 100 << 20  # bytes of all files it writes
 MAX_PROCESSES = 8
 _MAX_FILES = 10_000
-_TOO_MUCH_OUTPUT = f"The program printed more than {MAX_OUTPUT >> 20} MB and was ended."
+_TOO_MUCH_OUTPUT = f"The program printed more than {MAX_OUTPUT >> 20} MB and was stopped."
 _STOP_PATIENCE = 3.0  # seconds between SIGINT and SIGKILL
 _LAST_LINES = 8
 _TRACEBACK_LINE = re.compile(r'^  File "([^"\n]{1,1000})", line (\d{1,7})', re.MULTILINE)
@@ -103,7 +103,7 @@ class Program:
         try:
             while self.is_running():
                 if patience.is_over():
-                    self.violation = f"{self.file.name} takes more than {seconds:g} s, the limit."
+                    self.violation = f"{self.file.name} takes longer than the maximum of {seconds:g} s."
                     break
                 time.sleep(_POLL_PERIOD)
         finally:
@@ -167,14 +167,14 @@ class Program:
         return self._confinement.attempt(self.output())
 
     def output(self) -> bytes:
-        """Return everything it has printed."""
+        """Return the complete output of the program."""
         try:
             return self._log.read_bytes()
         except OSError:
             return b""
 
     def crash(self) -> str:
-        """Return why a program ended prematurely; "" if it ran until it was stopped."""
+        """Return why a program exited prematurely; "" if it ran until it was stopped."""
         if self.violation:
             return self.violation
         process = self._process
@@ -185,16 +185,16 @@ class Program:
             return _TOO_MUCH_OUTPUT
         last = self.last_lines()
         if code == 0:
-            return "The program ended by itself: it needs rclpy.spin(node)."
+            return "The program exited by itself: it needs rclpy.spin(node)."
         error = next((line for line in reversed(last) if line.strip()), "")
         if code < 0 or code > _SIGNAL_OFFSET:
-            return f"The program was ended by signal {-code if code < 0 else code - _SIGNAL_OFFSET}."
+            return f"The program was terminated by signal {-code if code < 0 else code - _SIGNAL_OFFSET}."
         line = self._failed_line()
         place = f" in line {line} of {self.file.name}" if line else ""
         return (
-            f"The program ended with an error{place}: {error[:200]}"
+            f"The program exited with an error{place}: {error[:200]}"
             if error
-            else f"The program ended with exit code {code}."
+            else f"The program exited with exit code {code}."
         )
 
     def last_lines(self) -> list[str]:
@@ -222,13 +222,13 @@ class Program:
             return _TOO_MUCH_OUTPUT
         running = self._running()
         if len(running) > MAX_PROCESSES:
-            return f"The program started more than {MAX_PROCESSES} processes and was ended."
+            return f"The program started more than {MAX_PROCESSES} processes and was stopped."
         if sum(each.memory for each in running) + processes.shared_memory(running) > MAX_MEMORY:
-            return f"The program used more than {MAX_MEMORY >> 20} MB of memory and was ended."
+            return f"The program used more than {MAX_MEMORY >> 20} MB of memory and was stopped."
         if processes.own_memory() > MAX_MEMORY:
-            return "The program published more data than the check can store and was ended."
+            return "The program published more data than the check can store and was stopped."
         if _is_larger(self._home, MAX_FILES):
-            return f"The program wrote more than {MAX_FILES >> 20} MB or {_MAX_FILES} files and was ended."
+            return f"The program wrote more than {MAX_FILES >> 20} MB or {_MAX_FILES} files and was stopped."
         return ""
 
     def _running(self) -> list[processes.Process]:

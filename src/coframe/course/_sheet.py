@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The result of a check: facts with points, expected and observed behaviour, and advice about lost points."""
+"""The result of a check: facts with points, expected and observed behavior, and advice about lost points."""
 
 from __future__ import annotations
 
@@ -21,11 +21,11 @@ class Fact:
     """One observable fact.
 
     Attributes:
-        name: What is checked.
+        name: The checked property.
         points: The available points.
         earned: The earned points.
-        expected: What a correct solution does.
-        observed: What was observed instead; "" if all points were earned.
+        expected: The behavior of a correct solution.
+        observed: The observed behavior; "" if all points were earned.
         cause: The likely cause of lost points.
         read: Where to read about it.
     """
@@ -93,10 +93,10 @@ class Sheet:
 
         Args:
             points: The available points.
-            name: What is checked.
-            good: Whether it is fulfilled; a number from 0 to 1 for partial credit.
-            expected: What a correct solution does.
-            observed: What was observed.
+            name: The checked property.
+            good: Whether the property is fulfilled; a number from 0 to 1 for partial credit.
+            expected: The behavior of a correct solution.
+            observed: The observed behavior.
             cause: The likely cause if it is not fulfilled.
             read: Where to read about it.
 

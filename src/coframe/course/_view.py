@@ -40,7 +40,7 @@ _MAX_LINKS = 40  # maximum number of links in a path, as in the kernel
 
 
 class View(NamedTuple):
-    """What a program can access.
+    """The paths that a program can access.
 
     Attributes:
         entries: Absolute paths without symbolic links, sorted, and whether each can be read. The longest matching path

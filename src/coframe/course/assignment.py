@@ -30,7 +30,7 @@ class Mount(NamedTuple):
     Attributes:
         parent: The frame on which the sensor is mounted.
         frame: The frame of the sensor.
-        translation: The position x, y, z relative to the parent, in metres.
+        translation: The position x, y, z relative to the parent, in meters.
         quaternion: The rotation x, y, z, w relative to the parent.
     """
 
@@ -45,8 +45,8 @@ class Assignment(NamedTuple):
 
     Attributes:
         variant: The seed of the variant; None for the lab's own parameters.
-        base_height: The height of the first joint above base_link, in metres.
-        link_lengths: The lengths of the two links, in metres.
+        base_height: The height of the first joint above base_link, in meters.
+        link_lengths: The lengths of the two links, in meters.
         camera: The mount of the camera on the end effector.
         imu: The mount of the IMU on the base.
         lidar: The mount of the lidar on the base.
@@ -78,7 +78,7 @@ def assignment_of(variant: int | None) -> Assignment:
     if variant is None:
         return Assignment()
     choose = random.Random(variant)  # noqa: S311 - not a secret
-    step = 0.05  # metres
+    step = 0.05  # meters
 
     def length(least: int, most: int) -> float:
         return round(choose.randint(least, most) * step, 2)

@@ -101,9 +101,9 @@ def check_folder(
         raise CourseError(text, hint=hint)
     missing = [name for name in RUBRIC if name in only][len(results.sheets) :]
     if missing and not (results.sheets or results.is_late):
-        reason = lines[0] if lines else "the check was ended"
+        reason = lines[0] if lines else "the check was stopped"
         raise CourseError(f"{folder} could not be graded: {reason}", hint="coframe lab run shows what its nodes print.")
-    reason = f"the check took more than {max_seconds:g} s" if results.is_late else "the check was ended"
+    reason = f"the check took more than {max_seconds:g} s" if results.is_late else "the check was stopped"
     return _report(folder, results, missing, reason)
 
 
@@ -112,7 +112,7 @@ def _report(folder: Path, results: _Results, missing: Sequence[str], reason: str
     notices = [problem] if (problem := isolation_problem()) else []
     if missing:
         names = ", ".join(RUBRIC[name].name for name in missing)
-        notices.append(f"{_upper(reason)} and was ended before these criteria: {names}. The other points count.")
+        notices.append(f"{_upper(reason)} and was stopped before these criteria: {names}. The other points count.")
     sheets = results.sheets + [Sheet.not_reached(RUBRIC[name], reason) for name in missing]
     return GradeReport(str(folder.resolve()), results.variant, sheets, notices).as_dict()
 

@@ -15,7 +15,7 @@ class Fault(NamedTuple):
 
     Attributes:
         name: The name of the fault, which is the answer.
-        explanation: What is wrong, and how to find it.
+        explanation: The cause of the fault, and how to find it.
         programs: The programs of the system.
     """
 
@@ -51,7 +51,7 @@ FAULTS = (
         (_faulty("late", "static_tf_broadcaster"), _DYNAMIC, _LISTENER, _LIDAR, _SENSOR),
     ),
     Fault(
-        "misspelt frame",
+        "misspelled frame",
         "The lidar is mounted as 'lidar_lnik', but its scans are in 'lidar_link'.",
         (_node("static_tf_broadcaster", "lidar_frame:=lidar_lnik"), _DYNAMIC, _LISTENER, _LIDAR, _SENSOR),
     ),

@@ -68,7 +68,7 @@ def isolated_environment(number: int, home: Path) -> dict[str, str]:
 
 
 def isolation_problem() -> str:
-    """Describe what the system does not protect from the programs of a grade; "" if it protects everything."""
+    """Describe the protection that the system lacks against graded programs; "" if protection is complete."""
     return protection_problem(has_namespaces=bool(_unshare()))
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Which findings cause which others; a report lists consequences below their cause."""
+"""Causal relations between findings; a report lists consequences below their cause."""
 
 from __future__ import annotations
 

@@ -36,7 +36,7 @@ TIMEOUTS = (0, 50 * MILLISECOND, 100 * MILLISECOND, 200 * MILLISECOND)
 
 
 class SensorFacts(NamedTuple):
-    """How many messages of a topic could be transformed to the root of their tree, and after what delay.
+    """The number of messages of a topic that could be transformed to the root of their tree, and the delays.
 
     Attributes:
         topic: The topic.
@@ -44,7 +44,8 @@ class SensorFacts(NamedTuple):
         root: The root of the tree of that frame; the frame itself if no transform contains it.
         messages: The number of messages.
         sweep: The time from the stamp of a message to its last point, which also needs a transform; nanoseconds.
-        possible: How many can be transformed immediately, and within 50, 100 and 200 ms of their arrival.
+        possible: The numbers of messages that can be transformed immediately, and within 50, 100 and 200 ms of their
+        arrival.
         median_wait: The median wait of the messages that can be transformed, in nanoseconds; None if there are none.
         longest_wait: The longest wait of these messages.
     """
@@ -64,7 +65,7 @@ class Report(NamedTuple):
 
     Attributes:
         findings: The causes with their consequences, the worst first.
-        sensors: How well the messages of each sensor could be transformed.
+        sensors: Statistics of the transformable messages of each sensor.
         observation: The observation that was examined.
     """
 
@@ -89,7 +90,7 @@ class Report(NamedTuple):
 
 
 def all_checks() -> dict[str, Check]:
-    """Return the checks by code: those of coframe, then those of other distributions."""
+    """Return the checks by code: coframe's checks, then the checks of other distributions."""
     return built_in_checks() | {code: partial(_guarded, check) for code, check in plugin_checks().items()}
 
 

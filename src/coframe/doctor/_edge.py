@@ -35,7 +35,7 @@ class Edge:
         arrived: (N,) time of arrival.
         stamp: (N,) stamp of the header.
         publisher: (N,) number of the publisher.
-        values: (N, 7) x, y, z in metres and qx, qy, qz, qw as published.
+        values: (N, 7) x, y, z in meters and qx, qy, qz, qw as published.
         publishers: The names of the publishers that occur, in the order of their first transform.
     """
 
@@ -125,7 +125,7 @@ class Edge:
 
     @cached_property
     def distances(self) -> NDArray[np.float64]:
-        """(N - 1,) metres from each position to the next one."""
+        """(N - 1,) meters from each position to the next one."""
         return _lengths(np.diff(self.values[:, :3], axis=0))
 
     @cached_property
@@ -140,7 +140,7 @@ class Edge:
 
     @cached_property
     def length(self) -> float:
-        """The distance between the two frames in the last row, in metres."""
+        """The distance between the two frames in the last row, in meters."""
         return math.hypot(*self.values[-1, :3].tolist())  # avoids overflow of squares
 
     @cached_property

@@ -36,10 +36,10 @@ class Finding:
     Attributes:
         code: The code, such as ``TF001``; each code has a page.
         severity: The severity.
-        text: What is wrong, with values; without the names of the edge and the publishers.
+        text: The problem, with values, but without the names of the edge and the publishers.
         fix: What to do: the command to run, or the line of code to change.
         edge: The edge as (parent, child); None if the finding concerns something else.
-        frames: The frames that it concerns, including those of the edge; used to find its cause.
+        frames: The affected frames, including the frames of the edge; used to find its cause.
         topic: The topic that it concerns, or "".
         first_stamp: The stamp of the first affected transform or message, in nanoseconds; None if there is none.
         publishers: The full names of the affected publishers, as far as they are known.

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 __all__ = ["Flicker", "alternation_cause", "flicker", "jump_cause"]
 
 _MIN_JUMPS = 6  # jumps away and back
-_METRES = 1e-3
+_METERS = 1e-3
 _RADIANS = 1e-2
 # A jump must be larger than this multiple of the usual step.
 _CLEARLY = 6.0
@@ -33,7 +33,7 @@ _MAX_RUN = 12
 
 
 class Flicker(NamedTuple):
-    """The number of jumps away and back, their median size (metres, radians), and the row before each."""
+    """The number of jumps away and back, their median size (meters, radians), and the row before each."""
 
     jumps: int
     distance: float
@@ -51,11 +51,11 @@ def flicker(edge: Edge) -> Flicker | None:
     if edge.count < _MIN_JUMPS + 2:
         return None
     # The usual step is computed only if there are enough large steps, because it takes most of the time.
-    if np.count_nonzero((edge.distances > _METRES) | (edge.turns > _RADIANS)) < _MIN_JUMPS:
+    if np.count_nonzero((edge.distances > _METERS) | (edge.turns > _RADIANS)) < _MIN_JUMPS:
         return None
     typical_distance, typical_angle = _typical(edge)
     jumps = np.flatnonzero(
-        (edge.distances > _CLEARLY * typical_distance + _METRES) | (edge.turns > _CLEARLY * typical_angle + _RADIANS)
+        (edge.distances > _CLEARLY * typical_distance + _METERS) | (edge.turns > _CLEARLY * typical_angle + _RADIANS)
     )
     if len(jumps) < _MIN_JUMPS:
         return None
@@ -65,7 +65,7 @@ def flicker(edge: Edge) -> Flicker | None:
     left = np.linalg.norm(edge.values[away, :3] - edge.values[back + 1, :3], axis=1)
     turned = angles_between(edge.rotations[away], edge.rotations[back + 1])
     distance, angle = edge.distances[away], edge.turns[away]
-    returned = (distance > 2.0 * left + _METRES) | (angle > 2.0 * turned + _RADIANS)
+    returned = (distance > 2.0 * left + _METERS) | (angle > 2.0 * turned + _RADIANS)
     # Most jumps must be reversed by the next one: a robot that is moved to a new pose a few times does not flicker.
     if np.count_nonzero(returned) < max(_MIN_JUMPS, len(jumps) // 2):
         return None
@@ -96,11 +96,11 @@ def jump_cause(edge: Edge, rows: NDArray[np.intp]) -> Explanation | None:
 def _tolerances(edge: Edge) -> dict[str, float]:
     """Return how far an edge usually moves between two rows, as the limits of a comparison."""
     distance, angle = _typical(edge)
-    return {"metres": _TOLERANCE * distance + _METRES, "radians": _TOLERANCE * angle + _RADIANS / 10}
+    return {"meters": _TOLERANCE * distance + _METERS, "radians": _TOLERANCE * angle + _RADIANS / 10}
 
 
 def _typical(edge: Edge) -> tuple[float, float]:
-    """Return the usual step, in metres and radians, between two rows of the same publisher.
+    """Return the usual step, in meters and radians, between two rows of the same publisher.
 
     With two publishers that alternate, every second row is from the same one, and every third row if one of them has
     twice the rate of the other. With a larger ratio, half of the rows follow a row of the same publisher.

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The same problem of many edges, such as all joints of an arm with one publisher, as one finding."""
+"""Combine findings about the same problem of many edges, such as all joints of an arm with one publisher."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _FIGURE = re.compile(r"[-+]?\d[\d.,_]*(?:e[-+]?\d+)?\s?(?:ns|us|ms|min|s|h|Hz|mm
 
 
 def grouped(findings: list[Finding]) -> list[Finding]:
-    """Return the findings, with one in place of several that differ only in their edges and figures."""
+    """Return the findings, with one instead of several that differ only in their edges and numbers."""
     groups: dict[Hashable, list[Finding]] = {}
     for position, finding in enumerate(findings):
         groups.setdefault(position if finding.edge is None else _kind(finding), []).append(finding)
@@ -34,12 +34,12 @@ def _edges(group: list[Finding]) -> int:
 
 
 def _kind(finding: Finding) -> Hashable:
-    """Return what is equal in findings about the same problem of different edges."""
+    """Return a key that is equal for findings about the same problem of different edges."""
     return finding.code, finding.severity, finding.publishers, finding.harm, _pattern(finding)
 
 
 def _pattern(finding: Finding) -> str:
-    """Return the text without the names of the edge and without figures."""
+    """Return the text without numbers and without the names of the edge."""
     text = finding.text
     for name in sorted(finding.edge or (), key=len, reverse=True):
         text = text.replace(name, "\0")

@@ -43,14 +43,14 @@ class PluginCheck(NamedTuple):
 
 @functools.cache
 def plugin_checks() -> dict[str, PluginCheck]:
-    """Return the checks of other distributions by code; those that cannot be used are reported once."""
+    """Return the checks of other distributions by code; unusable ones are reported once."""
     found: dict[str, PluginCheck] = {}
     for plugin, module in load_plugins(GROUP, report):
         values: list[Any] = [getattr(module, name, None) for name in ("CODE", "find", "PAGE")]
         code, find, page = values
         problem = _problem(code, find, page)
         if not problem and code in found:
-            problem = f"has the code {code}, which {found[code].plugin.package} has as well"
+            problem = f"has the code {code}, which {found[code].plugin.package} also has"
         if problem:
             report(str(plugin.error(problem)))
         else:
@@ -59,7 +59,7 @@ def plugin_checks() -> dict[str, PluginCheck]:
 
 
 def _problem(code: Any, find: Any, page: Any) -> str:
-    """Return why the values of a module are not those of a check, as the rest of a sentence; "" if they are."""
+    """Return why a module is not a valid check, as the rest of a sentence; "" if it is valid."""
     if not isinstance(code, str) or not _CODE.fullmatch(code):
         return f"has no CODE such as 'ACME001', with other letters than TF, but {code!r}"
     if not callable(find):

@@ -26,7 +26,7 @@ class Cause(NamedTuple):
     """The likely mistake.
 
     Attributes:
-        text: What the quaternions look like, as a clause.
+        text: The mistake that the quaternions show, as a clause.
         fix: The line of code to use, with the correct values of the first quaternion.
     """
 

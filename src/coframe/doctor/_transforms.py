@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The table of all transforms as published, one row each, from which everything else is derived."""
+"""The table of all transforms as published, one row each, from which all statistics are derived."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ class Transforms:
         child: (N,) number of the name of the child.
         publisher: (N,) number of the publisher.
         static: (N,) whether it was published on a topic of static transforms.
-        values: (N, 7) x, y, z in metres and qx, qy, qz, qw.
+        values: (N, 7) x, y, z in meters and qx, qy, qz, qw.
         names: The names of the frames, with the prefix if one was given; a name that was published with and without a
             leading slash occurs twice.
         sent: The names as published; empty if they are the same.

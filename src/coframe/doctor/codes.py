@@ -44,7 +44,7 @@ class Page(NamedTuple):
 
 
 def codes() -> tuple[str, ...]:
-    """Return all codes in order: those of coframe, then those of other distributions."""
+    """Return all codes in order: coframe's codes, then the codes of other distributions."""
     return (*built_in_codes(), *plugin_checks())
 
 

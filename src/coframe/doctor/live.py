@@ -132,10 +132,10 @@ class _Topic:
 
 
 class LiveObserver:
-    """Joins the graph and collects what the doctor checks. Can be used as a context manager.
+    """Joins the graph and collects the data that the doctor checks. Can be used as a context manager.
 
     Args:
-        config: What to observe. Its cache is the assumed cache length of the listeners' buffers. If None, the
+        config: The topics to observe. Its cache is the assumed cache length of the listeners' buffers. If None, the
             transforms on /tf and /tf_static are observed, in the domain of ROS_DOMAIN_ID.
         window: The duration that observations cover, in nanoseconds. If None, they cover everything since the start.
         node_name: The name of the node.
@@ -231,7 +231,7 @@ class LiveObserver:
             self.listen(min(0.1, left))
 
     def observe(self) -> Observation:
-        """Return what was received within the window."""
+        """Return the data received within the window."""
         self._return_due = 0.0  # The caller discards a large report; the next poll returns its memory.
         end = time.time_ns()
         start = self.start if self.window is None else max(self.start, end - self.window)

@@ -85,7 +85,7 @@ class ObservedPoints:
         stamp: The stamp of the message.
         sweep: The time from the stamp to the last point; 0 if the points have no times.
         times: (N,) the time of each point.
-        points: (N, 3) coordinates in metres.
+        points: (N, 3) coordinates in meters.
     """
 
     topic: str
@@ -139,7 +139,7 @@ class ObservedJointStates:
 
 @dataclass(frozen=True, eq=False)
 class ObservedPositions:
-    """Positions in metres in successive messages of a topic with poses: parts of the recording, (N, 3) each."""
+    """Positions in meters in successive messages of a topic with poses: parts of the recording, (N, 3) each."""
 
     topic: str
     parts: tuple[NDArray[np.float64], ...]
@@ -193,10 +193,11 @@ class Observation:
         joint_states: The joint states, one entry per topic.
         positions: The positions in messages with poses, one entry per topic; recordings only.
         clock: Simulated time; None without /clock.
-        travel: By publisher, the transport times of its transforms by the clocks of two machines; live only.
+        travel: The transport times of the transforms of each publisher, measured with the clocks of two machines; only
+        live.
         log: Messages of nodes on /rosout.
         cache: The cache length of the buffers of listeners.
-        unread: What could not be read from a recording, one message each.
+        unread: Read errors of a recording, one message each.
         link_name: Returns the frame name of a link of the robot descriptions.
     """
 
@@ -273,7 +274,7 @@ class Observation:
 
     @cached_property
     def last(self) -> dict[str, Edge]:
-        """The edge of the last transform by child, which is the one in a buffer."""
+        """The edge of the last transform of each child frame, as in a buffer."""
         found: dict[str, Edge] = {}
         for edge in self.edges:
             other = found.get(edge.child)

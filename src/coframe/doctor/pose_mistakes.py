@@ -6,7 +6,7 @@ one. If they then agree, :func:`explain` names the mistake with the remaining di
 Where the right pose is not known, :func:`corrections` yields what may have been meant, to be compared with other data.
 All functions are pure.
 
-A pose is a row x, y, z in metres and qx, qy, qz, qw.
+A pose is a row x, y, z in meters and qx, qy, qz, qw.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ __all__ = [
 OPTICAL = quaternion.from_rpy(np.array([-pi / 2, 0.0, -pi / 2]))
 """The rotation of an optical frame relative to the body of a camera by REP-103: z forward, x right, y down."""
 
-_METRES = 1e-3
+_METERS = 1e-3
 _RADIANS = 1e-3
 _SPECIFIC = 3  # the ranks below: an inverted transform, and the two wrong orders of quaternions
 _MIN_RATIO = 5.0  # A mistake must explain at least this multiple of what remains.
@@ -53,8 +53,8 @@ _ROUND = 5.0  # degrees; typed angles are multiples of this
 _AXES = "xyz"
 _ANGLES = ("roll", "pitch", "yaw")
 _UNITS = (
-    ("millimetres", 1e3),
-    ("centimetres", 1e2),
+    ("millimeters", 1e3),
+    ("centimeters", 1e2),
     ("inches", 1 / 0.0254),
     ("feet", 1 / 0.3048),
 )
@@ -84,29 +84,29 @@ class Explanation(NamedTuple):
     Attributes:
         reading: The clause after "if": what makes the published pose right.
         fix: What to do, without the right values.
-        metres: The distance that remains, as the median of all rows; NaN if only the rotation is explained.
+        meters: The distance that remains, as the median of all rows; NaN if only the rotation is explained.
         radians: The angle that remains; NaN if only the translation is explained.
         rank: How special the mistake is: a lower number is a less ambiguous mistake.
     """
 
     reading: str
     fix: str
-    metres: float
+    meters: float
     radians: float
     rank: int = 0
 
     @property
     def specific(self) -> bool:
         """Whether poses hardly ever match by chance: the mistake changes all their numbers."""
-        return self.rank < _SPECIFIC and not np.isnan(self.metres + self.radians)
+        return self.rank < _SPECIFIC and not np.isnan(self.meters + self.radians)
 
     def text(self, other: str, pose: str = "the pose") -> str:
         """Return the explanation as a sentence: with what the pose agrees, within what, and under which condition."""
-        subject, within = pose, f"{_length(self.metres)} and {_angle(self.radians)}"
-        if np.isnan(self.metres):
+        subject, within = pose, f"{_length(self.meters)} and {_angle(self.radians)}"
+        if np.isnan(self.meters):
             subject, within = f"the rotation of {pose}", _angle(self.radians)
         elif np.isnan(self.radians):
-            subject, within = f"the translation of {pose}", _length(self.metres)
+            subject, within = f"the translation of {pose}", _length(self.meters)
         return f"{subject} agrees with {other} within {within} if {self.reading}"
 
 
@@ -119,14 +119,14 @@ class Correction(NamedTuple):
 
 
 def explain(
-    published: Array, expected: Array, *, metres: float = _METRES, radians: float = _RADIANS
+    published: Array, expected: Array, *, meters: float = _METERS, radians: float = _RADIANS
 ) -> Explanation | None:
     """Return the mistake that makes the expected poses the published ones; None if no usual mistake does.
 
     Args:
         published: (N, 7) poses, with unit quaternions.
         expected: (N, 7) poses at the same times, from other data.
-        metres: The distance that may remain.
+        meters: The distance that may remain.
         radians: The angle that may remain.
 
     Example:
@@ -138,12 +138,12 @@ def explain(
     place, turn = published[:, :3], published[:, 3:]
     right_place, right_turn = expected[:, :3], expected[:, 3:]
     far, turned = _distance(place, right_place), _rotation(turn, right_turn)
-    if far <= metres and turned <= radians:
+    if far <= meters and turned <= radians:
         return None
-    whole = _whole(published, expected, (metres, radians), (far, turned))
+    whole = _whole(published, expected, (meters, radians), (far, turned))
     if whole is not None:
         return whole
-    moved = _first(_translations(right_turn), place, right_place, metres, _distance) if far > metres else None
+    moved = _first(_translations(right_turn), place, right_place, meters, _distance) if far > meters else None
     rotated = _first(_ROTATIONS, turn, right_turn, radians, _rotation) if turned > radians else None
     parts = [part for part in (rotated, moved) if part is not None]
     if not parts:
@@ -151,21 +151,21 @@ def explain(
     return Explanation(
         " and ".join(part.mistake.reading for part in parts),
         " ".join(dict.fromkeys(part.mistake.fix for part in parts)),
-        moved.left if moved else far if far <= metres else float("nan"),
+        moved.left if moved else far if far <= meters else float("nan"),
         rotated.left if rotated else turned if turned <= radians else float("nan"),
         rank=sum(1 + part.rank for part in parts),
     )
 
 
 def explain_either(
-    first: Array, second: Array, *, metres: float = _METRES, radians: float = _RADIANS
+    first: Array, second: Array, *, meters: float = _METERS, radians: float = _RADIANS
 ) -> tuple[Explanation, bool] | None:
     """Return the least ambiguous mistake that explains how two poses differ, either of which may be the wrong one.
 
     Returns:
         The mistake, and whether it is in the first poses; None if no usual mistake explains the difference.
     """
-    limits = {"metres": metres, "radians": radians}
+    limits = {"meters": meters, "radians": radians}
     found = [(explain(first, second, **limits), True), (explain(second, first, **limits), False)]
     explained = [(mistake, in_first) for mistake, in_first in found if mistake is not None]
     return min(explained, key=lambda pair: pair[0].rank, default=None)
@@ -185,7 +185,7 @@ def corrections(pose: Array) -> Iterator[Correction]:
 
 
 def in_other_units(translation: Array) -> Iterator[Correction]:
-    """Yield a translation (3,) that is read in other units than metres; the corrections have no rotation."""
+    """Yield a translation (3,) that is read in other units than meters; the corrections have no rotation."""
     for unit, factor in _UNITS:
         reading, fix = _unit_texts(unit)
         yield Correction(reading, fix, translation / factor)
@@ -477,10 +477,10 @@ _ROTATIONS = (
 
 
 def _unit_texts(unit: str) -> tuple[str, str]:
-    return f"its translation is read in {unit}", f"Use metres: divide by {_per_metre(unit)}."
+    return f"its translation is read in {unit}", f"Use meters: divide by {_per_meter(unit)}."
 
 
-def _per_metre(unit: str) -> str:
+def _per_meter(unit: str) -> str:
     return f"{dict(_UNITS)[unit]:.6g}"
 
 
@@ -503,8 +503,8 @@ def _translations(turn: Array) -> list[Mistake]:
     ]
     found.append(
         Mistake(
-            "its translation is read in thousands of metres (it was divided by 1000 twice)",
-            "Convert millimetres to metres only once.",
+            "its translation is read in thousands of meters (it was divided by 1000 twice)",
+            "Convert millimeters to meters only once.",
             partial(_scaled, 1e-3),
             partial(_scaled, 1e3),
             precision=1e-3,
@@ -562,10 +562,10 @@ def _origin(place: Array) -> list[Array]:
 # Figures
 
 
-def _length(metres: float) -> str:
-    if metres < 1.0:
-        return f"{round(metres * 1e3, 2 if metres < 1e-2 else 0):g} mm"
-    return f"{metres:.3g} m"
+def _length(meters: float) -> str:
+    if meters < 1.0:
+        return f"{round(meters * 1e3, 2 if meters < 1e-2 else 0):g} mm"
+    return f"{meters:.3g} m"
 
 
 def _angle(radians: float) -> str:

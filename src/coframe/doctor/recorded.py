@@ -73,9 +73,9 @@ def observe_recording(
         path: A file, or the folder of a rosbag2 recording.
         namespace: Only the transforms of this namespace; None for all.
         tf_topic: Only the transforms of this topic and of ``tf_static_topic``, as those of one robot in the namespace
-            of this topic. None: all, or ``/tf`` if only the other topic is given.
+            of this topic. None means all topics, or ``/tf`` if only the other topic is given.
         tf_static_topic: Only the transforms of this topic and of ``tf_topic``. None: all, or ``/tf_static``.
-        prefix: A prefix for all frame names, including those of sensors, used as given.
+        prefix: A prefix for all frame names, including the frames of sensors, used as given.
         keep: The frames without the prefix, because they are shared.
         cache: The cache length of the buffers of listeners, in nanoseconds.
         progress: Called repeatedly with the number of bytes read and the total number.
@@ -200,7 +200,7 @@ class _Facts:
     def _decoded(self, topic: str, most: int) -> Iterator[Any]:
         """Yield the first messages of a topic; damaged ones are reported as problems of the recording.
 
-        The definition in a recording can differ from that of the type: any field can be missing, and a message without
+        The definition in a recording can differ from the usual one: any field can be missing, and a message without
         a usable definition is returned as bytes.
         """
         messages = islice(self._recording.messages(topic), most)

@@ -27,9 +27,9 @@
 Wrong arguments of Python calls (a wrong type, shape or unit) raise TypeError and ValueError as usual.
 
 The transform exceptions have tf2's names and messages (``str(error)``). Every exception also has a
-``hint``, which says what to do next, and a ``doctor_code``, which names the doctor's page about the problem. Tracebacks
-show the hint below the message in Python 3.11 and later, and in IPython. Transform exceptions also have the details as
-attributes.
+``hint``, which suggests what to do next, and a ``doctor_code``, which names the doctor's page about the problem.
+Tracebacks show the hint below the message in Python 3.11 and later, and in IPython. Transform exceptions also have the
+details as attributes.
 """
 
 from __future__ import annotations
@@ -275,7 +275,7 @@ class RobotDescriptionError(_FileError):
 class InterfaceError(_FileError, LookupError):
     """An invalid definition of a message, service or action; ``file`` and ``line`` give the location, or are None.
 
-    It is a LookupError as well, because the type that the definition describes cannot be found.
+    It is also a LookupError, because the type that the definition describes cannot be found.
     """
 
 

@@ -25,17 +25,17 @@ _HINTS = {
     "other_clock": _Hint(
         "TF009",
         "The requested time is {by} {direction} the samples of {parent} -> {child}, which are from {first} to {last}: "
-        "it is on another clock, such as the system time or the receive time in place of simulated time. Request a "
-        "time of that interval, or the latest transform (stamp 0).",
+        "it comes from another clock, such as the system time or the receive time instead of simulated time. Request "
+        "a time in that interval, or the latest transform (stamp 0).",
     ),
     "outside_recorded": _Hint(
         "TF013",
-        "{parent} -> {child} has samples from {first} to {last} only. Request a time for which all edges have samples: "
+        "{parent} -> {child} has samples only from {first} to {last}. Request a time for which all edges have samples: "
         "buffer.span({target!r}, {source!r}) returns their interval.",
     ),
     "leading_slash": _Hint("TF006", "Remove the leading slash: {bare!r}."),
     "loop": _Hint(
-        "TF004", "Two broadcasters publish different parents for a frame. Publish each frame with one parent only."
+        "TF004", "Two broadcasters publish different parents for a frame. Publish each frame with only one parent."
     ),
     "no_common_time": _Hint(
         "TF013",
@@ -82,7 +82,8 @@ def hint(failure: str, **facts: str) -> str:
 
     Args:
         failure: The failure's code, such as ``too_new``.
-        facts: The values for the placeholders: ``target``, ``source``, ``parent``, ``child`` and those of this failure.
+        facts: The values for the placeholders: ``target``, ``source``, ``parent``, ``child`` and values specific to
+        this failure.
     """
     found = _HINTS.get(failure)
     if found is None:

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Interface packages of installed distributions, which name them by entry points of the group ``coframe.messages``.
 
-The name of an entry point is that of the ROS package. Its value is the Python package whose folder contains ``msg``,
-``srv`` or ``action``::
+The name of an entry point is the name of the ROS package. Its value is the Python package whose folder contains
+``msg``, ``srv`` or ``action``::
 
     [project.entry-points."coframe.messages"]
     acme_msgs = "acme_msgs"
@@ -44,7 +44,7 @@ class InstalledPackage(NamedTuple):
 
 
 def installed_packages() -> list[InstalledPackage]:
-    """Return the packages of all distributions; those without definitions are reported once."""
+    """Return the packages of all distributions; packages without definitions are reported once."""
     found = []
     for plugin in plugins(GROUP):
         if not PACKAGE_NAME.fullmatch(plugin.name):

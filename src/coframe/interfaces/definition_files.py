@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Definition files in the folder of a package, and what they define."""
+"""Definition files in the folder of a package, and their contents."""
 
 from __future__ import annotations
 

@@ -40,7 +40,7 @@ def is_search_off() -> bool:
 
 
 def start_folders() -> list[Path]:
-    """Return the folders from which Python imports the program: that of the script, or the current folder of a session.
+    """Return the folders from which Python imports the program: the script's folder, or a session's current folder.
 
     Installed commands such as pytest do not import from the current folder, so they have none.
     """

@@ -8,16 +8,16 @@ Try it:
 Parameters:
     rate: the rate of the dynamic transforms, in Hz
     publish_world: whether to publish world -> map (false if another robot publishes it)
-    start_x, start_y, start_yaw: the initial pose of odom relative to map, in metres and radians
+    start_x, start_y, start_yaw: the initial pose of odom relative to map, in meters and radians
     publish_base: whether to publish map -> odom -> base_link (false if a real or simulated robot publishes them)
     publish_arm: whether to publish the transforms of the arm (false if dynamic_tf_broadcaster publishes them)
     publish_mounts: whether to publish the sensor mounts (false if static_tf_broadcaster publishes them)
     publish_gripper: whether to publish the gripper mount (false if robot_state_publisher publishes it)
-    link_lengths, base_height: the dimensions of the arm, in metres
+    link_lengths, base_height: the dimensions of the arm, in meters
     world_frame, map_frame, odom_frame, base_frame, link1_frame, link2_frame, end_effector_frame: the frame names
     imu_frame, lidar_frame, camera_frame, gripper_frame: the frame names of the mounts
     imu_translation, lidar_translation, camera_translation, gripper_translation: the positions of the mounts relative
-        to their parent frames, in metres
+        to their parent frames, in meters
 """
 
 import math

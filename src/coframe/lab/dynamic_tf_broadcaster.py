@@ -12,7 +12,7 @@ Parameters:
     joint_timeout: the time without joint states after which the simulation resumes, in seconds
     joint_names: the names of the arm's joints in the joint states
     joint_states_topic: the topic of the joint states
-    link_lengths, base_height: the dimensions of the arm, in metres
+    link_lengths, base_height: the dimensions of the arm, in meters
     base_frame, link1_frame, link2_frame, end_effector_frame: the frame names
 """
 

@@ -4,7 +4,7 @@
 Try it:
     python -m coframe.lab.robot_state_publisher first_length:=0.4 --ros-args -r joint_states:=arm/joint_states
 
-Arguments before --ros-args are arguments of the xacro file. The parameters are those of robot_state_publisher.
+Arguments before --ros-args are arguments of the xacro file. The parameters are the same as for robot_state_publisher.
 """
 
 from pathlib import Path

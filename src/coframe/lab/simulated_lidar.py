@@ -12,7 +12,7 @@ Try it:
 Parameters:
     rate: the rate of the scans, in Hz
     beams: the number of beams in a scan
-    range_min, range_max: the minimum and maximum range, in metres
+    range_min, range_max: the minimum and maximum range, in meters
     frame: the frame of the lidar
     fixed_frame: the frame of the hall; the lidar is at its origin until its transform is available
     scan_topic: the topic of the scans
@@ -126,10 +126,10 @@ def measure(x: float, y: float, headings: Array, range_max: float) -> tuple[Arra
     """Simulate the measurement of a lidar in the hall.
 
     Args:
-        x: The position along the hall, in metres.
-        y: The position across the hall, in metres.
+        x: The position along the hall, in meters.
+        y: The position across the hall, in meters.
         headings: The directions of the beams in the hall, in radians, (N,).
-        range_max: The maximum range, in metres.
+        range_max: The maximum range, in meters.
 
     Returns:
         The ranges and the intensities, (N,) each.

@@ -5,7 +5,7 @@
 Try it:
     static_tf_broadcaster --ros-args -p lidar_translation:="[0.0, 0.0, 0.6]"
 
-Parameters (translations in metres, rotations as quaternions x, y, z, w):
+Parameters (translations in meters, rotations as quaternions x, y, z, w):
     base_frame, end_effector_frame: the parent frames of the sensors
     camera_frame, camera_translation, camera_rotation: the mount of the camera on the end effector
     imu_frame, imu_translation, imu_rotation: the mount of the IMU on the base

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Store the definitions of an interface package in a single text.
+"""Store the definitions of an interface package in a single string.
 
 Each definition begins with a line such as ``=msg/Pose``; the lines after it are those of its file without comments.
 The definition of another distribution begins with a line such as ``=msg/Range humble``.

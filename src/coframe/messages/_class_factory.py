@@ -38,7 +38,7 @@ class FieldError(CoframeError, ValueError):
 
     Attributes:
         field: The name of the field.
-        problem: What is wrong.
+        problem: A description of the problem.
         missing: The name of a type that does not exist; "" if the problem is another one.
     """
 
@@ -90,7 +90,7 @@ def new_message_class(
         ros_type: The name of the type.
         structure: Its fields and constants.
         inner: The classes of the messages in its fields, by the names that :func:`class_name` returns.
-        is_recorded: Whether the class is that of a definition in a recording, and is not registered.
+        is_recorded: Whether the class comes from a definition in a recording, and is not registered.
     """
     cls: Any = MessageType(
         ros_type.rpartition("/")[2],

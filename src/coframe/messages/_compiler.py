@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 
 class RefusedError(CoframeError, ValueError):
-    """Bytes or values that the type does not allow; the message says what was expected."""
+    """Bytes or values that the type does not allow; the message names the expected value."""
 
 
 class Compiler(ABC):

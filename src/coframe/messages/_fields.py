@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The attributes of messages: values that their setters accept, convert and reject.
 
-The rules and error messages are those of Humble's generated classes. The checks are disabled by ``python -O`` and by
-the environment variable ``ROS_PYTHON_CHECK_FIELDS=0``.
+The rules and error messages are the same as in Humble's generated classes. The checks are disabled by ``python -O`` and
+by the environment variable ``ROS_PYTHON_CHECK_FIELDS=0``.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ Check = Callable[[Any], Any]
 
 
 class Number(NamedTuple):
-    """How Python stores numbers of one type: the type code of array.array and the dtype of NumPy."""
+    """The Python representation of a number type: the type code of array.array and the dtype of NumPy."""
 
     code: str
     dtype: np.dtype[Any]

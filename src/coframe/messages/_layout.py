@@ -26,7 +26,7 @@ _SIZES = {code: struct.calcsize(f"<{code}") for code in "?cbBhHiIqQfd"}
 
 
 class Offset(NamedTuple):
-    """What is known about an offset: its remainder modulo 1, 2, 4 or 8."""
+    """The known part of an offset: its remainder modulo 1, 2, 4 or 8."""
 
     modulus: int
     remainder: int
@@ -60,7 +60,7 @@ class Run(NamedTuple):
 
 
 def ros1_prefix(cls: Any) -> str:
-    """Return the struct codes of what a message of ROS 1 has before the fields of its class."""
+    """Return the struct codes of the data that a ROS 1 message has before the fields of its class."""
     return ROS1_PREFIX if cls.ROS_TYPE == "std_msgs/msg/Header" and not cls.__recorded__ else ""
 
 

@@ -88,9 +88,9 @@ class Rules(NamedTuple):
 
     Attributes:
         field: The names of fields.
-        field_text: What they consist of.
+        field_text: A description of valid field names.
         constant: The names of constants.
-        constant_text: What they consist of.
+        constant_text: A description of valid constant names.
         named: Returns the message type with a name, of a package if the name has none. Raises ValueError if there
             cannot be such a type.
     """

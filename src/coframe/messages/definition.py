@@ -57,7 +57,7 @@ class NamespacedType(AbstractNestableType):
 
 
 class ResolvedType(NamespacedType):
-    """Another message whose class is not the one that its name finds, but that of a definition in a recording."""
+    """Another message whose class is created from a definition in a recording, not found by its name."""
 
     __slots__ = ("message_class",)
 

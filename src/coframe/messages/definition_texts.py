@@ -38,7 +38,7 @@ _EVENT = "_Event"
 def definition_of(ros_type: str) -> str:
     """Return the definition of a message type and of all types inside it, as ``ros2msg``; "" if it is unknown.
 
-    The text is that which rosbag2 writes: of the ``.msg`` files, each but the first after a line of 80 ``=`` and a line
+    The text has rosbag2's format: of the ``.msg`` files, each but the first after a line of 80 ``=`` and a line
     such as ``MSG: std_msgs/Header``. Types that have no such file, because they belong to a service, an action or an
     ``.idl`` file, are written as if they had one.
     """
@@ -51,7 +51,7 @@ def definition_of(ros_type: str) -> str:
 
 
 def recorded_definition(cls: type[Message], schema: ResolvedSchema) -> str:
-    """Return the definition of a class that was made for a recording, as :func:`definition_of` returns those of others.
+    """Return the definition of a class created for a recording, in the format of :func:`definition_of`.
 
     Args:
         cls: The class.
@@ -76,7 +76,7 @@ class _Definition(NamedTuple):
 
 
 def _collect(ros_type: str, texts: dict[str, str]) -> None:
-    """Add the text of a type, then those of the types in its fields."""
+    """Add the definition of a type, then the definitions of the types in its fields."""
     if ros_type in texts:
         return
     definition = _definition(ros_type)
@@ -88,7 +88,7 @@ def _collect(ros_type: str, texts: dict[str, str]) -> None:
 
 
 def _collect_recorded(cls: type[Message], schema: ResolvedSchema, texts: dict[str, str]) -> None:
-    """Add the text of a recorded class, then those of the classes in its fields."""
+    """Add the definition of a recorded class, then the definitions of the classes in its fields."""
     if not cls.__recorded__:
         _collect(cls.ROS_TYPE, texts)
     elif cls.ROS_TYPE not in texts:
@@ -125,7 +125,7 @@ def _definition(ros_type: str) -> _Definition:
 
 
 def _written(structure: Structure) -> _Definition:
-    """Return the definition of a message whose text is written here."""
+    """Return the definition of a message, written from its class."""
     # ROS 1 and IDL allow small letters in names of constants, and readers of ROS 2's definitions refuse them.
     constants = {constant.name.upper(): constant for constant in structure.constants}
     lines = [f"{_type(constant.type)} {name}={_value(constant.value)}" for name, constant in constants.items()]

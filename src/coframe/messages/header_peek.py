@@ -66,7 +66,7 @@ class HeaderPeek(NamedTuple):
 
 
 class FirstStamp(Enum):
-    """How messages of a type begin, if they begin with a stamp."""
+    """The beginning of a type's messages, if they begin with a stamp."""
 
     TIME = "a time"
     HEADER = "a header"
@@ -124,12 +124,12 @@ def stamp_reader(ros_type: str, encoding: str = "cdr") -> StampReader | None:
 
 
 def known_first_stamp(ros_type: str) -> FirstStamp | None:
-    """Return what the messages of a type begin with; None if coframe knows no stamp there."""
+    """Return how the messages of a type begin; None if that is not a known stamp."""
     return _first_field(_known_types(ros_type), _known_types)
 
 
 def first_stamp(schema: ResolvedSchema) -> FirstStamp | None:
-    """Return what the messages of a definition in a recording begin with; None if it contains no stamp."""
+    """Return how the messages of a definition in a recording begin; None if they do not begin with a stamp."""
     header = schema.structures.get(_HEADER)
     if header is not None and [field.name for field in header.fields] not in _HEADER_FIELDS:
         return None
@@ -140,7 +140,7 @@ class StampReader:
     """Reads the first stamp in messages of one type.
 
     Args:
-        first: What the messages begin with.
+        first: The beginning of the messages.
         encoding: ``"cdr"`` or ``"ros1"``.
     """
 
@@ -210,7 +210,7 @@ def _message_class(ros_type: str) -> Any:
 
 
 def _first_field(types: Sequence[AbstractType], types_of: Callable[[str], Sequence[AbstractType]]) -> FirstStamp | None:
-    """Return what a message with fields of these types begins with.
+    """Return how a message with fields of these types begins.
 
     Args:
         types: The types of its fields.

@@ -130,7 +130,7 @@ class ResolvedSchema:
         return types
 
     def _large_line(self) -> int | None:
-        """Return the line with the first field of the message that exceeds a limit; that of the last if none does."""
+        """Return the line of the first field of the message that exceeds a limit; of the last message if none does."""
         fields = self.structures[self.name].fields
         for field in fields:
             try:

@@ -85,7 +85,7 @@ class Schema:
 
 
 class _Block(NamedTuple):
-    """The lines of one file, and what the line before it contains; the first file has no such line."""
+    """The lines of one file, and its title line, which the first file does not have."""
 
     kind: str
     name: str
@@ -121,7 +121,7 @@ def parse_schema(text: bytes, name: str, format_: str) -> Schema:
     Args:
         text: The definition.
         name: The name of the message, as :func:`ros_name` returns it.
-        format_: ``ros1msg``, ``ros2msg``, ``ros2idl`` or ``omgidl``. Others are taken for ``ros2msg``.
+        format_: ``ros1msg``, ``ros2msg``, ``ros2idl`` or ``omgidl``. Other formats are treated as ``ros2msg``.
 
     Raises:
         InterfaceError: The text is not valid, too large, or does not define the message.

@@ -25,7 +25,7 @@ class TransformColumns(NamedTuple):
         stamp: Stamps in nanoseconds, (N,) int64.
         parent: Index of the parent frame in `names`, (N,) int64.
         child: Index of the child frame in `names`, (N,) int64.
-        values: x, y, z in metres and qx, qy, qz, qw, (N, 7) float64.
+        values: x, y, z in meters and qx, qy, qz, qw, (N, 7) float64.
         names: Names of the frames.
         damaged: Number of messages that could not be decoded.
     """

@@ -62,7 +62,7 @@ _EVENT_INFO_FIELDS = {
 
 
 class _Description(NamedTuple):
-    """The description of a type as JSON, and those of all types that it refers to, by name."""
+    """The description of a type as JSON, and the descriptions of all referenced types by name."""
 
     name: str
     text: str

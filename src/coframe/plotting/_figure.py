@@ -19,11 +19,11 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-__all__ = ["COLOURS", "FIGURE_FORMATS", "Figure", "Series", "figure_format"]
+__all__ = ["COLORS", "FIGURE_FORMATS", "Figure", "Series", "figure_format"]
 
 FIGURE_FORMATS = ("svg", "png", "html")
 # Each has a contrast of at least 3.5 with a white and with a dark background.
-COLOURS = ("#2f7de1", "#d9542b", "#1f9a5b", "#a45ee0", "#a17a12", "#d6497f", "#128f9e", "#7b7f87")
+COLORS = ("#2f7de1", "#d9542b", "#1f9a5b", "#a45ee0", "#a17a12", "#d6497f", "#128f9e", "#7b7f87")
 MAX_DRAWN_VALUE = 1e300  # Plotting libraries compute differences of values, which could otherwise overflow.
 _EARLIEST_DATE = 1_000_000_000 * SECOND  # Earlier stamps are assumed to come from simulations.
 
@@ -57,7 +57,7 @@ class Figure:
     """Curves over time.
 
     Attributes:
-        title: The title of the figure.
+        title: The title of the plot.
         series: The curves.
         has_time: False if the curves are drawn over numbers of poses.
     """
@@ -121,7 +121,7 @@ def figure_format(path: str | os.PathLike[str]) -> str:
     """Return the format for a file name.
 
     Raises:
-        PlotError: The suffix is not that of a figure.
+        PlotError: The suffix is not a plot format.
     """
     kind = Path(path).suffix.lower().removeprefix(".")
     if kind not in FIGURE_FORMATS:

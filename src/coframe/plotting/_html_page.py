@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Figures as a page that contains its data and uPlot (MIT licence), so that it works without a network."""
+"""Figures as a page that contains its data and uPlot (MIT license), so that it works without a network."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from coframe.plotting._figure import COLOURS
+from coframe.plotting._figure import COLORS
 from coframe.plotting.thinning import extremes
 
 if TYPE_CHECKING:
@@ -27,12 +27,12 @@ MAX_POINTS = 50_000  # per curve; drawing more would be slow in a browser
 def as_html(figure: Figure) -> str:
     """Return the page as text."""
     folder = files("coframe.plotting")
-    colours = cycle(COLOURS)
+    colors = cycle(COLORS)
     panels = [
         {
             "title": title,
             "curves": [
-                {"label": curve.label, "colour": next(colours), **_points(figure.x_values(curve), curve.drawn)}
+                {"label": curve.label, "color": next(colors), **_points(figure.x_values(curve), curve.drawn)}
                 for curve in curves
             ],
         }

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from coframe._process.optional_imports import importing_matplotlib, pip_install
 from coframe.errors import PlotError
-from coframe.plotting._figure import COLOURS
+from coframe.plotting._figure import COLORS
 
 if TYPE_CHECKING:
     from coframe.plotting._figure import Figure
@@ -49,7 +49,7 @@ def as_image(figure: Figure, kind: str) -> bytes:
         image = drawing.Figure(figsize=size, layout="constrained")
         axes = image.subplots(len(panels), 1, sharex=True, squeeze=False)[:, 0]
         image.suptitle(_plain(figure.title), fontsize="medium")
-        colours = cycle(COLOURS)
+        colors = cycle(COLORS)
         for axis, (title, curves) in zip(axes, panels.items(), strict=True):
             lines = []
             for curve in curves:
@@ -57,7 +57,7 @@ def as_image(figure: Figure, kind: str) -> bytes:
                 lines += axis.plot(
                     figure.x_values(curve),
                     curve.drawn,
-                    color=next(colours),
+                    color=next(colors),
                     linewidth=1.2,
                     marker="o" if is_single else None,
                 )
@@ -72,5 +72,5 @@ def as_image(figure: Figure, kind: str) -> bytes:
 
 
 def _plain(text: str) -> str:
-    """Return a text in which matplotlib finds no formulas, and without characters that XML does not allow."""
+    """Return a string that matplotlib does not interpret as a formula, without characters that XML does not allow."""
     return "".join(c if c.isprintable() else "\N{REPLACEMENT CHARACTER}" for c in text).replace("$", r"\$")

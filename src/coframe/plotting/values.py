@@ -40,7 +40,7 @@ def axis_title(expression: Expression) -> str:
 
 
 def coordinate(poses: Transform, quantity: str) -> NDArray[np.float64]:
-    """Return a quantity of each of N poses: x, y, z and distance in metres, roll, pitch and yaw in radians, (N,)."""
+    """Return a quantity of each of N poses: x, y, z and distance in meters, roll, pitch and yaw in radians, (N,)."""
     if quantity in ANGLES:
         return poses.rpy[:, ANGLES.index(quantity)]
     if quantity == "distance":
@@ -74,7 +74,7 @@ def field_value(message: Any, expression: FieldExpression, type_: str) -> float:
     if isinstance(value, bool | int | float | np.number | np.bool_):
         return float(value)
     if isinstance(value, str):
-        raise PlotError(f"{expression.text} is text, not a number: {value[:40]!r}")
+        raise PlotError(f"{expression.text} is a string, not a number: {value[:40]!r}")
     names = field_names(value)
     if names:
         hint = f"Choose a field: {listed(f'{written}.{name}' for name in names)}."

@@ -31,7 +31,7 @@ class ReceivedMessage(NamedTuple):
     """A received message.
 
     Attributes:
-        source: Where the message came from.
+        source: The source of the message.
         data: The serialized message.
         received: The time of arrival, in nanoseconds since 1970.
         published: The time of publication, in nanoseconds since 1970.

@@ -149,7 +149,7 @@ class TopicPublishers:
                 self.problems.append(f"{channel.topic} is not replayed: {error}")
         if len(channels) > MAX_TOPICS:
             self.problems.append(
-                f"{len(channels) - MAX_TOPICS} topics are not replayed: {MAX_TOPICS} is the limit. Select topics."
+                f"{len(channels) - MAX_TOPICS} topics are not replayed: the maximum is {MAX_TOPICS}. Select topics."
             )
 
     def _channel_publisher(self, channel: Channel, offered: list[QoS]) -> _ChannelPublisher | None:
@@ -196,7 +196,7 @@ def _send_function(writer: StaticBroadcaster) -> Callable[[bytes], None]:
 
 
 def _combined_qos(offered: list[QoS]) -> QoS:
-    """Return a QoS that meets every request that one of the offered QoS profiles meets."""
+    """Return a QoS that satisfies every request that one of the offered QoS profiles satisfies."""
     if not offered:
         return QoS(depth=_DEPTH)
     latched = any(qos.transient_local for qos in offered)

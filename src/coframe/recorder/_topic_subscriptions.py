@@ -34,7 +34,7 @@ class TopicFilter:
 
     Args:
         topics: The names of topics. If None and there is no `regex`, all topics are selected that are not hidden.
-        regex: A regular expression. Topics whose full name matches it are selected as well.
+        regex: A regular expression. Also select topics whose full name matches it.
         exclude: A regular expression. Topics whose full name matches it are not selected.
 
     Raises:
@@ -72,7 +72,8 @@ class TopicSubscriptions:
 
     A subscription matches only publishers that offer at least what it requests. One with weak requirements matches all
     publishers, but receives no latched messages. Therefore, there is one subscription for each QoS that is offered on a
-    topic. If several of them receive a message, it is taken from the one whose request equals the publisher's offer.
+    topic. If several of them receive a message, the subscription whose request equals the publisher's offer delivers
+    it.
 
     Args:
         participant: The participant.

@@ -235,7 +235,7 @@ def record(
     Args:
         path: The folder to create. If None, its name is ``rosbag2_`` with the current time.
         topics: The topics to record. If None, all topics are recorded that are not hidden, or those that match `regex`.
-        regex: A regular expression. Topics whose full name matches it are recorded as well.
+        regex: A regular expression. Also record topics whose full name matches it.
         exclude: A regular expression. Topics whose full name matches it are not recorded.
         domain: The ROS domain, 0 to 232. If None, it is ROS_DOMAIN_ID, or 0 if that is not set.
         wire: The middleware, "dds" or "zenoh"; see :func:`coframe.connect`.

@@ -119,11 +119,11 @@ class Element:
         return float(word)
 
     def tolerate(self, parse: Callable[[Element], T], ignored: str) -> T | None:
-        """Return what `parse` makes of this element; None if a fault was found, with a warning.
+        """Return the result of `parse` for this element; None if it has a fault, which becomes a warning.
 
         Args:
             parse: A function that raises RobotDescriptionError.
-            ignored: What the warning says is ignored.
+            ignored: The ignored part, for the warning.
         """
         try:
             return parse(self)
@@ -194,7 +194,7 @@ class _Builder:
 
 
 def read(data: str | bytes) -> Document:
-    """Read a document. What ROS reads although it is not well-formed XML is repaired, with a warning.
+    """Read a document. Malformed XML that ROS reads is repaired, with a warning.
 
     Raises:
         RobotDescriptionError: The document is larger than 64 MiB, is not XML, defines entities, or is nested more than

@@ -41,7 +41,7 @@ class Robot:
         joints: The joints by name, parents before children.
         materials: The named materials by name.
         text: The description as URDF, which is well-formed XML even if the file is not.
-        warnings: A text for each fault of the description that does not prevent its use, with its line.
+        warnings: A message for each fault of the description that does not prevent its use, with its line.
         path: The file of the description; None if it was not loaded from a file.
     """
 
@@ -86,7 +86,7 @@ class Robot:
         """Return the pose of every link relative to the root link.
 
         Args:
-            positions: The positions by joint, in radians or metres: a number or an array (N,). Planar joints need x,
+            positions: The positions by joint, in radians or meters: a number or an array (N,). Planar joints need x,
                 y, angle as (3,) or (N, 3), floating joints x, y, z, qx, qy, qz, qw as (7,) or (N, 7). A joint that
                 mimics another one follows it unless its own position is given. The default of other joints is 0.
                 Limits are not enforced.

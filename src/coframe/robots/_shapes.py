@@ -78,7 +78,7 @@ def _rgba(color: Element) -> tuple[float, float, float, float]:
 
 
 def parse_link(name: str, element: Element, materials: Materials) -> Link:
-    """Return the link that a <link> element describes. What is not valid is ignored, with a warning."""
+    """Return the link that a <link> element describes. Invalid parts are ignored, with a warning."""
 
     def visual(part: Element) -> Visual:
         pose, geometry = origin(part, name), _geometry(part)

@@ -115,7 +115,7 @@ def _expanded(
     try:
         done = run(("-I", str(_PROCESS)), json.dumps(request).encode())
     except subprocess.TimeoutExpired:
-        return {"error": f"xacro: expanding the file takes more than {MAX_SECONDS:g} s, the limit"}
+        return {"error": f"xacro: expanding the file takes longer than the maximum of {MAX_SECONDS:g} s"}
     try:
         answer: dict[str, Any] = json.loads(done.stdout)
     except ValueError:
@@ -144,11 +144,11 @@ def run_xacro(command: list[str], *, capture: bool = False) -> subprocess.Comple
                 check=False,
             )
         except subprocess.TimeoutExpired:
-            raise RobotDescriptionError(f"xacro takes more than {MAX_SECONDS:g} s, the limit") from None
+            raise RobotDescriptionError(f"xacro takes longer than the maximum of {MAX_SECONDS:g} s") from None
         texts = []
         for file in (output, errors):
             if os.fstat(file.fileno()).st_size >= MAX_OUTPUT:
-                raise RobotDescriptionError(f"the output of xacro has {MAX_OUTPUT >> 20} MiB or more, the limit")
+                raise RobotDescriptionError(f"the output of xacro is larger than the maximum of {MAX_OUTPUT >> 20} MiB")
             file.seek(0)
             texts.append(file.read().decode(errors="replace"))
     return subprocess.CompletedProcess(command, done.returncode, *texts)

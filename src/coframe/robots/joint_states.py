@@ -20,7 +20,7 @@ __all__ = ["FreeJoint", "JointStateFields", "JointStates"]
 
 @dataclass
 class FreeJoint:
-    """A joint that does not follow another joint. Units are radians or metres.
+    """A joint that does not follow another joint. Units are radians or meters.
 
     Attributes:
         lower: The lower limit; -pi for a continuous joint.
@@ -122,7 +122,7 @@ class JointStates:
 
         Args:
             names: The joints.
-            positions: A position for each name, in radians or metres; empty if unknown.
+            positions: A position for each name, in radians or meters; empty if unknown.
             velocities: A velocity for each name; empty if unknown.
             efforts: An effort for each name; empty if unknown.
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The parts of a robot description: links, joints and shapes. Units are metres, radians and kilograms."""
+"""The parts of a robot description: links, joints and shapes. Units are meters, radians and kilograms."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ class Box:
     """A box centered at its origin.
 
     Attributes:
-        size: The lengths along x, y and z, in metres.
+        size: The lengths along x, y and z, in meters.
     """
 
     size: Vector
@@ -44,7 +44,7 @@ class Box:
 
 @dataclass(frozen=True)
 class Cylinder:
-    """A cylinder along z, centered at its origin. Units are metres."""
+    """A cylinder along z, centered at its origin. Units are meters."""
 
     radius: float
     length: float
@@ -52,7 +52,7 @@ class Cylinder:
 
 @dataclass(frozen=True)
 class Capsule:
-    """A cylinder along z with a hemisphere at each end. `length` is that of the cylinder. Units are metres."""
+    """A cylinder along z with a hemisphere at each end. `length` is the length of the cylinder. Units are meters."""
 
     radius: float
     length: float
@@ -60,7 +60,7 @@ class Capsule:
 
 @dataclass(frozen=True)
 class Sphere:
-    """A sphere centered at its origin, with the radius in metres."""
+    """A sphere centered at its origin, with the radius in meters."""
 
     radius: float
 
@@ -145,7 +145,7 @@ class Link:
 class JointLimits:
     """The limits of a joint, in rad, rad/s and Nm or in m, m/s and N; None for limits that are not given.
 
-    The soft limits are those of a safety controller, which stops the joint before the hard limits.
+    The soft limits belong to a safety controller, which stops the joint before the hard limits.
     """
 
     lower: float | None = None

@@ -54,7 +54,7 @@ class StatePublisher:
         Args:
             stamp: The stamp of the joint state, in nanoseconds.
             names: The joints. Unknown, fixed, planar and floating joints are skipped.
-            positions: A position for each name, in radians or metres.
+            positions: A position for each name, in radians or meters.
 
         Returns:
             The pose of each child link relative to its parent link; nothing if the joints were published less than one

@@ -37,7 +37,7 @@ def parse_urdf(text: str | bytes) -> Robot:
 
     Returns:
         The robot. Its `warnings` contain the faults that do not affect the frames, such as a visual without a shape,
-        and those that ROS accepts, such as a second <origin>; for these, the robot is what ROS makes of them.
+        and faults that ROS accepts, such as a second <origin>, which are interpreted as in ROS.
 
     Raises:
         RobotDescriptionError: The document is not valid URDF, for example because of loops, links with two parents,

@@ -46,13 +46,13 @@ def _answer(request: Mapping[str, Any]) -> dict[str, Any]:
     except Exception as error:  # noqa: BLE001 - Python expressions in the file can raise any exception
         cause = getattr(error, "exc", None) or error  # xacro wraps exceptions
         if isinstance(cause, MemoryError):
-            return {"error": f"xacro: the file needs more than {MAX_MEMORY >> 30} GiB of memory, the limit"}
+            return {"error": f"xacro: the file needs more memory than the maximum of {MAX_MEMORY >> 30} GiB"}
         if isinstance(cause, RecursionError):
             hint = "Check whether a macro or an included file contains itself, directly or through others."
             return {"error": "xacro: the file is nested too deeply to be expanded", "hint": hint}
         return {"error": f"xacro: {_reason(error, cause)}", "hint": getattr(cause, "hint", "")}
     if len(text) > MAX_OUTPUT:
-        return {"error": f"the expanded file has more than {MAX_OUTPUT >> 20} MiB, the limit"}
+        return {"error": f"the expanded file is larger than the maximum of {MAX_OUTPUT >> 20} MiB"}
     return {"text": text}
 
 

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""coframe's tf2 inside a sourced ROS 2: tf2_ros's classes for that ROS's rclpy nodes, with that ROS's messages.
+"""coframe's tf2 inside a sourced ROS 2: tf2_ros's classes for the rclpy nodes and messages of the sourced ROS.
 
 Importing this module replaces the packages tf2_py and tf2_ros of the process with coframe's, so that all packages that
 use them, such as tf2_geometry_msgs, work with the same classes. All other packages remain those of the ROS
-installation. Without a sourced ROS, the classes are those of coframe's tf2_ros.
+installation. Without a sourced ROS, these are the classes of coframe's tf2_ros.
 
 A listener receives transforms in native code, without the interpreter lock and without an executor, through a hidden
 node of coframe in the domain and namespace of the ROS node. This works with every middleware that is based on DDS, and

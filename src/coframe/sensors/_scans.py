@@ -31,7 +31,7 @@ class ScanPoints:
     """The points measured by a laser scan.
 
     Attributes:
-        points: Positions in ``frame`` in metres, shape (N, 3), float64.
+        points: Positions in ``frame`` in meters, shape (N, 3), float64.
         beams: Index of the beam of each point, shape (N,), int32.
         times: Time of each point in nanoseconds, shape (N,), int64.
         intensities: Intensities in the scan, shape (N,), float32; None if it has none.
@@ -50,7 +50,7 @@ class ScanPoints:
     def to_cloud(self) -> Any:
         """Return the points as a PointCloud2 message.
 
-        The class is that of ROS if the scan is a message of a ROS installation. The fields are those of
+        The result is a ROS message if the scan comes from a ROS installation. The fields are those of
         `laser_geometry`: float32 x, y, z, intensity if the scan has intensities, and int32 `index` of the beam.
         """
         cloud_class, field_class = self._classes
@@ -152,7 +152,7 @@ def _directions(start: float, increment: float, count: int) -> NDArray[np.float6
 
 
 def _classes_beside(message: Any) -> tuple[Any, Any]:
-    """Return PointCloud2 and PointField: those of ROS for a message of ROS, otherwise those of coframe."""
+    """Return PointCloud2 and PointField: ROS's classes for a ROS message, otherwise coframe's."""
     if type(message).__module__.startswith("sensor_msgs.msg._"):
         module = importlib.import_module("sensor_msgs.msg")
         return module.PointCloud2, module.PointField

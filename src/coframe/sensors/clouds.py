@@ -78,7 +78,7 @@ def transform_cloud(
 
     Args:
         cloud: A PointCloud2 message; a structured array with the fields x, y, z; or a float32 or float64 array of
-            shape (N, 3) or (rows, columns, 3), or with more columns. Positions are in metres.
+            shape (N, 3) or (rows, columns, 3), or with more columns. Positions are in meters.
         transform: A single :class:`coframe.Transform`, a TransformStamped or Transform message, or a buffer that
             contains the transform: ``transform_cloud(cloud, buffer, "map")``.
         target: Only with a buffer: the frame to transform to.
@@ -90,7 +90,7 @@ def transform_cloud(
             such triples; for a plain array the indices of the columns.
         out: A message or an array of the same shape for the result; its memory is reused if it has the right size.
         in_place: Whether to change ``cloud`` itself.
-        float64: Whether the result has float64 coordinates. float32 rounds them by more than a millimetre from 16 km
+        float64: Whether the result has float64 coordinates. float32 rounds them by more than a millimeter from 16 km
             on, and to 0.5 m in UTM coordinates, of which a :class:`coframe.CoframeWarning` warns.
         threads: Number of threads; more than one helps from about a million points.
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Which frame does not move with a sensor, so that its points can be deskewed in it."""
+"""Find a frame that does not move with a sensor, in which its points can be deskewed."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 __all__ = ["moves", "still_frame"]
 
-_MIN_MOTION = 1e-7  # metres, and parts of a quaternion: more than rounding, less than any motion
+_MIN_MOTION = 1e-7  # meters, and parts of a quaternion: more than rounding, less than any motion
 _MAX_ABOVE = 100  # frames above the target
 _TRIED = 33  # times over all samples
 
@@ -62,7 +62,7 @@ def moves(buffer: _core.Buffer, target: str, source: str, stamps: NDArray[np.int
 
 
 def _poses(buffer: _core.Buffer, target: str, source: str, stamps: NDArray[np.int64]) -> NDArray[np.float64]:
-    """Return the poses at those of these times at which there is one: (N, 7)."""
+    """Return the poses at the times for which there is one: (N, 7)."""
     rows: NDArray[np.float64] = np.full((len(stamps), 7), np.nan)
     try:
         buffer._lookup_rows(target, source, stamps.copy(), rows, None, None, "nan", 1)  # noqa: SLF001

@@ -110,7 +110,7 @@ def times_in(
     if chosen is None:
         raise UnknownTimesError(
             f"the field {name!r} has values from {known.min():.9g} to {known.max():.9g}, whose unit is not known; "
-            f"name it, for example {name}:ms"
+            f"give the unit, for example {name}:ms"
         )
     return chosen
 
@@ -131,7 +131,7 @@ def implausible(times: PointTimes, period: int) -> str:
 
 
 def _most_plausible(readings: list[PointTimes], usual: str, period: int) -> PointTimes | None:
-    """Return the reading in the usual unit if it is plausible, or else the one whose sweep is nearest to the period."""
+    """Return the interpretation in the usual unit if it is plausible, else the one with the most plausible sweep."""
     expected = period or _USUAL_PERIOD
     fitting = [one for one in readings if _is_plausible(one, expected)]
     # Stamps are near that of the message in one unit only.

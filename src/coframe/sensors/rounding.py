@@ -20,25 +20,25 @@ if TYPE_CHECKING:
 __all__ = ["MIN_FAR", "as_float64", "float32_step", "rounding_text", "warn_of_rounding"]
 
 MIN_FAR = 16_384.0
-"""From this distance in metres on, neighbouring float32 numbers differ by more than 1 mm."""
+"""From this distance in meters on, neighboring float32 numbers differ by more than 1 mm."""
 _TRIED = 64  # points that are looked at: those of a cloud are close to each other
-_MIN_MILLIMETRES, _METRE = 0.9995, 1000.0
+_MIN_MILLIMETRES, _METER = 0.9995, 1000.0
 
 
 def float32_step(distance: float) -> float:
-    """Return the distance in metres between a float32 coordinate and the next one."""
+    """Return the distance in meters between a float32 coordinate and the next one."""
     return float(np.spacing(np.float32(distance)))
 
 
 def rounding_text(distance: float) -> str:
     """Return what float32 does to coordinates that are this far from the origin, as the beginning of a sentence."""
-    step = float32_step(distance) * _METRE
-    text = f"{step:.3g} mm" if step < _METRE else f"{step / _METRE:g} m"
+    step = float32_step(distance) * _METER
+    text = f"{step:.3g} mm" if step < _METER else f"{step / _METER:g} m"
     return f"float32 rounds coordinates of {distance:.0f} m to steps of {text}"
 
 
 def farthest(coordinates: Iterable[NDArray[Any]]) -> float:
-    """Return the largest coordinate of some of the points in metres; infinite and NaN are ignored."""
+    """Return the largest coordinate of some of the points in meters; infinite and NaN are ignored."""
     largest = 0.0
     for each in coordinates:
         some = np.abs(each.reshape(-1)[:: max(1, each.size // _TRIED)].astype(np.float64))

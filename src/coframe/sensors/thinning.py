@@ -17,8 +17,8 @@ def thinned(points: NDArray[Any], edge: float) -> NDArray[Any]:
     """Return the first point in each voxel.
 
     Args:
-        points: A structured array with finite x, y, z in metres.
-        edge: Edge length of the voxels in metres.
+        points: A structured array with finite x, y, z in meters.
+        edge: Edge length of the voxels in meters.
 
     Raises:
         ValueError: ``edge`` is not positive, or so small that there are too many voxels to number.

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The examination of DDS: its library, a participant, and what the network and the system grant it."""
+"""The check of DDS: its library, a participant, the network, and system limits."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ def _has_range(environment: Mapping[str, str]) -> bool:
 
 
 def _lines(report: SystemReport) -> Iterator[str]:
-    """Return nothing: the library and the network have sections of their own."""
+    """Return nothing, because the library and the network have separate sections."""
     del report
     yield from ()
 
@@ -94,7 +94,7 @@ def _network(report: SystemReport) -> Iterator[Advice]:
         yield Advice(
             "note",
             f"DDS uses the interface {', '.join(used)} of {', '.join([*used, *others])}.",
-            "Select another one if the robot is reached through it: CYCLONEDDS_URI='<CycloneDDS><Domain><General>"
+            "If the robot is on another interface, select it: CYCLONEDDS_URI='<CycloneDDS><Domain><General>"
             f'<Interfaces><NetworkInterface name="{others[0]}"/></Interfaces></General></Domain></CycloneDDS>\'.',
         )
 
@@ -164,7 +164,7 @@ def _range(report: SystemReport) -> Iterator[Advice]:
         yield Advice(
             "note",
             "CYCLONEDDS_URI overrides the interfaces, peers and limits that coframe sets.",
-            "Unset it to see whether its configuration is the reason.",
+            "Unset it to check whether its configuration is the cause.",
         )
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the examination of a middleware consists of."""
+"""The interface of middleware checks."""
 
 from __future__ import annotations
 
@@ -24,8 +24,8 @@ class Advice:
     Attributes:
         severity: "error": the graph cannot be joined; "warning": some nodes are not found, or messages are lost;
             "note": worth knowing if a node is missing.
-        text: What is the case.
-        action: What to do.
+        text: The problem.
+        action: The recommended action.
     """
 
     severity: Severity
@@ -35,7 +35,7 @@ class Advice:
 
 @dataclass(frozen=True)
 class Problem:
-    """Something that failed: what, and what to do."""
+    """A failed step, and the recommended action."""
 
     text: str
     hint: str
@@ -45,7 +45,7 @@ class Attempts:
     """Runs parts of an examination, whose failures are part of the report.
 
     Attributes:
-        problems: The errors: what failed, and what to do.
+        problems: The failed steps, with recommended actions.
     """
 
     def __init__(self) -> None:
@@ -61,7 +61,7 @@ class Attempts:
 
 
 class Examined(NamedTuple):
-    """What an examination found.
+    """The result of a check.
 
     Attributes:
         joins: Whether a process can join the graph.
@@ -73,7 +73,7 @@ class Examined(NamedTuple):
 
 
 class Examination(NamedTuple):
-    """How a middleware is examined.
+    """The check of a middleware.
 
     Attributes:
         wire: The name of the middleware.

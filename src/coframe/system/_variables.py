@@ -10,8 +10,8 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
 _EFFECTS: Final = {
-    "AMENT_PREFIX_PATH": "folders of a sourced ROS 2: its packages, interfaces and DDS library are found there",
-    "COFRAME_DDS_LIBRARY": "the file of the DDS library; no other place is searched",
+    "AMENT_PREFIX_PATH": "folders of a sourced ROS 2, with its packages, interfaces and DDS library",
+    "COFRAME_DDS_LIBRARY": "the DDS library file; no other place is searched",
     "COFRAME_DISTRO": "selects the ROS 2 distribution that coframe follows, with priority over ROS_DISTRO",
     "COFRAME_ROS2_WIRE": "how coframe.ros2 receives transforms in a sourced ROS 2: native or rclpy",
     "COFRAME_SHARED": "1: listeners of tf2_ros share the transforms with the other processes of this user",
@@ -24,10 +24,10 @@ _EFFECTS: Final = {
     "ROS_AUTOMATIC_DISCOVERY_RANGE": "the range of discovery: OFF, LOCALHOST, SUBNET or SYSTEM_DEFAULT",
     "ROS_DISCOVERY_SERVER": "no effect on coframe; nodes on Fast DDS announce themselves only at this server, so that "
     "coframe does not find them",
-    "ROS_DISTRO": "selects the ROS 2 distribution whose message definitions and behaviour coframe follows",
+    "ROS_DISTRO": "selects the ROS 2 distribution whose message definitions and behavior coframe follows",
     "ROS_DOMAIN_ID": "the domain; only processes in the same domain find each other",
     "ROS_HOME": "the folder of ROS's files, such as log files",
-    "ROS_LOCALHOST_ONLY": "1: communicate on this machine only, with priority over ROS_AUTOMATIC_DISCOVERY_RANGE; 0: "
+    "ROS_LOCALHOST_ONLY": "1: communicate only on this machine, with priority over ROS_AUTOMATIC_DISCOVERY_RANGE; 0: "
     "on the local network",
     "ROS_LOG_DIR": "the folder of log files",
     "ROS_PYTHON_CHECK_FIELDS": "whether the types of message fields are checked when they are set",
@@ -55,7 +55,7 @@ class Variable:
     Attributes:
         name: Its name.
         value: Its value.
-        effect: What it does in coframe.
+        effect: Its effect in coframe.
     """
 
     name: str

@@ -26,7 +26,7 @@ class ZenohProbe:
         configured_by: The environment variables that configure it; empty if it has the defaults.
         connect: The endpoints that it connects to.
         routers: The identifiers of the routers that it has found.
-        peers: How many peers it has found.
+        peers: The number of discovered peers.
     """
 
     version: str

@@ -55,7 +55,7 @@ def _middleware(report: SystemReport) -> Iterator[Advice]:
     if others.protocol != used.protocol:
         yield Advice(
             "note" if implementation is None else "warning",
-            f"coframe uses {used.title}, but ROS 2 nodes that are started in this shell use "
+            f"coframe uses {used.title}, but ROS 2 nodes started in this shell use "
             f"{implementation or others.rmw}: they do not find each other.",
             f"Set RMW_IMPLEMENTATION={used.rmw} and COFRAME_WIRE={used.wire}, or unset both.",
         )

@@ -22,9 +22,9 @@ EXAMINATIONS: Final = (dds_examination.EXAMINATION, zenoh_examination.EXAMINATIO
 
 
 def examination_of(selected: Selection | None) -> Examination:
-    """Return the examination of the selected middleware; that of DDS if the selection is invalid.
+    """Return the check of the selected middleware; the DDS check if the selection is invalid.
 
-    A middleware without a row is examined by joining the graph only.
+    A middleware without a row is checked only by joining the graph.
     """
     if selected is None:
         return dds_examination.EXAMINATION

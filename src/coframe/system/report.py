@@ -49,14 +49,14 @@ class SystemReport:
         library: The DDS library.
         domain: The domain ID; None if ROS_DOMAIN_ID is invalid.
         discovery: The discovery range; None if a variable is invalid.
-        participants: How many participant indexes of the domain are in use on this machine, and how many there are.
-        probe: What a DDS participant does on the network; None if it could not be created or Zenoh is selected.
-        limits: What the system grants.
+        participants: The numbers of used and of all participant indexes of the domain on this machine.
+        probe: The behavior of a DDS participant on the network; None if it could not be created or Zenoh is selected.
+        limits: The limits of the system.
         nodes: The names of the other nodes that were found; None if the graph could not be joined.
-        listened: How long nodes were searched for, in seconds.
+        listened: The duration of the search for nodes, in seconds.
         wire: The selected middleware and why it was selected; None if COFRAME_WIRE is invalid.
-        zenoh: What a Zenoh session connects to; None if it could not be opened or DDS is selected.
-        problems: What failed.
+        zenoh: The connections of a Zenoh session; None if it could not be opened or DDS is selected.
+        problems: The failed steps.
     """
 
     installation: Installation

@@ -337,8 +337,8 @@ class Relay:
         for edge in edges:
             if edge.conflicting_robot:
                 self._warn_once(
-                    f"{edge.robot} and {edge.conflicting_robot} both publish a transform to {edge.child!r}. The one of "
-                    f"{edge.robot} was first and is used ({edge.node} on {edge.source}). Give each robot its own "
+                    f"{edge.robot} and {edge.conflicting_robot} both publish a transform to {edge.child!r}. The "
+                    f"first one, from {edge.robot}, is used ({edge.node} on {edge.source}). Give each robot its own "
                     "prefix, or stop one of the publishers.",
                     f"conflict {edge.child} {edge.conflicting_robot}",
                 )
@@ -348,7 +348,7 @@ class Relay:
         if state == before:
             return
         if state == "gone":
-            self._warn(f"{robot} is gone: no node publishes its transforms any longer, so its frames are stale.")
+            self._warn(f"{robot} is gone: no node publishes its transforms, so its frames are stale.")
         elif state == "stale":
             self._warn(f"{robot} is stale: its publishers are on the graph, but no dynamic transforms arrive.")
         elif before != "waiting":

@@ -10,16 +10,16 @@ from typing import NamedTuple
 __all__ = ["MaxError"]
 
 _NUMBER_AND_UNIT = re.compile(r"\s*(\d+(?:\.\d*)?|\.\d+)\s*([a-z]+)\s*", re.ASCII)
-_METRES = {"um": 1e-6, "mm": 1e-3, "cm": 1e-2, "m": 1.0}
+_METERS = {"um": 1e-6, "mm": 1e-3, "cm": 1e-2, "m": 1.0}
 _RADIANS = {"deg": math.pi / 180, "mrad": 1e-3, "rad": 1.0}
 _MAX_ANGLE = math.pi / 4
 
 
 class MaxError(NamedTuple):
-    """How far an interpolated transform of an edge may be from the original one.
+    """The maximum deviation of an interpolated transform of an edge from the original.
 
     Attributes:
-        distance: The distance between the translations, in metres.
+        distance: The distance between the translations, in meters.
         angle: The angle between the rotations, in radians; at most 45 degrees.
     """
 
@@ -31,7 +31,7 @@ class MaxError(NamedTuple):
         """Return a maximum error from a string or from two numbers.
 
         Args:
-            value: A distance and an angle with their units, such as "1mm,0.1deg", or metres and radians. The units
+            value: A distance and an angle with their units, such as "1mm,0.1deg", or meters and radians. The units
                 are um, mm, cm, m and deg, mrad, rad.
 
         Raises:
@@ -54,7 +54,7 @@ def _parse(text: str) -> tuple[float, float]:
     values: dict[str, float] = {}
     for part in text.split(","):
         match = _NUMBER_AND_UNIT.fullmatch(part)
-        for kind, units in (("distance", _METRES), ("angle", _RADIANS)):
+        for kind, units in (("distance", _METERS), ("angle", _RADIANS)):
             if match and match[2] in units and kind not in values:
                 values[kind] = float(match[1]) * units[match[2]]
                 break

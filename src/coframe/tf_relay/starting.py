@@ -56,7 +56,7 @@ def relay(
         rate: The maximum rate of each edge in Hz. If None, every transform is forwarded. Static transforms are always
             forwarded. With `max_error`, see below.
         max_error: Forward a transform only if interpolation between the forwarded ones would be wrong by more than
-            this on its edge: a distance and an angle, such as ``"1mm,0.1deg"``, or in metres and radians. While a
+            this on its edge: a distance and an angle, such as ``"1mm,0.1deg"``, or in meters and radians. While a
             robot moves, all of its edges are forwarded at least at `rate` (10 Hz if None), else at least every 0.5 s.
             The values of forwarded transforms are not changed. Errors of the edges of a chain add up.
         split: Whether to read the common topic and write to the robots' topics. Each robot receives the frames that

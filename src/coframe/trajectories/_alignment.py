@@ -17,14 +17,15 @@ if TYPE_CHECKING:
 __all__ = ["ALIGNMENTS", "Alignment", "align"]
 
 ALIGNMENTS = ("none", "se3", "sim3")
-MAX_POSITION = 1e100  # metres. Squares of larger numbers overflow, and LAPACK may never return for infinite values.
+MAX_POSITION = 1e100  # meters. Squares of larger numbers overflow, and LAPACK may never return for infinite values.
 
 
 class Alignment(NamedTuple):
-    """A motion with a scale that maps the poses of an estimate to those of a reference.
+    """A rigid motion with a scale that maps the poses of an estimate to a reference.
 
     Attributes:
-        transform: The rotation and the translation in metres, from the frame of the estimate to that of the reference.
+        transform: The rotation and the translation in meters, from the frame of the estimate to the frame of the
+        reference.
         scale: Factor for the positions of the estimate, applied before the transform.
     """
 
@@ -44,12 +45,12 @@ class Alignment(NamedTuple):
 
 
 def align(reference: Transform, estimate: Transform, *, with_scale: bool = False) -> Alignment:
-    """Return the alignment that minimises the squared distances between paired positions.
+    """Return the alignment that minimizes the squared distances between paired positions.
 
     Args:
         reference: A batch of shape (N,), as returned by :func:`associate`.
         estimate: A batch of the same shape.
-        with_scale: Whether to estimate the scale as well, as for a monocular camera.
+        with_scale: Whether to also estimate the scale, as for a monocular camera.
 
     Raises:
         TrajectoryError: The positions do not determine the rotation: fewer than three, or all on one line. Or a
@@ -78,18 +79,18 @@ def check_positions(poses: Transform) -> None:
 def _umeyama(
     points: NDArray[np.float64], targets: NDArray[np.float64], with_scale: bool
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], float]:
-    """Return R, t and c that minimise the sum of |targets - (c R points + t)|^2."""
+    """Return R, t and c that minimize the sum of |targets - (c R points + t)|^2."""
     mean, target_mean = points.mean(axis=0), targets.mean(axis=0)
-    centred = points - mean
-    covariance = (targets - target_mean).T @ centred / len(points)
+    centerd = points - mean
+    covariance = (targets - target_mean).T @ centerd / len(points)
     u, singular, vt = np.linalg.svd(covariance)
     # The rounding error of the sums; for positions on one line, the second singular value is not larger than this.
     if singular[1] <= len(points) * np.finfo(np.float64).eps * singular[0]:
         raise TrajectoryError(
             f"The alignment is not determined: the {len(points)} paired positions are on one line or at one point",
-            hint="Compare without alignment, or use a trajectory with a turn.",
+            hint="Compare without alignment, or use a trajectory with turns.",
         )
     signs = np.array([1.0, 1.0, np.sign(np.linalg.det(u) * np.linalg.det(vt))])
     rotation = (u * signs) @ vt
-    scale = float((singular * signs).sum() / (centred**2).sum(axis=1).mean()) if with_scale else 1.0
+    scale = float((singular * signs).sum() / (centerd**2).sum(axis=1).mean()) if with_scale else 1.0
     return rotation, target_mean - scale * rotation @ mean, scale

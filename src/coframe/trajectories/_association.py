@@ -58,7 +58,7 @@ def associate(
         raise TrajectoryError(
             f"No stamps of the two trajectories are within {duration(limit)} of each other: the reference has stamps "
             f"from {spans[0]}, the estimate from {spans[1]}",
-            hint="Are both on the same clock? If so, allow a larger difference.",
+            hint="If both use the same clock, allow a larger difference.",
         )
     if is_estimate_longer:
         return reference[in_short], estimate[in_long]

@@ -31,11 +31,11 @@ def looks_like_seconds(stamps: NDArray[np.int64]) -> bool:
 
 
 def findings(stamps: NDArray[np.int64], positions: NDArray[np.float64], xyzw: NDArray[np.float64]) -> Iterator[str]:
-    """Yield what is suspicious, one sentence each.
+    """Yield one sentence for each suspicious property.
 
     Args:
         stamps: (N,) nanoseconds.
-        positions: (N, 3) metres.
+        positions: (N, 3) meters.
         xyzw: (N, 4) quaternions as they were read.
     """
     steps = np.diff(stamps)

@@ -21,7 +21,7 @@ _UNITS = {"n": 1, "u": 1_000, "m": 1_000_000, "s": SECOND}  # by the first lette
 
 
 class Columns(NamedTuple):
-    """Where the values of a pose are in a row.
+    """The positions of the values of a pose in a row.
 
     Attributes:
         stamp: Index of the time.

@@ -25,19 +25,19 @@ if TYPE_CHECKING:
 __all__ = ["Comparison", "Delta", "PoseErrors", "Statistics", "compare_trajectories", "parse_delta"]
 
 _NUMBER = re.compile(r"\s*(\d+(?:\.\d*)?|\.\d+)\s*([a-z]*)\s*", re.ASCII)
-_FRAMES, _METRES = {"", "f", "frame", "frames"}, {"m", "metre", "metres", "meter", "meters"}
+_FRAMES, _METERS = {"", "f", "frame", "frames"}, {"m", "meter", "meters", "metre", "metres"}
 
 
 class Delta(NamedTuple):
     """The distance between the two poses of a relative error.
 
     Attributes:
-        value: A number of poses, metres along the path of the estimate, or seconds between the stamps.
-        unit: ``frames``, ``metres`` or ``seconds``.
+        value: A number of poses, meters along the path of the estimate, or seconds between the stamps.
+        unit: ``frames``, ``meters`` or ``seconds``.
     """
 
     value: float
-    unit: Literal["frames", "metres", "seconds"] = "frames"
+    unit: Literal["frames", "meters", "seconds"] = "frames"
 
     def __str__(self) -> str:
         if self.unit == "frames":
@@ -58,7 +58,7 @@ class Statistics(NamedTuple):
 
     @classmethod
     def of(cls, errors: NDArray[np.float64]) -> Statistics:
-        """Return the statistics of at least one error; ``std`` is that of the population, as in NumPy."""
+        """Return the statistics of at least one error; ``std`` is the population standard deviation, as in NumPy."""
         squares = errors**2
         return cls(
             rmse=float(np.sqrt(squares.mean())),
@@ -76,7 +76,7 @@ class PoseErrors:
     """The errors of poses, or of motions between two poses.
 
     Attributes:
-        translation: Distances in metres, (N,).
+        translation: Distances in meters, (N,).
         rotation: Angles in radians, (N,).
         index: The index of the pose to which each error belongs, (N,); for a motion, its later pose.
     """
@@ -87,7 +87,7 @@ class PoseErrors:
 
     @property
     def translation_statistics(self) -> Statistics:
-        """The statistics of the distances, in metres."""
+        """The statistics of the distances, in meters."""
         return Statistics.of(self.translation)
 
     @property
@@ -117,7 +117,7 @@ class Comparison:
     delta: Delta
 
     def as_dict(self) -> dict[str, Any]:
-        """Return the statistics and the alignment as a dictionary for JSON; metres and radians."""
+        """Return the statistics and the alignment as a dictionary for JSON; meters and radians."""
         aligned = self.alignment and {
             "translation": self.alignment.transform.translation.tolist(),
             "quaternion": self.alignment.transform.quaternion.tolist(),
@@ -149,7 +149,7 @@ def compare_trajectories(
     Args:
         reference: A batch of shape (N,), such as from :func:`read_trajectory` or :meth:`coframe.Buffer.trajectory`.
         estimate: A batch of shape (M,). The names of the frames are not compared.
-        align: ``none``, ``se3`` for a rigid motion of the estimate, ``sim3`` to scale it as well.
+        align: ``none``, ``se3`` for a rigid motion of the estimate, ``sim3`` to also scale it.
         max_difference: The maximum difference between the stamps of two compared poses.
         delta: A number of poses, or a string for :func:`parse_delta`.
 
@@ -185,25 +185,25 @@ def compare_trajectories(
 
 
 def parse_delta(text: str) -> Delta:
-    """Parse the distance between the poses of a relative error: ``10`` (poses), ``0.5m`` (metres), ``100ms``.
+    """Parse the distance between the poses of a relative error: ``10`` (poses), ``0.5m`` (meters), ``100ms``.
 
     Raises:
         ValueError: The text is none of these, or is not positive.
 
     Example:
         >>> parse_delta("10"), parse_delta("0.5m").unit, parse_delta("100ms").value
-        (Delta(value=10, unit='frames'), 'metres', 0.1)
+        (Delta(value=10, unit='frames'), 'meters', 0.1)
     """
     match = _NUMBER.fullmatch(text)
-    if match and match[2] in _FRAMES | _METRES:
+    if match and match[2] in _FRAMES | _METERS:
         value = float(match[1])
-        is_metres = match[2] in _METRES
-        if value > 0 and (is_metres or value.is_integer()):
-            return Delta(value, "metres") if is_metres else Delta(int(value))
+        is_meters = match[2] in _METERS
+        if value > 0 and (is_meters or value.is_integer()):
+            return Delta(value, "meters") if is_meters else Delta(int(value))
     elif match and (nanoseconds := duration_ns(text)) > 0:
         return Delta(nanoseconds / SECOND, "seconds")
     raise ValueError(
-        f"{text!r} is not a distance between poses: write a positive number of poses (10), metres (0.5m) or a duration "
+        f"{text!r} is not a distance between poses: write a positive number of poses (10), meters (0.5m) or a duration "
         "(100ms)"
     )
 
@@ -264,7 +264,7 @@ def _ends(poses: Transform, stamps: NDArray[np.int64] | None, delta: Delta) -> N
         if stamps is None:
             raise TrajectoryError(
                 f"The trajectories have no stamps, so no poses are {delta} apart",
-                hint="Give the delta as a number of poses or in metres.",
+                hint="Give the delta as a number of poses or in meters.",
             )
         steps: list[float] = np.diff(stamps).tolist()
         limit: float = round(delta.value * SECOND)

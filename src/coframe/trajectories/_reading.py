@@ -65,14 +65,14 @@ def read_trajectory(
 ) -> Transform:
     """Read the poses in a trajectory file.
 
-    The names in a header line, such as ``timestamp[ns],x,y,z,qw,qx,qy,qz``, decide which column is which.
+    The names in a header line, such as ``timestamp[ns],x,y,z,qw,qx,qy,qz``, determine the columns.
 
     Args:
         path: The file.
         format_: ``tum``, ``kitti``, ``euroc``, ``csv`` or ``npz``; None detects it from the contents, because EuRoC and
             CSV have the same suffix.
         report: Called with a sentence for each suspicious property: times that do not increase, quaternions whose norm
-            is not 1, rotations that fit the path better in another order, and rows of NaN, which are left out. None:
+            is not 1, rotations that fit the path better in another order, and rows of NaN, which are skipped. None:
             a Python warning.
 
     Returns:
@@ -124,7 +124,7 @@ def _read_text(file: Path, lines: Iterable[str], kind: str | None) -> _Poses:
 
 
 class _Rows:
-    """The rows of a text file; a header line or the first row decides which column is which."""
+    """The rows of a text file; a header line or the first row determines the columns."""
 
     def __init__(self, file: Path, kind: str | None) -> None:
         self._file = file
@@ -164,7 +164,7 @@ class _Rows:
             raise TrajectoryError(f"{self._file}, line {line}: not a row of numbers: {text[:80]!r}") from None
 
     def _begin(self, line: int, text: str, cells: Sequence[str]) -> None:
-        """Decide the format from the header line and the first row."""
+        """Determine the format from the header line and the first row."""
         has_commas = split(text) != text.split()
         self._cells = len(cells)
         if self._named is not None and self._cells > max(self._named.stamp, *self._named.pose):
@@ -183,7 +183,7 @@ class _Rows:
         self._times = _Times(SECOND if kind == "tum" else 1)
 
     def poses(self) -> _Poses:
-        """Return the poses and what is suspicious about them."""
+        """Return the poses and their suspicious properties."""
         if not self._cells:
             raise TrajectoryError(f"{self._file} contains no poses", hint=_LAYOUTS)
         numbers = np.frombuffer(self._numbers)
@@ -245,12 +245,12 @@ def _checked(
     target: str | None = None,
     source: str | None = None,
 ) -> _Poses:
-    """Return the poses and what is suspicious about them; rows of NaN, which have no pose, are left out."""
+    """Return the poses and their suspicious properties, without rows of NaN."""
     without = np.isnan(rows[:, :3]).all(axis=1)
     rows, stamps = rows[~without], stamps[~without]
     if not len(rows):
         raise TrajectoryError(f"{file} contains no poses", hint="All its rows are NaN.")
-    sentences = [f"{count(int(without.sum()), 'row')} of NaN left out"] if without.any() else []
+    sentences = [f"{count(int(without.sum()), 'row')} of NaN skipped"] if without.any() else []
     sentences += findings(stamps, rows[:, :3], rows[:, 3:])
     return Transform(rows[:, :3], rows[:, 3:], target=target, source=source, stamp=stamps), sentences
 
@@ -303,7 +303,7 @@ def _read_npz(file: Path, stream: BinaryIO) -> _Poses:
 def _check_number(file: Path, poses: int) -> None:
     if poses > MAX_POSES:
         raise TrajectoryError(
-            f"{file} has more than {MAX_POSES} poses, the limit",
+            f"{file} has more than the maximum of {MAX_POSES} poses",
             hint="Split the file, or write it at a lower rate, such as with `coframe trajectory --rate 100`.",
         )
 

@@ -49,7 +49,7 @@ def format_of(path: str | os.PathLike[str]) -> str:
     """Return the format for a file name.
 
     Raises:
-        ValueError: The suffix does not belong to a known format.
+        ValueError: The suffix is unknown.
     """
     suffix = Path(path).suffix.lower()
     if suffix not in _SUFFIXES:

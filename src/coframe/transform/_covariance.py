@@ -2,7 +2,7 @@
 """Covariances of poses in other frames.
 
 A covariance has the layout of ROS's PoseWithCovariance: (6, 6), or 36 numbers in row-major order, over x, y, z in
-metres and small rotations about the fixed axes x, y, z in radians, all expressed in the frame of the pose.
+meters and small rotations about the fixed axes x, y, z in radians, all expressed in the frame of the pose.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ def transform_covariance(
 
     Args:
         rotation: Rotation matrix of the transform, shape (..., 3, 3).
-        position: Position of the pose in the source frame, in metres, shape (..., 3).
+        position: Position of the pose in the source frame, in meters, shape (..., 3).
         covariance: Covariance of the pose, shape (..., 6, 6) or (..., 36).
         own_covariance: Covariance of the transform itself, in the same shapes; None if it is exactly known.
 

@@ -29,7 +29,7 @@ class StepLimits:
     """Maximum step between two successive poses.
 
     Attributes:
-        max_translation: Distance in metres; None for no limit.
+        max_translation: Distance in meters; None for no limit.
         max_rotation: Angle in radians; None for no limit.
 
     Raises:

@@ -44,7 +44,7 @@ class Transform(_core.Transform):
     qw, as ``transform.values``.
 
     Args:
-        translation: Position of the origin of ``source`` in ``target``, in metres, shape (..., 3).
+        translation: Position of the origin of ``source`` in ``target``, in meters, shape (..., 3).
         quaternion: Rotation as x, y, z, w, shape (..., 4); it is normalized.
         target: The frame of the transformed coordinates.
         source: The frame of the coordinates to transform.
@@ -81,7 +81,7 @@ class Transform(_core.Transform):
             super().__init__(*values, target, source, nanoseconds, None)
             return
         t = _vectors(translation, 3, "translation")
-        q = _normalised(_vectors(quaternion, 4, "quaternion"))
+        q = _normalized(_vectors(quaternion, 4, "quaternion"))
         if t.ndim == 1 and q.ndim == 1:
             nanoseconds = None if stamp is None else stamp_ns(stamp)
             (x, y, z), (qx, qy, qz, qw) = t.tolist(), q.tolist()
@@ -109,7 +109,7 @@ class Transform(_core.Transform):
         """Create a transform from roll, pitch and yaw: rotations about the fixed axes x, then y, then z (REP 103).
 
         Args:
-            translation: Position in metres, shape (..., 3).
+            translation: Position in meters, shape (..., 3).
             rpy: Roll, pitch, yaw in radians, shape (..., 3); alternatively, pass the angles by name.
             roll: Rotation about x in radians, shape (...); 0 if not given.
             pitch: Rotation about y in radians, shape (...); 0 if not given.
@@ -149,7 +149,7 @@ class Transform(_core.Transform):
         """Create a transform from homogeneous matrices.
 
         Args:
-            matrix: Shape (..., 4, 4), with translations in metres.
+            matrix: Shape (..., 4, 4), with translations in meters.
             target: The target frame.
             source: The source frame.
             stamp: Time, as in :class:`Transform`.
@@ -192,7 +192,7 @@ class Transform(_core.Transform):
 
         Args:
             rotation: A ``scipy.spatial.transform.Rotation``, single or with batch axes.
-            translation: Position in metres, shape (..., 3).
+            translation: Position in meters, shape (..., 3).
             target: The target frame.
             source: The source frame.
             stamp: Time, as in :class:`Transform`.
@@ -210,7 +210,7 @@ class Transform(_core.Transform):
         """Return the rotation as a SciPy object, and the translation.
 
         Returns:
-            A ``scipy.spatial.transform.Rotation`` and the translation in metres, shape (..., 3): the arguments of
+            A ``scipy.spatial.transform.Rotation`` and the translation in meters, shape (..., 3): the arguments of
             :meth:`from_scipy`.
 
         Raises:
@@ -225,7 +225,7 @@ class Transform(_core.Transform):
 
     @property
     def translation(self) -> Array:
-        """Position of the source frame in the target frame, in metres; shape (3,), for a batch (..., 3)."""
+        """Position of the source frame in the target frame, in meters; shape (3,), for a batch (..., 3)."""
         return _frozen(self.values[:3]) if self._batch is None else self._batch[0]
 
     @property
@@ -240,7 +240,7 @@ class Transform(_core.Transform):
 
     @property
     def extrapolated(self) -> int | NDArray[np.int64]:
-        """How far the lookup extrapolated beyond the samples, in nanoseconds; for a batch of shape ``self.shape``."""
+        """The time by which the lookup extrapolated, in nanoseconds; for a batch, an array of shape ``self.shape``."""
         if self._batch is None:
             return self._beyond
         if self._batch[3] is None:
@@ -269,17 +269,17 @@ class Transform(_core.Transform):
 
     @property
     def x(self) -> Any:
-        """Position along x in metres, as a float; for a batch an array of shape ``self.shape``."""
+        """Position along x in meters, as a float; for a batch an array of shape ``self.shape``."""
         return self._component(self.translation, 0)
 
     @property
     def y(self) -> Any:
-        """Position along y in metres, as a float; for a batch an array of shape ``self.shape``."""
+        """Position along y in meters, as a float; for a batch an array of shape ``self.shape``."""
         return self._component(self.translation, 1)
 
     @property
     def z(self) -> Any:
-        """Position along z in metres, as a float; for a batch an array of shape ``self.shape``."""
+        """Position along z in meters, as a float; for a batch an array of shape ``self.shape``."""
         return self._component(self.translation, 2)
 
     @property
@@ -298,7 +298,7 @@ class Transform(_core.Transform):
         return self._component(self.rpy, 2)
 
     def __array__(self, dtype: DTypeLike | None = None, copy: bool | None = None) -> NDArray[Any]:
-        """Return the poses as a new array of shape (..., 7): x, y, z in metres and qx, qy, qz, qw.
+        """Return the poses as a new array of shape (..., 7): x, y, z in meters and qx, qy, qz, qw.
 
         Raises:
             ValueError: ``copy`` is False, but a transform is not stored as one array.
@@ -331,7 +331,7 @@ class Transform(_core.Transform):
         Batch axes are broadcast against each other and against all axes of the points but the last.
 
         Args:
-            other: A transform, or points of shape (..., 3) in metres.
+            other: A transform, or points of shape (..., 3) in meters.
 
         Returns:
             A transform, or the points in ``target``.
@@ -372,11 +372,11 @@ class Transform(_core.Transform):
         """Transform points from ``source`` to ``target``, like ``self @ point``.
 
         Args:
-            point: Points in metres, shape (..., 3), or an object with the attributes x, y and z, such as a
+            point: Points in meters, shape (..., 3), or an object with the attributes x, y and z, such as a
                 geometry_msgs/Point.
 
         Returns:
-            The points expressed in ``target``, in metres, shape (..., 3).
+            The points expressed in ``target``, in meters, shape (..., 3).
 
         Raises:
             TypeError: ``point`` is a transform.
@@ -401,7 +401,7 @@ class Transform(_core.Transform):
         Args:
             pose: Pose expressed in ``source``, as a transform from the frame of the posed object.
             covariance: Covariance of the pose as in ROS's PoseWithCovariance, shape (..., 6, 6) or (..., 36): x, y, z
-                in metres and rotations about the fixed axes x, y, z in radians, expressed in ``source``.
+                in meters and rotations about the fixed axes x, y, z in radians, expressed in ``source``.
             own_covariance: Covariance of this transform itself, expressed in ``target``; None if it is exactly known,
                 as in tf2.
 
@@ -423,7 +423,7 @@ class Transform(_core.Transform):
 
         Args:
             other: The other transform, with batch axes that broadcast.
-            translation: Maximum distance in metres.
+            translation: Maximum distance in meters.
             rotation: Largest angle in radians.
         """
         apart = np.linalg.norm(self.translation - other.translation, axis=-1)
@@ -549,7 +549,7 @@ def _rebuild(
     batch: Any,
     beyond: int = 0,
 ) -> Transform:
-    """Return a transform with exactly these values; unlike the constructor, this does not normalise again."""
+    """Return a transform with exactly these values; unlike the constructor, this does not normalize again."""
     transform = Transform.__new__(Transform)
     _core.Transform.__init__(transform, *values, target, source, stamp, batch, beyond)
     return transform
@@ -604,7 +604,7 @@ def _points(values: ArrayLike) -> Array:
     return points
 
 
-def _normalised(q: Array) -> Array:
+def _normalized(q: Array) -> Array:
     with np.errstate(over="ignore"):
         length = np.sqrt((q * q).sum(axis=-1, keepdims=True))
     if not ((length > _SHORT) & (length < _LONG)).all():  # The squares overflow or underflow.

@@ -28,7 +28,7 @@ class Frame:
         children: The frames that are drawn below it, by name.
         edges: The statistics of the edge from its parent, one entry per publisher.
         other_edges: The statistics of the edges from other parents. A tree can contain only one of these edges.
-        silence: How long no transform was received for the frame, if its edge is stale; else None.
+        silence: The time since the last transform of the frame, if its edge is stale; else None.
         offset: How far the stamps of its edge are off, if the doctor reports it (TF008, TF009); else None.
     """
 
@@ -54,7 +54,7 @@ class Frame:
 
     @property
     def kind(self) -> str:
-        """How it is drawn: ``root``, ``stale``, ``static`` or ``moving``."""
+        """The kind of drawing: ``root``, ``stale``, ``static`` or ``moving``."""
         if self.is_root:
             return "root"
         if self.silence is not None:

@@ -20,8 +20,8 @@ if TYPE_CHECKING:
 __all__ = ["Box", "Label", "Line", "TreeLayout", "draw"]
 
 INK, FAINT, ALARM = "#1a1a1a", "#4a5560", "#b3261e"
-# The colours of the fill and the border by kind of frame.
-_COLOURS = {
+# The colors of the fill and the border by kind of frame.
+_COLORS = {
     "root": ("#fff6da", "#9a6b00"),
     "moving": ("#e8f1fd", "#1d5fae"),
     "static": ("#f1f3f5", "#7b8794"),
@@ -51,7 +51,7 @@ class Line(NamedTuple):
     """Straight lines from point to point."""
 
     points: tuple[tuple[float, float], ...]
-    colour: str
+    color: str
     dashed: bool = False
 
 
@@ -62,7 +62,7 @@ class Label(NamedTuple):
     y: float
     text: str
     size: float
-    colour: str = INK
+    color: str = INK
     bold: bool = False
 
 
@@ -75,7 +75,7 @@ class TreeLayout(NamedTuple):
 
 
 class _Block(NamedTuple):
-    """The lines of text of a frame with their colours, and the size of its box."""
+    """The lines of text of a frame with their colors, and the size of its box."""
 
     name: str
     lines: list[tuple[str, str]]
@@ -157,7 +157,7 @@ def _columns(tree: list[Frame], blocks: dict[str, _Block]) -> list[float]:
 def _place(tree: list[Frame], blocks: dict[str, _Block], top: float, places: dict[str, _Place]) -> float:
     """Place the frames of a tree, and return its lower end.
 
-    A frame has as much height as all its children, or its own height if that is larger, and is centred between its
+    A frame has as much height as all its children, or its own height if that is larger, and is centerd between its
     first and last child.
     """
     columns = _columns(tree, blocks)
@@ -210,11 +210,11 @@ def _alarming_edges(forest: Forest, places: dict[str, _Place]) -> Iterator[Line]
 
 
 def _frame(frame: Frame, block: _Block, place: _Place) -> Iterator[Box | Label]:
-    yield Box(*place, *_COLOURS[frame.kind], title=frame.name)
+    yield Box(*place, *_COLORS[frame.kind], title=frame.name)
     base = place.y + _PAD / 2 + _NAME
     yield Label(place.x + _PAD, base, block.name, _NAME, bold=True)
-    for number, (line, colour) in enumerate(block.lines, 1):
-        yield Label(place.x + _PAD, base + number * _SMALL * _LEADING, line, _SMALL, colour)
+    for number, (line, color) in enumerate(block.lines, 1):
+        yield Label(place.x + _PAD, base + number * _SMALL * _LEADING, line, _SMALL, color)
 
 
 def _legend(top: float) -> Iterator[Box | Label]:
@@ -225,6 +225,6 @@ def _legend(top: float) -> Iterator[Box | Label]:
         ("static", "static"),
         ("stale", "stale: no recent transform"),
     ):
-        yield Box(x, top, 18.0, 12.0, *_COLOURS[kind])
+        yield Box(x, top, 18.0, 12.0, *_COLORS[kind])
         yield Label(x + 24.0, top + 10.0, text, _SMALL, FAINT)
         x += 44.0 + _width(text, _SMALL)

@@ -23,7 +23,7 @@ class Change(NamedTuple):
         kind: ``new``, ``gone``, ``moved`` (it has another parent), ``stale``, or ``resumed`` (it is published
             again).
         frame: The frame.
-        text: A description without a full stop.
+        text: A description without a period.
     """
 
     kind: str

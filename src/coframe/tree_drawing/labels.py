@@ -26,7 +26,7 @@ def figures(frame: Frame) -> list[str]:
 
 
 def alarms(frame: Frame) -> list[str]:
-    """Return what is wrong with the position of a frame: it is in a loop, is stale, or also has other parents."""
+    """Return problems with the position of a frame: it is in a loop, is stale, or also has other parents."""
     found = [f"in a loop: below {shown(frame.parent)}"] if frame.is_root and frame.parent else []
     if frame.silence is not None:
         found.append(f"stale: no transform for {duration(frame.silence)}")

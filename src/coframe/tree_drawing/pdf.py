@@ -65,7 +65,7 @@ def _draw(page: pydyf.Stream, shape: Box | Line | Label) -> None:
         page.rectangle(shape.x, shape.y, shape.width, shape.height)
         page.fill_and_stroke()
     elif isinstance(shape, Line):
-        page.set_color_rgb(*_rgb(shape.colour), stroke=True)
+        page.set_color_rgb(*_rgb(shape.color), stroke=True)
         page.set_dash([6, 4] if shape.dashed else [], 0)
         page.move_to(*shape.points[0])
         for point in shape.points[1:]:
@@ -73,7 +73,7 @@ def _draw(page: pydyf.Stream, shape: Box | Line | Label) -> None:
         page.stroke()
         page.set_dash([], 0)
     else:
-        page.set_color_rgb(*_rgb(shape.colour))
+        page.set_color_rgb(*_rgb(shape.color))
         page.begin_text()
         page.set_font_size("B" if shape.bold else "F", shape.size)
         page.set_text_matrix(1, 0, 0, -1, shape.x, shape.y)
@@ -81,8 +81,8 @@ def _draw(page: pydyf.Stream, shape: Box | Line | Label) -> None:
         page.end_text()
 
 
-def _rgb(colour: str) -> tuple[float, float, float]:
-    red, green, blue = bytes.fromhex(colour.removeprefix("#"))
+def _rgb(color: str) -> tuple[float, float, float]:
+    red, green, blue = bytes.fromhex(color.removeprefix("#"))
     return red / 255, green / 255, blue / 255
 
 

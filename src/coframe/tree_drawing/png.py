@@ -57,7 +57,7 @@ def _draw(axes: Axes, shape: Box | Line | Label) -> None:
         axes.add_patch(box)
     elif isinstance(shape, Line):
         x, y = zip(*shape.points, strict=True)
-        line = Line2D(x, y, color=shape.colour, linewidth=_POINT)
+        line = Line2D(x, y, color=shape.color, linewidth=_POINT)
         if shape.dashed:
             line.set_dashes((6, 4))
         axes.add_line(line)
@@ -66,7 +66,7 @@ def _draw(axes: Axes, shape: Box | Line | Label) -> None:
             shape.x,
             shape.y,
             shape.text,
-            color=shape.colour,
+            color=shape.color,
             fontfamily=_FONT,
             fontsize=shape.size * _POINT * _FONT_SCALE,
             fontweight="bold" if shape.bold else "normal",

@@ -40,10 +40,10 @@ def _shape(shape: Box | Line | Label) -> str:
     if isinstance(shape, Line):
         points = " ".join(f"{x:.1f},{y:.1f}" for x, y in shape.points)
         dashes = ' stroke-dasharray="6 4"' if shape.dashed else ""
-        return f'<polyline points="{points}" fill="none" stroke="{shape.colour}"{dashes}/>'
+        return f'<polyline points="{points}" fill="none" stroke="{shape.color}"{dashes}/>'
     weight = ' font-weight="bold"' if shape.bold else ""
     return (
-        f'<text x="{shape.x:.1f}" y="{shape.y:.1f}" font-size="{shape.size:g}" fill="{shape.colour}"{weight} '
+        f'<text x="{shape.x:.1f}" y="{shape.y:.1f}" font-size="{shape.size:g}" fill="{shape.color}"{weight} '
         f'xml:space="preserve">{_text(shape.text)}</text>'
     )
 

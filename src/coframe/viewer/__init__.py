@@ -8,10 +8,10 @@ Subpackages; each imports only those above it in this list:
     sources: The ROS graph, a recording or a buffer.
     scene: Poses, statistics, the timeline and relations of a buffer's frames.
     displays: Messages converted to drawings.
-    scripting: What a Python program adds to the scene and the page.
-    robots, rviz, tools: Robot descriptions, RViz configuration files, and what the page's tools publish.
+    scripting: Scene nodes and widgets that a Python program adds.
+    robots, rviz, tools: Robot descriptions, RViz configuration files, and the publishers of the page's tools.
     replay: A span of time as one HTML file.
-    clients: What each connected tab shows, requests and receives.
+    clients: The state, requests and updates of each connected tab.
     server: HTTP and WebSockets.
 """
 

@@ -42,7 +42,7 @@ text.then((page) => {{ document.open(); document.write(page); document.close(); 
 
 
 def suitable_inline(environment: Mapping[str, str] = os.environ) -> Inline:
-    """Return what a notebook can show: the running viewer only if its user has a browser on this machine.
+    """Return the suitable display of a notebook: the running viewer only if its user has a browser on this machine.
 
     Args:
         environment: The environment variables.

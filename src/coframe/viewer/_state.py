@@ -44,7 +44,7 @@ _MAX_PREPARED_REPLAYS = 8
 
 
 class ViewerState:
-    """What all clients share; used by one thread, apart from the nodes and widgets.
+    """The state that all clients share; used by one thread, apart from the nodes and widgets.
 
     Args:
         source: The source of transforms and messages.

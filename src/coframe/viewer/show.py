@@ -49,7 +49,7 @@ class Viewer:
         export: Returns the HTML file of a replay of a source.
         host: The address to listen on.
         port: The port; see :func:`show`.
-        inline: What a notebook displays; see :func:`show`.
+        inline: The display in a notebook; see :func:`show`.
     """
 
     def __init__(
@@ -88,7 +88,7 @@ class Viewer:
 
     @property
     def scene(self) -> SceneApi:
-        """What the program draws in the scene: points, lines, meshes, text, images and axes."""
+        """The objects that the program draws in the scene: points, lines, meshes, text, images and axes."""
         return self._scene
 
     @property
@@ -165,14 +165,15 @@ def show(
         source: A :class:`coframe.Buffer` or a ``tf2_ros.Buffer``, a :class:`coframe.Transform`, a connection to the
             ROS graph (:func:`coframe.connect`), a recording (:func:`coframe.open_bag`) or the path of one. A batch of
             transforms is a motion if it has stamps, otherwise one frame for each transform.
-        fixed: The fixed frame; by default that of the .rviz file, or the root of the largest tree.
+        fixed: The fixed frame; by default the one in the .rviz file, or the root of the largest tree.
         rviz: A configuration file of RViz 2 or RViz 1.
         robot: A robot, or its URDF or xacro file, shown in addition to those on ``/robot_description``.
-        mesh_roots: Folders below which meshes may be fetched, in addition to those of ROS packages.
+        mesh_roots: Folders from which meshes may be loaded, in addition to ROS packages.
         host: The address to listen on. If other machines can reach it, ``url`` contains a token that they need.
         port: The port; None selects 7676, or any free port if it is in use; 0 selects any free port.
         joint_states: The topic on which the sliders of a robot's joints publish.
-        inline: What a notebook displays: the running ``"viewer"``, or a ``"replay"``, which needs no connection to this
+        inline: The display in a notebook: the running ``"viewer"``, or a ``"replay"``, which needs no connection to
+        this
             process and is saved with the notebook. By default the running viewer, and a replay where the browser cannot
             reach it: in Colab, Kaggle, VS Code, JupyterHub, containers, over SSH, and where a program such as nbconvert
             executes the notebook.

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a middleware provides: a session in a ROS domain, its endpoints, and the graph.
+"""The interface of a middleware: a session in a ROS domain, its endpoints, and the graph.
 
 `coframe.wire.dds` and `coframe.wire.zenoh` implement these protocols. Everything above them is the same for both. The
 endpoints of DDS are the native classes themselves, so that DDS messages pass through no extra layer.
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 
 class QueueLimits(NamedTuple):
-    """Limits on what a `BackendTap` queues.
+    """Limits of the queue of a `BackendTap`.
 
     Attributes:
         head: The number of bytes to keep of each message.
@@ -88,7 +88,7 @@ class BackendWriter(BackendEndpoint, Protocol):
             codec: The codec of the message class.
             closed: When this is set, the function sends nothing and returns False.
             failure: Returns the exception to raise, given the text of an error.
-            of_items: Whether the function takes the items of the message's only field in place of a message.
+            of_items: Whether the function takes the items of the message's only field instead of a message.
         """
 
     def assert_liveliness(self) -> None:
@@ -105,7 +105,7 @@ class BackendReader(BackendEndpoint, Protocol):
         """Return up to `limit` messages: bytes, time of publication in ns since 1970, the writer's handle."""
 
     def take_decoded(self, limit: int, codec: _core.MessageCodec) -> list[tuple[Any, int, int]]:
-        """Return what `take` returns, with messages in place of their bytes where the middleware can decode them."""
+        """Return the result of `take`, with messages instead of bytes if the middleware can decode them."""
 
     @property
     def pending(self) -> bool:
@@ -131,7 +131,7 @@ class BackendTap(BackendEndpoint, Protocol):
 
 
 class BackendTfReader(BackendEndpoint, Protocol):
-    """A subscription that stores transforms in a buffer without the GIL; the methods are those of `_core.TfReader`."""
+    """A subscription that stores transforms in a buffer without the GIL; it has the methods of `_core.TfReader`."""
 
     @property
     def stored_at(self) -> int: ...
@@ -146,7 +146,7 @@ class BackendTfReader(BackendEndpoint, Protocol):
 
 
 class Middleware(Protocol):
-    """A middleware, a row of `coframe.wire.selection`. It imports what it needs only when it is used."""
+    """A middleware, a row of `coframe.wire.selection`. It imports its dependencies when it is first used."""
 
     @property
     def variables(self) -> Sequence[str]:
@@ -159,7 +159,7 @@ class Middleware(Protocol):
         """Raise a `WireError` if it is not installed, without importing it."""
 
     def network(self, environment: Mapping[str, str]) -> str:
-        """Return a text that is equal for two environments if processes in both join the same network.
+        """Return a string that is equal for two environments if processes in both join the same network.
 
         Raises:
             WireError: An environment variable has an invalid value.

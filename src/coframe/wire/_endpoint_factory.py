@@ -234,7 +234,7 @@ class EndpointFactory:
             topic: The fully qualified name of the topic, such as "/tf".
             buffer: The buffer that stores the transforms.
             static: Whether the transforms are static.
-            qos: The requested quality of service. If None, it is that of tf2's listener.
+            qos: The requested quality of service. If None, tf2's listener QoS is used.
             authority: The authority that the buffer records for the transforms. If None, it is the publishing node.
             renaming: The renaming of frames (see `coframe.frame_names.renaming`). If None, frames keep their names.
             on_data: An event that is set whenever a status changes, and by the next message after `TfReader.arm`.

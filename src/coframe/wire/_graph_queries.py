@@ -40,7 +40,7 @@ class GraphQueries:
         return self._graph.types(("request", "reply"))
 
     def dds_topics(self) -> dict[str, list[str]]:
-        """Return all DDS topics and their DDS types, including those of services and of programs without ROS."""
+        """Return all DDS topics and their DDS types, including topics of services and of programs without ROS."""
         self._graph.refresh()
         found: dict[str, set[str]] = {}
         for writers in (True, False):

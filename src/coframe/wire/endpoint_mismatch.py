@@ -27,7 +27,7 @@ _QOS = {
         "Request best-effort (qos_profile_sensor_data), or make the publisher reliable.",
     ),
     "durability": ("volatile", "transient-local", "Request volatile, or make the publisher transient-local."),
-    "deadline": ("a longer deadline", "a shorter deadline", "Use a deadline of at least that of the publisher."),
+    "deadline": ("a longer deadline", "a shorter deadline", "Use a deadline at least as long as the publisher's."),
     "liveliness": (
         "a weaker liveliness or a longer lease",
         "a stronger liveliness or a shorter lease",

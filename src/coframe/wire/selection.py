@@ -36,9 +36,10 @@ class MiddlewareRow(NamedTuple):
 
     Attributes:
         wire: Its name in COFRAME_WIRE, ``--wire`` and ``wire=``.
-        title: Its name in texts.
+        title: Its name in messages.
         module: The module that contains it as ``MIDDLEWARE``. It is imported only when the middleware is considered.
-        rmw_name: What the names of its implementations of ROS 2 contain, such as "zenoh" for rmw_zenoh_cpp; "" for all
+        rmw_name: The common part of the names of its ROS 2 implementations, such as "zenoh" for rmw_zenoh_cpp; "" for
+        all
             that no other row recognizes.
         rmw: The implementation of ROS 2 that communicates best with it.
         protocol: What it sends over the network: middlewares with the same protocol find each other.
@@ -102,12 +103,12 @@ def row_of(wire: str) -> MiddlewareRow:
 
 
 def row_of_rmw(implementation: str) -> MiddlewareRow:
-    """Return the row of the middleware that an implementation of ROS 2 uses: that of Zenoh for "rmw_zenoh_cpp"."""
+    """Return the row of the middleware that a ROS 2 implementation uses: Zenoh for "rmw_zenoh_cpp"."""
     return next((row for row in middlewares() if row.rmw_name and row.rmw_name in implementation), DEFAULT)
 
 
 def alternatives() -> str:
-    """Return the names of all middlewares as a text: "dds or zenoh"."""
+    """Return the names of all middlewares as a string: "dds or zenoh"."""
     *others, last = wires()
     return f"{', '.join(others)} or {last}"
 
@@ -126,11 +127,11 @@ def select(environment: Mapping[str, str] = os.environ) -> Selection:
     """Return the middleware to use where a call does not name one.
 
     The first of these decides: ``--wire``; COFRAME_WIRE; RMW_IMPLEMENTATION=rmw_zenoh_cpp, or rmw_fastrtps_cpp where
-    coframe-fastdds is installed; a variable that configures only one middleware (COFRAME_DDS_LIBRARY); what is
-    installed, DDS first.
+    coframe-fastdds is installed; a variable that configures only one middleware (COFRAME_DDS_LIBRARY); the installed
+    libraries, DDS first.
 
     Args:
-        environment: The environment variables. ``--wire`` has priority only over those of this process.
+        environment: The environment variables. ``--wire`` has priority only over the variables of this process.
 
     Raises:
         WireError: COFRAME_WIRE has an invalid value.
@@ -139,7 +140,7 @@ def select(environment: Mapping[str, str] = os.environ) -> Selection:
 
 
 def _requested(environment: Mapping[str, str]) -> Selection | None:
-    """Return the middleware that the user asks for; None if there is no such wish."""
+    """Return the middleware that the user has selected; None if there is no selection."""
     if environment is os.environ and _chosen:
         return Selection(_chosen["wire"], "--wire is given")
     if wire := environment.get(VARIABLE, "").strip().lower():
@@ -189,7 +190,7 @@ def network(wire: str, environment: Mapping[str, str] = os.environ) -> str:
 
 
 def resolve(wire: str | None) -> str:
-    """Return the middleware that a call asks for: the selected one if it names none.
+    """Return the middleware of a call: the given one, or the selected one if none is given.
 
     Raises:
         WireError: There is no middleware of this name, or the selection is not valid.

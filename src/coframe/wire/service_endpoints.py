@@ -177,7 +177,7 @@ class ServiceSubscription(Subscription):
 
         Args:
             writer: The handle of its writer.
-            reason: What is wrong with it, as a phrase: "has 3 bytes too many".
+            reason: The problem, as a phrase: "has 3 bytes too many".
         """
         self.ignored += 1
         self._last_ignored = writer, reason

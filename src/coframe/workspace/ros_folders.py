@@ -53,7 +53,7 @@ def imported_packages() -> list[ModuleType]:
 
 
 def folders_after_ros(path: Iterable[str]) -> list[str]:
-    """Return the folders of a search path after that of coframe's ROS packages; [] if the path does not contain it."""
+    """Return the folders of a search path after the folder of coframe's ROS packages; [] if it is not on the path."""
     entries, home = list(path), ros_folder()
     return [entry for entry in entries[_position(entries) + 1 :] if Path(entry or ".").resolve() != home]
 

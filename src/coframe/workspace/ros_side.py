@@ -44,7 +44,7 @@ def listener_wire() -> str:
 
 
 def check(importing: str, path: list[str] | None = None) -> None:
-    """Raise ImportError if coframe's ROS packages would be mixed with those of a ROS installation.
+    """Raise ImportError if coframe's ROS packages would be mixed with packages of a ROS installation.
 
     Otherwise, make users' interface packages importable.
 

@@ -2,7 +2,7 @@
 """Search for packages in installation prefixes (`AMENT_PREFIX_PATH`) and in source directories.
 
 `COFRAME_PACKAGE_PATH` lists directories that contain packages as in a source tree, `<directory>/<package>/...`. These
-packages do not need to be built or installed. The workspace around the current directory is searched as well.
+packages do not need to be built or installed. The workspace around the current directory is also searched.
 """
 
 import re

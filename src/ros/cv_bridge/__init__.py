@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Conversion between image messages and the arrays of OpenCV, with the API of the ROS 2 package `cv_bridge`.
 
-OpenCV itself is needed for the conversion of colors and for compressed images only.
+OpenCV itself is needed only for color conversion and compressed images.
 """
 
 from cv_bridge.boost.cv_bridge_boost import cvtColorForDisplay, getCvType

@@ -17,7 +17,7 @@ _MAX_CHANNELS = 512  # of OpenCV
 
 
 class Encoding(NamedTuple):
-    """What the name of an encoding means.
+    """The meaning of an encoding name.
 
     Attributes:
         depth: Number of OpenCV's depth, the index in `DEPTHS`.
@@ -45,7 +45,7 @@ class Encoding(NamedTuple):
         return f"{_DEPTH_NAMES[self.depth]}C{self.channels}"
 
     def rows(self, height: int) -> int:
-        """Return the rows of the array of an image. Those of NV21 and NV24 follow the brightness with the colors."""
+        """Return the rows of the array of an image. NV21 and NV24 store the colors after the brightness."""
         return {"NV21": height + height // 2, "NV24": 3 * height}.get(self.colors, height)
 
 

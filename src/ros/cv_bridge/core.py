@@ -87,7 +87,7 @@ class CvBridge:
 
         Args:
             img_msg: The message.
-            desired_encoding: Encoding of the result. "passthrough": that of the message.
+            desired_encoding: Encoding of the result. "passthrough" keeps the encoding of the message.
 
         Returns:
             Array of shape (height, width) or (height, width, channels), which is a view of the data of the message if

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A node that publishes a text on the topic chatter every second."""
+"""A node that publishes a string on the topic chatter every second."""
 
 from __future__ import annotations
 

@@ -16,7 +16,7 @@ class DiagnosticStatusWrapper(DiagnosticStatus):
         self.level, self.message = _level_and_message(args)
 
     def clearSummary(self) -> None:
-        """Set the level to OK and the message to an empty text."""
+        """Set the level to OK and the message to an empty string."""
         self.summary(DiagnosticStatus.OK, "")
 
     def mergeSummary(self, *args: Any) -> None:

@@ -93,7 +93,7 @@ class TimeStampStatusParam:
     """Limits of the delay between a stamp and its check, in seconds.
 
     Args:
-        min_acceptable: Lower limit; negative delays are those of stamps in the future.
+        min_acceptable: Lower limit; stamps in the future have negative delays.
         max_acceptable: Upper limit.
     """
 
@@ -106,7 +106,7 @@ class TimeStampStatus(DiagnosticTask):
     """A task that checks the stamps of events.
 
     Args:
-        params: Limits of the delay. None: those of `TimeStampStatusParam()`.
+        params: Limits of the delay. None for the limits of `TimeStampStatusParam()`.
         name: Name of the status.
 
     Attributes:

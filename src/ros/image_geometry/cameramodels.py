@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Pinhole and stereo cameras.
 
-The methods have the names of Humble (`project3dToPixel`) and those of newer distributions (`project_3d_to_pixel`).
+The methods have the names of Humble (`project3dToPixel`) and of newer distributions (`project_3d_to_pixel`).
 Matrices are `numpy.matrix`, as upstream, so that `*` is the matrix product. Pixels are (column, row); points are in the
 optical frame of the camera (x to the right, y down, z forward) in meters.
 """
@@ -238,7 +238,7 @@ class StereoCameraModel:
     """Two calibrated cameras with parallel image planes.
 
     Attributes:
-        left: The left camera, whose frame is that of all points.
+        left: The left camera, in whose frame all points are expressed.
         right: The right camera.
         Q: Matrix that turns (u, v, disparity, 1) into a homogeneous point, shape (4, 4).
     """
@@ -272,7 +272,7 @@ class StereoCameraModel:
 
         Args:
             left_uv: The pixel (u, v).
-            disparity: How many columns further left the point is in the right image.
+            disparity: The number of columns by which the point is further left in the right image.
         """
         x, y, z, w = (self.Q * _matrix(4, 1, [left_uv[0], left_uv[1], disparity, 1.0])).A1.tolist()
         return (x / w, y / w, z / w) if w != 0 else (0.0, 0.0, 0.0)

@@ -46,7 +46,7 @@ class Action(LaunchDescriptionEntity):
         return self.__condition
 
     def describe(self) -> str:
-        """Return a description as a line of text."""
+        """Return a one-line description."""
         return self.__repr__()
 
     def get_sub_entities(self) -> list[LaunchDescriptionEntity]:

@@ -20,7 +20,7 @@ class Condition:
         self._predicate = predicate
 
     def describe(self) -> str:
-        """Return a description as a line of text."""
+        """Return a one-line description."""
         return self.__repr__()
 
     def evaluate(self, context: LaunchContext) -> bool:

@@ -164,7 +164,7 @@ class LaunchContext:
 
 
 class _AttributeDict(dict[str, Any]):
-    """A dictionary whose values are attributes as well."""
+    """A dictionary whose values are also attributes."""
 
     def __getattr__(self, name: str) -> Any:
         try:

@@ -17,7 +17,7 @@ class LaunchDescriptionEntity:
     """An action or a launch description, which is visited when the system is launched."""
 
     def describe(self) -> str:
-        """Return a description as a line of text."""
+        """Return a one-line description."""
         return self.__repr__()
 
     def describe_sub_entities(self) -> list[LaunchDescriptionEntity]:

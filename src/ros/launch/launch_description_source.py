@@ -23,7 +23,7 @@ class LaunchDescriptionSource:
     Args:
         launch_description: The description; None to read it from `location`.
         location: The file, or a placeholder such as ``<script>``.
-        method: How the description is obtained, for descriptions of this object.
+        method: The origin of the description, for descriptions of this object.
     """
 
     def __init__(
@@ -46,7 +46,7 @@ class LaunchDescriptionSource:
 
     @property
     def method(self) -> str:
-        """How the description is obtained."""
+        """The origin of the description."""
         return self.__method
 
     def try_get_launch_description_without_context(self) -> LaunchDescription | None:

@@ -100,7 +100,7 @@ class LaunchService:
         return asyncio.run(self.run_async(shutdown_when_idle=shutdown_when_idle))
 
     async def run_async(self, *, shutdown_when_idle: bool = True) -> int:
-        """Do as :meth:`run`, in the running event loop."""
+        """Run like :meth:`run`, in the running event loop."""
         if self.__task is not None:
             self.__logger.error("LaunchService is already running.")
             return 1

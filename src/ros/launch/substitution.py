@@ -15,7 +15,7 @@ class Substitution:
     """Text that is computed when it is needed, from the launch context."""
 
     def describe(self) -> str:
-        """Return a description as a line of text."""
+        """Return a one-line description."""
         return self.__repr__()
 
     def perform(self, context: LaunchContext) -> str:

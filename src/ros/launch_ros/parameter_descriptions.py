@@ -116,7 +116,7 @@ class ParameterFile:
         return f"launch_ros.description.ParameterFile(param_file={self.param_file}, allow_substs={self.allow_substs})"
 
     def evaluate(self, context: LaunchContext) -> Path:
-        """Return the path; with substitutions in the file, that of a copy in which they are performed."""
+        """Return the path; if the file has substitutions, the path of a copy in which they are performed."""
         path = Path(perform_substitutions(context, self.__param_file))
         if perform_typed_substitution(context, self.__allow_substs, bool) and path.is_file():
             text = perform_substitutions(context, parse_text(read_regular_text(path, MAX_BYTES)))

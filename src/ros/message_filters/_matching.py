@@ -3,7 +3,7 @@
 
 A combination has one stamp of each queue, and all its stamps together with the new one are less than `slop` apart. Of
 all combinations, the first in this order is chosen: the stamp of the first queue is as close to the new one as can be,
-then that of the second queue, and so on; of two stamps that are equally close, the one that was stored first.
+then of the second queue, and so on; if two stamps are equally close, the one stored first is used.
 
 Trying all combinations in this order takes time that grows exponentially with the number of queues. Instead,
 combinations are grouped by their earliest stamp: an earliest stamp is possible if each queue has a stamp in the

@@ -253,7 +253,7 @@ def create_node(
     automatically_declare_parameters_from_overrides: bool = False,
     enable_logger_service: bool = False,
 ) -> Node:
-    """Create a node. The arguments are those of `rclpy.node.Node`."""
+    """Create a node. The arguments are the same as for `rclpy.node.Node`."""
     return node.Node(
         node_name,
         context=context,

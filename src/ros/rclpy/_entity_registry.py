@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The entities of a node: what it lists, what its executor waits for, and what it destroys."""
+"""The entities of a node, which it lists and destroys, and for which its executor waits."""
 
 # The modules of rclpy share attributes named `_Coframe__x`, the form of mangled names.
 # ruff: noqa: SLF001

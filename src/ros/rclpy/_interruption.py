@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What ends a wait early, for example the shutdown of a context or the destruction of a timer."""
+"""Events that end a wait early, for example the shutdown of a context or the destruction of a timer."""
 
 from __future__ import annotations
 

@@ -68,7 +68,7 @@ class NodeGraph:
         """Return all topics with their types.
 
         Args:
-            no_demangle: Whether to return the DDS names and types of all topics, including those of services.
+            no_demangle: Whether to return the DDS names and types of all topics, including topics of services.
         """
         participant = self._Coframe__participant
         return sorted((participant.dds_topics() if no_demangle else participant.topics()).items())
@@ -99,7 +99,7 @@ class NodeGraph:
 
         Args:
             topic_name: Name of the topic.
-            no_mangle: Whether the name is that of a DDS topic, for example `rt/tf`.
+            no_mangle: Whether the name is a DDS topic name, for example `rt/tf`.
 
         Raises:
             ValueError: The name is not valid.

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Numbers that users pass: Python's, those of subclasses such as IntEnum, and NumPy's."""
+"""Numbers that users pass: Python numbers, subclasses such as IntEnum, and NumPy numbers."""
 
 from __future__ import annotations
 

@@ -36,7 +36,7 @@ class ParameterLimits:
         """Return why the parameters of messages cannot be set; empty if they can be."""
         new = [message.name for message in messages if not self._has_parameter(message.name)]
         if any(len(name.encode()) > MAX_NAME for name in new):
-            return f"The name of a new parameter has more than {MAX_NAME} bytes, the limit."
+            return f"The name of a new parameter is longer than the maximum of {MAX_NAME} bytes."
         sizes = _sizes(messages)
         number = len(self._sizes) + sum(name not in self._sizes for name in sizes)
         if number <= MAX_PARAMETERS and self._bytes + self._growth(sizes) <= MAX_BYTES:

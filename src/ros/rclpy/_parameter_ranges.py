@@ -16,7 +16,7 @@ _ARRAY_TYPES: Final = frozenset(kind for kind in Parameter.Type if kind.name.end
 
 
 def is_array_type(kind: int) -> bool:
-    """Return whether a number of a parameter type is that of an array."""
+    """Return whether the number of a parameter type stands for an array."""
     return kind in _ARRAY_TYPES
 
 

@@ -5,7 +5,7 @@ RuntimeError
 ├── InvalidHandle                  a destroyed node, publisher or other entity was used
 ├── RCLError                       an operation of the ROS client library failed
 │   ├── RCLInvalidROSArgsError     arguments after --ros-args are malformed
-│   ├── NodeNameNonExistentError   no node has the name that was asked for
+│   ├── NodeNameNonExistentError   no node has the requested name
 │   └── UnsupportedEventTypeError  a QoS event is not supported
 ├── UnknownROSArgsError            arguments after --ros-args are unknown
 ├── RMWError                       an operation of the middleware failed
@@ -43,7 +43,7 @@ class UnknownROSArgsError(RuntimeError):
 
 
 class NodeNameNonExistentError(RCLError):
-    """No node has the name that was asked for."""
+    """No node has the requested name."""
 
 
 class UnsupportedEventTypeError(RCLError):

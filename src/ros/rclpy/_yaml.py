@@ -250,7 +250,7 @@ class _FileReader:
 
 
 def _check_node_name(name: str, line: int) -> None:
-    """Raise ValueError if a name is neither that of a node nor a pattern with `*` and `**` as parts."""
+    """Raise ValueError if a name is neither a node name nor a pattern with `*` and `**` as parts."""
     for part in name.removeprefix("/").split("/"):
         if not _TOKEN.fullmatch(part):
             raise ValueError(

@@ -208,7 +208,7 @@ class Client:
         return 0 if self.__unreachable or (replies is not None and replies.pending()) else None
 
     def _Coframe__take(self) -> Callable[[], Any] | None:
-        """Take one reply. A client receives the replies to all clients and skips those of other clients."""
+        """Take one reply. A client receives the replies to all clients and skips replies to other clients."""
         if self.__unreachable:
             return self.__fail_pending
         replies = self.__replies

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Exceptions raised by rclpy. Those of upstream's native module are defined in `rclpy._rclpy_pybind11`.
+"""Exceptions raised by rclpy. The exceptions of upstream's native module are defined in `rclpy._rclpy_pybind11`.
 
 Exception
 ├── NotInitializedException            a context was used before rclpy.init() or after its shutdown

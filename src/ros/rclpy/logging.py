@@ -72,7 +72,7 @@ def get_logging_severity_from_string(log_severity: str) -> LoggingSeverity:
 def get_logging_directory() -> Path:
     """Return the folder of ROS's log files: ROS_LOG_DIR, `log` in ROS_HOME, or `~/.ros/log`.
 
-    coframe writes no log files. Programs that do so themselves use this folder.
+    coframe writes no log files. Programs with their own log files use this folder.
     """
     if folder := os.environ.get("ROS_LOG_DIR"):
         return Path(folder).expanduser()

@@ -54,7 +54,8 @@ class Node(_node_endpoints.Node):
     Args:
         node_name: Name of the node. `--ros-args -r __node:=` overrides it.
         context: Context of the node. None: the default context.
-        cli_args: Command line with `--ros-args` for this node, which takes precedence over that of the process.
+        cli_args: Command line with `--ros-args` for this node, which takes precedence over the command line of the
+        process.
         namespace: Namespace of the node. `--ros-args -r __ns:=` overrides it.
         use_global_arguments: Whether the command line of the process applies to the node.
         enable_rosout: Whether to publish log messages on /rosout.
@@ -364,7 +365,7 @@ def _no_executor() -> None:
 
 
 def _arguments_for(context: Context, cli_args: list[str] | None, *, use_global_arguments: bool) -> Arguments:
-    """Return the arguments of the node, combined with those of the process, which have lower precedence."""
+    """Return the arguments of the node, combined with the process's arguments, which have lower precedence."""
     shared = context._Coframe__arguments if use_global_arguments else Arguments()
     own = _arguments.parse(cli_args) if cli_args else Arguments()
     return Arguments(

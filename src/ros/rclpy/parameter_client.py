@@ -33,8 +33,8 @@ __all__ = ["AsyncParameterClient"]
 class AsyncParameterClient:
     """Client that gets and sets the parameters of another node. The node must be spinning for the futures to complete.
 
-    All requests return a future of the service's response, whose exceptions are those of `Client.call_async`, and call
-    an optional callback with the future.
+    All requests return a future of the service's response, with the same exceptions as for `Client.call_async`, and
+    call an optional callback with the future.
 
     Args:
         node: Node of the client.

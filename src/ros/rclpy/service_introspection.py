@@ -7,7 +7,7 @@ __all__ = ["ServiceIntrospectionState"]
 
 
 class ServiceIntrospectionState(Enum):
-    """What is published about the requests and responses of a service. coframe has only OFF."""
+    """The published information about the requests and responses of a service. coframe has only OFF."""
 
     OFF = 0
     METADATA = 1

@@ -7,7 +7,7 @@ __all__ = ["ContentFilterOptions"]
 
 
 class ContentFilterOptions(NamedTuple):
-    """A filter of messages. coframe has no content filters: `create_subscription` refuses the options."""
+    """A filter of messages. coframe has no content filters: `create_subscription` rejects the options."""
 
     filter_expression: str
     expression_parameters: list[str]

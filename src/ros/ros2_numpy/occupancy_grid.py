@@ -29,7 +29,7 @@ def numpy_to_occupancy_grid(arr: NDArray[Any], info: MapMetaData | None = None) 
 
     Args:
         arr: Cells, shape (height, width), int8. Masked cells are unknown.
-        info: Resolution and origin of the map; the size is that of the array.
+        info: Resolution and origin of the map; the size comes from the array.
 
     Raises:
         TypeError: The array is not two-dimensional or not int8.

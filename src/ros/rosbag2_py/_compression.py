@@ -10,7 +10,7 @@ __all__ = ["CompressionMode", "CompressionOptions", "compression_mode_from_strin
 
 
 class CompressionMode(Enum):
-    """What is compressed. coframe compresses the chunks of MCAP files in both modes, so that they stay readable."""
+    """The compressed units; coframe compresses the chunks of MCAP files in both modes, so that they stay readable."""
 
     NONE = 0
     FILE = 1
@@ -19,7 +19,7 @@ class CompressionMode(Enum):
 
 @dataclass
 class CompressionOptions:
-    """How a recording is compressed."""
+    """The compression options of a recording."""
 
     compression_format: str
     compression_mode: CompressionMode

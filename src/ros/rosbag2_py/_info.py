@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Metadata of recordings: what ``ros2 bag info`` shows."""
+"""Metadata of recordings, as shown by ``ros2 bag info``."""
 
 from __future__ import annotations
 
@@ -124,7 +124,7 @@ class MetadataIo:
         return (Path(uri) / METADATA).is_file()
 
     def read_metadata(self, uri: str) -> BagMetadata:
-        """Return what the metadata.yaml of a folder contains."""
+        """Return the contents of the metadata.yaml of a folder."""
         try:
             text = read_regular(Path(uri) / METADATA, MAX_BYTES)
             return _from_yaml(read_yaml(text)["rosbag2_bagfile_information"], Path(uri))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Options of readers and writers, with the names and the order of Humble; what Jazzy adds comes after them."""
+"""Options of readers and writers, with the names and the order of Humble; Jazzy's additions come last."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ __all__ = ["ConverterOptions", "ReadOrder", "ReadOrderSortBy", "StorageFilter", 
 
 @dataclass
 class StorageOptions:
-    """Where a recording is, and how it is written; sizes are in bytes and durations in seconds, 0 for no limit."""
+    """The location and the write options of a recording; sizes in bytes, durations in seconds, 0 for no limit."""
 
     uri: str
     storage_id: str = ""

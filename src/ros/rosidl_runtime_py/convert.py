@@ -54,7 +54,7 @@ def message_to_yaml(
 def message_to_csv(msg: Any, *, truncate_length: int | None = None, no_arr: bool = False, no_str: bool = False) -> str:
     """Return the values of a message separated by commas, in the order of its fields, without quotes.
 
-    The arguments are those of `message_to_yaml`.
+    The arguments are the same as for `message_to_yaml`.
     """
 
     def text(value: Any, type_: Any = None) -> str:
@@ -82,7 +82,7 @@ def message_to_ordereddict(
 ) -> OrderedDict[str, Any]:
     """Return a message as a dictionary of dictionaries, lists, strings and numbers, in the order of its fields.
 
-    The arguments are those of `message_to_yaml`.
+    The arguments are the same as for `message_to_yaml`.
     """
     options: dict[str, Any] = {"truncate_length": truncate_length, "no_arr": no_arr, "no_str": no_str}
     # Jazzy's messages have one more slot than types.

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Names of the interfaces that exist: those of coframe, of the user's packages and of a sourced workspace."""
+"""Names of the interfaces of coframe, of the user's packages and of a sourced workspace."""
 
 from collections.abc import Iterable
 
@@ -25,7 +25,7 @@ def get_all_interface_packages() -> list[str]:
 
 
 def get_interface_packages(package_names: Iterable[str] = ()) -> list[str]:
-    """Return those of the packages that have interfaces, by default all of them."""
+    """Return the given packages that have interfaces, by default all of them."""
     wanted = set(package_names)
     return [package for package in get_all_interface_packages() if not wanted or package in wanted]
 
@@ -50,17 +50,17 @@ def get_interfaces(package_names: Iterable[str] = ()) -> dict[str, list[str]]:
 
 
 def get_message_interfaces(package_names: Iterable[str] = ()) -> dict[str, list[str]]:
-    """Return the messages of packages. Arguments and result are those of `get_interfaces`."""
+    """Return the messages of packages. Arguments and result are the same as for `get_interfaces`."""
     return _of_kind("msg", package_names)
 
 
 def get_service_interfaces(package_names: Iterable[str] = ()) -> dict[str, list[str]]:
-    """Return the services of packages. Arguments and result are those of `get_interfaces`."""
+    """Return the services of packages. Arguments and result are the same as for `get_interfaces`."""
     return _of_kind("srv", package_names)
 
 
 def get_action_interfaces(package_names: Iterable[str] = ()) -> dict[str, list[str]]:
-    """Return the actions of packages. Arguments and result are those of `get_interfaces`."""
+    """Return the actions of packages. Arguments and result are the same as for `get_interfaces`."""
     return _of_kind("action", package_names)
 
 

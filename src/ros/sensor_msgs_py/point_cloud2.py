@@ -75,7 +75,7 @@ def read_points_numpy(
 ) -> NDArray[Any]:
     """Return the points of a cloud as an unstructured array with shape (N, fields).
 
-    All fields must have the same type. The arguments are those of `read_points`.
+    All fields must have the same type. The arguments are the same as for `read_points`.
     """
     points = read_points(cloud, field_names, skip_nans, uvs, reshape_organized_cloud)
     types = {points.dtype[name] for name in points.dtype.names or ()}
@@ -89,7 +89,7 @@ def read_points_list(
     skip_nans: bool = False,
     uvs: Iterable[int] | NDArray[Any] | None = None,
 ) -> list[Any]:
-    """Return the points of a cloud as named tuples, which is slow. The arguments are those of `read_points`."""
+    """Return the points of a cloud as named tuples, which is slow. The arguments are the same as for `read_points`."""
     assert isinstance(cloud, PointCloud2), "Cloud is not a sensor_msgs.msg.PointCloud2"
     points = read_points(cloud, field_names, skip_nans, uvs)
     point_type = namedtuple("Point", points.dtype.names or ())  # type: ignore[misc]  # noqa: PYI024 - names are data
@@ -108,7 +108,7 @@ def dtype_from_fields(fields: Iterable[PointField], point_step: int | None = Non
     """
     fields = list(fields)
     if sum(field.count for field in fields) > MAX_ELEMENTS:
-        raise ValueError(f"A point has more than {MAX_ELEMENTS} elements, which is the limit.")
+        raise ValueError(f"A point has more than the maximum of {MAX_ELEMENTS} elements.")
     names: dict[str, None] = {}
     formats: list[np.dtype[Any]] = []
     offsets: list[int] = []
@@ -166,7 +166,7 @@ def create_cloud(
 
 
 def create_cloud_xyz32(header: Header, points: Any, point_step: int | None = None) -> PointCloud2:
-    """Create a cloud with the float32 fields x, y and z. The arguments are those of `create_cloud`."""
+    """Create a cloud with the float32 fields x, y and z. The arguments are the same as for `create_cloud`."""
     fields = [
         PointField(name=name, offset=4 * number, datatype=PointField.FLOAT32, count=1)
         for number, name in enumerate("xyz")

@@ -2,15 +2,15 @@
 
 Upstream's Python package does not provide these functions. A twist, wrench or acceleration is expressed in the axes of
 a frame *and* refers to a point: the point of the velocity, or the point about which the torque acts. A transform
-rotates the axes. The caller chooses whether the reference point changes as well:
+rotates the axes. The caller chooses whether the reference point also changes:
 
 - By default, the point stays the same and each vector is only rotated, like a `WrenchStamped` in tf2's C++
   (`doTransform` in `tf2_geometry_msgs.hpp`) and in ROS 1's Python. Use this to express the velocity of a robot,
   measured in its own axes, in the axes of the map.
 - With `at_target_origin=True`, the point becomes the origin of the target frame, as in C++'s `VelocityStamped` (since
   Jazzy) and in KDL's `Frame * Twist` and `Frame * Wrench`. This is the adjoint map of Lynch and Park, Modern Robotics,
-  sections 3.3.2 and 3.4. Use this to compute the velocity of a sensor from that of the robot on which it is mounted,
-  or the torque at the flange from the torque at the tool. Both frames must be fixed to the same body.
+  sections 3.3.2 and 3.4. Use this to compute the velocity of a sensor from the velocity of the robot on which it is
+  mounted, or the torque at the flange from the torque at the tool. Both frames must be fixed to the same body.
 
 `Buffer.transform` uses the default. The header of a result is a reference to the header of the transform, as upstream.
 """

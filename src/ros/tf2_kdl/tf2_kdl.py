@@ -29,7 +29,7 @@ def transform_to_kdl(t: TransformStamped) -> Any:
 
 
 def do_transform_vector(vector: Any, transform: TransformStamped) -> Any:
-    """Transform a point, a PyKDL.Vector. The header of the result is that of the transform."""
+    """Transform a point, a PyKDL.Vector. The result has the header of the transform."""
     return _stamped(transform_to_kdl(transform) * vector, transform.header)
 
 
@@ -46,7 +46,7 @@ def from_msg_vector(msg: PointStamped) -> Any:
 
 
 def do_transform_frame(frame: Any, transform: TransformStamped) -> Any:
-    """Transform a pose, a PyKDL.Frame. The header of the result is that of the transform."""
+    """Transform a pose, a PyKDL.Frame. The result has the header of the transform."""
     return _stamped(transform_to_kdl(transform) * frame, transform.header)
 
 

@@ -9,7 +9,7 @@ from tf2_geometry_msgs import do_transform_pose, transform_covariance
 
 
 def do_transform_odometry(odometry: Odometry, transform: TransformStamped) -> Odometry:
-    """Transform odometry. The header is that of the transform.
+    """Transform odometry. The result has the header of the transform.
 
     The pose, which is expressed in the frame of the header, is transformed, and its covariance is rotated. The twist
     and its covariance are expressed in `child_frame_id`, the frame of the robot, and do not change.

@@ -8,7 +8,7 @@ from tf2_geometry_msgs import do_transform_pose
 
 
 def do_transform_path(path: Path, transform: TransformStamped) -> Path:
-    """Transform a path at the time of its header. The header is that of the transform.
+    """Transform a path at the time of its header. The result has the header of the transform.
 
     All poses are transformed by the same transform. Each pose keeps the stamp of its header, which is the planned time
     of the pose, and gets the new frame.

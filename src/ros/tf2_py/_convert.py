@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Conversion of the arguments of tf2's functions to those of the core: nanoseconds, checked names and pose values."""
+"""Convert the arguments of tf2's functions for the core: nanoseconds, checked names and pose values."""
 
 import warnings
 from operator import index

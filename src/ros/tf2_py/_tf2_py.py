@@ -53,7 +53,7 @@ _NO_TIME = Time()
 class BufferCore:
     """Buffer that stores the transforms of the last seconds and answers lookups.
 
-    Names, arguments and messages are those of ROS 2's `tf2_py.BufferCore`. Times and durations are objects of rclpy or
+    It has the names, arguments and messages of ROS 2's `tf2_py.BufferCore`. Times and durations are objects of rclpy or
     messages. Time zero requests the latest transform. Lookups raise subclasses of `TransformException`.
     """
 
@@ -122,7 +122,7 @@ class BufferCore:
         """Return the transform that transforms data from `source_frame` into `target_frame` at a time.
 
         Raises:
-            TransformException: The transform is not available. The subclass and the text are those of tf2.
+            TransformException: The transform is not available. The subclass and the message are the same as in tf2.
         """
         found: TransformStamped | None = self._Coframe__buffer._lookup_message(target_frame, source_frame, time)
         if found is not None:
@@ -143,7 +143,7 @@ class BufferCore:
         The data do not move relative to `fixed_frame` between the two times.
 
         Raises:
-            TransformException: The transform is not available. The subclass and the text are those of tf2.
+            TransformException: The transform is not available. The subclass and the message are the same as in tf2.
         """
         return self._Coframe__lookup_full(
             _convert.full_query(target_frame, target_time, source_frame, source_time, fixed_frame)

@@ -12,7 +12,7 @@ from rclpy.task import Future  # noqa: TC001 - a name of the module
 
 
 class FilterFailureReason(IntEnum):
-    """Reason for dropping a message. Names and numbers are those of C++, which has no `TimedOut`."""
+    """Reason for dropping a message. Names and numbers are the same as in C++, which has no `TimedOut`."""
 
     Unknown = 0  # The wait for its transform was cancelled.
     OutTheBack = 1  # It is older than all data in the buffer, so its transform will never be available.

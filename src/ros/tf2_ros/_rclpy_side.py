@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What tf2_ros needs from rclpy beyond its public API, for the rclpy of this process: coframe's or a sourced ROS's."""
+"""Functions that tf2_ros needs from the rclpy of this process (coframe's or a sourced ROS's) beyond its public API."""
 
 from coframe.workspace.ros_side import tf2_is_replaced
 

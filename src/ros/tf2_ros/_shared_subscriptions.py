@@ -34,7 +34,7 @@ class SharedSubscriptions:
         """Create the entities.
 
         Args:
-            request: What the listener subscribes to.
+            request: The subscriptions of the listener.
             sharing: Its share.
         """
         assert request.dynamic is not None

@@ -33,7 +33,7 @@ def share(request: Request) -> Sharing | None:
     """Let the buffer of a listener read the shared transforms, and return its share.
 
     Args:
-        request: What the listener subscribes to; `is_shareable` is true for it.
+        request: The subscriptions of the listener; `is_shareable` is true for it.
 
     Returns:
         None if sharing is not possible on this system, or the buffer is not empty.
@@ -97,7 +97,7 @@ class Sharing:
         return readers[self.topics.index(topic)].matched if readers else node.count_publishers(topic)
 
     def on_local_change(self, receive_alone: Callable[[], object]) -> None:
-        """Call a function when the program changes the buffer, which then is one of its own."""
+        """Call a function when the program changes the buffer, which then has its own copy."""
         self._receive_alone = receive_alone
         self.buffer._on_local_change(self.end)
 
@@ -118,7 +118,7 @@ class Sharing:
 
 
 class SharedReader:
-    """What a node or a listener closes instead of a reader of its own."""
+    """The object that a node or a listener closes instead of its own reader."""
 
     def __init__(self, close: Callable[[], None], count_publishers: Callable[[], int]) -> None:
         self.close = close

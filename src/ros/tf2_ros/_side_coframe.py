@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What tf2_ros needs from coframe's rclpy beyond the public API."""
+"""Functions that tf2_ros needs from coframe's rclpy beyond the public API."""
 
 # ruff: noqa: SLF001 - Private members of rclpy are what this module hides from the others.
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What tf2_ros needs from the rclpy of a sourced ROS. Only its public API is used."""
+"""Functions that tf2_ros needs from the rclpy of a sourced ROS. Only its public API is used."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ def profile(qos: QoSProfile | int) -> QoSProfile:
 
 
 def receiving_wire(request: Request) -> str:
-    """Return how transforms are received: as the listener, the command line or COFRAME_ROS2_WIRE says.
+    """Return how transforms are received: as specified by the listener, the command line or COFRAME_ROS2_WIRE.
 
     By default, it is "native" if coframe can use the middleware of this ROS.
 
@@ -87,7 +87,7 @@ def static_publisher(node: Node, topic: str, qos: QoSProfile) -> Any:
 
 
 def direct_sender(publisher: Any) -> tuple[Callable[[Any], bool], object]:
-    """Return a function that publishes nothing and returns False: rclpy publishes messages only."""
+    """Return a function that publishes nothing and returns False: rclpy publishes only messages."""
     del publisher
     return (lambda _: False), None
 
@@ -129,7 +129,7 @@ def _default_wire(node: Node) -> str:
 
 
 def _native_problem() -> str | None:
-    """Return why coframe cannot receive what the nodes of this ROS publish; None if it can."""
+    """Return why coframe cannot receive messages from the nodes of this ROS; None if it can."""
     middleware = get_rmw_implementation_identifier()
     needed = selection.row_of_rmw(middleware).wire
     if needed == "zenoh" and os.environ.get("ROS_DISTRO") == "humble":

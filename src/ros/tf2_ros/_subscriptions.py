@@ -38,17 +38,17 @@ class Topic:
 
 @dataclass(frozen=True)
 class Request:
-    """What a listener subscribes to.
+    """The subscriptions that a listener requests.
 
     Attributes:
         node: The node of the subscriptions.
         buffer: The buffer to fill.
         group: The callback group of the subscriptions.
-        renaming: How frames are renamed; None if they are not.
-        dynamic: The topic of dynamic transforms; None to subscribe to static transforms only.
+        renaming: The renaming of frames; None for none.
+        dynamic: The topic of dynamic transforms; None to subscribe only to static transforms.
         static: The topic of static transforms.
         shared: Whether the buffer may read shared transforms.
-        wire: How the transforms are received, "native" or "rclpy"; None: as the environment says.
+        wire: How the transforms are received, "native" or "rclpy"; None for the value of the environment variable.
         overridden: Whether a method on the path of the transforms into the buffer is overridden.
     """
 

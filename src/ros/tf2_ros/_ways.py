@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Which way a listener receives transforms: the first row of `WAYS` whose condition is true."""
+"""The way in which a listener receives transforms: the first row of `WAYS` whose condition is true."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ class Way(NamedTuple):
     opens: str
 
     def open(self, request: Request) -> Subscriptions | None:
-        """Open the subscriptions; return None if it turns out that this way is not possible on this system."""
+        """Open the subscriptions; return None if this way is not possible on this system."""
         module, _, name = self.opens.partition(".")
         kind: Any = getattr(import_module(f"tf2_ros.{module}"), name)
         subscriptions: Subscriptions | None = getattr(kind, "open", kind)(request)

@@ -104,7 +104,7 @@ class Buffer(tf2.BufferCore, BufferInterface):
             timeout: Maximum time to wait for the transform.
 
         Raises:
-            TransformException: The transform is not available. The subclass and the text give the reason.
+            TransformException: The transform is not available. The subclass and the message give the reason.
         """
         target, source = _convert.text(target_frame, 1), _convert.text(source_frame, 2)
         return self._Coframe__lookup(target, source, _convert.nanoseconds(time, "time"), _wait(timeout))
@@ -129,7 +129,7 @@ class Buffer(tf2.BufferCore, BufferInterface):
             timeout: Maximum time to wait for the transform.
 
         Raises:
-            TransformException: The transform is not available. The subclass and the text give the reason.
+            TransformException: The transform is not available. The subclass and the message give the reason.
         """
         query = _convert.full_query(target_frame, target_time, source_frame, source_time, fixed_frame)
         return self._Coframe__lookup_full(query, _wait(timeout))
@@ -243,7 +243,7 @@ def clear_on_time_jump(buffer: Buffer, clock: Clock) -> Any:
 
 
 def _wait(timeout: Duration) -> int | None:
-    """Return the nanoseconds to wait, or None for no wait; at least 100 us, because coframe refuses smaller ints."""
+    """Return the nanoseconds to wait, or None for no wait; at least 100 us, because coframe rejects smaller ints."""
     nanoseconds = _nanoseconds(timeout)
     return max(nanoseconds, MIN_INT_NANOSECONDS) if nanoseconds > 0 else nanoseconds or None
 

@@ -90,7 +90,7 @@ class BufferClient(BufferInterface):
             timeout: Maximum time that the server waits for the transform.
 
         Raises:
-            TransformException: The transform is not available. The subclass and the text give the reason.
+            TransformException: The transform is not available. The subclass and the message give the reason.
             TimeoutException: No server is available, or it does not respond.
         """
         return self.__process(_goal(target_frame, source_frame, time, timeout))
@@ -115,7 +115,7 @@ class BufferClient(BufferInterface):
             timeout: Maximum time that the server waits for the transform.
 
         Raises:
-            TransformException: The transform is not available. The subclass and the text give the reason.
+            TransformException: The transform is not available. The subclass and the message give the reason.
             TimeoutException: No server is available, or it does not respond.
         """
         return self.__process(_full_goal(target_frame, target_time, source_frame, source_time, fixed_frame, timeout))

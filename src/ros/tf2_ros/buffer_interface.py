@@ -54,7 +54,7 @@ class BufferInterface:
 
         Raises:
             TypeException: The type of the data is not registered.
-            TransformException: The transform is not available. The subclass and the text give the reason.
+            TransformException: The transform is not available. The subclass and the message give the reason.
         """
         do_transform = self.registration.get(type(object_stamped))
         header = object_stamped.header
@@ -74,7 +74,7 @@ class BufferInterface:
 
         Raises:
             TypeException: The type of the data is not registered.
-            TransformException: The transform is not available. The subclass and the text give the reason.
+            TransformException: The transform is not available. The subclass and the message give the reason.
         """
         do_transform = self.registration.get(type(object_stamped))
         header = object_stamped.header

@@ -125,8 +125,8 @@ class MessageFilter:
     def register_failure_callback(self, callback: Callable[..., Any]) -> None:
         """Register `callback(message, reason, explanation)` for dropped messages.
 
-        `reason` is a FilterFailureReason, and `explanation` is a text that describes what was missing. It is omitted
-        for a callback with two parameters.
+        `reason` is a FilterFailureReason, and `explanation` is a string that describes the missing transform. It is
+        omitted for a callback with two parameters.
 
         Raises:
             TypeError: The callback is not callable, or it is a coroutine function and the filter has no node.

@@ -20,7 +20,7 @@ class StaticTransformListener(TransformListener):
         static_qos: QoSProfile | int | None = None,
         tf_static_topic: str = DEFAULT_STATIC_TF_TOPIC,
     ) -> None:
-        """Create the subscription. The arguments are those of `TransformListener`."""
+        """Create the subscription. The arguments are the same as for `TransformListener`."""
         super().__init__(
             buffer,
             node,

@@ -66,7 +66,7 @@ class TransformListener:
                 100.
             tf_topic: Topic of the dynamic transforms.
             tf_static_topic: Topic of the static transforms.
-            static_only: Whether to subscribe to static transforms only.
+            static_only: Whether to subscribe only to static transforms.
             prefix: Prefix of the frame names in the buffer, such as `robot1/`. No separator is added.
             keep: Frames without prefix, such as `["map"]`.
             wire: How transforms are received: "native", without an executor, or "rclpy", by subscriptions of the node,

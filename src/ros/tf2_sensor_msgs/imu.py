@@ -2,8 +2,8 @@
 
 Upstream's Python package does not provide this function. It follows the `imu_transformer` package. Angular velocity and
 linear acceleration are expressed in the axes of the sensor, so they and their covariances are rotated. The orientation
-is that of the sensor relative to a fixed world frame (REP 145). It becomes the orientation of the other frame relative
-to the same world frame. Its covariance is expressed in the axes of the world frame and does not change.
+is the orientation of the sensor relative to a fixed world frame (REP 145). It becomes the orientation of the other
+frame relative to the same world frame. Its covariance is expressed in the axes of the world frame and does not change.
 
 The acceleration that depends on the offset between the frames is not included, because it requires the angular
 acceleration, which is not measured.
@@ -27,7 +27,7 @@ _NO_ORIENTATION = Quaternion(x=0.0, y=0.0, z=0.0, w=0.0)
 
 
 def do_transform_imu(imu: Imu, transform: TransformStamped) -> Imu:
-    """Transform IMU data (rad/s, m/s^2) into the axes of another frame. The header is that of the transform.
+    """Transform IMU data (rad/s, m/s^2) into the axes of another frame. The result has the header of the transform.
 
     Quantities that are not measured (first element of the covariance is -1) and an unset orientation (all zeros) are
     not changed.
@@ -52,14 +52,14 @@ def do_transform_imu(imu: Imu, transform: TransformStamped) -> Imu:
 
 
 def _unit(quaternion: Quaternion) -> Array:
-    """Return a normalized quaternion (x, y, z, w). A zero quaternion gives the identity, as elsewhere in tf2."""
+    """Return a normalized quaternion (x, y, z, w). A zero quaternion results in the identity, as elsewhere in tf2."""
     values = np.array([quaternion.x, quaternion.y, quaternion.z, quaternion.w], dtype=np.float64)
     length = float(np.linalg.norm(values))
     return values / length if length**2 >= np.finfo(np.float64).eps else np.array([0.0, 0.0, 0.0, 1.0])
 
 
 def _target_orientation(orientation: Quaternion, frame_rotation: Array) -> Quaternion:
-    """Return the orientation of the target frame relative to the world, from that of the source frame."""
+    """Return the orientation of the target frame relative to the world, computed from the source frame's."""
     result = Quaternion()
     product = quaternions.multiply(_unit(orientation), quaternions.inverse(frame_rotation))
     result.x, result.y, result.z, result.w = product.tolist()

@@ -19,7 +19,7 @@ def do_transform_laser_scan(scan: LaserScan, transform: Transform | TransformSta
 
     Args:
         scan: Scan to transform.
-        transform: Transform into the target frame. If it is stamped, its frame_id becomes that of the result.
+        transform: Transform into the target frame. If it is stamped, the result has its frame_id.
 
     Returns:
         A cloud with the float32 fields x, y, z in meters, the intensities of the scan if it has any, and the int32

@@ -51,12 +51,12 @@ def transform_points(point_cloud: NDArray[Any], transform: Transform) -> Array:
 def do_transform_cloud(cloud: PointCloud2, transform: Transform | TransformStamped) -> PointCloud2:
     """Transform a point cloud.
 
-    Normals in the fields normal_x, normal_y and normal_z are rotated as well, as in C++ since Humble's 0.25.14. Other
+    Normals in the fields normal_x, normal_y and normal_z are also rotated, as in C++ since Humble's 0.25.14. Other
     fields, the stamp and the layout of the cloud do not change. The argument is not modified.
 
     Args:
         cloud: A cloud with the fields x, y and z, float32 or float64.
-        transform: Transform into the target frame. If it is stamped, its frame_id becomes that of the result.
+        transform: Transform into the target frame. If it is stamped, the result has its frame_id.
 
     Raises:
         AssertionError: The cloud has no field x, y or z.
@@ -74,7 +74,7 @@ def do_transform_cloud(cloud: PointCloud2, transform: Transform | TransformStamp
 
 
 def _values(transform: Transform) -> tuple[float, float, float, float, float, float, float]:
-    """Return the pose values with a unit quaternion. A zero quaternion gives the identity, as elsewhere in tf2."""
+    """Return the pose values with a unit quaternion. A zero quaternion results in the identity, as elsewhere in tf2."""
     t, q = transform.translation, transform.rotation
     length = math.sqrt(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w)
     if length**2 < sys.float_info.epsilon:

@@ -9,7 +9,7 @@ from visualization_msgs.msg import Marker
 
 
 def do_transform_marker(marker: Marker, transform: TransformStamped) -> Marker:
-    """Transform a marker. The header is that of the transform.
+    """Transform a marker. The result has the header of the transform.
 
     The pose is transformed. The points are expressed relative to the pose and do not change. A marker with
     `frame_locked` is then locked to the new frame, which is equivalent only if the two frames do not move relative to

@@ -77,7 +77,7 @@ def quaternion_from_euler(ai: float, aj: float, ak: float, axes: str = "sxyz") -
 
 
 def euler_matrix(ai: float, aj: float, ak: float, axes: str = "sxyz") -> Array:
-    """Return the 4x4 rotation matrix of three Euler angles. The arguments are those of `quaternion_from_euler`."""
+    """Return the 4x4 rotation matrix of three Euler angles, with the arguments of `quaternion_from_euler`."""
     return quaternion_matrix(quaternion_from_euler(ai, aj, ak, axes))
 
 
@@ -110,7 +110,7 @@ def _distinct(m: Array, axes: _Axes) -> Angles:
 def _repeated(m: Array, axes: _Axes) -> Angles:
     """Return the angles of a convention whose first and last axis are equal (proper Euler).
 
-    There are two solutions. As in `transforms3d`, the sign of the second angle is that of the axes.
+    There are two solutions. As in `transforms3d`, the second angle has the sign of the axes.
     """
     i, j, third, sign = axes.i, axes.j, axes.third, axes.sign
     sine = math.hypot(m[i, j], m[i, third])

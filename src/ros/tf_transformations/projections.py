@@ -26,7 +26,8 @@ def projection_matrix(
     Args:
         point: Point of the plane.
         normal: Normal of the plane.
-        direction: Direction of a parallel projection. None: that of the normal, if there is no `perspective`.
+        direction: Direction of a parallel projection. None for the direction of the normal, if there is no
+        `perspective`.
         perspective: Center of a perspective projection.
         pseudo: Whether a perspective projection keeps the order of depths.
     """
@@ -178,7 +179,7 @@ def superimposition_matrix(v0: ArrayLike, v1: ArrayLike, scaling: bool = False, 
         v0: Points, shape (3, N) or homogeneous (4, N).
         v1: The points to which they are moved, of the same shape.
         scaling: Whether the matrix may also scale.
-        usesvd: Ignored, accepted for compatibility: the algorithm is that of Kabsch, with a singular value
+        usesvd: Ignored, accepted for compatibility: Kabsch's algorithm is used, with a singular value
             decomposition.
     """
     del usesvd

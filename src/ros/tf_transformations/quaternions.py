@@ -45,7 +45,7 @@ def quaternion_inverse(quaternion: ArrayLike) -> Array:
 
 
 def quaternion_matrix(quaternion: ArrayLike) -> Array:
-    """Return the 4x4 rotation matrix of a quaternion, which is normalized. Zero gives the identity."""
+    """Return the 4x4 rotation matrix of a quaternion, which is normalized; zero becomes the identity."""
     q = np.array(quaternion, dtype=np.float64)[:4]
     matrix = np.eye(4)
     squared = float(q @ q)
@@ -122,5 +122,5 @@ def random_quaternion(rand: ArrayLike | None = None) -> Array:
 
 
 def random_rotation_matrix(rand: ArrayLike | None = None) -> Array:
-    """Return the 4x4 matrix of a random rotation. The argument is that of `random_quaternion`."""
+    """Return the 4x4 matrix of a random rotation. The argument is the same as for `random_quaternion`."""
     return quaternion_matrix(random_quaternion(rand))

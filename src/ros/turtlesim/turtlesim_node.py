@@ -86,7 +86,7 @@ class TurtleSim(Node):
         if request.name in self.__turtles:
             return f"A turtle named [{shown(request.name)}] already exists"
         if len(self.__turtles) >= MAX_TURTLES:
-            return f"There are {MAX_TURTLES} turtles, the limit"
+            return f"There are already {MAX_TURTLES} turtles, which is the maximum"
         if not is_in_range(request.x, request.y, request.theta):
             return f"The position and the angle of a turtle must be finite and at most {MAX_VALUE:g}"
         if len(request.name) > _MAX_NAME_LENGTH:

@@ -99,7 +99,7 @@ def test_executables_are_added_and_removed(tmp_path):
     real.chmod(0o755)
     output = coframe("install")
     assert f"created {environment}/bin/ros2" in output
-    assert f"rviz2: {real} exists, and is not replaced" in output
+    assert f"rviz2: {real} already exists and is not replaced" in output
     result = subprocess.run(
         [environment / "bin" / "ros2", "--help"],
         capture_output=True,

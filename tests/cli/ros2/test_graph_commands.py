@@ -84,8 +84,8 @@ def test_echo(run):
 def test_unknown_names(run):
     assert "Unknown topic '/nothing'" in run("topic", "info", "/nothing", code=1)
     assert "Unable to find node '/nobody'\n  coframe node list" in run("node", "info", "/nobody", code=1)
-    misspelt = NODE[:-1]
-    assert f"Unable to find node '{misspelt}'\n  Did you mean '{NODE}'?" in run("node", "info", misspelt, code=1)
+    misspelled = NODE[:-1]
+    assert f"Unable to find node '{misspelled}'\n  Did you mean '{NODE}'?" in run("node", "info", misspelled, code=1)
     assert "Did you mean '/chatter'?" in run("topic", "echo", "/chater", code=1)
     assert "No message" in run("topic", "echo", "/commands", "std_msgs/msg/String", "--timeout", "0.2", code=1)
     assert "Node not found: /nobody" in run("param", "get", "/nobody", "rate", code=1)

@@ -81,7 +81,7 @@ def test_invalid_definitions_are_reported_with_file_and_line(tmp_path: Path) -> 
     assert result.exit_code == 1
     assert f"coframe: {folder}/Bad.msg, line 1: no type 'int'; use int32 or int64, in: int num\n" in result.stderr
     assert f"coframe: {folder}/Unknown.msg, line 2: field 'pose': no type cli_msgs/msg/Pose" in result.stderr
-    assert "(Did you mean geometry_msgs/Pose or turtlesim/Pose?)" in result.stderr
+    assert "(Did you mean geometry_msgs/Pose or turtlesim/Pose or turtlesim_msgs/Pose?)" in result.stderr
     assert run("check").exit_code == 1
     assert run("add", "nowhere").stderr.startswith(f"coframe: There is no folder {tmp_path}/nowhere.\n")
     (tmp_path / "empty").mkdir()

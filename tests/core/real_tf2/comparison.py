@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Run scenarios on coframe and on Debian's real tf2, compare every answer, and minimise differences."""
+"""Run scenarios on coframe and on Debian's real tf2, compare every answer, and minimize differences."""
 
 import collections
 import contextlib

@@ -27,7 +27,7 @@ REASONS = [
     *ADAPTED.values(),
 ]
 
-TOLERANCE = 1e-11  # metres, and of quaternions of unit length
+TOLERANCE = 1e-11  # meters, and of quaternions of unit length
 
 
 def explain_insertion(ours, theirs):

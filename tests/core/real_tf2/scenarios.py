@@ -158,7 +158,7 @@ class _World:
     def other_than(self, child):
         return self.rng.choice([frame for frame in self.frames if frame != child])
 
-    def unnormalised(self):
+    def unnormalized(self):
         child = self.child()
         factor = self.rng.choice((1e-3, 0.1, 0.996, 1.003, 1.1, 7, 1e6))
         values = [*self.translation(), *(factor * x for x in self.rotation(child))]
@@ -257,7 +257,7 @@ INSERTIONS = _weighted(
         _World.flip: 1.5,
         _World.reparent: 4,
         _World.into_a_loop: 0.5,
-        _World.unnormalised: 3,
+        _World.unnormalized: 3,
         _World.refused: 4,
         _World.slashed: 1,
         _World.clear: 0.5,

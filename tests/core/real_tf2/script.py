@@ -5,7 +5,7 @@ As long as both follow the same rules, their histories are equal and their answe
 rule of ros1_rules.json applies to an insertion, the two histories of that frame differ from then on. Each is then
 checked against the rules of its own version: lookups at, between and after the samples, and the YAML of the frame.
 Before the next query, coframe's history is made equal to that of ROS 1, which is the reference and never changed.
-ROS 1 rejects or stores unchanged quaternions that are not of unit length, so it also receives them normalised.
+ROS 1 rejects or stores unchanged quaternions that are not of unit length, so it also receives them normalized.
 """
 
 import bisect
@@ -106,10 +106,10 @@ class _Writer:
         if off < UNIT_TOLERANCE:
             return operation
         if off < ROS1_TOLERANCE:
-            self.add(None, None, rule=ADAPTED["nearly normalised"])
+            self.add(None, None, rule=ADAPTED["nearly normalized"])
         else:
-            line = LOGS["unnormalised"].format(child=child, authority=authority, q=values[3:])
-            self.add(None, operation, None, ("log", (("error", line),)), rule=ADAPTED["unnormalised"])
+            line = LOGS["unnormalized"].format(child=child, authority=authority, q=values[3:])
+            self.add(None, operation, None, ("log", (("error", line),)), rule=ADAPTED["unnormalized"])
         return [kind, parent, sent_child, stamp, list(sample.values), static, authority]
 
     def check(self, child, stamp):
@@ -155,7 +155,7 @@ def _lookups(history, child, stamp):
 
 
 def _stamps_around(stamps, stamp):
-    """Return both ends, the stamp between them, its neighbours, and the times halfway to these."""
+    """Return both ends, the stamp between them, its neighbors, and the times halfway to these."""
     if not stamps[0] <= stamp <= stamps[-1]:
         return {stamps[0], stamps[-1]}
     before = stamps[max(0, bisect.bisect_left(stamps, stamp) - 1)]

@@ -209,8 +209,8 @@ def test_transform_of_stamped_data(buffer, kind):
     moved = buffer.transform(message, "foo", new_type=kind)
     assert type(moved) is kind
     assert (moved.header.frame_id, moved.header.stamp.sec) == ("foo", 1)
-    travelled = buffer.transform_full(message, "bar", Time(seconds=2), "foo", Duration())
-    assert (travelled.header.frame_id, travelled.header.stamp.sec) == ("bar", 2)
+    traveled = buffer.transform_full(message, "bar", Time(seconds=2), "foo", Duration())
+    assert (traveled.header.frame_id, traveled.header.stamp.sec) == ("bar", 2)
     assert message == before
 
 

@@ -131,7 +131,7 @@ def test_a_replay_of_the_demo_shows_scans_at_their_recorded_poses(lab, open_page
     assert len(sequences) == 3
     replay.raw.select_option("#fixed", "lidar_link")
     replay.until("coframe.frames.lidar_link.position.every((x) => x === 0)")
-    # A scan is at most 0.1 s old. The robot moves a few centimetres in this time.
+    # A scan is at most 0.1 s old. The robot moves a few centimeters in this time.
     assert np.abs(replay.until(shown)["position"]).max() < 0.2
     replay.key("t")
     rows = "document.querySelector('#timeline .sparklines canvas').height"

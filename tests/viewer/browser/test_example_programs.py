@@ -64,7 +64,7 @@ def test_two_clicks_on_the_cloud_give_their_distance(start, open_page):
     assert program.line() == "1.00 m"
     page.until("coframe.nodes['measure/line']?.visible && coframe.nodes['measure/distance']?.visible")
     click_at(page, [3.0, 1.0, 1.5])
-    page.until("!coframe.nodes['measure/line'] && coframe.nodes['measure/1']?.centre[1] > 0.9")
+    page.until("!coframe.nodes['measure/line'] && coframe.nodes['measure/1']?.center[1] > 0.9")
 
 
 def test_the_cloud_follows_the_sliders_of_the_mount(start, open_page):
@@ -72,7 +72,7 @@ def test_the_cloud_follows_the_sliders_of_the_mount(start, open_page):
     page = open_page(program.url).drawn()
     page.until("coframe.nodes.cloud?.visible && coframe.nodes.cloud.size[2] > 0.5")  # tilted
     page.raw.locator("[data-label='Pitch (rad)'] input[type=range]").fill("0.35")
-    page.until("coframe.nodes.cloud.size[2] < 0.01 && Math.abs(coframe.nodes.cloud.centre[2]) < 0.01")
+    page.until("coframe.nodes.cloud.size[2] < 0.01 && Math.abs(coframe.nodes.cloud.center[2]) < 0.01")
     page.until("document.querySelector('[data-kind=text] input').value === '0.000 m'")
     page.click("[data-kind=button] button")
     assert program.line() == "camera_link: height 0.80 m, pitch 0.35 rad, 0.000 m"

@@ -137,7 +137,7 @@ def test_the_inspector_shows_the_pose_in_every_notation(demo, view, open_page):
     assert lab.texts("#inspector .chain button") == chain
 
 
-def test_separate_trees_are_labelled_and_a_broken_chain_is_explained(view, open_page):
+def test_separate_trees_are_labeled_and_a_broken_chain_is_explained(view, open_page):
     buffer = coframe.Buffer(None)
     buffer.set("map", "base", coframe.Transform([1.0, 0.0, 0.0]), BEGIN)
     buffer.set("map", "other", coframe.Transform([0.0, 1.0, 0.0]), BEGIN)

@@ -99,7 +99,7 @@ def test_in_the_top_view_y_is_up_and_z_has_no_effect(page):
     np.testing.assert_allclose(camera["position"][:2], camera["target"][:2], atol=1e-6)
     origin, right, up, high = np.array(page.evaluate("[[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 2]].map(coframe.pixel)"))
     scale = right[0] - origin[0]
-    assert scale > 10, "pixels per metre"
+    assert scale > 10, "pixels per meter"
     np.testing.assert_allclose([right, up, high] - origin, [[scale, 0], [0, -scale], [0, 0]], atol=1e-2)
     page.row("base").locator(".name").click()
     click_on(page, "arm")
@@ -126,13 +126,13 @@ def test_additional_views_follow_frames_and_look_out_of_them(page):
     assert "base" in page.texts(".pane .label"), "the view from above has labels"
     box = page.raw.locator(".pane-area").first.bounding_box()
     picture = page.raw.screenshot(clip=box)
-    assert number_of_colours(picture) > 20, "the view from above is drawn"
+    assert number_of_colors(picture) > 20, "the view from above is drawn"
     page.until("coframe.pixel([0, 0, 0])[0] < 1200")
     for _ in range(2):
         page.raw.locator(".pane [title='Close this view']").first.click()
     page.until("coframe.panes.length === 0")
 
 
-def number_of_colours(png):
+def number_of_colors(png):
     image = pytest.importorskip("PIL.Image")
     return len(image.open(io.BytesIO(png)).convert("RGB").getcolors(1 << 20))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The page: exports, layout, shortcuts, and its behaviour without a server."""
+"""The page: exports, layout, shortcuts, and its behavior without a server."""
 
 import base64
 import struct
@@ -55,7 +55,7 @@ def test_a_saved_image_contains_axes_and_labels(view, open_page):
     width, height = struct.unpack(">II", data[16:24])
     box = page.raw.locator("#canvas").bounding_box()
     assert (width, height) == (round(box["width"]), round(box["height"]))
-    colours = page.evaluate(
+    colors = page.evaluate(
         """async data => {
             const image = new Image();
             image.src = 'data:image/png;base64,' + data;
@@ -76,7 +76,7 @@ def test_a_saved_image_contains_axes_and_labels(view, open_page):
         }""",
         base64.b64encode(data).decode(),
     )
-    assert min(colours.values()) > 20, f"axes in red, green and blue: {colours}"
+    assert min(colors.values()) > 20, f"axes in red, green and blue: {colors}"
     assert download.value.suggested_filename.endswith(".png")
 
 

@@ -16,7 +16,7 @@ from coframe.wire.qos import QoS
 
 EVIL = "<img src=x onerror=window.hacked=1>"
 NONE = "\N{EN DASH}"  # shown instead of a missing value
-# The number of pixels of a plot that have the colour of its first curve, #2f7de1.
+# The number of pixels of a plot that have the color of its first curve, #2f7de1.
 BLUE = """() => {
     const canvas = document.querySelector("#charts canvas");
     if (!canvas) return 0;

@@ -35,7 +35,7 @@ def graph(domain_id):
 
 
 def messages():
-    """Return messages by topic: a grey image, its calibration, a wall of points, and a box."""
+    """Return messages by topic: a gray image, its calibration, a wall of points, and a box."""
     image = find("sensor_msgs/msg/Image")(width=640, height=480, step=640, encoding="mono8", data=bytes([90]) * 307200)
     info = find("sensor_msgs/msg/CameraInfo")(width=640, height=480, distortion_model="plumb_bob", d=DISTORTION, k=K)
     image.header.frame_id = info.header.frame_id = "optical"

@@ -52,15 +52,15 @@ def drawn(page, name, vertices=None):
     return nodes(page)[name]
 
 
-def until_centre(page, name, centre):
+def until_center(page, name, center):
     page.until(
-        "([name, centre]) => coframe.nodes[name]?.centre.every((value, k) => Math.abs(value - centre[k]) < 1e-3)",
-        [name, [float(one) for one in centre]],
+        "([name, center]) => coframe.nodes[name]?.center.every((value, k) => Math.abs(value - center[k]) < 1e-3)",
+        [name, [float(one) for one in center]],
     )
 
 
 def pixel(page, point):
-    """Return the colour, red, green and blue, that is drawn at a point of the fixed frame."""
+    """Return the color, red, green and blue, that is drawn at a point of the fixed frame."""
     x, y = page.evaluate("(point) => coframe.pixel(point)", list(point))
     data = page.raw.locator("#canvas").screenshot()
     return page.evaluate(
@@ -102,20 +102,20 @@ def hover_at(page, point):
 
 def test_a_node_moves_with_its_frame(viewer, page, buffer):
     viewer.scene.add_box("box", (0.2, 0.2, 0.2), frame="base", position=(1, 0, 0.5))
-    # One metre ahead of a base that looks to the left.
-    assert np.allclose(drawn(page, "box")["centre"], [2, 1, 0.5], atol=1e-4)
+    # One meter ahead of a base that looks to the left.
+    assert np.allclose(drawn(page, "box")["center"], [2, 1, 0.5], atol=1e-4)
     buffer.set("map", "base", coframe.Transform([5.0, 0.0, 0.0]), static=True)
-    until_centre(page, "box", [6, 0, 0.5])
+    until_center(page, "box", [6, 0, 0.5])
 
 
 def test_nodes_below_another_move_hide_and_disappear_with_it(viewer, page):
     mount = viewer.scene.add_frame("mount", frame="base", position=(0, 0, 1))
     viewer.scene.add_sphere("mount/left/ball", 0.1, position=(1, 0, 0))
-    until_centre(page, "mount/left/ball", [2, 1, 1])
+    until_center(page, "mount/left/ball", [2, 1, 1])
     mount.position = (0, 0, 3)
-    until_centre(page, "mount/left/ball", [2, 1, 3])
+    until_center(page, "mount/left/ball", [2, 1, 3])
     mount.quaternion = YAW_90
-    until_centre(page, "mount/left/ball", [1, 0, 3])
+    until_center(page, "mount/left/ball", [1, 0, 3])
     mount.visible = False
     page.until("!coframe.nodes['mount/left/ball'].visible")
     mount.visible = True
@@ -125,7 +125,7 @@ def test_nodes_below_another_move_hide_and_disappear_with_it(viewer, page):
     assert viewer.scene.names == []
 
 
-def test_every_kind_is_drawn_in_its_colour(viewer, page):
+def test_every_kind_is_drawn_in_its_color(viewer, page):
     scene = viewer.scene
     scene.add_points("points", np.zeros((1, 3)), color=RED, point_size=0.4)
     until_pixel(page, (0, 0, 0), lambda rgb: list(rgb) == [255, 0, 0], "a red point")
@@ -160,10 +160,10 @@ def test_assignments_update_the_page_and_the_newest_counts(viewer, page):
     for count in range(1, 200):
         cloud.points = np.full((count, 3), float(count))
     drawn(page, "cloud", 199)
-    until_centre(page, "cloud", [199, 199, 199])
+    until_center(page, "cloud", [199, 199, 199])
     cloud.pose = coframe.Transform([1.0, 0.0, 0.0], target="base")
     assert cloud.frame == "base"
-    until_centre(page, "cloud", [2 - 199, 1 + 199, 199])
+    until_center(page, "cloud", [2 - 199, 1 + 199, 199])
 
 
 def test_a_late_page_shows_the_present_nodes(viewer, page, open_page):
@@ -172,7 +172,7 @@ def test_a_late_page_shows_the_present_nodes(viewer, page, open_page):
     drawn(page, "second")
     viewer.scene.remove("first")
     late = open_page(viewer.url).drawn()
-    assert np.allclose(drawn(late, "second")["centre"], [0, 0, 2], atol=1e-4)
+    assert np.allclose(drawn(late, "second")["center"], [0, 0, 2], atol=1e-4)
     assert set(nodes(late)) == {"second"}
 
 
@@ -180,7 +180,7 @@ def test_positions_are_exact_far_from_the_origin(viewer, page):
     far = np.array([500_000.0, 4_500_000.0, 30.0])
     viewer.scene.add_points("utm", far + np.array([[0.0, 0.0, 0.0], [0.25, 0.5, 0.0]]))
     found = drawn(page, "utm", 2)
-    assert np.allclose(found["centre"], far + np.array([0.125, 0.25, 0.0]), atol=1e-3)
+    assert np.allclose(found["center"], far + np.array([0.125, 0.25, 0.0]), atol=1e-3)
     assert np.allclose(found["size"], [0.25, 0.5, 0.0], atol=1e-3)
 
 
@@ -336,7 +336,7 @@ def test_a_replay_contains_the_nodes(viewer, open_page, tmp_path):
     viewer.save_replay(file)
     viewer.close()
     page = open_page(file.as_uri()).drawn()
-    assert np.allclose(drawn(page, "mount/cloud", 7)["centre"], [1, 1, 1], atol=1e-4)
+    assert np.allclose(drawn(page, "mount/cloud", 7)["center"], [1, 1, 1], atol=1e-4)
     drawn(page, "label")
     page.tab("scene")
     page.until("document.querySelector('[data-node=label]')")

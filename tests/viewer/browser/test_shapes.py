@@ -93,7 +93,7 @@ def test_markers_of_many_types_have_the_correct_position_and_size(view, open_pag
     ]
     page = open_page(view(recording(tmp_path, markers(*sent)), fixed="map").url).drawn()
     page.wait(lambda: len(drawn_markers(page)) == len(sent), "all markers")
-    expected = {  # centre and size
+    expected = {  # center and size
         0: ((1.0, 3.0, 0.0), (2.0, 0.2, 0.2)),
         1: ((1.0, 2.0, 3.0), (0.5, 1.0, 2.0)),
         2: ((-1.0, 0.0, 0.0), (0.4, 0.4, 0.4)),
@@ -105,8 +105,8 @@ def test_markers_of_many_types_have_the_correct_position_and_size(view, open_pag
         11: ((1.0, 0.5, 0.0), (2.0, 1.0, 0.0)),
     }
     shown = drawn_markers(page)
-    for number, (centre, size) in expected.items():
-        np.testing.assert_allclose(shown["", number]["centre"], centre, atol=0.02, err_msg=f"marker {number}")
+    for number, (center, size) in expected.items():
+        np.testing.assert_allclose(shown["", number]["center"], center, atol=0.02, err_msg=f"marker {number}")
         np.testing.assert_allclose(shown["", number]["size"], size, atol=0.03, err_msg=f"marker {number}")
 
 
@@ -128,7 +128,7 @@ def test_markers_are_deleted_expire_and_move_with_their_frames(view, open_page, 
     go_to(page, 8)
     x = page.evaluate("coframe.frames.base.position[0]")
     for topic, expected in (("/locked", x), ("/loose", 0.0)):
-        page.until(f"x => Math.abs(({display(topic)}.messages[0]?.markers[0]?.centre[0] ?? NaN) - x) < 1e-3", expected)
+        page.until(f"x => Math.abs(({display(topic)}.messages[0]?.markers[0]?.center[0] ?? NaN) - x) < 1e-3", expected)
 
 
 def test_namespaces_are_hidden_in_the_panel(view, open_page, tmp_path):
@@ -175,8 +175,8 @@ def test_map_cells_are_drawn_at_their_positions(grid, view, open_page, tmp_path)
 
     def brightness():
         """Return the brightness of each cell on the screen; row v, column u is at x = 1 - v / 2, y = 2 + u / 2."""
-        centres = [[1 - (v + 0.5) / 2, 2 + (u + 0.5) / 2, 0.0] for v in range(3) for u in range(4)]
-        return np.array(colours(page, centres)).mean(axis=1).reshape(3, 4)
+        centers = [[1 - (v + 0.5) / 2, 2 + (u + 0.5) / 2, 0.0] for v in range(3) for u in range(4)]
+        return np.array(colors(page, centers)).mean(axis=1).reshape(3, 4)
 
     def is_painted():
         shown = brightness()
@@ -187,7 +187,7 @@ def test_map_cells_are_drawn_at_their_positions(grid, view, open_page, tmp_path)
     page.wait(is_painted, "the cells")
 
 
-def colours(page, points):
+def colors(page, points):
     """Return the RGB values of the canvas at points of the fixed frame."""
     image = base64.b64encode(page.raw.locator("#canvas").screenshot()).decode()
     return page.evaluate(
@@ -234,7 +234,7 @@ def test_the_covariance_of_a_pose_is_drawn_if_enabled(view, open_page, tmp_path)
     page.wait(lambda: np.allclose(extent()[:, :2], [[5.0, -0.75], [6.0, 0.75]], atol=0.02), "the cone")
 
 
-def test_clouds_are_coloured_by_an_axis_of_the_fixed_frame_or_their_own(view, open_page, tmp_path):
+def test_clouds_are_colored_by_an_axis_of_the_fixed_frame_or_their_own(view, open_page, tmp_path):
     field = find("sensor_msgs/msg/PointField")
     cloud = stamped("sensor_msgs/msg/PointCloud2", "tilted", BEGIN + SECOND)
     points = np.array([[0.0, 0.0, 0.0], [3.0, 0.0, 1.0]], "<f4")
@@ -247,12 +247,12 @@ def test_clouds_are_coloured_by_an_axis_of_the_fixed_frame_or_their_own(view, op
         page = open_page(view(bag, fixed="map").url).drawn()
         go_to(page, 5)
         page.until(f"{display('/cloud')}?.messages?.length")
-        colours_of = f"{display('/cloud')}.messages[0].colours.map((value) => Math.round(value * 1e4) / 1e4)"
-        page.until(f"JSON.stringify({colours_of}) === '[0,3]'")
+        colors_of = f"{display('/cloud')}.messages[0].colors.map((value) => Math.round(value * 1e4) / 1e4)"
+        page.until(f"JSON.stringify({colors_of}) === '[0,3]'")
         page.tab("displays")
         page.click("#body-displays .card[data-display=PointCloud2] .card-title")
         page.raw.uncheck("#body-displays input[aria-label='Use Fixed Frame']")
-        page.until(f"{display('/cloud')}.messages.length && JSON.stringify({colours_of}) === '[0,1]'")
+        page.until(f"{display('/cloud')}.messages.length && JSON.stringify({colors_of}) === '[0,1]'")
 
 
 IMAGES = """() => [...document.querySelectorAll('#images figure:not([hidden])')].map((figure) => {

@@ -128,17 +128,17 @@ def test_gaps_are_marked_in_the_rates_over_time(view, open_page):
     page.key("t")
 
     def painted(part):
-        """Return the colours in a column of the canvas with the rates."""
+        """Return the colors in a column of the canvas with the rates."""
         return page.evaluate(
             """part => {
                 const canvas = document.querySelector('#timeline .sparklines canvas');
                 if (!canvas.width || !canvas.height) return 0;
                 const x = Math.floor(part * canvas.width);
                 const pixels = canvas.getContext('2d').getImageData(x, 0, 1, canvas.height).data;
-                let colours = new Set();
+                let colors = new Set();
                 for (let i = 0; i < pixels.length; i += 4)
-                    if (pixels[i + 3]) colours.add(pixels.slice(i, i + 3).join());
-                return [...colours].sort().join(' ');
+                    if (pixels[i + 3]) colors.add(pixels.slice(i, i + 3).join());
+                return [...colors].sort().join(' ');
             }""",
             part,
         )

@@ -107,12 +107,12 @@ def test_a_static_transform_is_adjusted_by_hand_and_published(graph, view, open_
     page.click("#adjust button:text('Adjust by hand')")
     page.raw.wait_for_timeout(300)
     x, y = pixel(page, (2.0, 2.0, 0.5))
-    metre = pixel(page, (3.0, 2.0, 0.5))[0] - x
+    meter = pixel(page, (3.0, 2.0, 0.5))[0] - x
     mouse = page.raw.mouse
     mouse.move(x + 50, y)
     mouse.down()
     mouse.move(x + 90, y, steps=4)
-    mouse.move(x + 50 + 0.5 * metre, y, steps=4)
+    mouse.move(x + 50 + 0.5 * meter, y, steps=4)
     mouse.up()
     at = page.until("coframe.frames.arm.position[0] > 2.1 && coframe.frames.arm.position")
     np.testing.assert_allclose(at, [2.5, 2.0, 0.5], atol=0.03)
@@ -144,15 +144,15 @@ def test_an_option_beats_the_file_and_the_last_session_and_labels_stay_readable(
     page = open_page(view(buffer, rviz=file, fixed="map").url, color_scheme="light").drawn()
     page.until("coframe.fixed === 'map'")
     light = "([r, g, b]) => (r + g + b) / 3 > 128"
-    colour = "getComputedStyle(document.querySelector('#labels .label')).color.match(/\\d+/g).map(Number)"
+    color = "getComputedStyle(document.querySelector('#labels .label')).color.match(/\\d+/g).map(Number)"
     page.until("document.querySelector('#labels .label')")
     assert page.evaluate("document.documentElement.dataset.theme") == "light"
-    assert page.evaluate(f"({light})({colour})"), "light labels on the dark background of the file"
+    assert page.evaluate(f"({light})({color})"), "light labels on the dark background of the file"
     page.raw.select_option("#fixed", "base")
     page.until("coframe.fixed === 'base'")
     page.key("d")
     page.key("d")
-    page.until(f"!({light})({colour})")
+    page.until(f"!({light})({color})")
     page.raw.reload()
     page.drawn()
     page.until("coframe.fixed === 'map'")

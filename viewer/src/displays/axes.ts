@@ -33,7 +33,7 @@ export class AxesDisplay extends Display<"Axes"> {
   }
 }
 
-/** A material for sRGB vertex colours, which it writes unchanged; three.js would convert them from linear colours. */
+/** A material for sRGB vertex colors, which it writes unchanged; three.js would convert them from linear colors. */
 export function axesMaterial(alpha: number): THREE.ShaderMaterial {
   return new THREE.ShaderMaterial({
     vertexColors: true,

@@ -37,16 +37,16 @@ export class CameraDisplay extends MessageDisplay<Shapes, "CameraInfo"> {
     const eye = new THREE.Vector3();
     const edges = corners.flatMap((at, i) => [eye, at, at, corners[(i + 1) % 4] as THREE.Vector3]);
     const sides = corners.flatMap((at, i) => [eye, at, corners[(i + 1) % 4] as THREE.Vector3]);
-    const colour = this.options.colour("Color");
+    const color = this.options.color("Color");
     group.add(
       new THREE.LineSegments(
         new THREE.BufferGeometry().setFromPoints(edges),
-        new THREE.LineBasicMaterial({ color: colour }),
+        new THREE.LineBasicMaterial({ color: color }),
       ),
       new THREE.Mesh(
         new THREE.BufferGeometry().setFromPoints(sides),
         new THREE.MeshBasicMaterial({
-          color: colour,
+          color: color,
           transparent: true,
           opacity: this.options.number("Alpha"),
           side: THREE.DoubleSide,

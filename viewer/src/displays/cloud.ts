@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/** The LaserScan and PointCloud2 displays: points, coloured on the graphics card. */
+/** The LaserScan and PointCloud2 displays: points, colored on the graphics card. */
 
 import * as THREE from "three";
 import { srgb } from "../scene/frames";
@@ -35,11 +35,11 @@ export class CloudDisplay extends MessageDisplay<Cloud, "LaserScan" | "PointClou
 
   protected override describe(message: Cloud, object: THREE.Object3D): Record<string, unknown> {
     const { range } = ((object as THREE.Points).material as THREE.ShaderMaterial).uniforms;
-    const colours = (range as THREE.IUniform<THREE.Vector2>).value.toArray();
+    const colors = (range as THREE.IUniform<THREE.Vector2>).value.toArray();
     return {
       points: message.count,
       step: message.step,
-      colours,
+      colors,
       first: Array.from(message.points.subarray(0, 3 * 1024)),
     };
   }
@@ -61,13 +61,13 @@ export class CloudDisplay extends MessageDisplay<Cloud, "LaserScan" | "PointClou
       defines: {
         [`BY_${mode.toUpperCase()}`]: 1,
         ...(this.options.flag("Use Fixed Frame") ? {} : { OWN_AXIS: 1 }),
-        ...(style === "Points" ? {} : { IN_METRES: 1 }),
+        ...(style === "Points" ? {} : { IN_METERS: 1 }),
         ...(style === "Spheres" ? { ROUND: 1 } : {}),
         ...(this.context.distinct() ? { DISTINCT: 1 } : {}),
       },
       uniforms: {
         alpha: { value: alpha },
-        flatColour: { value: srgb(this.options.colour("Color")) },
+        flatColor: { value: srgb(this.options.color("Color")) },
         axis: { value: "XYZ".indexOf(this.options.choice("Axis")) },
         range: { value: new THREE.Vector2(...message.range) },
         size: { value: this.options.number(style === "Points" ? "Size (Pixels)" : "Size (m)") },
@@ -109,7 +109,7 @@ function axisRange(message: Cloud, pose: THREE.Matrix4, axis: number): [number, 
     if (value < low) low = value;
     if (value > high) high = value;
   }
-  // Points of equal height get the colour in the middle of the scale instead of amplified noise.
+  // Points of equal height get the color in the middle of the scale instead of amplified noise.
   return high - low > 1e-3 ? [low, high] : [low - 0.5, low + 0.5];
 }
 
@@ -117,16 +117,16 @@ const VERTEX = `
   uniform float size, height;
   uniform vec2 range;
   uniform int axis;
-  uniform vec3 flatColour;
+  uniform vec3 flatColor;
   #ifdef BY_RGB
     attribute vec4 rgba;
   #endif
   #ifdef BY_SCALAR
     attribute float scalar;
   #endif
-  varying vec3 colour;
+  varying vec3 color;
 
-  // Turbo (polynomial fit by A. Mikhailov), or a blue-to-yellow scale for colour-blind users.
+  // Turbo (polynomial fit by A. Mikhailov), or a blue-to-yellow scale for color-blind users.
   vec3 scale(float t) {
     t = clamp(t, 0.0, 1.0);
     #ifdef DISTINCT
@@ -149,17 +149,17 @@ const VERTEX = `
     gl_Position = projectionMatrix * viewMatrix * world;
     float spread = max(range.y - range.x, 1e-6);
     #if defined(BY_RGB)
-      colour = rgba.rgb;
+      color = rgba.rgb;
     #elif defined(BY_SCALAR)
-      colour = scale((scalar - range.x) / spread);
+      color = scale((scalar - range.x) / spread);
     #elif defined(BY_AXIS) && defined(OWN_AXIS)
-      colour = scale((position[axis] - range.x) / spread);
+      color = scale((position[axis] - range.x) / spread);
     #elif defined(BY_AXIS)
-      colour = scale((world[axis] - range.x) / spread);
+      color = scale((world[axis] - range.x) / spread);
     #else
-      colour = flatColour;
+      color = flatColor;
     #endif
-    #ifdef IN_METRES
+    #ifdef IN_METERS
       gl_PointSize = max(1.5, 0.5 * size * height * projectionMatrix[1][1] / max(gl_Position.w, 1e-3));
     #else
       gl_PointSize = size * height;
@@ -168,10 +168,10 @@ const VERTEX = `
 
 const FRAGMENT = `
   uniform float alpha;
-  varying vec3 colour;
+  varying vec3 color;
   void main() {
     #ifdef ROUND
       if (length(gl_PointCoord - 0.5) > 0.5) discard;
     #endif
-    gl_FragColor = vec4(colour, alpha);
+    gl_FragColor = vec4(color, alpha);
   }`;

@@ -69,7 +69,7 @@ function orientationCone(at: Covariance, options: CovarianceOptions): THREE.Mesh
 
 function material(options: CovarianceOptions, part: Part): THREE.Material {
   return new THREE.MeshLambertMaterial({
-    color: options.colour(`Covariance/${part}/Color`),
+    color: options.color(`Covariance/${part}/Color`),
     transparent: true,
     opacity: options.number(`Covariance/${part}/Alpha`),
     side: THREE.DoubleSide,

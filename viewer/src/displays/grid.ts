@@ -15,13 +15,13 @@ export class GridDisplay extends Display<"Grid"> {
       release(this.lines);
       this.lines.removeFromParent();
     }
-    const colour = this.options.colour("Color") || this.context.palette().grid;
+    const color = this.options.color("Color") || this.context.palette().grid;
     const geometry = gridGeometry(
       Math.round(this.options.number("Plane Cell Count")),
       this.options.number("Cell Size"),
     );
     const alpha = this.config.options["Alpha"] === undefined ? 1 : this.options.number("Alpha");
-    const material = new THREE.LineBasicMaterial({ color: colour, transparent: alpha < 1, opacity: alpha });
+    const material = new THREE.LineBasicMaterial({ color: color, transparent: alpha < 1, opacity: alpha });
     this.lines = new THREE.LineSegments(geometry, material);
     const plane = this.options.choice("Plane");
     if (plane === "XZ") this.lines.rotation.x = Math.PI / 2;

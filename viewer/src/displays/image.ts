@@ -162,7 +162,7 @@ async function decodeImage({ format, width, height, data }: Image): Promise<Imag
     return createImageBitmap(new Blob([data], { type }));
   }
   const pixels = new ImageData(width, height);
-  const channels = format === ImageFormat.grey ? 1 : 3;
+  const channels = format === ImageFormat.gray ? 1 : 3;
   for (let i = 0; i < width * height; i++)
     for (let k = 0; k < 4; k++)
       pixels.data[i * 4 + k] = k === 3 ? 255 : (data[i * channels + (channels === 1 ? 0 : k)] as number);

@@ -3,7 +3,7 @@
 
 import * as THREE from "three";
 import type { Project } from "../util/camera_model";
-import { css, scaleColour } from "../util/colour_scale";
+import { css, scaleColor } from "../util/color_scale";
 import { h, shorten } from "../util/dom";
 import type { Palette } from "../util/theme";
 
@@ -83,9 +83,9 @@ export class ImageOverlay {
       const origin = this.pixelOf(inCamera, 0, 0, 0);
       if (!origin) continue;
       this.projected.frames[name] = origin;
-      palette.axes.forEach((colour, axis) => {
+      palette.axes.forEach((color, axis) => {
         const end = [0, 0, 0].map((_, k) => (k === axis ? axisLength : 0)) as [number, number, number];
-        context.strokeStyle = colour;
+        context.strokeStyle = color;
         this.line(inCamera, [0, 0, 0], end);
       });
       context.strokeStyle = palette.background;
@@ -102,7 +102,7 @@ export class ImageOverlay {
     const context = this.context as CanvasRenderingContext2D;
     const inCamera = this.toCamera.clone().multiply(cloud.matrixWorld);
     const positions = cloud.geometry.getAttribute("position").array;
-    const colourOf = cloudColours(cloud, distinct);
+    const colorOf = cloudColors(cloud, distinct);
     const count = positions.length / 3;
     const step = Math.max(1, Math.ceil(count / MAX_POINTS));
     const width = POINT_PX * pixel;
@@ -111,7 +111,7 @@ export class ImageOverlay {
       const at = this.pixelOf(inCamera, x, y, z);
       if (!at) continue;
       this.projected.points++;
-      context.fillStyle = colourOf(i);
+      context.fillStyle = colorOf(i);
       context.fillRect(at[0] - width / 2, at[1] - width / 2, width, width);
     }
   }
@@ -120,7 +120,7 @@ export class ImageOverlay {
     const context = this.context as CanvasRenderingContext2D;
     const segments = this.segmentsOf(object);
     if (!segments) return;
-    context.strokeStyle = colourOf(object);
+    context.strokeStyle = colorOf(object);
     const poses: THREE.Matrix4[] = [];
     if (object instanceof THREE.InstancedMesh)
       for (let i = 0; i < object.count; i++) {
@@ -185,8 +185,8 @@ export class ImageOverlay {
   }
 }
 
-/** The colours of a cloud's points, from the attributes and uniforms of its shader. */
-function cloudColours(cloud: THREE.Points, distinct: boolean): (i: number) => string {
+/** The colors of a cloud's points, from the attributes and uniforms of its shader. */
+function cloudColors(cloud: THREE.Points, distinct: boolean): (i: number) => string {
   const { geometry } = cloud;
   const { uniforms, defines } = cloud.material as THREE.ShaderMaterial;
   const value = <T>(name: string): T | undefined => uniforms[name]?.value as T | undefined;
@@ -194,12 +194,12 @@ function cloudColours(cloud: THREE.Points, distinct: boolean): (i: number) => st
   if (rgba) return (i) => css([rgba.getX(i), rgba.getY(i), rgba.getZ(i)]);
   const range = value<THREE.Vector2>("range") ?? new THREE.Vector2(0, 1);
   const spread = Math.max(range.y - range.x, 1e-6);
-  const scaled = (found: number): string => scaleColour((found - range.x) / spread, distinct);
+  const scaled = (found: number): string => scaleColor((found - range.x) / spread, distinct);
   if (scalar) return (i) => scaled(scalar.getX(i));
-  const flat = value<THREE.Vector3>("flatColour")?.toArray() ?? [1, 1, 1];
+  const flat = value<THREE.Vector3>("flatColor")?.toArray() ?? [1, 1, 1];
   if (!defines || !("BY_AXIS" in defines)) {
-    const colour = css(flat);
-    return () => colour;
+    const color = css(flat);
+    return () => color;
   }
   const axis = value<number>("axis") ?? 2;
   const pose = "OWN_AXIS" in defines ? new THREE.Matrix4() : cloud.matrixWorld;
@@ -208,9 +208,9 @@ function cloudColours(cloud: THREE.Points, distinct: boolean): (i: number) => st
   return (i) => scaled(point.fromBufferAttribute(positions, i).applyMatrix4(pose).getComponent(axis));
 }
 
-function colourOf(object: THREE.Object3D): string {
+function colorOf(object: THREE.Object3D): string {
   const { material } = object as THREE.Mesh;
   const first = Array.isArray(material) ? material[0] : material;
-  const colour = (first as Partial<THREE.MeshBasicMaterial> | undefined)?.color;
-  return colour ? `#${colour.getHexString()}` : "#ffffff";
+  const color = (first as Partial<THREE.MeshBasicMaterial> | undefined)?.color;
+  return color ? `#${color.getHexString()}` : "#ffffff";
 }

@@ -64,8 +64,8 @@ export class MapDisplay extends MessageDisplay<Grid, "Map"> {
             gl_FragColor = vec4(cell > 100.0 ? vec3(0.44, 0.54, 0.53) : cost, alpha);
             return;
           }
-          vec3 colour = cell <= 100.0 ? vec3(1.0 - part) : vec3(0.44, 0.54, 0.53);
-          gl_FragColor = vec4(colour, alpha);
+          vec3 color = cell <= 100.0 ? vec3(1.0 - part) : vec3(0.44, 0.54, 0.53);
+          gl_FragColor = vec4(color, alpha);
         }`,
     });
   }

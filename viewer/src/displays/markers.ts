@@ -49,12 +49,12 @@ export class MarkersDisplay extends MessageDisplay<Shapes, "Marker" | "MarkerArr
     if (this.namespaces.size > before) this.onNamespace();
   }
 
-  /** Returns the centre and the size of each marker. */
+  /** Returns the center and the size of each marker. */
   protected override describe(_message: Shapes, object: THREE.Object3D): Record<string, unknown> {
     const markers = object.children.map((part) => {
       const box = new THREE.Box3().setFromObject(part);
-      const [centre, size] = [box.getCenter(new THREE.Vector3()), box.getSize(new THREE.Vector3())];
-      return { ...part.userData.marker, centre: this.inFixed(centre), size: size.toArray() };
+      const [center, size] = [box.getCenter(new THREE.Vector3()), box.getSize(new THREE.Vector3())];
+      return { ...part.userData.marker, center: this.inFixed(center), size: size.toArray() };
     });
     return { markers };
   }
@@ -76,7 +76,7 @@ export class MarkersDisplay extends MessageDisplay<Shapes, "Marker" | "MarkerArr
 
   private marker(item: DrawableMarker, payload: Float32Array): THREE.Object3D | null {
     const points = slice(payload, item.points, 3);
-    const colours = slice(payload, item.colors, 4);
+    const colors = slice(payload, item.colors, 4);
     switch (item.type) {
       case 0:
         return arrow(item, points);
@@ -87,21 +87,21 @@ export class MarkersDisplay extends MessageDisplay<Shapes, "Marker" | "MarkerArr
       case 3:
         return solid(new THREE.CylinderGeometry(0.5, 0.5, 1, 32).rotateX(Math.PI / 2), item);
       case 4:
-        return lines(item, pairs(points, 3), pairs(colours, 4));
+        return lines(item, pairs(points, 3), pairs(colors, 4));
       case 5:
-        return lines(item, points, colours);
+        return lines(item, points, colors);
       case 6:
-        return instanced(new THREE.BoxGeometry(1, 1, 1), item, points, colours);
+        return instanced(new THREE.BoxGeometry(1, 1, 1), item, points, colors);
       case 7:
-        return instanced(new THREE.SphereGeometry(0.5, 12, 8), item, points, colours);
+        return instanced(new THREE.SphereGeometry(0.5, 12, 8), item, points, colors);
       case 8:
-        return instanced(new THREE.BoxGeometry(1, 1, 0.01), item, points, colours);
+        return instanced(new THREE.BoxGeometry(1, 1, 0.01), item, points, colors);
       case 9:
         return text(item);
       case 10:
         return this.mesh(item);
       case 11:
-        return triangles(item, points, colours);
+        return triangles(item, points, colors);
       case 12:
         return arrowStrip(item, points);
       default:
@@ -118,8 +118,8 @@ export class MarkersDisplay extends MessageDisplay<Shapes, "Marker" | "MarkerArr
       return group;
     }
     this.meshes.load(item.mesh, item.mesh).then(
-      ({ object, coloured }) => {
-        if (!(coloured && item.use_materials !== false))
+      ({ object, colored }) => {
+        if (!(colored && item.use_materials !== false))
           object.traverse((part) => {
             if ((part as Partial<THREE.Mesh>).isMesh) (part as THREE.Mesh).material = material(item);
           });
@@ -142,7 +142,7 @@ function finite(item: MarkerItem): item is DrawableMarker {
   return item.pose.length === 7 && item.pose.every(Number.isFinite) && item.scale.every(Number.isFinite);
 }
 
-function colourOf([r, g, b]: readonly (number | null)[]): THREE.Color {
+function colorOf([r, g, b]: readonly (number | null)[]): THREE.Color {
   return new THREE.Color().setRGB(r ?? 1, g ?? 1, b ?? 1, THREE.SRGBColorSpace);
 }
 
@@ -153,7 +153,7 @@ function alphaOf(item: DrawableMarker): number {
 function material(item: DrawableMarker): THREE.MeshLambertMaterial {
   const alpha = alphaOf(item);
   return new THREE.MeshLambertMaterial({
-    color: colourOf(item.rgba),
+    color: colorOf(item.rgba),
     transparent: alpha < 1,
     opacity: alpha,
     depthWrite: alpha >= 1,
@@ -213,23 +213,23 @@ function pairs(values: Float32Array, width: number): Float32Array {
   return out;
 }
 
-function lines(item: DrawableMarker, points: Float32Array, colours: Float32Array): THREE.Object3D {
+function lines(item: DrawableMarker, points: Float32Array, colors: Float32Array): THREE.Object3D {
   const group = new THREE.Group();
   if (points.length < 6 || !points.every(Number.isFinite)) return group;
   const complete = points.subarray(0, Math.floor(points.length / 6) * 6);
   const geometry = new LineSegmentsGeometry().setPositions(complete);
-  const coloured = colours.length / 4 >= complete.length / 3;
-  if (coloured) geometry.setColors(linear(colours, complete.length / 3));
+  const colored = colors.length / 4 >= complete.length / 3;
+  if (colored) geometry.setColors(linear(colors, complete.length / 3));
   const alpha = alphaOf(item);
   const segments = new LineSegments2(
     geometry,
     new LineMaterial({
-      color: coloured ? 0xffffff : colourOf(item.rgba).getHex(),
-      vertexColors: coloured,
+      color: colored ? 0xffffff : colorOf(item.rgba).getHex(),
+      vertexColors: colored,
       worldUnits: true,
       linewidth: Math.max(1e-4, item.scale[0]),
-      transparent: alpha < 1 && !coloured,
-      opacity: coloured ? 1 : alpha,
+      transparent: alpha < 1 && !colored,
+      opacity: colored ? 1 : alpha,
     }),
   );
   segments.frustumCulled = false;
@@ -237,10 +237,10 @@ function lines(item: DrawableMarker, points: Float32Array, colours: Float32Array
   return group;
 }
 
-function linear(colours: Float32Array, count: number): Float32Array {
+function linear(colors: Float32Array, count: number): Float32Array {
   const out = new Float32Array(count * 3);
   for (let i = 0; i < count; i++)
-    colourOf(colours.subarray(i * 4, i * 4 + 3) as unknown as number[]).toArray(out, i * 3);
+    colorOf(colors.subarray(i * 4, i * 4 + 3) as unknown as number[]).toArray(out, i * 3);
   return out;
 }
 
@@ -248,25 +248,25 @@ function instanced(
   geometry: THREE.BufferGeometry,
   item: DrawableMarker,
   points: Float32Array,
-  colours: Float32Array,
+  colors: Float32Array,
 ): THREE.Object3D {
   const count = Math.floor(points.length / 3);
-  const coloured = colours.length / 4 >= count;
+  const colored = colors.length / 4 >= count;
   const made = material(item);
-  if (coloured) made.color.set(0xffffff);
+  if (colored) made.color.set(0xffffff);
   const mesh = new THREE.InstancedMesh(geometry, made, count);
   const matrix = new THREE.Matrix4();
   const [x, y, z] = item.type === 8 ? [item.scale[0], item.scale[1], item.scale[0]] : item.scale;
   for (let i = 0; i < count; i++) {
     matrix.makeScale(x, y, z).setPosition(new THREE.Vector3().fromArray(points, i * 3));
     mesh.setMatrixAt(i, matrix);
-    if (coloured) mesh.setColorAt(i, colourOf(colours.subarray(i * 4, i * 4 + 3) as unknown as number[]));
+    if (colored) mesh.setColorAt(i, colorOf(colors.subarray(i * 4, i * 4 + 3) as unknown as number[]));
   }
   mesh.frustumCulled = false;
   return mesh;
 }
 
-function triangles(item: DrawableMarker, points: Float32Array, colours: Float32Array): THREE.Object3D {
+function triangles(item: DrawableMarker, points: Float32Array, colors: Float32Array): THREE.Object3D {
   const count = Math.floor(points.length / 9) * 3;
   const geometry = new THREE.BufferGeometry();
   const scaled = points.slice(0, count * 3).map((value, i) => value * (item.scale[i % 3] as number));
@@ -274,15 +274,15 @@ function triangles(item: DrawableMarker, points: Float32Array, colours: Float32A
   geometry.computeVertexNormals();
   const made = material(item);
   made.side = THREE.DoubleSide;
-  if (colours.length / 4 >= count) {
-    geometry.setAttribute("color", new THREE.BufferAttribute(linear(colours, count), 3));
+  if (colors.length / 4 >= count) {
+    geometry.setAttribute("color", new THREE.BufferAttribute(linear(colors, count), 3));
     made.vertexColors = true;
     made.color.set(0xffffff);
   }
   return new THREE.Mesh(geometry, made);
 }
 
-/** Text that faces the camera; scale.z is the height of a line in metres. */
+/** Text that faces the camera; scale.z is the height of a line in meters. */
 function text(item: DrawableMarker): THREE.Object3D | null {
-  return textSprite(item.text.slice(0, MAX_TEXT), colourOf(item.rgba), item.scale[2], alphaOf(item));
+  return textSprite(item.text.slice(0, MAX_TEXT), colorOf(item.rgba), item.scale[2], alphaOf(item));
 }

@@ -32,9 +32,9 @@ export class Options<C extends DisplayClass = DisplayClass> {
     return this.textOf(this.spec(key, "text"));
   }
 
-  /** Returns a colour as "#rrggbb". */
-  colour(key: OptionKey<C, "colour">): string {
-    return this.colourOf(this.spec(key, "colour"));
+  /** Returns a color as "#rrggbb". */
+  color(key: OptionKey<C, "color">): string {
+    return this.colorOf(this.spec(key, "color"));
   }
 
   numberOf(spec: Spec<"number">): number {
@@ -59,8 +59,8 @@ export class Options<C extends DisplayClass = DisplayClass> {
     return typeof value === "string" ? value : spec.value;
   }
 
-  colourOf(spec: Spec<"colour">): string {
-    return cssColour(this.value(spec.key)) ?? spec.value;
+  colorOf(spec: Spec<"color">): string {
+    return cssColor(this.value(spec.key)) ?? spec.value;
   }
 
   /** Whether an option has an effect: the flag that it needs is on. */
@@ -99,8 +99,8 @@ export class Options<C extends DisplayClass = DisplayClass> {
       }
       case "text":
         return this.textOf(spec);
-      case "colour":
-        return this.colourOf(spec);
+      case "color":
+        return this.colorOf(spec);
     }
   }
 
@@ -121,8 +121,8 @@ function isObject(value: Json | undefined): value is JsonObject {
   return typeof value === "object" && value !== null && !Array.isArray(value);
 }
 
-/** Converts a colour of RViz, such as "255; 170; 0", to "#rrggbb"; null if it is invalid. */
-export function cssColour(value: Json | undefined): string | null {
+/** Converts a color of RViz, such as "255; 170; 0", to "#rrggbb"; null if it is invalid. */
+export function cssColor(value: Json | undefined): string | null {
   const parts =
     typeof value === "string" ? value.split(/[;,]/).map(Number) : Array.isArray(value) ? value.map(Number) : [];
   if (parts.length < 3 || !parts.slice(0, 3).every((part) => part >= 0 && part <= 255)) return null;
@@ -132,6 +132,6 @@ export function cssColour(value: Json | undefined): string | null {
     .join("")}`;
 }
 
-export function rvizColour(css: string): string {
+export function rvizColor(css: string): string {
   return [1, 3, 5].map((at) => Number.parseInt(css.slice(at, at + 2), 16)).join("; ");
 }

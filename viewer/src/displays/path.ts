@@ -30,7 +30,7 @@ export class PathDisplay extends MessageDisplay<Shapes, "Path"> {
         headLength: length * 0.25,
         headRadius: length * 0.1,
       });
-      group.add(instances(geometry, new THREE.MeshLambertMaterial({ color: this.options.colour("Color") }), poses));
+      group.add(instances(geometry, new THREE.MeshLambertMaterial({ color: this.options.color("Color") }), poses));
     }
     return group;
   }
@@ -41,7 +41,7 @@ export class PathDisplay extends MessageDisplay<Shapes, "Path"> {
     const line = new Line2(
       new LineGeometry().setPositions(points),
       new LineMaterial({
-        color: this.options.colour("Color"),
+        color: this.options.color("Color"),
         transparent: alpha < 1,
         opacity: alpha,
         worldUnits: wide,

@@ -22,7 +22,7 @@ export class PosesDisplay extends MessageDisplay<Shapes, "Pose" | "PoseArray" | 
       return group;
     }
     group.add(this.shape(newest, 1));
-    if (count > 1) group.add(trail(poses, this.options.colour("Color")));
+    if (count > 1) group.add(trail(poses, this.options.color("Color")));
     return group;
   }
 
@@ -44,7 +44,7 @@ export class PosesDisplay extends MessageDisplay<Shapes, "Pose" | "PoseArray" | 
     });
     const alpha = o.number("Alpha");
     const material = new THREE.MeshLambertMaterial({
-      color: o.colour("Color"),
+      color: o.color("Color"),
       transparent: alpha < 1,
       opacity: alpha,
     });
@@ -53,18 +53,18 @@ export class PosesDisplay extends MessageDisplay<Shapes, "Pose" | "PoseArray" | 
 }
 
 /** The trail of past poses: a line that fades with age. */
-function trail(poses: Float32Array, colour: string): THREE.Line {
+function trail(poses: Float32Array, color: string): THREE.Line {
   const count = Math.floor(poses.length / 7);
   const points = new Float32Array(count * 3);
-  const colours = new Float32Array(count * 4);
-  const { r, g, b } = new THREE.Color(colour);
+  const colors = new Float32Array(count * 4);
+  const { r, g, b } = new THREE.Color(color);
   for (let i = 0; i < count; i++) {
     points.set(poses.subarray(i * 7, i * 7 + 3), i * 3);
-    colours.set([r, g, b, (i + 1) / count], i * 4);
+    colors.set([r, g, b, (i + 1) / count], i * 4);
   }
   const geometry = new THREE.BufferGeometry();
   geometry.setAttribute("position", new THREE.BufferAttribute(points, 3));
-  geometry.setAttribute("color", new THREE.BufferAttribute(colours, 4));
+  geometry.setAttribute("color", new THREE.BufferAttribute(colors, 4));
   const line = new THREE.Line(geometry, new THREE.LineBasicMaterial({ vertexColors: true, transparent: true }));
   line.frustumCulled = false;
   return line;

@@ -16,7 +16,7 @@ export class RangeDisplay extends MessageDisplay<Shapes, "Range"> {
     cone.translate(0, -description.range / 2, 0);
     cone.rotateZ(Math.PI / 2);
     const material = new THREE.MeshBasicMaterial({
-      color: this.options.colour("Color"),
+      color: this.options.color("Color"),
       transparent: true,
       opacity: this.options.number("Alpha"),
       side: THREE.DoubleSide,

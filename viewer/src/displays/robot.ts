@@ -128,8 +128,8 @@ export class RobotDisplay extends Display<"RobotModel"> {
     this.loading++;
     this.meshes
       .load(url, file)
-      .then(({ object, coloured }) => {
-        if (coloured) this.paint(object);
+      .then(({ object, colored }) => {
+        if (colored) this.paint(object);
         else setMaterial(object, this.material(robot, shape));
         parent.add(object);
       })
@@ -144,7 +144,7 @@ export class RobotDisplay extends Display<"RobotModel"> {
       });
   }
 
-  /** The material of a shape without colours of its own. */
+  /** The material of a shape without colors of its own. */
   private material(robot: RobotModel, { color, texture }: RobotShape): THREE.Material {
     const material = new THREE.MeshPhongMaterial();
     if (color) {
@@ -156,7 +156,7 @@ export class RobotDisplay extends Display<"RobotModel"> {
     return this.adjusted(material);
   }
 
-  /** Loads a texture; a surface without it is grey. */
+  /** Loads a texture; a surface without it is gray. */
   private addTexture(material: THREE.MeshPhongMaterial, url: string | null): void {
     const drop = (): void => {
       material.map = null;

@@ -18,7 +18,7 @@ export class Kinematics {
    * The pose of each link.
    *
    * @param root The pose of the root link.
-   * @param positions Positions by joint, in radians or metres; other joints have their defaults or follow another joint.
+   * @param positions Positions by joint, in radians or meters; other joints have their defaults or follow another joint.
    * @param known Poses of links that differ from those of the joints, such as those of frames.
    */
   poses(root: Pose, positions: Readonly<Record<string, number>>, known: KnownPose = () => null): Map<string, Pose> {

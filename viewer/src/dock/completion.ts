@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/** An input whose text the server completes, with the keyboard behaviour of a combobox. */
+/** An input whose text the server completes, with the keyboard behavior of a combobox. */
 
 import { h, shorten } from "../util/dom";
 import type { Model } from "../model/model";

@@ -12,7 +12,7 @@ export const PUBLISHING_TOOLS: Record<PublishingTool, { class: string; title: st
   point: { class: "PublishPoint", title: "Publish point", topic: "/clicked_point" },
 };
 
-/** RViz's default variances of x and y in square metres, and of yaw in square radians: a deviation of 15 degrees. */
+/** RViz's default variances of x and y in square meters, and of yaw in square radians: a deviation of 15 degrees. */
 const VARIANCES: readonly [key: string, value: number][] = [
   ["Covariance x", 0.25],
   ["Covariance y", 0.25],

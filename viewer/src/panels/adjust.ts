@@ -101,7 +101,7 @@ export class AdjustPanel {
     this.body.hidden = current === null;
     if (!current) return;
     const { parent, child, pose, original } = current;
-    const moved = format.metres(distance(original.position, pose.position));
+    const moved = format.meters(distance(original.position, pose.position));
     const angles = rpyDegrees(relative(original, pose).quaternion).map((angle) => format.fixed(angle, 2));
     setText(
       this.change,

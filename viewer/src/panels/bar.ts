@@ -59,7 +59,7 @@ export class Bar {
       ]),
       menu("sun", "Appearance", [
         ["Dark or light theme", "Key: d", actions.toggleTheme],
-        ["Colour-blind safe palette", "On or off", actions.toggleDistinct],
+        ["Color-blind safe palette", "On or off", actions.toggleDistinct],
       ]),
       iconButton("help", "Keyboard shortcuts (?)", actions.help, "wide-only"),
     );
@@ -153,14 +153,14 @@ function brandMark(): SVGElement {
   svg.setAttribute("stroke-width", "2.6");
   svg.setAttribute("stroke-linecap", "round");
   svg.setAttribute("aria-hidden", "true");
-  for (const [d, colour] of [
+  for (const [d, color] of [
     ["M8 12V2.5", "#4a8df8"],
     ["M8 12l9.5 3", "#e5484d"],
     ["M8 12l-5 5.5", "#30a46c"],
   ] as const) {
     const path = document.createElementNS("http://www.w3.org/2000/svg", "path");
     path.setAttribute("d", d);
-    path.setAttribute("stroke", colour);
+    path.setAttribute("stroke", color);
     svg.append(path);
   }
   return svg;

@@ -4,7 +4,7 @@
 import { displayClass, MessageDisplay, type Display } from "../displays/display";
 import type { Displays } from "../displays/manager";
 import { MarkersDisplay } from "../displays/markers";
-import { rvizColour } from "../displays/options";
+import { rvizColor } from "../displays/options";
 import { DISPLAYS, FIXED_FRAME, type OptionSpec } from "../generated/displays";
 import { fillSelect, h, iconButton, setText, shorten } from "../util/dom";
 import type { Model } from "../model/model";
@@ -218,10 +218,10 @@ export class DisplaysPanel {
         });
         return field(spec.unit ? `${label} (${spec.unit})` : label, input);
       }
-      case "colour": {
+      case "color": {
         const input = h("input", { type: "color", aria: { label } });
-        input.value = options.colourOf(spec) || "#808890";
-        input.addEventListener("input", () => change(rvizColour(input.value)));
+        input.value = options.colorOf(spec) || "#808890";
+        input.addEventListener("input", () => change(rvizColor(input.value)));
         return field(label, input);
       }
       case "choice": {

@@ -13,9 +13,9 @@ const DEFAULT_RATE_HZ = 30;
 export async function saveImage(view: View, model: Model): Promise<void> {
   try {
     const image = await view.renderer.image();
-    const labelled = await withLabels(image, view);
+    const labeled = await withLabels(image, view);
     const name = (model.hello?.title || "coframe").replace(/[^\w.-]+/g, "_").slice(0, 60);
-    download(`${name}.png`, labelled);
+    download(`${name}.png`, labeled);
   } catch (error) {
     toast("Cannot save the image.", String(error));
   }

@@ -7,7 +7,7 @@ import { headline } from "../model/marks";
 import type { Model } from "../model/model";
 import type { CodePage, FindingEntry, FindingEntries, Hello, Severity } from "../protocol/messages";
 
-/** Each severity has its own shape, because colour alone is not accessible. */
+/** Each severity has its own shape, because color alone is not accessible. */
 const SHAPES: Record<Severity, IconName> = { error: "octagon", warning: "triangle", note: "disc" };
 /** More than the server sends: a command without its middle could run what a name contains. */
 const MAX_TEXT = 2100;

@@ -132,7 +132,7 @@ export class Inspector {
     if (relation.source !== this.model.selection.frame || relation.target !== this.target) return;
     this.relation = relation;
     const t = relation.translation;
-    setText(this.distance, t ? format.metres(Math.hypot(...t)) : "–");
+    setText(this.distance, t ? format.meters(Math.hypot(...t)) : "–");
     setText(this.age, relation.stamp === null ? "static" : format.stamp(this.model.origin, relation.stamp));
     this.problem.hidden = relation.ok;
     setText(this.problemText, relation.ok ? "" : shorten(relation.error ?? "No transform is available.", MAX_TEXT));

@@ -109,7 +109,7 @@ export class JointsPanel {
     const number = h("input", {
       type: "number",
       step: angular ? "1" : "0.001",
-      aria: { label: `${joint.name.slice(0, 100)}, ${angular ? "degrees" : "metres"}` },
+      aria: { label: `${joint.name.slice(0, 100)}, ${angular ? "degrees" : "meters"}` },
     });
     const set = (value: number): void => {
       const limited = Math.max(lower, Math.min(upper, value));

@@ -2,7 +2,7 @@
 /** The panel for .rviz files: opens and saves them, and lists their unsupported parts. */
 
 import type { Displays } from "../displays/manager";
-import { cssColour } from "../displays/options";
+import { cssColor } from "../displays/options";
 import { download, h, shorten } from "../util/dom";
 import type { Model } from "../model/model";
 import type { ToolSettings } from "../model/tools";
@@ -103,7 +103,7 @@ export class RvizPanel {
   private applyGlobals(rviz: RvizConfiguration): void {
     const { fixed_frame: fixed, background } = rviz.global;
     if (typeof fixed === "string" && fixed) this.model.setFixed(fixed);
-    this.theme.setBackground(cssColour(background ?? undefined));
+    this.theme.setBackground(cssColor(background ?? undefined));
     if (rviz.view) {
       if (this.view.renderer.camera.apply(rviz.view)) this.view.keepCamera();
       const target = rviz.view.options["Target Frame"];

@@ -9,7 +9,7 @@ export const ROW_PX = 18;
 const NAME_PX = 150;
 const MAX_ROWS = 400;
 
-export interface Colours {
+export interface Colors {
   text: string;
   muted: string;
   bar: string;
@@ -61,7 +61,7 @@ export function drawRows(
   edges: Edge[],
   timeline: Timeline,
   forest: Forest,
-  colours: Colours,
+  colors: Colors,
 ): void {
   const rows = edges.slice(0, MAX_ROWS);
   const width = canvas.parentElement?.clientWidth ?? 300;
@@ -73,16 +73,16 @@ export function drawRows(
   context.textBaseline = "middle";
   rows.forEach(({ frame, counts, gaps }, row) => {
     const top = row * ROW_PX;
-    context.fillStyle = colours.muted;
+    context.fillStyle = colors.muted;
     context.fillText(shorten(forest.name(frame), 28), 2, top + ROW_PX / 2, NAME_PX - 8);
-    context.fillStyle = colours.gap;
+    context.fillStyle = colors.gap;
     for (const [from, to] of gaps) {
       const x = NAME_PX + ((from - timeline.from) / span) * plot;
       context.fillRect(x, top + 2, Math.max(1, ((to - from) / span) * plot), ROW_PX - 4);
     }
-    context.fillStyle = colours.bar;
+    context.fillStyle = colors.bar;
     bars(context, counts, NAME_PX, top + 2, plot, ROW_PX - 4);
-    context.fillStyle = colours.line;
+    context.fillStyle = colors.line;
     context.fillRect(0, top + ROW_PX - 1, width, 1);
   });
 }

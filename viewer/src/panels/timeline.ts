@@ -5,7 +5,7 @@ import { h, icon, iconButton, select, setText } from "../util/dom";
 import * as format from "../util/format";
 import type { Model } from "../model/model";
 import type { Timeline as TimelineMessage } from "../protocol/messages";
-import { bars, decodeEdges, drawRows, prepare, total, type Colours, type Edge } from "./sparklines";
+import { bars, decodeEdges, drawRows, prepare, total, type Colors, type Edge } from "./sparklines";
 import { remember, remembered } from "../util/storage";
 
 const SPEEDS = ["0.1", "0.25", "0.5", "1", "2", "5", "10"] as const;
@@ -187,7 +187,7 @@ export class Timeline {
     this.redraw();
   }
 
-  private colours(): Colours {
+  private colors(): Colors {
     const style = getComputedStyle(document.documentElement);
     const read = (name: string): string => style.getPropertyValue(name).trim();
     return {
@@ -213,24 +213,24 @@ export class Timeline {
     const context = prepare(this.canvas, width, height);
     const span = this.model.span;
     if (!context || width === 0) return;
-    const colours = this.colours();
+    const colors = this.colors();
     context.fillStyle = getComputedStyle(document.documentElement).getPropertyValue("--raised");
     context.fillRect(0, 0, width, height);
     if (!span || !(span[1] > span[0])) return;
     const x = (ns: number): number => ((ns - span[0]) / (span[1] - span[0])) * width;
-    this.drawDensity(context, colours, x, height);
+    this.drawDensity(context, colors, x, height);
     const { loop } = this.model.clock;
     if (loop) {
-      context.fillStyle = `${colours.bar}33`;
+      context.fillStyle = `${colors.bar}33`;
       context.fillRect(x(loop[0]), 0, Math.max(1, x(loop[1]) - x(loop[0])), height);
     }
     if (!this.sparklines.hidden && this.message)
-      drawRows(this.rows, this.edges, this.message, this.model.forest, colours);
+      drawRows(this.rows, this.edges, this.message, this.model.forest, colors);
   }
 
   private drawDensity(
     context: CanvasRenderingContext2D,
-    colours: Colours,
+    colors: Colors,
     x: (ns: number) => number,
     height: number,
   ): void {
@@ -242,10 +242,10 @@ export class Timeline {
     const toX = live ? (ns: number): number => ((ns - message.from) / (message.to - message.from)) * width : x;
     const [from, to] = [toX(message.from), toX(message.to)];
     context.globalAlpha = 0.55;
-    context.fillStyle = colours.bar;
+    context.fillStyle = colors.bar;
     bars(context, this.sum, from, 4, to - from, height - 4);
     context.globalAlpha = 1;
-    context.fillStyle = colours.gap.slice(0, 7);
+    context.fillStyle = colors.gap.slice(0, 7);
     for (const { gaps } of this.edges)
       for (const [a, b] of gaps) context.fillRect(toX(a), 0, Math.max(1.5, toX(b) - toX(a)), 3);
   }

@@ -11,7 +11,7 @@ export interface ChartStyle {
   text: string;
   line: string;
   cursor: string;
-  colours: readonly string[];
+  colors: readonly string[];
 }
 
 export interface ChartEvents {
@@ -74,7 +74,7 @@ export class Chart {
           {},
           ...curves.map((curve) => ({
             label: curve.expression,
-            stroke: style.colours[curve.colour % style.colours.length] ?? style.text,
+            stroke: style.colors[curve.color % style.colors.length] ?? style.text,
             width: 1.5,
             show: curve.visible,
           })),
@@ -119,13 +119,13 @@ export class Chart {
     return this.events.timeText(seconds * 1e9, digits);
   }
 
-  private drawPlayhead(plot: uPlot, colour: string): void {
+  private drawPlayhead(plot: uPlot, color: string): void {
     const { min, max } = plot.scales.x ?? {};
     if (!(this.playhead >= (min ?? Infinity) && this.playhead <= (max ?? -Infinity))) return;
     const x = Math.round(plot.valToPos(this.playhead, "x", true)) + 0.5;
     const { ctx, bbox } = plot;
     ctx.save();
-    ctx.strokeStyle = colour;
+    ctx.strokeStyle = color;
     ctx.lineWidth = Math.max(1, devicePixelRatio);
     ctx.beginPath();
     ctx.moveTo(x, bbox.top);

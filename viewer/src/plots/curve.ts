@@ -22,7 +22,7 @@ export class Curve {
   constructor(
     readonly id: number,
     readonly expression: string,
-    readonly colour: number,
+    readonly color: number,
   ) {}
 
   get length(): number {

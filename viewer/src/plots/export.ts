@@ -18,7 +18,7 @@ export function saveCsv(curves: readonly Curve[]): void {
   anchor.click();
 }
 
-export async function savePng(charts: readonly Chart[], colours: readonly string[], style: string[]): Promise<void> {
+export async function savePng(charts: readonly Chart[], colors: readonly string[], style: string[]): Promise<void> {
   const [background = "#fff", text = "#000"] = style;
   const scale = devicePixelRatio;
   const line = LINE_PX * scale;
@@ -35,7 +35,7 @@ export async function savePng(charts: readonly Chart[], colours: readonly string
   for (const chart of charts) {
     for (const curve of chart.curves) {
       y += line;
-      context.fillStyle = colours[curve.colour % colours.length] ?? text;
+      context.fillStyle = colors[curve.color % colors.length] ?? text;
       context.fillRect(8 * scale, y - 9 * scale, 14 * scale, 4 * scale);
       context.fillStyle = text;
       context.fillText(curve.expression, 28 * scale, y - 3 * scale);

@@ -20,7 +20,7 @@ const DRAW_INTERVAL_MS = 100;
 const REQUEST_DELAY_MS = 150;
 const MIN_CHART_PX = 70;
 /** Those of `coframe plot`: each has a contrast of at least 3.5 with a white and with a dark background. */
-const COLOURS = ["#2f7de1", "#d9542b", "#1f9a5b", "#a45ee0", "#a17a12", "#d6497f", "#128f9e", "#7b7f87"];
+const COLORS = ["#2f7de1", "#d9542b", "#1f9a5b", "#a45ee0", "#a17a12", "#d6497f", "#128f9e", "#7b7f87"];
 
 export class PlotsPane implements Pane {
   readonly id = "plots";
@@ -126,7 +126,7 @@ export class PlotsPane implements Pane {
   }
 
   private copy(curve: Curve): Curve {
-    const copy = new Curve(this.nextId++, curve.expression, curve.colour);
+    const copy = new Curve(this.nextId++, curve.expression, curve.color);
     copy.visible = curve.visible;
     return copy;
   }
@@ -151,10 +151,10 @@ export class PlotsPane implements Pane {
   }
 
   private insert(expression: string): void {
-    const used = new Set(this.curves.map(({ colour }) => colour));
-    let colour = 0;
-    while (used.has(colour)) colour++;
-    this.curves.push(new Curve(this.nextId++, expression, colour));
+    const used = new Set(this.curves.map(({ color }) => color));
+    let color = 0;
+    while (used.has(color)) color++;
+    this.curves.push(new Curve(this.nextId++, expression, color));
   }
 
   private remove(curve: Curve): void {
@@ -240,7 +240,7 @@ export class PlotsPane implements Pane {
   private style(): ChartStyle {
     const style = getComputedStyle(document.documentElement);
     const read = (name: string): string => style.getPropertyValue(name).trim();
-    return { text: read("--muted"), line: read("--line"), cursor: read("--text"), colours: COLOURS };
+    return { text: read("--muted"), line: read("--line"), cursor: read("--text"), colors: COLORS };
   }
 
   private timeText(time: number, digits: number): string {
@@ -299,7 +299,7 @@ export class PlotsPane implements Pane {
     const { status, expression } = curve;
     const name = shorten(expression, 80);
     const swatch = h("i", { class: "swatch", aria: { hidden: "true" } });
-    swatch.style.background = COLOURS[curve.colour % COLOURS.length] ?? "";
+    swatch.style.background = COLORS[curve.color % COLORS.length] ?? "";
     const value = h("span", { class: "numbers curve-value" });
     this.values.set(curve.id, value);
     const show = h(
@@ -347,7 +347,7 @@ export class PlotsPane implements Pane {
 
   private savePng(): Promise<void> {
     const style = getComputedStyle(document.documentElement);
-    const colours = ["--panel", "--text"].map((name) => style.getPropertyValue(name).trim());
-    return this.charts.length ? savePng(this.charts, COLOURS, colours) : Promise.resolve();
+    const colors = ["--panel", "--text"].map((name) => style.getPropertyValue(name).trim());
+    return this.charts.length ? savePng(this.charts, COLORS, colors) : Promise.resolve();
   }
 }

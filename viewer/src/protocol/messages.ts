@@ -254,7 +254,7 @@ function decodeShapes(reader: Reader): Shapes {
 function decodeImage(reader: Reader): Image {
   const { display: id, sequence, width, height, format: flags, stamp } = readImageHeader(reader);
   const format = flags & 255;
-  const raw = format === ImageFormat.grey ? width * height : format === ImageFormat.rgb ? 3 * width * height : null;
+  const raw = format === ImageFormat.gray ? width * height : format === ImageFormat.rgb ? 3 * width * height : null;
   const data = reader.bytes(raw ?? reader.rest());
   return { kind: "image", id, sequence, width, height, format, step: Math.max(1, flags >>> 8), stamp, data };
 }
@@ -273,11 +273,11 @@ function decodeCurves(reader: Reader): Curves {
 }
 
 function decodeNode(reader: Reader): NodeGeometry {
-  const { node: id, vertices: count, indices: used, colors: coloured, width, offset } = readNodeHeader(reader);
+  const { node: id, vertices: count, indices: used, colors: colored, width, offset } = readNodeHeader(reader);
   const vertices = reader.floats(count * 3);
   const indices = reader.integers(used);
   if (!indices.every((index) => index < count)) throw new ProtocolError("node: an index of a vertex is too large");
-  const colors = reader.bytes(coloured * 4);
+  const colors = reader.bytes(colored * 4);
   return { kind: "node", id, vertices, indices, colors, width, offset };
 }
 

@@ -38,8 +38,8 @@ interface Subscription {
   sent: Set<number>;
   /** The last status that was sent. */
   status: string;
-  /** Whether it requests colours that the replay does not contain. */
-  missingColours: boolean;
+  /** Whether it requests colors that the replay does not contain. */
+  missingColors: boolean;
 }
 
 type Listener = <K extends keyof SourceEvents>(event: K, value: SourceEvents[K]) => void;
@@ -199,8 +199,8 @@ export class ReplaySource implements MessageSource {
       return;
     }
     const computed = !options.color_by || ["axis", "flat"].includes(options.color_by);
-    const missingColours = !computed && recorded.block.color_by !== options.color_by;
-    this.subscriptions.set(id, { recorded, sent: new Set(), status: "", missingColours });
+    const missingColors = !computed && recorded.block.color_by !== options.color_by;
+    this.subscriptions.set(id, { recorded, sent: new Set(), status: "", missingColors });
     this.sendFrames();
   }
 
@@ -285,11 +285,11 @@ export class ReplaySource implements MessageSource {
   }
 
   private sendStatus(id: number, sample: number, subscription: Subscription): void {
-    const { recorded, missingColours } = subscription;
+    const { recorded, missingColors } = subscription;
     const [recordedState, recordedText] = recorded.status(sample);
-    const uncoloured = missingColours && recordedState === "ok";
-    const state = uncoloured ? "error" : recordedState;
-    const text = uncoloured ? "This replay contains only the colours that it was saved with." : recordedText;
+    const uncolored = missingColors && recordedState === "ok";
+    const state = uncolored ? "error" : recordedState;
+    const text = uncolored ? "This replay contains only the colors that it was saved with." : recordedText;
     if (subscription.status === `${state} ${text}`) return;
     subscription.status = `${state} ${text}`;
     this.listener("text", { type: "display", id, state, text, note: recorded.note });

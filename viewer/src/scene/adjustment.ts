@@ -64,7 +64,7 @@ function write(out: Float32Array, at: number, { position, quaternion }: Pose): v
   out.set([...position, ...quaternion], at);
 }
 
-/** The pose of a frame relative to its parent, rounded to micrometres because updates have float32 coordinates. */
+/** The pose of a frame relative to its parent, rounded to micrometers because updates have float32 coordinates. */
 export function poseInParent(update: FrameUpdate, forest: Forest, frame: number): Pose | null {
   const parent = forest.frames[frame]?.parent ?? -1;
   if (parent < 0 || update.revision !== forest.revision) return null;

@@ -73,7 +73,7 @@ export class Camera {
     this.height = Math.max(1, height);
     this.perspective.aspect = this.width / this.height;
     this.perspective.updateProjectionMatrix();
-    // With one unit per pixel, the zoom is the number of pixels per metre, as RViz's Scale.
+    // With one unit per pixel, the zoom is the number of pixels per meter, as RViz's Scale.
     Object.assign(this.flat, { left: -width / 2, right: width / 2, top: height / 2, bottom: -height / 2 });
     this.flat.updateProjectionMatrix();
   }
@@ -106,13 +106,13 @@ export class Camera {
 
   fit(box: THREE.Box3): void {
     if (box.isEmpty()) return;
-    const centre = box.getCenter(new THREE.Vector3());
+    const center = box.getCenter(new THREE.Vector3());
     const radius = Math.max(0.35, box.getSize(new THREE.Vector3()).length() / 2);
     const narrow = Math.min(1, this.width / this.height);
-    this.moveTo(centre, (2.5 * radius) / narrow);
+    this.moveTo(center, (2.5 * radius) / narrow);
   }
 
-  /** Moves the camera so that the given height in metres around the target fills the view. */
+  /** Moves the camera so that the given height in meters around the target fills the view. */
   private moveTo(target: THREE.Vector3, visibleHeight: number): void {
     const controls = this.controls[this.mode];
     if (this.mode === "orbit") {

@@ -15,7 +15,7 @@ const TREE_GAP_M = 1;
 const MAX_TREE_RADIUS_M = 1e4;
 
 export class FramePoses {
-  /** Scene coordinates in metres, count x 3. */
+  /** Scene coordinates in meters, count x 3. */
   positions = new Float64Array(0);
   /** x, y, z, w, count x 4. */
   quaternions = new Float32Array(0);
@@ -114,9 +114,9 @@ export class FramePoses {
     let edge = this.radii[own] ?? 0;
     this.offsets = this.radii.map((radius, c) => {
       if (c === own) return 0;
-      const centre = edge + TREE_GAP_M + radius;
-      edge = centre + radius;
-      return centre;
+      const center = edge + TREE_GAP_M + radius;
+      edge = center + radius;
+      return center;
     });
   }
 }

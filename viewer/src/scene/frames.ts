@@ -121,7 +121,7 @@ export class FramesView {
       position = new THREE.BufferAttribute(new Float32Array(count * 6), 3);
       geometry.dispose();
       geometry.setAttribute("position", position);
-      geometry.setAttribute("color", new THREE.BufferAttribute(edgeColours(count, this.palette), 3));
+      geometry.setAttribute("color", new THREE.BufferAttribute(edgeColors(count, this.palette), 3));
     }
     const out = position.array as Float32Array;
     let used = 0;
@@ -166,17 +166,17 @@ function writeMatrix(out: Float32Array, o: number, framePoses: FramePoses, i: nu
   out[o + 15] = 1;
 }
 
-/** The axes x, y and z as one geometry: coloured cylinders of length 1. */
+/** The axes x, y and z as one geometry: colored cylinders of length 1. */
 export function axesGeometry(palette: Palette, radius = 0.055, plain = false): THREE.BufferGeometry {
-  const parts = palette.axes.map((colour, axis) => {
+  const parts = palette.axes.map((color, axis) => {
     const part = new THREE.CylinderGeometry(radius, radius, 1, plain ? 4 : 8, 1, plain);
     part.translate(0, 0.5, 0);
     if (axis === 0) part.rotateZ(-Math.PI / 2);
     if (axis === 2) part.rotateX(Math.PI / 2);
-    const rgb = srgb(colour);
-    const colours = new Float32Array(part.getAttribute("position").count * 3);
-    for (let k = 0; k < colours.length; k += 3) colours.set([rgb.x, rgb.y, rgb.z], k);
-    part.setAttribute("color", new THREE.BufferAttribute(colours, 3));
+    const rgb = srgb(color);
+    const colors = new Float32Array(part.getAttribute("position").count * 3);
+    for (let k = 0; k < colors.length; k += 3) colors.set([rgb.x, rgb.y, rgb.z], k);
+    part.setAttribute("color", new THREE.BufferAttribute(colors, 3));
     part.deleteAttribute("uv");
     return part;
   });
@@ -185,7 +185,7 @@ export function axesGeometry(palette: Palette, radius = 0.055, plain = false): T
   return merged;
 }
 
-/** Colours with slight shading; stale frames fade into the background. */
+/** Colors with slight shading; stale frames fade into the background. */
 function axesMaterial(): THREE.ShaderMaterial {
   return new THREE.ShaderMaterial({
     vertexColors: true,
@@ -206,16 +206,16 @@ function axesMaterial(): THREE.ShaderMaterial {
   });
 }
 
-/** The sRGB components of a colour, for shaders that write them to the screen unchanged. */
-export function srgb(colour: string): THREE.Vector3 {
-  const rgb = new THREE.Color(colour).getRGB({ r: 0, g: 0, b: 0 }, THREE.SRGBColorSpace);
+/** The sRGB components of a color, for shaders that write them to the screen unchanged. */
+export function srgb(color: string): THREE.Vector3 {
+  const rgb = new THREE.Color(color).getRGB({ r: 0, g: 0, b: 0 }, THREE.SRGBColorSpace);
   return new THREE.Vector3(rgb.r, rgb.g, rgb.b);
 }
 
 /** Lines are bright at the child and dim at the parent, which shows the direction without arrow heads. */
-function edgeColours(count: number, palette: Palette): Float32Array {
-  const ends = palette.edge.map((colour) => new THREE.Color(colour));
-  const colours = new Float32Array(count * 6);
-  for (let i = 0; i < count; i++) ends.forEach((end, k) => end.toArray(colours, i * 6 + k * 3));
-  return colours;
+function edgeColors(count: number, palette: Palette): Float32Array {
+  const ends = palette.edge.map((color) => new THREE.Color(color));
+  const colors = new Float32Array(count * 6);
+  for (let i = 0; i < count; i++) ends.forEach((end, k) => end.toArray(colors, i * 6 + k * 3));
+  return colors;
 }

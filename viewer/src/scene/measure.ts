@@ -70,7 +70,7 @@ export class Measure {
     if (!this.object.visible) return "One of the two frames is not visible";
     const [a, b] = this.ends;
     const along = (["x", "y", "z"] as const).map((k) => `Δ${k} ${format.fixed(b[k] - a[k], 3)}`).join("  ");
-    return `${format.metres(a.distanceTo(b))}   ${along}`;
+    return `${format.meters(a.distanceTo(b))}   ${along}`;
   }
 
   label(): Label | null {
@@ -78,7 +78,7 @@ export class Measure {
     const [a, b] = this.ends;
     return {
       key: "measured",
-      text: format.metres(a.distanceTo(b)),
+      text: format.meters(a.distanceTo(b)),
       position: a.clone().lerp(b, 0.5),
       priority: -5,
       className: "measure",

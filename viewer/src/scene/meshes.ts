@@ -23,7 +23,7 @@ import {
 const MAX_BYTES = 200e6;
 /** The page blocks while a text file is parsed. */
 const MAX_TEXT_BYTES = 60e6;
-/** The colour of surfaces whose texture cannot be drawn. */
+/** The color of surfaces whose texture cannot be drawn. */
 export const MISSING_TEXTURE = "#b8bcc0";
 /** A URL that replaces forbidden ones; loading it fails immediately. */
 const FORBIDDEN_URL = "data:,";
@@ -37,8 +37,8 @@ TGALoader.prototype.parse = function (bytes: ArrayBuffer): ReturnType<typeof par
 
 export interface LoadedMesh {
   object: THREE.Object3D;
-  /** Whether the file contains colours, as DAE and GLB files do; STL files do not. */
-  coloured: boolean;
+  /** Whether the file contains colors, as DAE and GLB files do; STL files do not. */
+  colored: boolean;
 }
 
 export class MeshError extends Error {}
@@ -59,8 +59,8 @@ export class Meshes {
       promise = fetchMesh(url, name);
       this.loading.set(url, promise);
     }
-    const { object, coloured } = await promise;
-    return { object: object.clone(), coloured };
+    const { object, colored } = await promise;
+    return { object: object.clone(), colored };
   }
 }
 
@@ -140,14 +140,14 @@ async function parseFormat(
   const folder = url.startsWith("data:") ? "" : `${url}/`;
   switch (kind) {
     case "stl":
-      return { object: new THREE.Mesh(parseStl(bytes, name)), coloured: false };
+      return { object: new THREE.Mesh(parseStl(bytes, name)), colored: false };
     case "dae": {
       const document = new DOMParser().parseFromString(text(bytes, name), "application/xml");
       refuse(colladaProblem(document), name);
       const source = new XMLSerializer().serializeToString(document);
       const scene = new ColladaLoader(manager).parse(source, folder)?.scene;
       if (!scene) throw new MeshError(`${short(name)} is not a COLLADA file.`);
-      return { object: scene, coloured: true };
+      return { object: scene, colored: true };
     }
     case "obj":
       return parseObj(text(bytes, name), name, folder, manager);
@@ -169,7 +169,7 @@ async function parseObj(
   refuse(objProblem(source), name);
   const loader = new OBJLoader(manager);
   const library = /^mtllib[ \t]+(.+?)\s*$/m.exec(source)?.[1];
-  let coloured = false;
+  let colored = false;
   if (library && folder)
     try {
       const url = folder + library.replaceAll("\\", "/").split("/").map(encodeURIComponent).join("/");
@@ -178,11 +178,11 @@ async function parseObj(
       const materials = new MTLLoader(manager).parse(definitions, folder);
       materials.preload();
       loader.setMaterials(materials);
-      coloured = true;
+      colored = true;
     } catch (error) {
       if (!(error instanceof MeshError)) throw error;
     }
-  return { object: loader.parse(source), coloured };
+  return { object: loader.parse(source), colored };
 }
 
 function parseStl(bytes: ArrayBuffer, name: string): THREE.BufferGeometry {
@@ -218,7 +218,7 @@ async function parseGltf(
     parser.textureLoader = new THREE.TextureLoader(manager);
     return { name: "coframe" };
   });
-  return { object: (await loader.parseAsync(bytes, folder)).scene, coloured: true };
+  return { object: (await loader.parseAsync(bytes, folder)).scene, colored: true };
 }
 
 function refuse(problem: string, name: string): void {
@@ -233,7 +233,7 @@ function text(bytes: ArrayBuffer, name: string): string {
   return new TextDecoder().decode(bytes);
 }
 
-/** Removes textures that cannot be drawn, and draws grey instead of the black of a missing colour. */
+/** Removes textures that cannot be drawn, and draws gray instead of the black of a missing color. */
 function dropEmptyTextures(object: THREE.Object3D): void {
   object.traverse((part) => {
     for (const material of materialsOf(part))

@@ -11,8 +11,8 @@ import { axesGeometry } from "./frames";
 import { textSprite } from "./text_sprite";
 
 const VIEWPORT = new THREE.Vector4();
-/** The colour of nodes without one. */
-const DEFAULT_COLOUR: [number, number, number] = [0.3, 0.63, 0.96];
+/** The color of nodes without one. */
+const DEFAULT_COLOR: [number, number, number] = [0.3, 0.63, 0.96];
 
 /** Returns the object of a node; null if it draws nothing, or its geometry has not arrived yet. */
 export function drawNode(node: SceneNode, geometry: NodeGeometry | null, palette: Palette): THREE.Object3D | null {
@@ -37,9 +37,9 @@ function fromGeometry(node: SceneNode, geometry: NodeGeometry): THREE.Object3D {
   }
 }
 
-function colourOf(node: SceneNode, other?: string): THREE.Color {
+function colorOf(node: SceneNode, other?: string): THREE.Color {
   if (!node.color && other) return new THREE.Color(other);
-  return new THREE.Color().setRGB(...(node.color ?? DEFAULT_COLOUR), THREE.SRGBColorSpace);
+  return new THREE.Color().setRGB(...(node.color ?? DEFAULT_COLOR), THREE.SRGBColorSpace);
 }
 
 function transparency({ opacity }: SceneNode): { transparent: boolean; opacity: number; depthWrite: boolean } {
@@ -48,7 +48,7 @@ function transparency({ opacity }: SceneNode): { transparent: boolean; opacity: 
 
 /** Text on top of everything else, because a half hidden text cannot be read. */
 function text(node: SceneNode, palette: Palette): THREE.Object3D | null {
-  const object = textSprite(node.text, colourOf(node, palette.measure), node.size, node.opacity);
+  const object = textSprite(node.text, colorOf(node, palette.measure), node.size, node.opacity);
   if (object) {
     object.material.depthTest = false;
     object.renderOrder = 11;
@@ -66,7 +66,7 @@ function points(node: SceneNode, { vertices, colors }: NodeGeometry): THREE.Obje
   const geometry = new THREE.BufferGeometry();
   geometry.setAttribute("position", new THREE.BufferAttribute(vertices, 3));
   if (colors.length > 0) geometry.setAttribute("rgba", new THREE.BufferAttribute(colors, 4, true));
-  const object = new THREE.Points(geometry, unchanged(node, colors.length > 0 ? "coloured" : "plain"));
+  const object = new THREE.Points(geometry, unchanged(node, colors.length > 0 ? "colored" : "plain"));
   object.frustumCulled = false;
   return object;
 }
@@ -75,7 +75,7 @@ function lines(node: SceneNode, { vertices, colors }: NodeGeometry): THREE.Objec
   const geometry = new LineSegmentsGeometry().setPositions(vertices);
   if (colors.length > 0) geometry.setColors(linear(colors));
   const material = new LineMaterial({ linewidth: node.size, vertexColors: colors.length > 0, ...transparency(node) });
-  if (colors.length === 0) material.color.copy(colourOf(node));
+  if (colors.length === 0) material.color.copy(colorOf(node));
   const object = new LineSegments2(geometry, material);
   object.frustumCulled = false;
   object.visible = vertices.length > 0;
@@ -87,16 +87,16 @@ function mesh(node: SceneNode, { vertices, indices, colors }: NodeGeometry): THR
   geometry.setAttribute("position", new THREE.BufferAttribute(vertices, 3));
   geometry.setIndex(new THREE.BufferAttribute(indices, 1));
   geometry.computeVertexNormals();
-  const coloured = colors.length > 0;
-  if (coloured) geometry.setAttribute("color", new THREE.BufferAttribute(linear(colors), 3));
+  const colored = colors.length > 0;
+  if (colored) geometry.setAttribute("color", new THREE.BufferAttribute(linear(colors), 3));
   const { wireframe } = node;
   const material = new THREE.MeshLambertMaterial({
-    vertexColors: coloured,
+    vertexColors: colored,
     wireframe,
     side: THREE.DoubleSide,
     ...transparency(node),
   });
-  if (!coloured) material.color.copy(colourOf(node));
+  if (!colored) material.color.copy(colorOf(node));
   return new THREE.Mesh(geometry, material);
 }
 
@@ -120,7 +120,7 @@ function image(node: SceneNode, { colors, width }: NodeGeometry): THREE.Object3D
   return new THREE.Mesh(new THREE.PlaneGeometry(node.size, (node.size * rows) / columns), material);
 }
 
-/** Converts sRGB bytes to the linear colours that three.js expects of vertices. */
+/** Converts sRGB bytes to the linear colors that three.js expects of vertices. */
 function linear(colors: Uint8Array): Float32Array {
   const table = Float32Array.from({ length: 256 }, (_, i) => new THREE.Color().setRGB(i / 255, 0, 0, "srgb").r);
   const out = new Float32Array((colors.length / 4) * 3);
@@ -128,15 +128,15 @@ function linear(colors: Uint8Array): Float32Array {
   return out;
 }
 
-/** A material that writes sRGB colours unchanged; three.js would convert them from linear colours. */
-function unchanged(node: SceneNode, kind: "axes" | "plain" | "coloured"): THREE.ShaderMaterial {
-  const [red, green, blue] = node.color ?? DEFAULT_COLOUR;
+/** A material that writes sRGB colors unchanged; three.js would convert them from linear colors. */
+function unchanged(node: SceneNode, kind: "axes" | "plain" | "colored"): THREE.ShaderMaterial {
+  const [red, green, blue] = node.color ?? DEFAULT_COLOR;
   const material = new THREE.ShaderMaterial({
     vertexColors: kind === "axes",
     defines: { [kind.toUpperCase()]: 1 },
-    transparent: node.opacity < 1 || kind === "coloured",
+    transparent: node.opacity < 1 || kind === "colored",
     uniforms: {
-      flatColour: { value: new THREE.Vector4(red, green, blue, 1) },
+      flatColor: { value: new THREE.Vector4(red, green, blue, 1) },
       opacity: { value: node.opacity },
       size: { value: node.size },
       height: { value: 1 },
@@ -152,21 +152,21 @@ function unchanged(node: SceneNode, kind: "axes" | "plain" | "coloured"): THREE.
 }
 
 const VERTEX = `
-  uniform vec4 flatColour;
+  uniform vec4 flatColor;
   uniform float size, height;
-  #ifdef COLOURED
+  #ifdef COLORED
     attribute vec4 rgba;
   #endif
-  varying vec4 colour;
+  varying vec4 color;
   void main() {
     gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
     #if defined(AXES)
-      colour = vec4(color * (0.72 + 0.28 * abs(normalize(normalMatrix * normal).z)), 1.0);
+      color = vec4(color * (0.72 + 0.28 * abs(normalize(normalMatrix * normal).z)), 1.0);
     #else
-      #ifdef COLOURED
-        colour = rgba;
+      #ifdef COLORED
+        color = rgba;
       #else
-        colour = flatColour;
+        color = flatColor;
       #endif
       gl_PointSize = max(1.5, 0.5 * size * height * projectionMatrix[1][1] / max(gl_Position.w, 1e-3));
     #endif
@@ -174,10 +174,10 @@ const VERTEX = `
 
 const FRAGMENT = `
   uniform float opacity;
-  varying vec4 colour;
+  varying vec4 color;
   void main() {
     #ifndef AXES
       if (length(gl_PointCoord - 0.5) > 0.5) discard;
     #endif
-    gl_FragColor = vec4(colour.rgb, colour.a * opacity);
+    gl_FragColor = vec4(color.rgb, color.a * opacity);
   }`;

@@ -251,7 +251,7 @@ export class NodesView {
     return true;
   }
 
-  /** What is drawn, for tests: centres and sizes of boxes, in metres in the fixed frame. */
+  /** What is drawn, for tests: centers and sizes of boxes, in meters in the fixed frame. */
   probe(): Record<string, unknown> {
     const { origin } = this.view.framePoses;
     const rows = [...this.places.values()].map((place) => {
@@ -260,13 +260,13 @@ export class NodesView {
       // Exact boxes of turned objects need all vertices; those of lines are not in an attribute of this kind.
       const exact = place.current?.node.kind !== "lines";
       const box = drawing ? new THREE.Box3().setFromObject(drawing, exact) : new THREE.Box3();
-      const centre = box.getCenter(new THREE.Vector3()).toArray();
+      const center = box.getCenter(new THREE.Vector3()).toArray();
       return [
         place.name,
         {
           kind: place.current?.node.kind,
           visible: drawing !== null && isVisible(drawing),
-          centre: centre.map((value, k) => value + (origin[k] as number)),
+          center: center.map((value, k) => value + (origin[k] as number)),
           size: box.getSize(new THREE.Vector3()).toArray(),
           vertices: (place.current?.geometry?.vertices.length ?? 0) / 3,
           problem: place.problem,

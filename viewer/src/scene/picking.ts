@@ -33,7 +33,7 @@ export class Picker {
         : (2 * distance * Math.tan((camera.fov * Math.PI) / 360)) / height;
   }
 
-  /** The size in metres of a pixel at a distance. */
+  /** The size in meters of a pixel at a distance. */
   private pixels: (distance: number) => number = () => 0;
 
   /** The point of the horizontal plane at a height; null if the ray does not hit it. */

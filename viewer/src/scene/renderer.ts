@@ -129,7 +129,7 @@ export class SceneRenderer {
     const { width, height } = drawingSize(canvas);
     if (canvas.width !== width || canvas.height !== height || webgl.getPixelRatio() !== pixelRatio())
       webgl.setDrawingBufferSize(Math.max(1, canvas.clientWidth), this.height, pixelRatio());
-    // Until this call, the renderer reports a viewport of zero height, from which points in metres get their sizes.
+    // Until this call, the renderer reports a viewport of zero height, from which points in meters get their sizes.
     else if (this.extraViews.length === 0) webgl.setViewport(0, 0, Math.max(1, canvas.clientWidth), this.height);
     this.camera.resize(this.width, this.height);
     this.invalidate();

@@ -8,8 +8,8 @@ const LINE_SPACING = 1.2;
 /** Longer texts would make the texture larger than graphics cards allow. */
 const MAX_TEXTURE_PX = 4096;
 
-/** Returns text whose lines have a height in metres; null for blank text. */
-export function textSprite(text: string, colour: THREE.Color, height: number, alpha: number): THREE.Sprite | null {
+/** Returns text whose lines have a height in meters; null for blank text. */
+export function textSprite(text: string, color: THREE.Color, height: number, alpha: number): THREE.Sprite | null {
   const lines = text.split("\n");
   const canvas = document.createElement("canvas");
   const context = canvas.getContext("2d");
@@ -22,7 +22,7 @@ export function textSprite(text: string, colour: THREE.Color, height: number, al
   context.font = font;
   context.textBaseline = "middle";
   context.textAlign = "center";
-  context.fillStyle = `#${colour.getHexString()}`;
+  context.fillStyle = `#${color.getHexString()}`;
   lines.forEach((line, i) =>
     context.fillText(line, canvas.width / 2, (i + 0.5) * TEXT_PX * LINE_SPACING, canvas.width),
   );
@@ -30,7 +30,7 @@ export function textSprite(text: string, colour: THREE.Color, height: number, al
   texture.colorSpace = THREE.SRGBColorSpace;
   const material = new THREE.SpriteMaterial({ map: texture, opacity: alpha, depthWrite: false });
   const sprite = new THREE.Sprite(material);
-  const metres = (height * canvas.height) / TEXT_PX;
-  sprite.scale.set((metres * canvas.width) / canvas.height, metres, 1);
+  const meters = (height * canvas.height) / TEXT_PX;
+  sprite.scale.set((meters * canvas.width) / canvas.height, meters, 1);
   return sprite;
 }

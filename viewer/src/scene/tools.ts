@@ -19,7 +19,7 @@ export interface ToolScene {
   refresh(): void;
 }
 
-const COLOUR: Record<PublishingTool, string> = { estimate: "#30a46c", goal: "#e93d82", point: "#3f7bf5" };
+const COLOR: Record<PublishingTool, string> = { estimate: "#30a46c", goal: "#e93d82", point: "#3f7bf5" };
 const MIN_LENGTH_M = 0.01;
 /** Movements of the pointer below this distance are not a drag. */
 const DRAG_PX = 5;
@@ -86,7 +86,7 @@ export class PointerTools {
     this.canvas.setPointerCapture(event.pointerId);
     this.start = { point, x: event.clientX, y: event.clientY };
     this.yaw = 0;
-    this.arrow.setColor(COLOUR[this.active as PublishingTool]);
+    this.arrow.setColor(COLOR[this.active as PublishingTool]);
     this.point(point.clone().add(new THREE.Vector3(1, 0, 0)));
   }
 

@@ -91,7 +91,7 @@ export class View {
     );
     this.renderer.scene.add(this.frames.object, this.measure.object, this.tools.object);
     this.renderer.compile(this.frames.alwaysDrawn);
-    theme.onChange(() => this.recolour());
+    theme.onChange(() => this.recolor());
     model.on("frames", (update) => {
       this.pending = update;
       this.refresh();
@@ -292,7 +292,7 @@ export class View {
     return labels;
   }
 
-  private recolour(): void {
+  private recolor(): void {
     const palette = this.theme.palette();
     this.renderer.setPalette(palette);
     this.frames.setPalette(palette);
@@ -372,9 +372,9 @@ export class View {
 function withoutOutliers(points: THREE.Vector3[]): THREE.Vector3[] {
   if (new THREE.Box3().setFromPoints(points).getSize(new THREE.Vector3()).length() < OUTLIER_SPAN_M) return points;
   const middle = (axis: "x" | "y" | "z"): number => median(points.map((point) => point[axis]));
-  const centre = new THREE.Vector3(middle("x"), middle("y"), middle("z"));
-  const typical = Math.max(1, median(points.map((point) => point.distanceTo(centre))));
-  return points.filter((point) => point.distanceTo(centre) <= OUTLIER_FACTOR * typical);
+  const center = new THREE.Vector3(middle("x"), middle("y"), middle("z"));
+  const typical = Math.max(1, median(points.map((point) => point.distanceTo(center))));
+  return points.filter((point) => point.distanceTo(center) <= OUTLIER_FACTOR * typical);
 }
 
 function median(values: number[]): number {

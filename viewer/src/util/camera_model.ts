@@ -96,7 +96,7 @@ function equidistant([k1, k2, k3, k4]: readonly number[]): Distort {
   };
 }
 
-/** Finds the radius up to which points further from the axis are further from the centre of the image, too. */
+/** Finds the radius up to which points further from the axis are further from the center of the image, too. */
 function bounded(distort: Distort): { distort: Distort; radius: number } {
   let last = 0;
   for (let radius = RADIUS_STEP; radius <= MAX_RADIUS; radius += RADIUS_STEP) {

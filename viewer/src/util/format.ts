@@ -31,7 +31,7 @@ export function duration(seconds: number | null): string {
   return `${sign}${(size / 3600).toFixed(size < 36000 ? 1 : 0)} h`;
 }
 
-export function metres(value: number): string {
+export function meters(value: number): string {
   if (!Number.isFinite(value)) return "–";
   const size = Math.abs(value);
   if (size >= 10000) return `${fixed(value / 1000, 2)} km`;

@@ -5,7 +5,7 @@ import { rpyDegrees, type Pose } from "./math";
 
 const FLAGS = ["x", "y", "z", "qx", "qy", "qz", "qw"];
 
-/** A number with six decimals: micrometres, and less than a thousandth of a degree. */
+/** A number with six decimals: micrometers, and less than a thousandth of a degree. */
 function number(value: number): string {
   return String(Number(value.toFixed(6)) + 0);
 }

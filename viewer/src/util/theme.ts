@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/** Dark and light themes, and a palette that is safe for colour-blind users. */
+/** Dark and light themes, and a palette that is safe for color-blind users. */
 
 import { remember, remembered } from "./storage";
 
@@ -51,8 +51,8 @@ export class Theme {
     this.apply();
   }
 
-  setBackground(colour: string | null): void {
-    this.background = colour;
+  setBackground(color: string | null): void {
+    this.background = color;
     this.apply();
   }
 
@@ -91,10 +91,10 @@ export class Theme {
   }
 }
 
-/** The relative luminance of a colour "#rrggbb", from 0 (black) to 1 (white), as WCAG defines it. */
-export function luminance(colour: string): number {
+/** The relative luminance of a color "#rrggbb", from 0 (black) to 1 (white), as WCAG defines it. */
+export function luminance(color: string): number {
   const [r, g, b] = [1, 3, 5].map((at) => {
-    const part = Number.parseInt(colour.slice(at, at + 2), 16) / 255;
+    const part = Number.parseInt(color.slice(at, at + 2), 16) / 255;
     return part <= 0.04045 ? part / 12.92 : ((part + 0.055) / 1.055) ** 2.4;
   }) as [number, number, number];
   return 0.2126 * r + 0.7152 * g + 0.0722 * b;

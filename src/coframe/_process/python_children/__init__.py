@@ -27,15 +27,16 @@ _passed: dict[str, tuple[str, str | None]] = {}
 
 
 def pass_to_children(name: str, value: str) -> None:
-    """Set an environment variable of the processes that this one starts, but not of this one."""
+    """Set an environment variable for child processes, but not for this process."""
     _passed[name] = (value, os.environ.get(name))
 
 
 def child_environment(base: Mapping[str, str] | None = None) -> dict[str, str]:
-    """Return the environment for a process, with what `pass_to_children` has set.
+    """Return the environment for a child process, with the variables set by `pass_to_children`.
 
     Args:
-        base: The base environment; None for that of this process. A variable that was changed in it, for example
+        base: The base environment; None for the environment of this process. A variable that was changed in it, for
+        example
             by a launch file, keeps its value.
     """
     environment = dict(os.environ if base is None else base)
@@ -64,7 +65,7 @@ def python_environment(base: Mapping[str, str] | None = None) -> dict[str, str]:
     Relative elements become absolute, so that they refer to the same folders in every process.
 
     Args:
-        base: The base environment; None for that of this process.
+        base: The base environment; None for the environment of this process.
     """
     environment = child_environment(base)
     for name in _OMITTED:

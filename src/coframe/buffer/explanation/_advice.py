@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Advice about a missing transform: the hint of the exception, or a more specific one if the edges allow it."""
+"""Advice about a missing transform: the hint of the exception, or a more specific hint derived from the edges."""
 
 from __future__ import annotations
 

@@ -187,7 +187,7 @@ def _missing(buffer: Buffer, roots: tuple[str, str]) -> MissingEdge | None:
     if not all(root in trees.index for root in roots):
         return None
     frames = [trees.tree(root) for root in roots]
-    return missing_edge(*sorted(frames, key=len, reverse=True)) or MissingEdge(*roots, misspelt=False)
+    return missing_edge(*sorted(frames, key=len, reverse=True)) or MissingEdge(*roots, misspelled=False)
 
 
 def _possible_at(buffer: Buffer, target: str, source: str, edges: tuple[ChainEdge, ...]) -> int | None:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Explanation: the chain between two frames, edge by edge, and what is wrong with it."""
+"""Explanation: the chain between two frames, edge by edge, with its problems."""
 
 from __future__ import annotations
 
@@ -64,14 +64,14 @@ class ChainEdge(NamedTuple):
 
 @dataclass(frozen=True)
 class Explanation:
-    """Why a transform between two frames exists or not; ``str()`` formats it. All times are nanoseconds.
+    """The reason why a transform between two frames exists or not; ``str()`` formats it. All times are nanoseconds.
 
     Attributes:
         target: The target frame of the lookup.
         source: The source frame of the lookup.
         stamp: The requested time; 0 is the latest common time.
         answered: The time of the transform (0: every edge is static); None if there is no transform.
-        code: What is wrong, as the ``code`` of an exception; "" if nothing is wrong.
+        code: The kind of problem, as the ``code`` of an exception; "" if there is no problem.
         text: The message of that exception, as in tf2.
         hint: What to do, with the line to change; "" if nothing needs to be done.
         unknown: Which of the two frames do not exist.
@@ -79,7 +79,7 @@ class Explanation:
             exist.
         frames: The frames of the chain in the same order. With two trees: from the target up to its root, then from
             the root of the source down to the source.
-        roots: The root of the target's tree and that of the source's tree, if these are two trees; else None.
+        roots: The roots of the trees of target and source if these are two trees; else None.
         missing: The edge that would connect the two trees: a likely one, or one between the roots; else None.
         limit: The edge, as (parent, child), whose newest sample limits the latest common time; None if another time
             was requested, or if all edges are static.

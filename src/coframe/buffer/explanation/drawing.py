@@ -56,7 +56,7 @@ def _advice(found: Explanation) -> Iterator[str]:
 
 
 def verdict(found: Explanation) -> str:
-    """Return whether there is a transform, and if not, which edge is the reason and by how much, as one sentence."""
+    """Return a sentence that says whether there is a transform and, if not, which edge is the reason."""
     frames = f"from {shown(found.source)} to {shown(found.target)}"
     if found.answered is None:
         when = f" at {seconds(found.stamp)}" if found.stamp else ""

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Commands with the words, the options and the output of ros2cli: ``coframe topic echo`` is ``ros2 topic echo``."""
+"""Commands with the same names, options and output as ros2cli: ``coframe topic echo`` is ``ros2 topic echo``."""

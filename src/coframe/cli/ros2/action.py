@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""``coframe action``: the actions of the ROS graph, with the words and the output of ``ros2 action``."""
+"""``coframe action``: the actions of the ROS graph, with the same names and output as ``ros2 action``."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ def info(
     count: bool,
     spin_time: NonNegativeDuration,
 ) -> None:
-    """Show the nodes with clients and servers of an action.
+    """Show the nodes that have clients or servers of an action.
 
     Example: coframe action info /fibonacci
     """

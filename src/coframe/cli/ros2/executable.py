@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The executables ``ros2`` and ``rviz2`` for machines without ROS; those of an installed ROS take precedence."""
+"""The executables ``ros2`` and ``rviz2`` for machines without ROS; an installed ROS takes precedence."""
 
 from __future__ import annotations
 
@@ -81,7 +81,7 @@ def rviz2() -> None:
 
 
 def _bag_words(words: list[str]) -> list[str]:
-    """Return the words of `ros2 bag` as those of `coframe bag`."""
+    """Return the arguments of `ros2 bag` as arguments of `coframe bag`."""
     if words[:1] == ["play"]:
         words = [_PLAY_OPTIONS.get(word, word) for word in words]
     stores = [index for index, word in enumerate(words) if word in _STORAGE_OPTIONS]

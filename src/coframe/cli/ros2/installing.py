@@ -34,16 +34,17 @@ ros2 = CommandGroup(
 
 @ros2.command(short_help="Add the executables ros2 and rviz2.")
 def install() -> None:
-    """Add the executables ros2 and rviz2 to this Python environment. Those of a real ROS are not replaced.
+    """Add the executables ros2 and rviz2 to this Python environment.
 
-    They run coframe's commands. pip uninstall coframe also removes them.
+    Executables of a real ROS are not replaced. The new ones run coframe's commands. pip uninstall coframe also removes
+    them.
 
     Example: coframe ros2 install
     """
     for name, path in _scripts():
         real = real_executable(name)
         if real is not None:
-            print(f"{name}: {printable(str(real))} exists, and is not replaced")
+            print(f"{name}: {printable(str(real))} already exists and is not replaced")
             continue
         try:
             path.write_text(_script(name), encoding="utf-8")
@@ -74,7 +75,7 @@ def _scripts() -> Iterator[tuple[str, Path]]:
 
 
 def _folder() -> Path:
-    """Return the folder of the executables of this installation; that of `pip install --user` is the user's own."""
+    """Return the folder of the executables of this installation, which may be the user's own (`pip install --user`)."""
     if Path(__file__).is_relative_to(site.getusersitepackages()):
         return Path(sysconfig.get_path("scripts", sysconfig.get_preferred_scheme("user")))
     return Path(sysconfig.get_path("scripts"))

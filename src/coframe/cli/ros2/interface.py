@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""``coframe interface``: message, service and action types, with the words and the output of ``ros2 interface``.
+"""``coframe interface``: message, service and action types, with the same names and output as ``ros2 interface``.
 
 The commands about the user's own packages go beyond ``ros2 interface``.
 """

@@ -33,7 +33,7 @@ program_folder = argument(
     metavar="[FOLDER]",
     type=PATH,
     required=False,
-    help="Folder of a program: also show the packages that it would find.",
+    help="Folder of a program: also include the packages that it would find.",
 )
 
 
@@ -42,8 +42,8 @@ program_folder = argument(
 def check(folder: Path | None) -> None:
     """Show your interface packages, where they were found, and problems in their definitions.
 
-    Programs also find packages next to them and in their workspace; pass their FOLDER to include these. The exit code
-    is 1 if a definition is invalid.
+    Programs also find packages next to themselves and in their workspace; pass the FOLDER of a program to include
+    these. The exit code is 1 if a definition is invalid.
 
     Example: coframe interface check .
     """
@@ -69,7 +69,7 @@ def check(folder: Path | None) -> None:
 @click.command(cls=Command, short_help="Add a folder to the search path of all programs.")
 @folder_argument
 def add(path: Path) -> None:
-    """Add FOLDER to the folders in which all programs find interface packages, and write stubs for editors.
+    """Add FOLDER to the search path of all programs for interface packages, and write stubs for editors.
 
     Example: coframe interface add ~/ros2_ws/src/my_msgs
     """

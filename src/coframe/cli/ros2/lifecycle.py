@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""``coframe lifecycle``: the states of lifecycle nodes, with the words and the output of ``ros2 lifecycle``."""
+"""``coframe lifecycle``: the states of lifecycle nodes, with the same names and output as ``ros2 lifecycle``."""
 
 from __future__ import annotations
 

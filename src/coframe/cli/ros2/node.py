@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""``coframe node``: the nodes of the ROS graph, with the words and the output of ``ros2 node``."""
+"""``coframe node``: the nodes of the ROS graph, with the same names and output as ``ros2 node``."""
 
 from __future__ import annotations
 

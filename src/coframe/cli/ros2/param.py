@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""``coframe param``: the parameters of other nodes, with the words and the output of ``ros2 param``."""
+"""``coframe param``: the parameters of other nodes, with the same names and output as ``ros2 param``."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""``coframe pkg``: packages and their executables, with the words and the output of ``ros2 pkg``."""
+"""``coframe pkg``: packages and their executables, with the same names and output as ``ros2 pkg``."""
 
 from __future__ import annotations
 
@@ -43,19 +43,19 @@ class CreateCommand(Command):
 
 @pkg.command(cls=CreateCommand, short_help="Create a Python package.")
 @argument("package_name", metavar="NAME", help="Name of the new package.")
-@click.option("--node-name", metavar="NAME", help="Name of an executable with a first node.")
+@click.option("--node-name", metavar="NAME", help="Also create an executable of this name that runs a node.")
 @click.option(
     "--destination-directory",
     "destination",
     metavar="FOLDER",
     type=PATH,
     default=Path(),
-    help="Folder in which to create it.",
+    help="Folder in which to create the package.",
 )
-@click.option("--dependencies", metavar="PACKAGE...", multiple=True, help="Packages on which it depends.")
+@click.option("--dependencies", metavar="PACKAGE...", multiple=True, help="Packages on which the new package depends.")
 @click.option("--description", metavar="SENTENCE", default="A ROS 2 package", help="Description of the package.")
 @click.option(
-    "--license", "license_name", metavar="NAME", default="No license declared", help="Licence of the package."
+    "--license", "license_name", metavar="NAME", default="No license declared", help="License of the package."
 )
 @click.option("--maintainer-name", metavar="NAME", help="Name of the maintainer.")
 @click.option("--maintainer-email", metavar="EMAIL", help="E-mail address of the maintainer.")
@@ -97,7 +97,7 @@ def create(
 
 @pkg.command(short_help="List the executables of packages.")
 @argument("package_name", metavar="[PACKAGE]", required=False, help="Name of a package. [default: all packages]")
-@click.option("--full-path", is_flag=True, help="Also show the command of each one.")
+@click.option("--full-path", is_flag=True, help="Also show the command of each executable.")
 def executables(package_name: str | None, full_path: bool) -> None:
     """List the executables that coframe run can start.
 

@@ -94,7 +94,7 @@ class QoSWords(NamedTuple):
 
 
 def _all(policy: str, value: str, offers: list[bool]) -> bool:
-    """Return whether all publishers offer the stronger policy; say on stderr if only some do."""
+    """Return whether all publishers offer the stronger policy; print a message on stderr if only some do."""
     if any(offers) and not all(offers):
         print(
             f"Some, but not all, publishers are offering {policy} {value}. Falling back to the weaker policy, "

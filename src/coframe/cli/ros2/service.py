@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""``coframe service``: the services of the ROS graph, with the words and the output of ``ros2 service``."""
+"""``coframe service``: the services of the ROS graph, with the same names and output as ``ros2 service``."""
 
 from __future__ import annotations
 

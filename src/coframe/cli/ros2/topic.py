@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""``coframe topic``: the topics of the ROS graph, with the words and the output of ``ros2 topic``."""
+"""``coframe topic``: the topics of the ROS graph, with the same names and output as ``ros2 topic``."""
 
 from __future__ import annotations
 

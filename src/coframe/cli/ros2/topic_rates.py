@@ -114,7 +114,7 @@ def bw(
         )
 
 
-@click.command(cls=GraphCommand, short_help="Show the delay of messages since the stamp in their header.")
+@click.command(cls=GraphCommand, short_help="Show the time from header stamp to arrival.")
 @topic_argument
 @window_option(10_000)
 @sim_time_option
@@ -125,7 +125,7 @@ def delay(
     use_sim_time: bool,
     spin_time: NonNegativeDuration,
 ) -> None:
-    """Show the delay from the stamp in the header to the arrival of messages.
+    """Show the time from the header stamp of each message to its arrival.
 
     Example: coframe topic delay /scan
     """

@@ -36,7 +36,7 @@ def yaml_value(text: str, what: str, hint: str = "") -> Any:
     Args:
         text: The text.
         what: Its name in error messages, such as "VALUES".
-        hint: What to do.
+        hint: Advice for the user.
     """
     try:
         return read_yaml(text)

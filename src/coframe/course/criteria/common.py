@@ -39,7 +39,7 @@ __all__ = [
     "stamp_ns",
 ]
 
-TOLERANCE = 1e-6  # metres, and components of unit quaternions
+TOLERANCE = 1e-6  # meters, and components of unit quaternions
 
 
 class Task(NamedTuple):
@@ -48,9 +48,9 @@ class Task(NamedTuple):
     Attributes:
         folder: The student's folder.
         assignment: The numbers of the assignment.
-        world: The simulated surroundings.
+        world: The simulated environment.
         scratch: A folder for the output of programs.
-        confinement: What the programs may do.
+        confinement: The restrictions of the programs.
     """
 
     folder: Path
@@ -98,7 +98,7 @@ def run_program(task: Task, sheet: Sheet, *, wrong_topic: str = "") -> Iterator[
     elif silence and not problem:
         sheet.withdraw(first, silence)
     elif silence:
-        sheet.blame(first, "the program ended before it published anything")
+        sheet.blame(first, "the program exited before it published anything")
 
 
 def _silence(file: str, world: World, wrong_topic: str) -> str:

@@ -229,13 +229,13 @@ def _check_joint_states(sheet: Sheet, received: list[Received]) -> None:
     )
     sheet.check(
         3,
-        "no other source moves the arm at the same time",
+        "no other publisher moves the arm at the same time",
         bool(followed) and all(followed),
         expected="no other angles while joint states are published",
         observed=f"{followed.count(False)} of {len(followed)} messages have other angles"
         if followed
         else "no transform",
-        cause="the simulation continues while joint states arrive: two sources of one transform make the arm flicker",
+        cause="the simulation continues while joint states arrive: two sources of joint angles make the arm flicker",
         read="handbook chapter 10, finding errors",
     )
 

@@ -31,7 +31,7 @@ _TOPIC = "/end_effector_pose"
 _LATENCY = STEP  # the transforms arrive one step after their stamps, delayed as on a real robot
 _PERIOD = 2 * STEP
 # Between two samples, tf2 interpolates linearly; the arm moves on circles, which deviates by less than this.
-_INTERPOLATED = 1e-4  # metres
+_INTERPOLATED = 1e-4  # meters
 _MAX_AGE = 3 * SECOND // 2  # age of a transform that a listener may still use while the broadcaster is missing
 _READ = "handbook chapter 4, what lookup_transform(target, source) means"
 
@@ -117,9 +117,9 @@ def _check_poses(sheet: Sheet, robot: SimulatedRobot, poses: list[Received]) -> 
     wrong = [text for each in poses if (text := _difference(robot, each))]
     sheet.check(
         7,
-        "each pose is right at its stamp",
+        "each pose is correct at its stamp",
         0.0 if not poses else 1.0 if not wrong else 0.5 if _right_at_other_time(robot, poses) else 0.0,
-        expected="the closed form of the arm at the stamp of the pose",
+        expected="the analytic pose of the arm at the stamp of the pose",
         observed=f"{len(wrong)} of {len(poses)} poses are wrong: {wrong[-1]}" if wrong else "no poses",
         cause=_cause(robot, poses),
         read="handbook chapter 5, time, interpolation, waiting",

@@ -32,7 +32,7 @@ _BEAMS = 120
 _RANGE_MIN, _RANGE_MAX = 0.1, 10.0
 _SCAN_PERIOD = 10 * STEP
 _SCANS = 15  # in each of the two frames
-_TOLERANCE = 1e-3  # metres
+_TOLERANCE = 1e-3  # meters
 # Seconds of real time from a scan to the transform of its stamp. On a robot, this is usually 10 to 50 ms.
 _WAIT = 0.03
 _GRIPPER = "gripper_link"
@@ -133,7 +133,7 @@ def _check_messages(sheet: Sheet, world: World, scans: dict[int, _Scan], clouds:
         3,
         "the clouds keep the stamps of their scans",
         kept / len(stamps) if stamps else 0.0,
-        expected="header.stamp is that of the scan",
+        expected="header.stamp is the stamp of the scan",
         observed=f"{len(stamps) - kept} of {len(stamps)} clouds have a different stamp" if stamps else "no clouds",
         cause="the stamp is now(): the points were measured earlier",
         read=_READ,
@@ -185,7 +185,7 @@ def _check_points(sheet: Sheet, scans: dict[int, _Scan], clouds: list[Received])
             points,
             name,
             bool(good) and sum(good) / len(good) >= 0.95,
-            expected="all points within 1 mm of the closed form",
+            expected="all points within 1 mm of the analytic solution",
             observed=f"{good.count(False)} of {len(good)} clouds are up to {max(distances) * 1000:.3g} mm wrong"
             if good
             else "no clouds",
@@ -212,7 +212,7 @@ def _points(received: Received) -> NDArray[np.float64]:
 
 
 def _distance(scan: _Scan, points: NDArray[np.float64]) -> float:
-    """Return the maximum distance of a point from its correct position, in metres; infinity if points are missing."""
+    """Return the maximum distance of a point from its correct position, in meters; infinity if points are missing."""
     finite = points[np.isfinite(points).all(axis=1)]
     if len(points) == len(scan.points):
         return float(np.linalg.norm(points - scan.points, axis=1).max()) if len(finite) == len(points) else math.inf

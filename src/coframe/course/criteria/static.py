@@ -43,7 +43,7 @@ def check(task: Task) -> Sheet:
             world.wait_until(lambda: frames <= _by_child(late).keys(), _LATE)
             world.run(0.3)
         sent, repeated = _by_child(static), _repeated(_by_child(dynamic))
-        missing = _ON_TF if world.publishers_of("/tf") else "a misspelt child_frame_id"
+        missing = _ON_TF if world.publishers_of("/tf") else "a misspelled child_frame_id"
         for mount in task.assignment.mounts:
             _check_mount(sheet, mount, sent.get(mount.frame) or repeated.get(mount.frame, []), missing)
         _check_delivery(sheet, task, sent, repeated, _by_child(late))
@@ -142,7 +142,7 @@ def _check_delivery(
         bool(durable) and all(durable),
         expected="reliable, transient local",
         observed=", ".join(f"{qos.reliability.name}, {qos.durability.name}" for qos in offers) or "no publisher",
-        cause="a publisher of your own with default QoS: use StaticTransformBroadcaster",
+        cause="your own publisher with default QoS: use StaticTransformBroadcaster",
         read=_READ,
     )
     reached = [frame for frame in frames if frame in late]

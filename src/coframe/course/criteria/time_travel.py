@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Extension 2, 10 points: where the end effector was one second ago, relative to the robot's current position."""
+"""Extension 2, 10 points: the pose of the end effector one second ago, relative to the robot's current pose."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ __all__ = ["check"]
 _TOPIC = "/past_end_effector_pose"
 _AGE = SECOND
 _PERIOD = 2 * STEP
-_INTERPOLATED = 2e-4  # metres
+_INTERPOLATED = 2e-4  # meters
 _READ = "handbook chapter 9, recordings and time travel"
 
 
@@ -64,7 +64,7 @@ def check(task: Task) -> Sheet:
         bad = [text for text in wrong if text]
         sheet.check(
             5,
-            "each pose is that of one second before its stamp",
+            "each pose is one second older than its stamp",
             bool(wrong) and not bad,
             expected="lookup_transform_full(base_link now, end_effector 1 s ago, fixed frame odom)",
             observed=f"{len(bad)} of {len(wrong)} poses are wrong: {bad[-1]}" if bad else "no poses",

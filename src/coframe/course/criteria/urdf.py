@@ -81,7 +81,7 @@ def _check_kinematics(sheet: Sheet, task: Task, description: Description | None)
             points,
             f"{frame} is at the correct position for all joint angles",
             not difference,
-            expected="the pose of the closed form for five pairs of joint angles",
+            expected="the analytic pose for five pairs of joint angles",
             observed=difference,
             cause="an origin of a joint, or its axis",
             read=_READ,

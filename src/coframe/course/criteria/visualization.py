@@ -88,7 +88,7 @@ def _check_configuration(sheet: Sheet, config: RvizConfig | str) -> None:
         fixed in _FRAMES,
         expected="a frame of the tree, for example base_link",
         observed=f"fixed frame {fixed!r}",
-        cause="a misspelt frame",
+        cause="a misspelled frame",
         read=_READ,
     )
     for kind, topic, points in _DISPLAYS:
@@ -122,7 +122,7 @@ def _check_tree(sheet: Sheet, edges: list[Any]) -> None:
         expected="world -> map -> odom -> base_link -> arm and sensors",
         observed="; ".join([*wrong, *([f"missing: {', '.join(missing)}"] if missing else [])])
         + (f"; {len(trees.roots)} trees" if len(trees.roots) > 1 else ""),
-        cause="a misspelt frame, or a parent that is not published",
+        cause="a misspelled frame, or a parent that is not published",
         read=_READ,
     )
 

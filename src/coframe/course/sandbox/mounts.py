@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A separate root folder for a program, which contains only what it may access."""
+"""A separate root folder for a program, which contains only the files that it may access."""
 
 from __future__ import annotations
 

@@ -132,7 +132,7 @@ def _stale(observation: Observation, edges: list[Edge]) -> Finding:
         edges,
         Severity.WARNING,
         f"stale: no transform for the last {duration(observation.silence(worst))}{usual}{_all(edges)}",
-        f"Restart the publisher{publishers}. Until then lookups at now() fail, and the latest transform is outdated.",
+        f"Restart the publisher{publishers}. Until then, lookups at now() fail, and the latest transform is outdated.",
         int(worst.stamp[-1]),
     )
 

@@ -95,7 +95,7 @@ def _bursts(observation: Observation) -> Iterator[Finding]:
                 f"transforms that "
                 "had been published in the meantime: the recorder or its network connection was blocked",
                 fix="Record fewer topics (`coframe record /tf /tf_static ...`), or use a faster disk. In this "
-                "recording, lookups by receive time are wrong there, those by stamp are correct.",
+                "recording, lookups by receive time are wrong there; lookups by stamp are correct.",
                 first_stamp=int(burst.min()),
             )
             return

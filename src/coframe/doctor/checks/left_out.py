@@ -26,7 +26,7 @@ def find(observation: Observation) -> Iterator[Finding]:
             code=CODE,
             severity=Severity.WARNING,
             text=f"{observation.messages_ignored} messages were ignored: there are too many frame names",
-            fix="Find the publisher that keeps creating frame names. This report covers the messages before them.",
+            fix="Find the publisher that keeps creating frame names. This report covers only earlier messages.",
             harm="Every buffer grows with each new frame name, for as long as its process runs.",
         )
     if observation.topics_ignored:
@@ -34,7 +34,7 @@ def find(observation: Observation) -> Iterator[Finding]:
             code=CODE,
             severity=Severity.WARNING,
             text=f"{observation.topics_ignored} topics were not examined: there are too many",
-            fix="Find the node that keeps creating topics. This report covers the topics before them.",
+            fix="Find the node that keeps creating topics. This report covers only earlier topics.",
             harm="Every participant stores each announced topic, for as long as it is published.",
         )
     if observation.transforms_since:
@@ -44,7 +44,7 @@ def find(observation: Observation) -> Iterator[Finding]:
             text=f"only the transforms of the last {duration(observation.end - observation.transforms_since)} were "
             "examined: there are too many",
             fix=_COVER_ALL,
-            harm="Problems that were over before that time are not in this report.",
+            harm="This report does not contain problems that ended before that time.",
         )
     if observation.incomplete:
         yield Finding(
@@ -52,5 +52,5 @@ def find(observation: Observation) -> Iterator[Finding]:
             severity=Severity.NOTE,
             text=f"some messages of {listed(observation.incomplete)} were not examined: there are too many",
             fix=_COVER_ALL,
-            harm="Problems of these messages are not in this report.",
+            harm="This report does not contain problems with these messages.",
         )

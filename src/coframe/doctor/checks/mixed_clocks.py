@@ -89,7 +89,7 @@ def _static(observation: Observation, usual: str) -> Iterator[Finding]:
         yield Finding(
             code=CODE,
             severity=Severity.NOTE,
-            text=f"the stamps of {len(off)} of {len(observation.static)} static transforms are on another clock than "
+            text=f"the stamps of {len(off)} of {len(observation.static)} static transforms use another clock than "
             f"/tf ({seconds(off[0].first_stamp)}, {duration(abs(off[0].first_stamp - high))} off), {zero} have the "
             "stamp 0; tf2 ignores the stamps of static transforms",
             fix="Start their publishers with --ros-args -p use_sim_time:=true, like the other nodes.",

@@ -24,7 +24,7 @@ _MIN_CHANGES = 5  # from one source to another
 _MIN_SHARE = 0.05  # of the messages that follow a message of another source
 _MIN_TRACKED = 20  # successive positions
 _APART = 10  # times the usual step: the distance between two sources
-_MIN_DISTANCE = 0.05  # metres
+_MIN_DISTANCE = 0.05  # meters
 _ONE_SOURCE = {
     *(f"sensor_msgs/msg/{name}" for name in ("CameraInfo", "CompressedImage", "FluidPressure", "Image", "Imu")),
     *(f"sensor_msgs/msg/{name}" for name in ("LaserScan", "MagneticField", "MultiEchoLaserScan", "NavSatFix")),

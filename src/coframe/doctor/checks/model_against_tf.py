@@ -32,7 +32,7 @@ _ONE_PUBLISHER = (
     "Publish the links of the robot description only with robot_state_publisher, and stop the other publisher of this "
     "transform; or correct <origin> in the URDF, and restart robot_state_publisher after the change."
 )
-_METRES = 1e-3
+_METERS = 1e-3
 _RADIANS = 1e-3
 _MAX_COMPARED = 2000  # transforms per joint
 
@@ -69,13 +69,13 @@ _WRONG_POSITIONS: tuple[_WrongPositions, ...] = (
 # For prismatic joints.
 _WRONG_DISTANCES: tuple[_WrongPositions, ...] = (
     (
-        "the joint positions are used in metres: their values in millimetres were used",
-        "Use the positions of /joint_states as they are: they are in metres.",
+        "the joint positions are used in meters: their values in millimeters were used",
+        "Use the positions of /joint_states as they are: they are in meters.",
         lambda positions: 1e3 * positions,
     ),
     (
         "the joint positions are used as they are: they were divided by 1000",
-        "Use the positions of /joint_states as they are: they are in metres.",
+        "Use the positions of /joint_states as they are: they are in meters.",
         lambda positions: 1e-3 * positions,
     ),
     _WRONG_POSITIONS[2],
@@ -85,7 +85,7 @@ _WRONG_DISTANCES: tuple[_WrongPositions, ...] = (
 class _Difference(NamedTuple):
     """The median difference between the rows of an edge and the expected poses, and the mistake that explains it."""
 
-    metres: float
+    meters: float
     radians: float
     compared: int
     mistake: Explanation | None
@@ -93,7 +93,7 @@ class _Difference(NamedTuple):
     @property
     def text(self) -> str:
         """The size of the difference, as a clause."""
-        return f"{self.metres:.3g} m and {degrees(self.radians):.3g} degrees"
+        return f"{self.meters:.3g} m and {degrees(self.radians):.3g} degrees"
 
 
 def find(observation: Observation) -> Iterator[Finding]:
@@ -237,7 +237,7 @@ def _difference(observation: Observation, robot: Robot, name: str, edge: Edge) -
 
 
 def _is_different(found: _Difference) -> bool:
-    return found.metres >= _METRES or found.radians >= _RADIANS
+    return found.meters >= _METERS or found.radians >= _RADIANS
 
 
 def _wrong_position(
@@ -247,7 +247,7 @@ def _wrong_position(
     for reading, fix, wrong in _WRONG_DISTANCES if robot.joints[name].type == "prismatic" else _WRONG_POSITIONS:
         left = _deviation(edge, rows, robot.joint_transforms({name: wrong(positions)})[name], explained=False)
         if not _is_different(left):
-            return Explanation(reading, fix, left.metres, left.radians)
+            return Explanation(reading, fix, left.meters, left.radians)
     return None
 
 
@@ -256,9 +256,9 @@ def _deviation(edge: Edge, rows: NDArray[np.intp], expected: Transform, *, expla
     published = edge.poses(rows)
     right = np.empty_like(published)
     right[:, :3], right[:, 3:] = expected.translation, expected.quaternion
-    metres = float(np.median(np.linalg.norm(published[:, :3] - right[:, :3], axis=1)))
+    meters = float(np.median(np.linalg.norm(published[:, :3] - right[:, :3], axis=1)))
     radians = float(np.median(angles_between(published[:, 3:], right[:, 3:])))
-    found = _Difference(metres, radians, len(rows), None)
+    found = _Difference(meters, radians, len(rows), None)
     return found._replace(mistake=explain(published, right)) if explained and _is_different(found) else found
 
 

@@ -48,8 +48,7 @@ def _finding(child: str, edges: list[Edge]) -> Finding:
         f"(t.child_frame_id = {child + '_2'!r}), or invert its transform: t.header.frame_id = {child!r}, "
         f"t.child_frame_id = {others[0].parent!r}."
         if disagree
-        else "Nothing needs to be done if the frame is meant to change its parent; otherwise stop one of the "
-        "publishers.",
+        else "No change is needed if the frame is meant to change its parent; otherwise stop one of the publishers.",
         harm=""
         if disagree
         else "tf2 does not interpolate between the last transform with one parent and the first with the other.",

@@ -23,7 +23,7 @@ __all__ = ["CODE", "find"]
 
 CODE = "TF020"
 _FAST = 30.0  # m/s
-_FAR = 0.5  # metres
+_FAR = 0.5  # meters
 _TURNED = 1.5  # radians
 _SPINNING = 30.0  # rad/s
 _UNUSUAL = 20.0  # times the median step

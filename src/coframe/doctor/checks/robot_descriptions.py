@@ -49,7 +49,7 @@ def find(observation: Observation) -> Iterator[Finding]:
                     severity=Severity.NOTE,
                     text=f"{name} has {count(len(last.warnings), 'fault')}: {last.warnings[0]}{later}",
                     fix="Check the file that is loaded: `coframe robot FILE` lists the faults.",
-                    harm="Programs ignore what is faulty, or refuse the description.",
+                    harm="Programs ignore faulty parts, or reject the description.",
                     topic=_TOPIC,
                 )
     if last is not None and observation.live:

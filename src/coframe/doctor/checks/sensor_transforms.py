@@ -64,9 +64,9 @@ def _unknown(observation: Observation, frame: str, sensors: list[Sensor]) -> Fin
 
 
 def _one_name(observation: Observation, frame: str, similar: str) -> str:
-    """Return what to do about a message's frame whose name differs in a few letters from one in the tree.
+    """Return advice about a message's frame whose name differs in a few letters from a frame in the tree.
 
-    Either of the two may be misspelt. A name with the usual ending is probably the right one.
+    Either of the two may be misspelled. A name with the usual ending is probably the right one.
     """
     in_messages = f"In the node of the sensor: msg.header.frame_id = {similar!r}"
     if not frame.endswith(_USUAL_ENDINGS) or similar.endswith(_USUAL_ENDINGS):
@@ -80,7 +80,7 @@ def _one_name(observation: Observation, frame: str, similar: str) -> str:
 
 
 def _missing_frame(observation: Observation, frame: str, publishers: tuple[str, ...]) -> str:
-    """Return what to do about a frame that no transform contains; only sensors can be mounted statically."""
+    """Return advice about a frame that no transform contains; only sensors can be mounted statically."""
     prefix, slash, name = frame.rpartition("/")
     root = next(iter(observation.trees))
     known = [f"{prefix}{slash}{usual}" for usual in ("map", "odom", *BASE_FRAMES)]

@@ -63,10 +63,10 @@ def _unset(edge: Edge) -> Finding:
         code=CODE,
         severity=Severity.WARNING,
         text=f"the stamp was never set: {edge.unset} of {edge.count} transforms have the stamp 0",
-        fix="Add the line: t.header.stamp = self.get_clock().now().to_msg(). If it is there, the node has "
-        "use_sim_time:=true and no simulation publishes /clock, so its time stays 0.",
+        fix="Add the line: t.header.stamp = self.get_clock().now().to_msg(). If the line exists, the node has "
+        "use_sim_time:=true but no simulation publishes /clock, so its time stays 0.",
         harm="A transform with the stamp 0 belongs to the year 1970: lookups at now() or at the stamp of a sensor "
-        "message fail, however long they wait.",
+        "message fail, even with a long timeout.",
         edge=edge.key,
         first_stamp=0,
         publishers=edge.publishers,
@@ -83,7 +83,7 @@ def _ahead(edge: Edge, lags: NDArray[np.int64], offset: ClockOffset) -> Finding:
         text=f"{np.count_nonzero(lags < 0)} of {edge.count} stamps are ahead of the clock on arrival, by up to "
         f"{duration(most)}; the median is {offset.size} {offset.direction} the clock"
         + ("; this is usual for localization and for constant transforms that are repeated" if usual else ""),
-        fix="Nothing needs to be done if this is the transform_tolerance of the localization or the period of an old "
+        fix="No change is needed if this is the transform_tolerance of the localization or the period of an old "
         "static_transform_publisher."
         if usual
         else "Use the time of the measurement as stamp: t.header.stamp = self.get_clock().now().to_msg(). With several "

@@ -32,7 +32,7 @@ def find(observation: Observation) -> Iterator[Finding]:
                 severity=Severity.WARNING,
                 text=f"published {times(other.count)} on /tf_static and {times(edge.count)} on /tf; each change from "
                 f"one to the other clears its history in every buffer{_cause(other, edge)}",
-                fix="Publish it on one topic only. If it moves, remove it from the StaticTransformBroadcaster, or "
+                fix="Publish it on only one topic. If it moves, remove it from the StaticTransformBroadcaster, or "
                 f"change the type of its URDF joint from fixed; otherwise stop publishing {edge.child!r} on /tf.",
                 edge=edge.key,
                 first_stamp=edge.first_stamp,

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""TF021: mounts that look like degrees for radians, millimetres for metres, or a missing optical rotation."""
+"""TF021: mounts that look like degrees for radians, millimeters for meters, or a missing optical rotation."""
 
 from __future__ import annotations
 
@@ -23,8 +23,8 @@ __all__ = ["CODE", "find"]
 CODE = "TF021"
 _ROUND_DEGREES = (30, 45, 60, 90, 120, 135, 150, 180, 270)
 _CLOSE = 2e-4  # radians
-_FAR = 10.0  # metres between two frames of a robot
-_TOO_FAR = 1e6  # metres; it would be a kilometre in millimetres
+_FAR = 10.0  # meters between two frames of a robot
+_TOO_FAR = 1e6  # meters; it would be a kilometer in millimeters
 _WORLDS = ("world", "map", "odom", "earth", "utm", "ecef", "enu", "global", "ned")
 
 
@@ -33,7 +33,7 @@ def find(observation: Observation) -> Iterator[Finding]:
     for edge in observation.edges:
         if edge.static or edge.constant:
             yield from _degrees(edge)
-            yield from _millimetres(edge)
+            yield from _millimeters(edge)
             yield from _optical(edge)
 
 
@@ -57,19 +57,19 @@ def _degrees(edge: Edge) -> Iterator[Finding]:
             return
 
 
-def _millimetres(edge: Edge) -> Iterator[Finding]:
+def _millimeters(edge: Edge) -> Iterator[Finding]:
     names = {edge.parent.rpartition("/")[2].lower(), edge.child.rpartition("/")[2].lower()}
     if edge.length < _FAR or any(name.startswith(world) for name in names for world in _WORLDS):
         return
     if edge.length > _TOO_FAR:
         distance = f"the frames are {edge.length:.4g} m apart"
-        yield _finding(edge, distance, "Check the values of the translation; they are in metres.")
+        yield _finding(edge, distance, "Check the values of the translation; they are in meters.")
         return
     x, y, z = (edge.values[-1, :3] / 1000).tolist()
     yield _finding(
         edge,
         f"the frames are {edge.length:.4g} m apart: was {edge.length:.4g} mm intended?",
-        f"Use metres: --x {x:g} --y {y:g} --z {z:g}.",
+        f"Use meters: --x {x:g} --y {y:g} --z {z:g}.",
     )
 
 

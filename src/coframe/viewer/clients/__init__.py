@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The connected browser tabs: what each of them shows, requests and receives."""
+"""The connected browser tabs: their state, requests and updates."""

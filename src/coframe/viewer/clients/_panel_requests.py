@@ -46,7 +46,7 @@ async def _complete(client: ClientState, request: client_messages.Complete) -> C
     )
 
     if len(request.text) > MAX_TEXT:
-        raise BadRequestError(f"a text to be completed has at most {MAX_TEXT} characters")
+        raise BadRequestError(f"the text to complete has at most {MAX_TEXT} characters")
     complete = complete_expression if request.subject == "expression" else complete_topic
     viewer = client.viewer
     loop = asyncio.get_running_loop()

@@ -13,7 +13,7 @@ Span = tuple[int, int]
 
 @dataclass
 class PlaybackClock:
-    """The displayed time: that of the newest data, or a fixed or advancing time. Times are nanoseconds.
+    """The displayed time: the time of the newest data, or a fixed or advancing time. Times are nanoseconds.
 
     Attributes:
         live: Whether the newest data is shown.

@@ -34,7 +34,7 @@ class _Sent(NamedTuple):
 
 
 class SentRecords:
-    """What a client has received of a store.
+    """The records of a store that a client has received.
 
     Attributes:
         revision: The revision of the store of which the client has everything.

@@ -36,7 +36,7 @@ class Subscription:
 
     Attributes:
         topic: The topic.
-        options: How it is drawn.
+        options: The drawing options.
         display: The display; None while the topic does not exist.
         serial: A number that differs between all subscriptions.
     """
@@ -56,13 +56,13 @@ class ClientState:
 
     Attributes:
         clock: The displayed time.
-        frame_timeout: How many seconds a frame stays visible after its last sample.
+        frame_timeout: The number of seconds for which a frame stays visible after its last sample.
         rviz: The configuration that the client has loaded.
         requested_rate: The requested number of frame updates per second; None for the default.
         requested_fixed: The requested fixed frame; "" selects the root of the largest tree.
         origin: The origin of the client's times, in nanoseconds.
         subscriptions: The subscribed displays by the client's id.
-        panels: What the panels show.
+        panels: The contents of the panels.
         nodes: The nodes that were sent.
         widgets: The widgets that were sent.
     """

@@ -69,7 +69,7 @@ class Client:
         viewer: The state that all clients share.
 
     Attributes:
-        state: What the client shows.
+        state: The contents of the page.
         due: When `update` should be called, on the monotonic clock.
     """
 

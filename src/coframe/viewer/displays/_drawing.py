@@ -72,13 +72,13 @@ class Drawing:
 
 @dataclass(frozen=True)
 class Options:
-    """How a display draws.
+    """The drawing options of a display.
 
     Attributes:
-        color_by: The value shown by a point's colour; None selects the best available one.
+        color_by: The value shown by a point's color; None selects the best available one.
         axis: 0, 1 or 2: the coordinate for ``color_by="axis"``.
         decay: How long messages stay visible, in seconds.
-        keep: How many poses the trail of an Odometry display has.
+        keep: The number of poses in the trail of an Odometry display.
         max_points: The maximum number of points of a cloud; larger clouds are thinned.
         origin: The origin of the times that the page receives, in nanoseconds.
     """

@@ -32,10 +32,10 @@ FIXED_FRAME = "<Fixed Frame>"
 
 @dataclass(frozen=True, kw_only=True)
 class _Details:
-    """What all options have.
+    """The properties of all options.
 
     Attributes:
-        label: The text on the page; "" for the key.
+        label: The label on the page; "" for the key.
         needs: The key of a flag without which the option has no effect.
         sets: The field of `DisplayOptions` that the option sets; "" if only the page uses it.
     """
@@ -66,7 +66,7 @@ class NumberOption(_Details):
     unit: str = ""
 
     def sent(self, value: object) -> float:
-        """Return what the server receives for a value in an .rviz file."""
+        """Return the value that the server receives for a value in an .rviz file."""
         valid = isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
         number = min(max(float(value), self.minimum), self.maximum) if valid else self.value  # type: ignore[arg-type]
         return round(number) if self.step.is_integer() else number
@@ -80,13 +80,13 @@ class FlagOption(_Details):
     value: bool
 
     def sent(self, value: object) -> bool:
-        """Return what the server receives for a value in an .rviz file."""
+        """Return the value that the server receives for a value in an .rviz file."""
         return value if isinstance(value, bool) else self.value
 
 
 @dataclass(frozen=True)
 class ColorOption(_Details):
-    """A colour.
+    """A color.
 
     Attributes:
         key: The key in an .rviz file.
@@ -97,7 +97,7 @@ class ColorOption(_Details):
     value: str
 
     def sent(self, value: object) -> str:
-        """Return what the server receives for a value in an .rviz file."""
+        """Return the value that the server receives for a value in an .rviz file."""
         return value if isinstance(value, str) else self.value
 
 
@@ -109,7 +109,7 @@ class ChoiceOption(_Details):
         key: The key in an .rviz file.
         value: The default.
         choices: The values in an .rviz file.
-        meanings: What the server receives for each of them; empty if that is the value itself.
+        meanings: The values that the server receives for each of them; empty if they are the same.
     """
 
     key: str
@@ -118,20 +118,20 @@ class ChoiceOption(_Details):
     meanings: tuple[str, ...] = ()
 
     def sent(self, value: object) -> str:
-        """Return what the server receives for a value in an .rviz file."""
+        """Return the value that the server receives for a value in an .rviz file."""
         index = self.choices.index(value if value in self.choices else self.value)
         return (self.meanings or self.choices)[index]
 
 
 @dataclass(frozen=True)
 class TextOption(_Details):
-    """A text, such as the name of a frame, with its key in an .rviz file and its default."""
+    """A string option, such as the name of a frame, with its key in an .rviz file and its default."""
 
     key: str
     value: str
 
     def sent(self, value: object) -> str:
-        """Return what the server receives for a value in an .rviz file."""
+        """Return the value that the server receives for a value in an .rviz file."""
         return value if isinstance(value, str) else self.value
 
 
@@ -147,8 +147,8 @@ class DisplayRow:
         messages: The message types that it shows, with how each of them is drawn; empty for displays without a topic.
         options: Its options, in the order in which the page lists them.
         shapes: The descriptions that its drawings contain, as TypedDicts; the page's types are generated from them.
-        selectable: Whether it is offered for topics of its message types. Other displays come from .rviz files only.
-        automatic: Whether the page shows such topics without being asked; False if that needs much bandwidth.
+        selectable: Whether it is offered for topics of its message types. Other displays come only from .rviz files.
+        automatic: Whether the page shows such topics automatically; False if that needs much bandwidth.
         large_in_replay: Whether a replay records it last, in the remaining space.
         has_surfaces: Whether the page's tools find points on it.
         projected: Whether its lines and meshes can be drawn above images.

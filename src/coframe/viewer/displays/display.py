@@ -121,7 +121,7 @@ class Display:
     Args:
         number: The id that the page chose.
         messages: The messages of the topic.
-        options: How the display draws.
+        options: The drawing options.
         mesh_url: Returns the URL of a marker's mesh, or the reason why there is none.
         executor: Runs the rendering, so that large messages do not block the server.
     """
@@ -144,7 +144,7 @@ class Display:
         self._layers: deque[_Layer] = deque(maxlen=MAX_LAYERS)
 
     def update(self, buffer: Buffer, fixed: str, at: int, now: int) -> None:
-        """Update the drawing to what is visible at a time.
+        """Update the drawing to the messages visible at a time.
 
         Args:
             buffer: The transforms.

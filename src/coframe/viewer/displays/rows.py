@@ -43,7 +43,7 @@ DISPLAY_OF_TYPE: dict[str, DisplayRow] = {
 
 
 def displayable(topics: Iterable[tuple[str, str]]) -> list[DisplayTopic]:
-    """Return those of a source's topics, with their types, that can be displayed."""
+    """Return the topics of a source that can be displayed, with their types."""
     return [
         DisplayTopic(topic=topic, type=ros_type, display=DISPLAY_OF_TYPE[ros_type].name)
         for topic, ros_type in topics

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Log messages on /rosout and those of the viewer itself, with a limit, for all clients."""
+"""Log messages on /rosout and of the viewer itself, with a limit, for all clients."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ _ROS1_LEVELS: dict[int, LogLevel] = {1: "debug", 2: "info", 4: "warning", 8: "er
 class Log:
     """The log messages of one source. Use only on the server's thread.
 
-    Messages on /rosout are received while a page shows the log, those of the viewer itself always.
+    Messages on /rosout are received only while a page shows the log, messages of the viewer itself always.
 
     Args:
         source: The source.

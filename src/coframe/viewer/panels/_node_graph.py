@@ -170,7 +170,7 @@ def _is_infrastructure(topic: str) -> bool:
 
 
 def _without_copies(links: Iterable[GraphLink]) -> list[GraphLink]:
-    """Merge equal links of a node, such as those of several listeners."""
+    """Merge equal links of a node, such as the links of several listeners."""
     return list({tuple(link.values()): link for link in links}.values())
 
 

@@ -38,7 +38,7 @@ class Ring:
 
     Attributes:
         total: The number of points that were added since the last restart.
-        restarts: How often time restarted.
+        restarts: The number of times that time restarted.
     """
 
     def __init__(self, capacity: int = 20_000) -> None:

@@ -32,8 +32,8 @@ class CurveStatus(NamedTuple):
 
     Attributes:
         state: "waiting" while there are no points.
-        text: What is missing or wrong.
-        hint: What to do.
+        text: A description of missing data or an error.
+        hint: Advice for the user.
         points: The number of points that exist.
     """
 
@@ -85,7 +85,7 @@ class Curve(Protocol):
         """Process new data."""
 
     def points(self, seen: int, shown: CurveSpan) -> Points:
-        """Return the points after the first `seen` ones; those of a recording are thinned."""
+        """Return the points after the first `seen` ones; points of a recording are thinned."""
 
     def all_points(self) -> Points:
         """Return all points, without thinning."""

@@ -7,13 +7,13 @@ types and the checks of the page from them, and a version that changes with them
 
 Conventions:
     Times are nanoseconds relative to ``Hello.origin``, which is the decimal text of an int64. This keeps them exact in
-    a float64. Poses are x, y, z in metres followed by a quaternion x, y, z, w; NaN means that there is no pose. Frame
+    a float64. Poses are x, y, z in meters followed by a quaternion x, y, z, w; NaN means that there is no pose. Frame
     names, topics and robot descriptions are data and must never be interpreted as HTML.
 
 Modules:
-    server_messages, binary_messages: What the server sends; the rows of `coframe.viewer.displays` have its shapes.
+    server_messages, binary_messages: Messages from the server; the rows of `coframe.viewer.displays` have its shapes.
     client_messages: Messages that the page sends.
-    replay_block: What a replay file contains.
+    replay_block: The contents of a replay file.
     common: Field types that several of them use.
     requests: Checks of client messages.
     encoding: Encoders of server messages.

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Binary messages from the server to the page: headers and records of fixed size, little-endian.
 
-Each message begins with its kind (`BinaryKind`). The letters of the types are those of the struct module.
+Each message begins with its kind (`BinaryKind`). The letters of the types are the same as in the struct module.
 """
 
 from __future__ import annotations
@@ -53,7 +53,7 @@ class CloudFlag(IntEnum):
 class ImageFormat(IntEnum):
     """The lowest eight bits of an image's format; the bits above 8 hold the thinning step."""
 
-    GREY = 0
+    GRAY = 0
     RGB = 1
     JPEG = 2
     PNG = 3
@@ -63,7 +63,7 @@ class FramesHeader(NamedTuple):
     """A frame update: the poses of all frames and displayed messages at one time.
 
     Followed by float32[7] per frame, uint8 `FrameState` per frame, padding to four bytes, and one `EntryRecord` per
-    displayed message. Positions are relative to ``origin``, which is in metres in the fixed frame. Entries that are no
+    displayed message. Positions are relative to ``origin``, which is in meters in the fixed frame. Entries that are no
     longer listed are removed. ``time`` is NaN while there is no data.
     """
 
@@ -89,7 +89,7 @@ class EntryRecord(NamedTuple):
 
 
 class CloudHeader(NamedTuple):
-    """A point cloud. Followed by float32[3] per point in the message's frame, then float32 scalars or uint8[4] colours.
+    """A point cloud. Followed by float32[3] per point in the message's frame, then float32 scalars or uint8[4] colors.
 
     ``range`` holds the smallest and the largest finite scalar.
     """
@@ -156,11 +156,11 @@ class CurveRecord(NamedTuple):
 
 
 class NodeHeader(NamedTuple):
-    """The geometry of a node. Followed by float32[3] vertices, uint32 indices, and uint8[4] colours, in this order.
+    """The geometry of a node. Followed by float32[3] vertices, uint32 indices, and uint8[4] colors, in this order.
 
     Vertices are relative to ``offset``, which is expressed in the node. Lines have two vertices each, triangles three
-    indices. There is one colour (red, green, blue, alpha) for each vertex, or none; an image has no vertices, and
-    ``width`` colours in each row.
+    indices. There is one color (red, green, blue, alpha) for each vertex, or none; an image has no vertices, and
+    ``width`` colors in each row.
     """
 
     kind: UInt32

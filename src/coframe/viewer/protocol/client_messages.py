@@ -36,13 +36,13 @@ MAX_CURVE_POINTS = 20_000
 
 @dataclass(frozen=True)
 class DisplayOptions:
-    """How the server prepares a display; numbers beyond a limit are clamped.
+    """The options with which the server prepares a display; numbers beyond a limit are clamped.
 
     Attributes:
-        color_by: The value shown by a point's colour; None selects the best available one.
+        color_by: The value shown by a point's color; None selects the best available one.
         axis: The coordinate for ``color_by="axis"``.
         decay: How long messages stay visible, in seconds.
-        keep: How many poses the trail of an Odometry display has.
+        keep: The number of poses in the trail of an Odometry display.
         max_points: The maximum number of points of a cloud; larger clouds are thinned.
     """
 
@@ -121,7 +121,7 @@ class RequestTimeline:
 
 @dataclass(frozen=True)
 class SetJoints:
-    """Starts or stops publishing joint positions of a robot, in radians or metres."""
+    """Starts or stops publishing joint positions of a robot, in radians or meters."""
 
     type: ClassVar[str] = "joints"
     robot: Id
@@ -176,7 +176,7 @@ class LoadRviz:
 
 @dataclass(frozen=True)
 class SaveRviz:
-    """Requests an .rviz file of what the page shows; other parts of the loaded configuration are preserved."""
+    """Requests an .rviz file with the contents of the page; other parts of the loaded configuration are preserved."""
 
     type: ClassVar[str] = "save_rviz"
     displays: list[RvizDisplay]
@@ -194,12 +194,12 @@ class ReplayDisplayRequest:
 
 
 ReplayRviz = TypedDict("ReplayRviz", {"displays": list[RvizDisplay], "global": JsonObject, "view": RvizView | None})
-"""How a replay looks when it is opened."""
+"""The initial view of a replay."""
 
 
 @dataclass(frozen=True)
 class PrepareReplay:
-    """Defines which displays a replay contains and how it looks."""
+    """Defines the displays and the initial view of a replay."""
 
     type: ClassVar[str] = "replay"
     displays: list[ReplayDisplayRequest]

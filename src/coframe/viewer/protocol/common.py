@@ -12,18 +12,18 @@ Vector: TypeAlias = tuple[float, float, float]
 Quaternion: TypeAlias = tuple[float, float, float, float]
 Span: TypeAlias = tuple[float, float]
 Pose: TypeAlias = tuple[float, float, float, float, float, float, float]
-"""x, y, z in metres, and a quaternion x, y, z, w."""
+"""x, y, z in meters, and a quaternion x, y, z, w."""
 
 Id: TypeAlias = Annotated[int, Range(0, 2**32 - 1)]
-Metres: TypeAlias = Annotated[float, Range(-1e9, 1e9)]
+Meters: TypeAlias = Annotated[float, Range(-1e9, 1e9)]
 Radians: TypeAlias = Annotated[float, Range(-100.0, 100.0)]
 Unit: TypeAlias = Annotated[float, Range(-1.01, 1.01)]
 Variance: TypeAlias = Annotated[float, Range(0.0, 1e18)]
-Position: TypeAlias = tuple[Metres, Metres, Metres]
+Position: TypeAlias = tuple[Meters, Meters, Meters]
 Variances: TypeAlias = tuple[Variance, Variance, Variance]
 Nanoseconds: TypeAlias = Annotated[float, Range(-(2.0**62), 2.0**62)]
 PayloadRows: TypeAlias = tuple[int, int]
-"""An offset into the numbers of a drawing, and a number of rows: 7 numbers per pose, 3 per point, 4 per colour."""
+"""An offset into the numbers of a drawing, and a number of rows: 7 numbers per pose, 3 per point, 4 per color."""
 
 ViewerMode: TypeAlias = Literal["live", "recording", "buffer", "replay"]
 FrameActivity: TypeAlias = Literal["static", "fresh", "stale", "gone"]

@@ -105,7 +105,7 @@ def encode_frames(
     Args:
         revision: The revision of the tree that gives the order of the frames.
         time: The displayed time in nanoseconds relative to the origin of times; NaN if there is no data.
-        origin: The local origin in metres in the fixed frame, (3,).
+        origin: The local origin in meters in the fixed frame, (3,).
         poses: The poses of all frames relative to the local origin, (N, 7).
         states: The `FrameState` of each frame, (N,).
         entries: The displayed messages.
@@ -181,7 +181,7 @@ def encode_image(
     """Return an image.
 
     Args:
-        kind: What `data` contains.
+        kind: The format of `data`.
         width: Pixels per row.
         height: Number of rows.
         data: Pixels, (height, width, 1 or 3), or the bytes of a file.
@@ -207,8 +207,8 @@ def encode_node(
         vertices: Positions relative to the offset, (V, 3).
         indices: Indices of vertices, (I,).
         colors: Red, green, blue and alpha, (C, 4).
-        width: The number of colours in each row of an image; 0 for other nodes.
-        offset: The offset in the node, in metres, (3,).
+        width: The number of colors in each row of an image; 0 for other nodes.
+        offset: The offset in the node, in meters, (3,).
     """
     header = _NODE.pack(BinaryKind.NODE, node, len(vertices), len(indices), len(colors), width, *offset)
     parts = (np.ascontiguousarray(vertices, "<f4"), np.ascontiguousarray(indices, "<u4"), np.ascontiguousarray(colors))

@@ -20,7 +20,7 @@ class BadRequestError(CoframeError, ValueError):
     """A message that the protocol does not allow, or a request that cannot be fulfilled.
 
     Attributes:
-        hint: What to do.
+        hint: Advice for the user.
     """
 
     def __init__(self, text: str, hint: str = "") -> None:

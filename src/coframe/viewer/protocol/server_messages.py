@@ -62,7 +62,8 @@ class Hello(TypedDict):
     """The first message. Sent again when the source or the origin changes; the page then starts from scratch.
 
     The page compares ``version`` with its own. ``mode`` is "replay" only inside replay files. ``fixed_is_given`` is
-    true if an option or the .rviz file names the fixed frame, so that the page does not use that of its last session.
+    true if an option or the .rviz file names the fixed frame, so that the page does not use the one of its last
+    session.
     """
 
     type: Literal["hello"]
@@ -173,7 +174,7 @@ class JointMimic(TypedDict):
 class RobotJoint(TypedDict):
     """A joint; ``origin`` is the pose of its child link relative to its parent link at position 0.
 
-    ``value`` is the default position, in radians or metres, of a joint that a slider can move; None for other joints.
+    ``value`` is the default position, in radians or meters, of a joint that a slider can move; None for other joints.
     """
 
     name: str
@@ -192,7 +193,7 @@ class RobotModel(TypedDict):
     """A robot, as `coframe.robots` reads its description: ``joints`` lists parents before children.
 
     ``meshes`` maps the reference of each mesh and texture to its URL, ``problems`` lists what cannot be drawn, and
-    ``warnings`` what is unusual about the description. ``description_topic`` is None for a robot from a file.
+    ``warnings`` lists the faults of the description. ``description_topic`` is None for a robot from a file.
     """
 
     type: Literal["robot"]
@@ -458,8 +459,8 @@ class SceneNode(TypedDict):
     ``frame`` is the frame in which ``pose`` is expressed: a frame of the tree, "" for the fixed frame, or None for the
     nearest node above this one by their names, which are paths (the fixed frame if there is none). ``color`` is None
     for the default of the page. ``size`` is the length of axes, the diameter of points, or the height of a line of text
-    in metres, or the width of lines in pixels. Of several nodes with the same name and a ``time``, the last one at the
-    displayed time is shown. ``problem`` says what is not drawn, and why.
+    in meters, or the width of lines in pixels. Of several nodes with the same name and a ``time``, the last one at the
+    displayed time is shown. ``problem`` names the part that is not drawn, and the reason.
     """
 
     type: Literal["node"]

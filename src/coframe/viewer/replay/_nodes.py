@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The nodes of a replay: what a program had added to the scene when the replay was saved."""
+"""The nodes of a replay: the scene nodes of the program when the replay was saved."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ MAX_NODE_BYTES = 32 << 20
 def record_nodes(nodes: Sequence[NodeRecord], origin: int) -> list[ReplayNode]:
     """Return the nodes, with times relative to an origin in nanoseconds.
 
-    Small ones are included first; of those that do not fit `MAX_NODE_BYTES`, the page says that they were omitted.
+    Small nodes are included first; the page lists nodes omitted because of `MAX_NODE_BYTES`.
     """
     left = MAX_NODE_BYTES
     found: dict[int, ReplayNode] = {}

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The displays of a replay: what a client would have received for each, at every time of the replay."""
+"""The displays of a replay: the data that a client would have received for each, at every time of the replay."""
 
 from __future__ import annotations
 
@@ -63,7 +63,7 @@ class ReplayTimes(NamedTuple):
         buffer: The transforms.
         fixed: The fixed frame.
         times: The times in nanoseconds, (N,).
-        origin: The local origin of all positions, in metres in the fixed frame, (3,).
+        origin: The local origin of all positions, in meters in the fixed frame, (3,).
     """
 
     buffer: Buffer
@@ -231,7 +231,7 @@ class _Listing(NamedTuple):
 
     @classmethod
     def of(cls, display: Display, local: NDArray[np.float64], origin: int) -> _Listing:
-        """Return what a display currently shows."""
+        """Return the current drawing of a display."""
         entries = display.poses()
         no_pose = np.full(7, np.nan)
         poses = [no_pose if entry.pose is None else relative_to(local, entry.pose) for entry in entries]

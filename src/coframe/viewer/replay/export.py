@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Create replays without a browser: what the page would show of a source, as one HTML file."""
+"""Create replays without a browser: the contents of the page as one HTML file."""
 
 from __future__ import annotations
 
@@ -62,8 +62,8 @@ def export_replay(
         meshes: The meshes that may be included.
         rviz: The displays and the view; None for the page's own choice.
         robot: A robot that is shown in addition to recorded ones.
-        fixed: The fixed frame; "" for that of `rviz` or the root of the largest tree.
-        nodes: Return what a program has added to the scene.
+        fixed: The fixed frame; "" for the one in `rviz` or the root of the largest tree.
+        nodes: Return the scene nodes of a program.
         first: The first time in nanoseconds; None for the start of the source.
         last: The last time in nanoseconds; None for the end of the source.
         rate: Frames per second; None for 30, or fewer if a long span has too many poses.

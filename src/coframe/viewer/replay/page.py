@@ -84,10 +84,10 @@ class ReplayRequest(NamedTuple):
         last: The last time, in nanoseconds.
         rate: Frames per second.
         fixed: The fixed frame.
-        frame_timeout: How many seconds a frame stays visible after its last sample.
+        frame_timeout: The number of seconds for which a frame stays visible after its last sample.
         title: The title of the page.
         origin: The origin of the times in the replay, in nanoseconds.
-        settings: What the replay shows when it is opened.
+        settings: The initial view of the replay.
     """
 
     first: int
@@ -108,7 +108,7 @@ class ReplayContent(NamedTuple):
         messages: The messages of the displays, by topic.
         robots: The robots.
         meshes: The meshes of the robots; small ones are included.
-        nodes: What a program has added to the scene.
+        nodes: The scene nodes of a program.
     """
 
     buffer: Buffer

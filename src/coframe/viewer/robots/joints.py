@@ -42,7 +42,7 @@ class JointPublisher:
         self._due = 0.0
 
     def set(self, positions: Mapping[str, float]) -> None:
-        """Set the published positions in radians or metres; mimic joints and omitted joints are added.
+        """Set the published positions in radians or meters; mimic joints and omitted joints are added.
 
         Raises:
             ValueError: A joint does not exist, or a position is not a finite number.

@@ -39,7 +39,7 @@ def read_yaml(text: str, source: str) -> Any:
     """
     yaml_module()
     if len(text) > MAX_FILE_BYTES:
-        raise ViewerError(f"{source} has more than {MAX_FILE_BYTES >> 20} MiB, the limit for an RViz configuration")
+        raise ViewerError(f"{source} is larger than the maximum of {MAX_FILE_BYTES >> 20} MiB")
     try:
         return bounded_yaml.read_yaml(text, MAX_FILE_BYTES)
     except ValueError as error:

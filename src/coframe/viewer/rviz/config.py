@@ -174,7 +174,7 @@ class RvizConfig:
         view: Mapping[str, Any],
         tools: Sequence[RvizTool] = (),
     ) -> RvizConfig:
-        """Return a copy updated with what the page shows; unsupported parts are preserved.
+        """Return a copy updated with the contents of the page; unsupported parts are preserved.
 
         Args:
             displays: The displays, as in `description`.
@@ -261,7 +261,7 @@ class RvizConfig:
 
 
 def _displays(parent: dict[str, Any], path: str) -> Iterator[_Found]:
-    """Yield all displays; those of a group follow the group."""
+    """Yield all displays; the displays of a group follow the group."""
     for display in _sequence(parent, "Displays"):
         if isinstance(display, dict):
             found = _Found("", parent["Displays"], display)
@@ -289,6 +289,6 @@ def _sequence(parent: dict[str, Any], key: str) -> list[Any]:
 
 
 def _color_of(value: Any) -> list[int] | None:
-    """Return red, green and blue of a colour such as "48; 48; 48"."""
+    """Return red, green and blue of a color such as "48; 48; 48"."""
     parts = re.fullmatch(r"\s*(\d{1,3})\s*[;,]\s*(\d{1,3})\s*[;,]\s*(\d{1,3})\s*", str(value))
     return [min(int(part), 255) for part in parts.groups()] if parts else None

@@ -115,7 +115,8 @@ class Scene:
             fixed: The frame in which the poses are expressed; frames that are not connected with it are expressed in
                 the root of their own tree.
             stamp: The time in nanoseconds; 0 selects the latest pose of each frame.
-            timeout: How many seconds after its last sample a frame is shown at its last pose, as a stale frame.
+            timeout: The number of seconds after its last sample for which a frame is shown at its last pose, as a stale
+            frame.
         """
         count = len(self.structure.names)
         poses = np.empty((count, 7))
@@ -168,11 +169,11 @@ def _structure_of(infos: list[FrameInfo]) -> Structure:
 
 
 class LocalOrigin:
-    """The point relative to which positions are sent as float32, which would lose millimetres far from the origin."""
+    """The point relative to which positions are sent as float32, which would lose millimeters far from the origin."""
 
     # Multiples of this step are exact in float32 within any map, so that positions of zero also stay exact.
     STEP = 64.0
-    # Positions within this distance, in metres, are near.
+    # Positions within this distance, in meters, are near.
     NEAR = 96.0
     # Seconds between searches for a better origin while some frames are far from all candidates.
     PERIOD = 1.0

@@ -25,7 +25,7 @@ def frame_rows(scene: Scene, origin: int, timeout: float) -> list[FrameStats]:
     Args:
         scene: The scene.
         origin: The origin of times, in nanoseconds.
-        timeout: How many seconds a frame stays visible after its last sample.
+        timeout: The number of seconds for which a frame stays visible after its last sample.
     """
     # Raw tuples, because building the objects of edges() would take longer than everything else here.
     intervals = {frame[0]: times for frame, times, _ in scene.buffer._edge_tuples()}

@@ -35,28 +35,28 @@ __all__ = [
 
 MAX_NAME = 200  # characters
 MAX_TEXT = 1000  # characters
-MAX_COORDINATE = 1e9  # metres
+MAX_COORDINATE = 1e9  # meters
 _KINDS = {"b": "booleans", "O": "objects", "S": "bytes", "U": "text", "c": "complex numbers"}
 
 
 def name_of(value: Any) -> str:
     """Return the name of a node without slashes at its ends: the path of the node."""
     if not isinstance(value, str):
-        raise SceneError(f"name: expected text such as 'camera/cloud', not {_shown(value)}")
+        raise SceneError(f"name: expected a string such as 'camera/cloud', not {_shown(value)}")
     name = value.strip("/")
     if not all(part.strip() for part in name.split("/")):
         raise SceneError(f"name: {_shown(value)} has an empty part", hint="Use a name such as 'camera/cloud'.")
     if len(name) > MAX_NAME:
-        raise SceneError(f"name: {len(name)} characters are more than {MAX_NAME}, the limit")
+        raise SceneError(f"name: {len(name)} characters are more than the maximum of {MAX_NAME}")
     return name
 
 
 def text_of(value: Any, argument: str, most: int = MAX_TEXT) -> str:
-    """Return a text of limited length."""
+    """Return a string of limited length."""
     if not isinstance(value, str):
-        raise SceneError(f"{argument}: expected text, not {_shown(value)}")
+        raise SceneError(f"{argument}: expected a string, not {_shown(value)}")
     if len(value) > most:
-        raise SceneError(f"{argument}: {len(value)} characters are more than {most}, the limit")
+        raise SceneError(f"{argument}: {len(value)} characters are more than the maximum of {most}")
     return value.encode(errors="replace").decode()  # Half of a surrogate pair is not a character.
 
 
@@ -84,8 +84,8 @@ def number_of(value: Any, argument: str, low: float = -math.inf, high: float = m
 
 
 def vector_of(value: Any, argument: str) -> tuple[float, float, float]:
-    """Return a position in metres, (3,)."""
-    x, y, z = _array(value, argument, [(3,)], "three numbers, in metres").tolist()
+    """Return a position in meters, (3,)."""
+    x, y, z = _array(value, argument, [(3,)], "three numbers, in meters").tolist()
     return x, y, z
 
 
@@ -112,8 +112,8 @@ def pose_of(value: Any, argument: str = "pose") -> Pose:
 
 
 def vertices_of(value: Any, argument: str, shapes: Sequence[tuple[int | None, ...]]) -> NDArray[np.float64]:
-    """Return positions in metres of one of the given shapes; None stands for any number."""
-    return _array(value, argument, shapes, "positions in metres")
+    """Return positions in meters of one of the given shapes; None stands for any number."""
+    return _array(value, argument, shapes, "positions in meters")
 
 
 def faces_of(value: Any, argument: str, vertices: int) -> NDArray[np.uint32]:
@@ -141,7 +141,7 @@ def _array(value: Any, argument: str, shapes: Sequence[tuple[int | None, ...]], 
         hint = f"Keep the others: {argument}[np.isfinite({argument}).all(axis=1)]" if numbers.ndim == 2 else ""
         raise SceneError(f"{argument}: {where} NaN or infinity", hint=hint)
     if numbers.size and float(np.abs(numbers).max()) > MAX_COORDINATE:
-        raise SceneError(f"{argument}: {np.abs(numbers).max():g} is more than {MAX_COORDINATE:g}, the limit")
+        raise SceneError(f"{argument}: {np.abs(numbers).max():g} is more than the maximum of {MAX_COORDINATE:g}")
     return numbers.astype(np.float64)
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Colours and pixels: integers from 0 to 255, or floats from 0 to 1."""
+"""Colors and pixels: integers from 0 to 255, or floats from 0 to 1."""
 
 from __future__ import annotations
 
@@ -22,17 +22,17 @@ _HEX = re.compile(r"#[0-9a-fA-F]{6}")
 
 
 def color_of(value: Any, argument: str = "color") -> Vector | None:
-    """Return red, green and blue from 0 to 1; None, the default colour, stays None.
+    """Return red, green and blue from 0 to 1; None, the default color, stays None.
 
     Args:
-        value: Three integers from 0 to 255, three floats from 0 to 1, or text such as "#ff8000".
+        value: Three integers from 0 to 255, three floats from 0 to 1, or a string such as "#ff8000".
         argument: The name of the argument.
     """
     if value is None:
         return None
     if isinstance(value, str):
         if not _HEX.fullmatch(value):
-            raise SceneError(f"{argument}: expected text such as '#ff8000', not {value[:40]!r}")
+            raise SceneError(f"{argument}: expected a string such as '#ff8000', not {value[:40]!r}")
         value = [int(value[at : at + 2], 16) for at in (1, 3, 5)]
     elif not isinstance(value, np.ndarray) and _is_nearly_black(value):
         whole, real = (tuple(scale(one) for one in value) for scale in (lambda one: 255 * one, float))
@@ -54,20 +54,20 @@ def colors_of(value: Any, count: int, argument: str = "colors", each: str = "poi
         value: An array (N, 3) or (N, 4), or None.
         count: The number of points.
         argument: The name of the argument.
-        each: What has a colour.
+        each: The noun for the colored elements.
     """
     if value is None:
         return np.empty((0, 4), np.uint8)
     colors = _bytes(value, argument)
     if colors.ndim != 2 or colors.shape[1] not in {3, 4}:
-        raise SceneError(f"{argument}: expected the shape (N, 3), a colour for each {each}, not {colors.shape}")
+        raise SceneError(f"{argument}: expected the shape (N, 3), a color for each {each}, not {colors.shape}")
     if len(colors) != count:
-        raise SceneError(f"{argument}: {len(colors)} colours for {count} {each}s; expected one for each")
+        raise SceneError(f"{argument}: {len(colors)} colors for {count} {each}s; expected one for each")
     return _with_alpha(colors)
 
 
 def flat_colors_of(value: Any, count: int) -> NDArray[np.uint8]:
-    """Return the colours of `count` vertices as :func:`colors_of` does, also from an array (N, 2, 3) for lines."""
+    """Return the colors of `count` vertices as :func:`colors_of` does, also from an array (N, 2, 3) for lines."""
     if value is None:
         return colors_of(None, count)
     colors = _bytes(value, "colors")
@@ -85,7 +85,7 @@ def pixels_of(value: Any, argument: str = "image") -> NDArray[np.uint8]:
         raise SceneError(f"{argument}: expected the shape (height, width) or (height, width, 3), not {pixels.shape}")
     if pixels.shape[0] * pixels.shape[1] > MAX_IMAGE_PIXELS:
         height, width = pixels.shape[:2]
-        raise SceneError(f"{argument}: {width} x {height} pixels are more than {MAX_IMAGE_PIXELS}, the limit")
+        raise SceneError(f"{argument}: {width} x {height} pixels are more than the maximum of {MAX_IMAGE_PIXELS}")
     if pixels.shape[2] == 1:
         pixels = np.repeat(pixels, 3, axis=2)
     return _with_alpha(pixels)
@@ -113,7 +113,7 @@ def _bytes(value: Any, argument: str) -> NDArray[np.uint8]:
 
 
 def _is_nearly_black(value: Any) -> bool:
-    """Return whether a colour consists of the integers 0 and 1, which is meant to be a colour of floats."""
+    """Return whether a color consists of the integers 0 and 1, which is meant to be a color of floats."""
     if not isinstance(value, tuple | list) or not all(type(one) is int for one in value):
         return False
     return any(value) and all(one in {0, 1} for one in value)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The geometry of nodes: vertices, indices and colours in the form in which they are sent."""
+"""The geometry of nodes: vertices, indices and colors in the form in which they are sent."""
 
 from __future__ import annotations
 
@@ -28,19 +28,19 @@ __all__ = [
     "sphere_mesh",
 ]
 
-# Coordinates beyond this are sent relative to their centre: float32 resolves 0.06 mm up to here.
+# Coordinates beyond this are sent relative to their center: float32 resolves 0.06 mm up to here.
 _MAX_NEAR = 1000.0
 
 
 class Geometry(NamedTuple):
-    """What a node consists of; see :class:`coframe.viewer.protocol.binary_messages.NodeHeader`.
+    """The geometry of a node; see :class:`coframe.viewer.protocol.binary_messages.NodeHeader`.
 
     Attributes:
         vertices: Positions relative to the offset, (V, 3).
         indices: Indices of vertices, (I,).
         colors: Red, green, blue and alpha, (C, 4).
-        width: The number of colours in each row of an image.
-        offset: Position of the vertices' origin in the node, in metres.
+        width: The number of colors in each row of an image.
+        offset: Position of the vertices' origin in the node, in meters.
     """
 
     vertices: NDArray[np.float32]
@@ -69,14 +69,14 @@ _NO_VERTICES, _NO_INDICES = np.empty((0, 3), np.float32), np.empty(0, np.uint32)
 
 
 def points_geometry(points: Any, colors: Any) -> Geometry:
-    """Return points, (N, 3), with a colour each, or None."""
+    """Return points, (N, 3), with a color each, or None."""
     positions = vertices_of(points, "points", [(None, 3)])
     _check_count(len(positions), "points", "points")
     return _geometry(positions, _NO_INDICES, colors_of(colors, len(positions)))
 
 
 def lines_geometry(points: Any, colors: Any) -> Geometry:
-    """Return separate lines, (N, 2, 3), or one line through points, (N, 3), with a colour for each point, or None."""
+    """Return separate lines, (N, 2, 3), or one line through points, (N, 3), with a color for each point, or None."""
     positions = vertices_of(points, "points", [(None, 3), (None, 2, 3)])
     _check_count(positions.size // 3, "points", "points")
     strip = positions.ndim == 2
@@ -86,7 +86,7 @@ def lines_geometry(points: Any, colors: Any) -> Geometry:
 
 
 def mesh_geometry(vertices: Any, faces: Any, colors: Any) -> Geometry:
-    """Return triangles from vertices, (V, 3), and their indices, (F, 3), with a colour for each vertex, or None."""
+    """Return triangles from vertices, (V, 3), and their indices, (F, 3), with a color for each vertex, or None."""
     positions = vertices_of(vertices, "vertices", [(None, 3)])
     _check_count(len(positions), "vertices", "vertices")
     triangles = faces_of(faces, "faces", len(positions))
@@ -101,7 +101,7 @@ def image_geometry(image: Any) -> Geometry:
 
 
 def box_mesh(size: Vector) -> tuple[NDArray[np.float64], NDArray[np.uint32]]:
-    """Return the vertices and the triangles of a box with its centre at zero; each side has its own four vertices."""
+    """Return the vertices and the triangles of a box with its center at zero; each side has its own four vertices."""
     corners: list[NDArray[np.float64]] = []
     faces: list[list[int]] = []
     for axis in range(3):
@@ -116,7 +116,7 @@ def box_mesh(size: Vector) -> tuple[NDArray[np.float64], NDArray[np.uint32]]:
 
 
 def sphere_mesh(radius: float, rows: int = 16) -> tuple[NDArray[np.float64], NDArray[np.uint32]]:
-    """Return the vertices and the triangles of a sphere with its centre at zero."""
+    """Return the vertices and the triangles of a sphere with its center at zero."""
     columns = 2 * rows
     polar, azimuth = np.meshgrid(np.linspace(0, np.pi, rows + 1), np.linspace(0, 2 * np.pi, columns + 1), indexing="ij")
     points = np.stack([np.sin(polar) * np.cos(azimuth), np.sin(polar) * np.sin(azimuth), np.cos(polar)], axis=-1)
@@ -142,4 +142,4 @@ def _pairs(rows: NDArray[Any]) -> NDArray[Any]:
 
 def _check_count(count: int, argument: str, what: str) -> None:
     if count > MAX_POINTS:
-        raise SceneError(f"{argument}: {count} {what} are more than {MAX_POINTS}, the limit", hint="Thin the data.")
+        raise SceneError(f"{argument}: {count} {what} are more than the maximum of {MAX_POINTS}", hint="Thin the data.")

@@ -36,7 +36,7 @@ class CallbackThread:
 
         Args:
             callback: The callback.
-            subject: What the event is about: it replaces an event about the same subject that still waits. None keeps
+            subject: The subject of the event, which replaces a waiting event with the same subject. None keeps
                 all events.
         """
         with self._condition:

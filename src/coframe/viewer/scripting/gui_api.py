@@ -68,7 +68,7 @@ class GuiApi:
         Args:
             label: The text on it.
             hint: A longer description, shown as a tooltip.
-            disabled: Whether it is greyed out and cannot be pressed.
+            disabled: Whether it is grayed out and cannot be pressed.
             visible: Whether it is shown.
         """
         return ButtonHandle(self._store, self._add("button", label, hint, disabled, visible))
@@ -91,10 +91,10 @@ class GuiApi:
             label: The text next to it.
             min: The smallest value.
             max: The largest value.
-            step: The distance of two neighbouring values.
+            step: The distance of two neighboring values.
             initial_value: The first value.
             hint: A longer description, shown as a tooltip.
-            disabled: Whether it is greyed out and cannot be moved.
+            disabled: Whether it is grayed out and cannot be moved.
             visible: Whether it is shown.
         """
         low = arguments.number_of(min, "min", -_LIMIT, _LIMIT)
@@ -122,9 +122,9 @@ class GuiApi:
             initial_value: The first value.
             min: The smallest value; None for no limit.
             max: The largest value; None for no limit.
-            step: The distance of two neighbouring values; None for any number, or 1 if all numbers are ints.
+            step: The distance of two neighboring values; None for any number, or 1 if all numbers are ints.
             hint: A longer description, shown as a tooltip.
-            disabled: Whether it is greyed out and cannot be changed.
+            disabled: Whether it is grayed out and cannot be changed.
             visible: Whether it is shown.
         """
         low = None if min is None else arguments.number_of(min, "min", -_LIMIT, _LIMIT)
@@ -147,10 +147,10 @@ class GuiApi:
 
         Args:
             label: The text next to it.
-            options: The texts to choose from.
+            options: The strings to choose from.
             initial_value: The first value; None for the first option.
             hint: A longer description, shown as a tooltip.
-            disabled: Whether it is greyed out and cannot be changed.
+            disabled: Whether it is grayed out and cannot be changed.
             visible: Whether it is shown.
         """
         known = checked_options(options)
@@ -169,13 +169,13 @@ class GuiApi:
         disabled: bool = False,
         visible: bool = True,
     ) -> TextFieldHandle:
-        """Add a field for text; callbacks are called when the user leaves it or presses Enter.
+        """Add a text field; callbacks are called when the user leaves it or presses Enter.
 
         Args:
             label: The text next to it.
             initial_value: The first value.
             hint: A longer description, shown as a tooltip.
-            disabled: Whether it is greyed out and cannot be changed, for example to show a result.
+            disabled: Whether it is grayed out and cannot be changed, for example to show a result.
             visible: Whether it is shown.
         """
         value = arguments.text_of(initial_value, "initial_value")
@@ -196,7 +196,7 @@ class GuiApi:
             label: The text next to it.
             initial_value: Whether it is checked at first.
             hint: A longer description, shown as a tooltip.
-            disabled: Whether it is greyed out and cannot be changed.
+            disabled: Whether it is grayed out and cannot be changed.
             visible: Whether it is shown.
         """
         value = arguments.flag_of(initial_value, "initial_value")
@@ -236,7 +236,7 @@ class GuiApi:
         is_whole = all(isinstance(one, int) for one in (initial, *limits, step) if one is not None)
         size = 1.0 if step is None and is_whole else None if step is None else arguments.number_of(step, "step", 1e-12)
         if (low is not None and first < low) or (high is not None and first > high):
-            raise SceneError(f"initial_value: {first:g} is not between {low} and {high}, the limits")
+            raise SceneError(f"initial_value: {first:g} is not in the range from {low} to {high}")
         value = nearest_step(first, low, high, size)
         fields = {"lower": low, "upper": high, "step": size, "is_whole": is_whole}
         whole_value = round(value) if is_whole else value

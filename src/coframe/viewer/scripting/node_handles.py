@@ -49,7 +49,7 @@ class ClickEvent:
     Attributes:
         target: The node.
         frame: The fixed frame of the page on which the user clicked.
-        position: The point on the node's surface, expressed in ``frame``, in metres, (3,).
+        position: The point on the node's surface, expressed in ``frame``, in meters, (3,).
         local_position: The same point in the node's own coordinates, as in ``target.points``, (3,).
         index: The index of the point, the line or the triangle that was hit; None for other kinds of nodes.
     """
@@ -103,7 +103,7 @@ class NodeHandle:
 
     @property
     def position(self) -> NDArray[np.float64]:
-        """The position in metres, (3,)."""
+        """The position in meters, (3,)."""
         return np.array(self._record.pose[:3])
 
     @position.setter
@@ -184,7 +184,7 @@ class FrameHandle(NodeHandle):
 
     @property
     def axes_length(self) -> float:
-        """The length of the axes in metres; 0 draws none."""
+        """The length of the axes in meters; 0 draws none."""
         return self._record.size
 
     @axes_length.setter
@@ -195,7 +195,7 @@ class FrameHandle(NodeHandle):
 class _ColoredHandle(NodeHandle):
     @property
     def color(self) -> NDArray[np.float64] | None:
-        """Red, green and blue from 0 to 1, (3,); None for the default. Integers from 0 to 255 can be assigned, too."""
+        """Red, green and blue from 0 to 1, (3,); None for the default. Integers from 0 to 255 can also be assigned."""
         color = self._record.color
         return None if color is None else np.array(color)
 
@@ -216,7 +216,7 @@ class _ColoredHandle(NodeHandle):
 class _VertexColoredHandle(_ColoredHandle):
     @property
     def colors(self) -> NDArray[np.uint8] | None:
-        """Red, green, blue and alpha from 0 to 255 of each point or vertex, (N, 4); None if they have one colour."""
+        """Red, green, blue and alpha from 0 to 255 of each point or vertex, (N, 4); None if they have one color."""
         colors = self._geometry.colors
         return colors.copy() if len(colors) else None
 
@@ -227,11 +227,11 @@ class _VertexColoredHandle(_ColoredHandle):
             self._update(geometry=geometry._replace(colors=flat_colors_of(value, len(geometry.vertices))))
 
     def _kept_colors(self, geometry: Geometry) -> Geometry:
-        """Return a geometry of new points with the colours of the present ones, whose number must be the same."""
+        """Return a geometry of new points with the colors of the present ones, whose number must be the same."""
         colors = self._geometry.colors
         if len(colors) and len(colors) != len(geometry.vertices):
             raise SceneError(
-                f"points: {len(geometry.vertices)} points for {len(colors)} colours",
+                f"points: {len(geometry.vertices)} points for {len(colors)} colors",
                 hint="Use update(points, colors) to replace both.",
             )
         return geometry._replace(colors=colors)
@@ -242,7 +242,7 @@ class PointsHandle(_VertexColoredHandle):
 
     @property
     def points(self) -> NDArray[np.float64]:
-        """The points in metres, (N, 3), with the precision of float32."""
+        """The points in meters, (N, 3), with the precision of float32."""
         return self._geometry.positions
 
     @points.setter
@@ -252,7 +252,7 @@ class PointsHandle(_VertexColoredHandle):
             self._update(geometry=self._kept_colors(geometry))
 
     def update(self, points: ArrayLike, colors: ArrayLike | None = None) -> None:
-        """Replace the points, (N, 3), and their colours, (N, 3); None draws them in one colour.
+        """Replace the points, (N, 3), and their colors, (N, 3); None draws them in one color.
 
         Raises:
             SceneError: An argument is invalid, or the node was removed.
@@ -261,7 +261,7 @@ class PointsHandle(_VertexColoredHandle):
 
     @property
     def point_size(self) -> float:
-        """The diameter of the points in metres."""
+        """The diameter of the points in meters."""
         return self._record.size
 
     @point_size.setter
@@ -274,7 +274,7 @@ class LinesHandle(_VertexColoredHandle):
 
     @property
     def points(self) -> NDArray[np.float64]:
-        """Both ends of each line in metres, (N, 2, 3), with the precision of float32."""
+        """Both ends of each line in meters, (N, 2, 3), with the precision of float32."""
         return self._geometry.positions.reshape(-1, 2, 3)
 
     @points.setter
@@ -284,7 +284,7 @@ class LinesHandle(_VertexColoredHandle):
             self._update(geometry=self._kept_colors(geometry))
 
     def update(self, points: ArrayLike, colors: ArrayLike | None = None) -> None:
-        """Replace the points, (N, 2, 3) or (N, 3) for one line through all, and their colours, or None.
+        """Replace the points, (N, 2, 3) or (N, 3) for one line through all, and their colors, or None.
 
         Raises:
             SceneError: An argument is invalid, or the node was removed.
@@ -306,7 +306,7 @@ class MeshHandle(_VertexColoredHandle):
 
     @property
     def vertices(self) -> NDArray[np.float64]:
-        """The vertices in metres, (V, 3), with the precision of float32."""
+        """The vertices in meters, (V, 3), with the precision of float32."""
         return self._geometry.positions
 
     @property
@@ -347,7 +347,7 @@ class TextHandle(_ColoredHandle):
 
     @property
     def height(self) -> float:
-        """The height of a line of text in metres."""
+        """The height of a line of text in meters."""
         return self._record.size
 
     @height.setter
@@ -371,7 +371,7 @@ class ImageHandle(NodeHandle):
 
     @property
     def width(self) -> float:
-        """The width of the rectangle in metres; its height follows from the shape of the image."""
+        """The width of the rectangle in meters; its height follows from the shape of the image."""
         return self._record.size
 
     @width.setter

@@ -30,11 +30,11 @@ IDENTITY: Pose = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)
 
 @dataclass(frozen=True)
 class NodeRecord(Record):
-    """A node; the attributes are those of :class:`coframe.viewer.protocol.server_messages.SceneNode`.
+    """A node; the attributes are described in :class:`coframe.viewer.protocol.server_messages.SceneNode`.
 
     Attributes:
         time: The time from which the node is shown, in nanoseconds; None for always.
-        geometry: What it consists of; None for axes and text.
+        geometry: The geometry; None for axes and text.
         geometry_version: A number that changes with the geometry.
     """
 
@@ -89,7 +89,7 @@ class NodeStore(RecordStore[NodeRecord]):
         self._size = 0
 
     def add(self, record: NodeRecord) -> NodeRecord:
-        """Add a node in place of those with its name; a node with a time replaces only the one with the same time.
+        """Add a node, replacing all nodes with its name; a node with a time replaces only the one with the same time.
 
         Raises:
             SceneError: There are too many nodes, or too many bytes.
@@ -97,7 +97,7 @@ class NodeStore(RecordStore[NodeRecord]):
         with self.lock:
             replaced = self._replaced_by(record)
             if len(self) - len(replaced) >= MAX_NODES:
-                raise SceneError(f"name: the scene has {MAX_NODES} nodes, the limit", hint="Remove other nodes.")
+                raise SceneError(f"name: the scene has the maximum of {MAX_NODES} nodes", hint="Remove other nodes.")
             freed = sum(_size(one.geometry) for one in replaced)
             self._check_size(_size(record.geometry) - freed, record)
             self._remove_records(replaced)
@@ -194,7 +194,7 @@ class NodeStore(RecordStore[NodeRecord]):
     def _check_size(self, change: int, record: NodeRecord) -> None:
         if self._size + change > MAX_NODE_BYTES:
             raise SceneError(
-                f"with {record.name!r}, the scene would have more than {MAX_NODE_BYTES >> 20} MiB, the limit",
+                f"with {record.name!r}, the scene would be larger than the maximum of {MAX_NODE_BYTES >> 20} MiB",
                 hint="Remove other nodes, or thin the data.",
             )
 

@@ -16,7 +16,7 @@ __all__ = ["Record", "RecordStore"]
 
 @dataclass(frozen=True)
 class Record:
-    """What the pages show of one node or widget.
+    """The displayed state of one node or widget.
 
     Attributes:
         id: Its number, which is never used again.

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""`Viewer.scene`: what a program draws in the scene, next to the frames and the topics."""
+"""`Viewer.scene`: draws objects of a program in the scene, next to the frames and the topics."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ if TYPE_CHECKING:
     from coframe.viewer.scripting.nodes import NodeStore
 
     class Placement(TypedDict, total=False):
-        """Where and when a node is drawn; see :class:`SceneApi`."""
+        """The place and time at which a node is drawn; see :class:`SceneApi`."""
 
         frame: str | None
         pose: Transform | None
@@ -71,15 +71,15 @@ class SceneApi:
     - ``frame``: a frame of the tree, with which the node moves; "" is the fixed frame of each page. By default the node
       is in the node above it by its name, and in the fixed frame if there is none.
     - ``pose``: a :class:`coframe.Transform` from the node to the frame; a target frame in it is the ``frame``.
-      Alternatively ``position``, (3,), in metres, and ``quaternion``, (4,), as **x, y, z, w**, the order of ROS.
+      Alternatively ``position``, (3,), in meters, and ``quaternion``, (4,), as **x, y, z, w**, the order of ROS.
     - ``visible``: False hides the node.
     - ``time``: a stamp from which the node is shown instead of earlier ones with its name; see
       :func:`coframe.time.stamp_ns`.
 
-    Colours are integers from 0 to 255, floats from 0 to 1, or text such as ``"#ff8000"``.
+    Colors are integers from 0 to 255, floats from 0 to 1, or a string such as ``"#ff8000"``.
 
-    All methods raise :class:`SceneError`, a ValueError, whose text begins with the name of an argument that has a wrong
-    shape, contains NaN, or names a frame that does not exist. On a live graph, a node waits until its frame exists.
+    All methods raise :class:`SceneError`, a ValueError, whose message begins with the name of the invalid argument. On
+    a live graph, a node waits until its frame exists.
 
     Args:
         store: All nodes.
@@ -103,7 +103,7 @@ class SceneApi:
 
         Args:
             name: The name.
-            axes_length: The length of the axes in metres; 0 draws none, for a node that only carries others.
+            axes_length: The length of the axes in meters; 0 draws none, for a node that only carries others.
             **placement: ``frame``, ``pose``, ``position``, ``quaternion``, ``visible``, ``time``; see the class.
 
         Raises:
@@ -127,10 +127,10 @@ class SceneApi:
 
         Args:
             name: The name.
-            points: Positions in metres, (N, 3).
-            colors: A colour for each point, (N, 3) or (N, 4).
-            color: The colour of all points, (3,), if ``colors`` is None.
-            point_size: The diameter of the points in metres; a point is at least 1.5 pixels wide.
+            points: Positions in meters, (N, 3).
+            colors: A color for each point, (N, 3) or (N, 4).
+            color: The color of all points, (3,), if ``colors`` is None.
+            point_size: The diameter of the points in meters; a point is at least 1.5 pixels wide.
             opacity: From 0 to 1.
             **placement: ``frame``, ``pose``, ``position``, ``quaternion``, ``visible``, ``time``; see the class.
 
@@ -173,9 +173,9 @@ class SceneApi:
 
         Args:
             name: The name.
-            points: Both ends of each line in metres, (N, 2, 3), or the points of one line, (N, 3).
-            colors: A colour for each point, of the same shape as ``points``.
-            color: The colour of all lines, (3,), if ``colors`` is None.
+            points: Both ends of each line in meters, (N, 2, 3), or the points of one line, (N, 3).
+            colors: A color for each point, of the same shape as ``points``.
+            color: The color of all lines, (3,), if ``colors`` is None.
             line_width: The width in pixels.
             opacity: From 0 to 1.
             **placement: ``frame``, ``pose``, ``position``, ``quaternion``, ``visible``, ``time``; see the class.
@@ -210,11 +210,11 @@ class SceneApi:
 
         Args:
             name: The name.
-            vertices: Positions in metres, (V, 3), or an object with the attributes ``vertices`` and ``faces``, such as
+            vertices: Positions in meters, (V, 3), or an object with the attributes ``vertices`` and ``faces``, such as
                 a mesh of the package trimesh.
             faces: The indices of the vertices of each triangle, (F, 3).
-            colors: A colour for each vertex, (V, 3) or (V, 4).
-            color: The colour of the mesh, (3,), if ``colors`` is None.
+            colors: A color for each vertex, (V, 3) or (V, 4).
+            color: The color of the mesh, (3,), if ``colors`` is None.
             opacity: From 0 to 1.
             wireframe: Draw only the edges of the triangles.
             **placement: ``frame``, ``pose``, ``position``, ``quaternion``, ``visible``, ``time``; see the class.
@@ -246,12 +246,12 @@ class SceneApi:
         opacity: float = 1.0,
         **placement: Unpack[Placement],
     ) -> MeshHandle:
-        """Draw a box; its centre is at the pose.
+        """Draw a box; its center is at the pose.
 
         Args:
             name: The name.
-            size: The lengths along x, y and z in metres, (3,).
-            color: The colour, (3,).
+            size: The lengths along x, y and z in meters, (3,).
+            color: The color, (3,).
             opacity: From 0 to 1.
             **placement: ``frame``, ``pose``, ``position``, ``quaternion``, ``visible``, ``time``; see the class.
 
@@ -270,12 +270,12 @@ class SceneApi:
         opacity: float = 1.0,
         **placement: Unpack[Placement],
     ) -> MeshHandle:
-        """Draw a sphere; its centre is at the pose.
+        """Draw a sphere; its center is at the pose.
 
         Args:
             name: The name.
-            radius: The radius in metres.
-            color: The colour, (3,).
+            radius: The radius in meters.
+            color: The color, (3,).
             opacity: From 0 to 1.
             **placement: ``frame``, ``pose``, ``position``, ``quaternion``, ``visible``, ``time``; see the class.
 
@@ -295,13 +295,13 @@ class SceneApi:
         opacity: float = 1.0,
         **placement: Unpack[Placement],
     ) -> TextHandle:
-        """Draw text that faces the camera, on top of everything else; its centre is at the pose.
+        """Draw text that faces the camera, on top of everything else; its center is at the pose.
 
         Args:
             name: The name.
             text: The text; it may have several lines.
-            color: The colour, (3,); None for the colour of the labels of frames.
-            height: The height of a line in metres.
+            color: The color, (3,); None for the color of the labels of frames.
+            height: The height of a line in meters.
             opacity: From 0 to 1.
             **placement: ``frame``, ``pose``, ``position``, ``quaternion``, ``visible``, ``time``; see the class.
 
@@ -328,7 +328,7 @@ class SceneApi:
         opacity: float = 1.0,
         **placement: Unpack[Placement],
     ) -> ImageHandle:
-        """Draw an image on a rectangle, whose centre is at the pose.
+        """Draw an image on a rectangle, whose center is at the pose.
 
         The axis x of the node points to the right of the image and y to its lower edge, as in the optical frame of a
         camera (REP 103).
@@ -336,7 +336,7 @@ class SceneApi:
         Args:
             name: The name.
             image: Pixels, (height, width) or (height, width, 3 or 4).
-            width: The width of the rectangle in metres; its height follows from the shape of the image.
+            width: The width of the rectangle in meters; its height follows from the shape of the image.
             opacity: From 0 to 1.
             **placement: ``frame``, ``pose``, ``position``, ``quaternion``, ``visible``, ``time``; see the class.
 

@@ -186,7 +186,7 @@ class DropdownHandle(_ValueHandle):
 
 
 class TextFieldHandle(_ValueHandle):
-    """A field for text."""
+    """A text field."""
 
     @property
     def value(self) -> str:
@@ -244,10 +244,10 @@ class OpenFolders(threading.local):
 def checked_options(options: Any) -> tuple[str, ...]:
     """Return the options of a drop-down."""
     if isinstance(options, str) or not hasattr(options, "__iter__"):
-        raise SceneError(f"options: expected a list of texts, not {options!r}")
+        raise SceneError(f"options: expected a list of strings, not {options!r}")
     new = tuple(arguments.text_of(one, "options", arguments.MAX_NAME) for one in options)
     if not new:
         raise SceneError("options: a drop-down needs at least one option")
     if len(new) > MAX_OPTIONS:
-        raise SceneError(f"options: {len(new)} options are more than {MAX_OPTIONS}, the limit")
+        raise SceneError(f"options: {len(new)} options are more than the maximum of {MAX_OPTIONS}")
     return tuple(dict.fromkeys(new))

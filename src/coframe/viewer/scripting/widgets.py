@@ -37,7 +37,7 @@ class WidgetRecord(Record):
         value: Its value; None for buttons.
         lower: The smallest number; None for no limit.
         upper: The largest number; None for no limit.
-        step: The distance of two neighbouring numbers; None for any number.
+        step: The distance of two neighboring numbers; None for any number.
         is_whole: Whether the value is an int.
         options: The options of a drop-down.
         hint: A longer description.
@@ -101,7 +101,7 @@ class WidgetStore(RecordStore[WidgetRecord]):
         """
         with self.lock:
             if len(self) >= MAX_WIDGETS:
-                raise SceneError(f"the page has {MAX_WIDGETS} widgets, the limit", hint="Remove other widgets.")
+                raise SceneError(f"the page has the maximum of {MAX_WIDGETS} widgets", hint="Remove other widgets.")
             if record.parent is not None and self.get(record.parent) is None:
                 raise SceneError("the folder of this widget was removed")
             return self.put(record)
@@ -116,7 +116,7 @@ class WidgetStore(RecordStore[WidgetRecord]):
             raise SceneError("this widget was removed")
 
     def remove(self, number: int) -> None:
-        """Remove a widget, and what a folder contains, if it exists."""
+        """Remove a widget if it exists, and the contents of a folder."""
         with self.lock:
             for record in self.all():
                 if record.parent == number:
@@ -142,7 +142,7 @@ class WidgetStore(RecordStore[WidgetRecord]):
             self._used[number].append(callback)
 
     def used(self, use: UseWidget) -> str:
-        """Apply what a user did, and run the callbacks; return why it is not valid, or ""."""
+        """Apply a user's input and run the callbacks; return why it is not valid, or ""."""
         with self.lock:
             record = self.get(use.id)
             if record is None:

@@ -49,7 +49,7 @@ class Connections:
         if time.monotonic() - self._warned_at >= _REPEAT_AFTER:
             self._warned_at = time.monotonic()
             hint = "Close tabs" if self._limit == MAX_CONNECTIONS else "Close tabs, or enter: ulimit -n 1024"
-            _logger.warning("the viewer has %d connections, the limit, and refused another one. %s", self._limit, hint)
+            _logger.warning("the viewer has the maximum of %d connections and rejected one. %s", self._limit, hint)
         return False
 
     def discard(self, connection: WebSocket) -> None:

@@ -57,7 +57,7 @@ class AccessPolicy:
 
     Attributes:
         content_security: The Content-Security-Policy of all responses.
-        token: What a request from another machine must contain; "" if only this machine can connect.
+        token: The token that requests from other machines must contain; "" if only this machine can connect.
     """
 
     def __init__(self, host: str, port: int) -> None:
@@ -79,11 +79,11 @@ class AccessPolicy:
         return host.lower() in self._hosts or (self._all_addresses and self._is_address(host))
 
     def allows_origin(self, origin: str | None) -> bool:
-        """Return whether an Origin header is that of this server's page; programs other than browsers send none."""
+        """Return whether an Origin header names this server's page; programs other than browsers send none."""
         return origin is None or (origin.startswith("http://") and self.allows_host(origin.removeprefix("http://")))
 
     def is_token(self, given: str) -> bool:
-        """Return whether a text is the token, in constant time."""
+        """Return whether a string is the token, in constant time."""
         return hmac.compare_digest(given.encode(errors="replace"), self.token.encode())
 
     def has_cookie(self, cookies: Iterable[str]) -> bool:

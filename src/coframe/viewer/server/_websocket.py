@@ -2,7 +2,8 @@
 """One connection to the server: an HTTP request that is answered, or a WebSocket.
 
 The library websockets implements the protocol; input and output are implemented here. Received messages are passed on
-immediately. Sent messages are passed to the operating system as far as it accepts them, and the rest when it is ready.
+immediately. Messages are passed to the operating system as far as it accepts them, and the remaining bytes when it is
+ready.
 """
 
 from __future__ import annotations
@@ -234,7 +235,7 @@ class WebSocket(asyncio.Protocol):
             self._transport.resume_reading()
 
     def _flush(self) -> None:
-        """Write what the protocol has to send."""
+        """Write the pending bytes of the protocol."""
         for data in self._protocol.data_to_send():
             if self._transport is None or self._transport.is_closing():
                 return

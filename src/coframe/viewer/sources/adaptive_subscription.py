@@ -3,7 +3,7 @@
 
 A subscription is not matched if it requests more than a publisher offers, so reliable delivery is requested only if
 all publishers offer it. For durability, this is not enough: a subscription that requests less does not receive earlier
-messages. Publishers that keep their last messages (only reliable ones do) therefore get a subscription of their own,
+messages. Publishers that keep their last messages (only reliable ones do) therefore get a separate subscription,
 and the other subscription ignores their messages.
 """
 
@@ -32,7 +32,7 @@ class AdaptiveSubscription:
     Args:
         offers: Returns what the publishers of the topic currently offer.
         subscribe: Subscribe to the topic with a quality of service.
-        depth: How many messages are kept until they are taken.
+        depth: The number of messages that are kept until they are taken.
 
     Raises:
         WireError: The middleware cannot create the subscription.
@@ -51,7 +51,7 @@ class AdaptiveSubscription:
         self._follow()
 
     def follow(self) -> None:
-        """Adapt to publishers that have appeared since the last call and offer less than what is requested."""
+        """Adapt to new publishers that offer less than the subscription requests."""
         # If a new subscription cannot be created, the existing ones continue and the next call tries again.
         with self._lock, contextlib.suppress(WireError):
             if not self._closed:
@@ -62,7 +62,7 @@ class AdaptiveSubscription:
         return bool(self._left) or any(subscription.pending() for subscription in list(self._open.values()))
 
     def take(self) -> list[Sample]:
-        """Return the waiting messages; those of each publisher are in order."""
+        """Return the waiting messages; the messages of each publisher are in order."""
         with self._lock:
             left, self._left = self._left, []
             return [*left, *self._take(transient_local=True), *self._take(transient_local=False)]

@@ -72,7 +72,7 @@ class LiveMessages:
     Args:
         subscription: The subscription to the topic.
         ros_type: The type of the messages.
-        keep: How long messages are kept, in nanoseconds; the newest message is always kept.
+        keep: The time for which messages are kept, in nanoseconds; the newest message is always kept.
         frame: Return the buffer's name for a frame in a message.
     """
 

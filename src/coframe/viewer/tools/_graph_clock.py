@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The current time of a ROS graph: that of /clock if a simulator publishes it, otherwise the system time."""
+"""The current time of a ROS graph: the time of /clock if a simulator publishes it, otherwise the system time."""
 
 from __future__ import annotations
 

@@ -51,7 +51,7 @@ class ToolPublisher:
         Args:
             topic: The topic.
             frame: The frame of the point.
-            point: x, y and z in metres.
+            point: x, y and z in meters.
 
         Returns:
             The number of subscriptions that receive it.
@@ -78,9 +78,9 @@ class ToolPublisher:
         Args:
             topic: The topic.
             frame: The frame of the pose.
-            position: x, y and z in metres.
+            position: x, y and z in meters.
             yaw: The rotation about z in radians.
-            covariance: The variances of x and y in square metres and of yaw in square radians.
+            covariance: The variances of x and y in square meters and of yaw in square radians.
 
         Returns:
             The number of subscriptions that receive it.
@@ -108,7 +108,7 @@ class ToolPublisher:
         Args:
             parent: The parent frame.
             child: The child frame.
-            translation: x, y and z in metres.
+            translation: x, y and z in meters.
             quaternion: x, y, z and w, normalized.
 
         Returns:

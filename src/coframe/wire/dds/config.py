@@ -67,7 +67,7 @@ _LOOPBACK = re.compile(r"localhost|127(\.\d+){3}|::1")
 
 
 def reach_subnet_by_default() -> None:
-    """Let this process discover nodes on the local network where no environment variable says otherwise, like ROS 2."""
+    """Let this process discover nodes on the local network by default, like ROS 2."""
     _default["range"] = "SUBNET"
 
 
@@ -84,7 +84,7 @@ def discovery_range(environment: Mapping[str, str] = os.environ) -> str:
     if localhost_only not in ("", "0", "1"):
         raise WireError(
             f"ROS_LOCALHOST_ONLY is {localhost_only!r}: it must be 0 or 1.",
-            hint="Use 1 to communicate on this machine only, or set ROS_AUTOMATIC_DISCOVERY_RANGE instead.",
+            hint="Use 1 to communicate only on this machine, or set ROS_AUTOMATIC_DISCOVERY_RANGE instead.",
         )
     requested = environment.get("ROS_AUTOMATIC_DISCOVERY_RANGE", "").strip().upper()
     if requested not in ("", *_RANGES):

@@ -40,8 +40,8 @@ class Place:
     """A place where the library may be.
 
     Attributes:
-        source: What provides the library there, such as "the cyclonedds package".
-        searched: The file or the folders that were searched, or what is missing.
+        source: The provider of the library, such as "the cyclonedds package".
+        searched: The file or the folders that were searched, or a description of what is missing.
         path: The library; None if it was not found.
     """
 
@@ -60,7 +60,7 @@ class Library:
     """The library that this process uses.
 
     Attributes:
-        place: Where it was found.
+        place: The place where it was found.
         release: The release with the same binary interface: "0.10" or "11".
         refused: One message for each library that comes earlier in the search order but cannot be loaded.
     """
@@ -137,7 +137,7 @@ def how_to_get_one() -> str:
         ways.append("sudo apt-get install libddsc0t64 (on Debian 12: libddsc0debian)")
     ways.append(f"{pip_install('zenoh')} to use Zenoh instead of DDS")
     ways += ["source a ROS 2 that has rmw_cyclonedds_cpp", f"set {VARIABLE} to the file of a libddsc"]
-    return "Use one of these ways: " + "; ".join(ways) + "."
+    return "Use one of these options: " + "; ".join(ways) + "."
 
 
 def _first_usable(searched: Iterator[Place]) -> Library:
@@ -147,7 +147,7 @@ def _first_usable(searched: Iterator[Place]) -> Library:
         if place.path is None:
             continue
         if place.version and not _SUPPORTED_VERSION.fullmatch(place.version):
-            refused.append(_refusal(place, "has another binary interface"))
+            refused.append(_refusal(place, "has an incompatible binary interface"))
             continue
         try:
             release = _core.load_dds(str(place.path))

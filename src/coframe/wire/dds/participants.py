@@ -44,7 +44,7 @@ def join(domain: int, xml: str, user_data: str) -> _core.DomainParticipant:
 def participant_indexes(domain: int) -> tuple[int, int]:
     """Return the number of participant indexes of `domain` in use on this machine, and the total number.
 
-    RTPS assigns UDP ports to each index; those of high domains end at the last port.
+    RTPS assigns UDP ports to each index; in high domains, they end at the last port.
     """
     first = 7400 + 250 * domain + 10
     ports = range(first, min(first + 2 * config.MAX_PARTICIPANT_INDEX, 65535) + 1, 2)

@@ -12,7 +12,7 @@ def create_topic(participant: int, name: str, type_name: str) -> int:
     """Create a DDS topic and return its handle.
 
     As in ROS, only the type name is declared: endpoints match by name, and the receiver of a message validates the
-    bytes. Declaring the fields as well would take several milliseconds for each type.
+    bytes. Declaring the fields would take several milliseconds for each type.
 
     Args:
         participant: The handle of the participant.

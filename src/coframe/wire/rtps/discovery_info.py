@@ -44,7 +44,7 @@ def gid_size(environment: Mapping[str, str]) -> int:
 
 
 def choose_gid_size(preferred: int, others: Collection[int]) -> int:
-    """Return the size of the identifiers to publish: that of the other participants if they agree, else `preferred`.
+    """Return the size of the identifiers to publish: the size that all other participants use, else `preferred`.
 
     Args:
         preferred: The size to use if there are no others or if they differ, from `gid_size`.

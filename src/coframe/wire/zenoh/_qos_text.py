@@ -20,7 +20,7 @@ _MAX_DEPTH: Final = 2**31 - 1
 
 
 def encode_qos(qos: QoS) -> str:
-    """Return the text of a quality of service."""
+    """Return a quality of service as a string."""
     reliability = _unless(_RELIABLE, _RELIABLE if qos.reliable else _BEST_EFFORT)
     durability = _unless(_VOLATILE, _TRANSIENT_LOCAL if qos.transient_local else _VOLATILE)
     history = _unless(_KEEP_LAST, _KEEP_ALL if qos.keep_all else _KEEP_LAST)
@@ -31,7 +31,7 @@ def encode_qos(qos: QoS) -> str:
 
 
 def decode_qos(text: str) -> QoS | None:
-    """Return the quality of service in a text; None if it is not valid."""
+    """Return the quality of service in a string; None if it is not valid."""
     parts = [part.split(",") for part in text.split(":")]
     if [len(part) for part in parts] != [1, 1, 2, 2, 2, 3]:
         return None

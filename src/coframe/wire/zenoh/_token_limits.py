@@ -15,7 +15,7 @@ _logger = logging.getLogger("coframe.wire")
 
 
 class TokenLimits:
-    """Limits the number and bytes of stored tokens. Those of this process do not count."""
+    """Limits the number and bytes of stored tokens. Tokens of this process do not count."""
 
     def __init__(self) -> None:
         self._own: set[str] = set()

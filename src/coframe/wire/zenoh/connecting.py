@@ -69,7 +69,7 @@ def missing_router(endpoints: list[str]) -> str:
 
 
 def _has_router(session: zenoh.Session) -> bool:
-    """Check for a router as often as ZENOH_ROUTER_CHECK_ATTEMPTS says. Return True if the check is skipped."""
+    """Check for a router as often as ZENOH_ROUTER_CHECK_ATTEMPTS specifies. Return True if the check is skipped."""
     attempts = config.router_check_attempts(os.environ)
     if attempts == 0:
         return True

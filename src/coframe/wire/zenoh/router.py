@@ -37,9 +37,10 @@ class Router:
     Args:
         file: The configuration file, which replaces the defaults; "" for the file in ZENOH_ROUTER_CONFIG_URI, or the
             defaults of ROS 2.
-        listen: The endpoints to listen on. If empty, those of the configuration, or port 7447 of the loopback interface
+        listen: The endpoints to listen on. If empty, the endpoints in the configuration, or port 7447 of the loopback
+        interface
             without a configuration.
-        connect: The endpoints of other routers to connect to. If empty, those of the configuration.
+        connect: The endpoints of other routers to connect to. If empty, the endpoints in the configuration.
         environment: The environment variables.
 
     Raises:

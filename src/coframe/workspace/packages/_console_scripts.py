@@ -24,7 +24,7 @@ _SCRIPT = re.compile(r"\s*([\w.\-]+)\s*=\s*([\w.]+\s*:\s*[\w.]+)\s*(?:\[.*\])?\s
 
 
 class PythonPackage(NamedTuple):
-    """What the files of a Python package declare.
+    """The declarations in the files of a Python package.
 
     Attributes:
         scripts: ``module:function`` of each console script.

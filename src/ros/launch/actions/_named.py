@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the actions on environment variables and launch configurations have in common: a name, and a value."""
+"""The common base of actions on environment variables and launch configurations: a name and a value."""
 
 from __future__ import annotations
 

@@ -29,7 +29,7 @@ class AppendEnvironmentVariable(NamedValueAction):
         name: Name of the variable.
         value: Text to append.
         prepend: Put the text in front.
-        separator: Text between the old and the new value; that of PATH by default.
+        separator: Text between the old and the new value; by default the separator of PATH.
         condition: Do it only if this condition holds.
     """
 

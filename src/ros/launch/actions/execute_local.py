@@ -57,14 +57,14 @@ class ExecuteLocal(Action):
         sigterm_timeout: Seconds between SIGINT and SIGTERM at the shutdown; 5 by default.
         sigkill_timeout: Seconds between SIGTERM and SIGKILL at the shutdown; 5 by default.
         emulate_tty: Let the process believe that its output is a terminal; ignored on Windows.
-        output: Where its output goes: ``screen``, ``log``, ``both``, ``own_log``, ``full``, or a dictionary.
+        output: The destinations of its output: ``screen``, ``log``, ``both``, ``own_log``, ``full``, or a dictionary.
         output_format: Format of a line on the screen.
         cached_output: Keep the output, for `get_stdout` and `get_stderr`.
         log_cmd: Log the command before it is run.
         on_exit: Entities, or a function from event and context to entities, for when the process ends.
         respawn: Start the process again when it ends.
         respawn_delay: Seconds to wait before that.
-        respawn_max_retries: How often at most; -1 for no limit.
+        respawn_max_retries: The maximum number of restarts; -1 for no limit.
         condition: Run the process only if this condition holds.
     """
 
@@ -140,7 +140,7 @@ class ExecuteLocal(Action):
 
     @property
     def output(self) -> Any:
-        """Where the output goes."""
+        """The destinations of the output."""
         return self.__output_option
 
     @property

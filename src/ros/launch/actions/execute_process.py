@@ -32,7 +32,7 @@ class ExecuteProcess(ExecuteLocal):
         prefix: Words to put in front, such as ``gdb --args``.
         name: Name of the process; the file name of the executable by default.
         cwd: Working directory.
-        env: Environment; that of this process by default.
+        env: Environment; by default the environment of this process.
         additional_env: Variables to add to the environment.
         options: Keyword arguments of ExecuteLocal.
     """

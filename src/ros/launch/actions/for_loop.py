@@ -98,7 +98,7 @@ class ForLoop(Action):
     """Call a function for the numbers 0 to `length` - 1, and visit the entities that it returns.
 
     Args:
-        length: How often.
+        length: The number of repetitions.
         function: Function of the number.
         name: Name of the number in descriptions.
         condition: Do it only if this condition holds.
@@ -132,7 +132,7 @@ class ForLoop(Action):
 
     @property
     def length(self) -> list[Substitution]:
-        """How often the function is called."""
+        """The number of calls of the function."""
         return self.__length
 
     @property
@@ -153,7 +153,7 @@ class ForLoop(Action):
         except ValueError:
             raise ValueError(f"ForLoop needs a whole number as its length, not {text!r}") from None
         if length > MAX_REPETITIONS:
-            raise ValueError(f"ForLoop has the length {length}, and the limit is {MAX_REPETITIONS}")
+            raise ValueError(f"ForLoop has the length {length}, which exceeds the limit of {MAX_REPETITIONS}")
         found = [entity for index in range(length) for entity in normalize_to_list_of_entities(self.__function(index))]
         return list(found)
 

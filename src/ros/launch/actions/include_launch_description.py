@@ -78,7 +78,7 @@ class IncludeLaunchDescription(Action):
         return self.__launch_arguments
 
     def describe(self) -> str:
-        """Return a description as a line of text."""
+        """Return a one-line description."""
         return f"IncludeLaunchDescription({self.__source.location})"
 
     def get_sub_entities(self) -> list[LaunchDescriptionEntity]:

@@ -121,7 +121,7 @@ class RunningProcess(asyncio.SubprocessProtocol):
 
     @property
     def pid(self) -> int:
-        """The id of the process, which is that of its group."""
+        """The ID of the process, which is also the ID of its group."""
         pid: int = self._transport.get_pid()
         return pid
 
@@ -182,7 +182,7 @@ class RunningProcess(asyncio.SubprocessProtocol):
 
 
 class _TerminalProtocol(asyncio.Protocol):
-    """Passes on what a process writes to a terminal; Linux reports its end as an input/output error."""
+    """Forwards the terminal output of a process; Linux reports its end as an input/output error."""
 
     def __init__(self, process: RunningProcess, fd: int) -> None:
         self._process = process

@@ -24,7 +24,7 @@ class IfCondition(Condition):
         super().__init__(predicate=self._evaluate)
 
     def describe(self) -> str:
-        """Return a description as a line of text."""
+        """Return a one-line description."""
         return f"{type(self).__name__}({' + '.join(part.describe() for part in self._expression)})"
 
     def _evaluate(self, context: LaunchContext) -> bool:

@@ -34,7 +34,7 @@ class Executable:
         prefix: Words to put in front, such as ``gdb --args``; None for the launch configuration ``launch-prefix``.
         name: Name of the process; None for the file name of the executable. A number is appended.
         cwd: Working directory.
-        env: Environment; None for that of this process.
+        env: Environment; None for the one of this process.
         additional_env: Variables to add to the environment.
         arguments: Additional arguments of the command.
     """
@@ -104,7 +104,7 @@ class Executable:
 
     @property
     def final_cwd(self) -> str | None:
-        """The working directory; None for that of this process."""
+        """The working directory; None for the one of this process."""
         return self.__final_cwd
 
     @property

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The event that the period of a timer is over."""
+"""The event that the period of a timer has elapsed."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ __all__ = ["TimerEvent"]
 
 
 class TimerEvent(Event):
-    """The period of a timer is over."""
+    """The period of a timer has elapsed."""
 
     name = "launch.events.TimerEvent"
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What parsers of XML and YAML launch files share."""
+"""The common base of the parsers of XML and YAML launch files."""
 
 from launch.frontend.entity import Entity
 from launch.frontend.expose import expose_action, expose_substitution

@@ -21,5 +21,5 @@ def check_arguments(name: str, data: Sequence[Any], least: int, most: int) -> No
         number = str(least) if least == most else f"{least} to {most}"
         raise TypeError(
             f"$({name} ...) takes {number} argument{'' if number == '1' else 's'}, not {len(data)}; "
-            "write quotes around an argument with spaces"
+            "put quotes around an argument that contains spaces"
         )

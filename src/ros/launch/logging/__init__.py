@@ -84,7 +84,7 @@ class LaunchConfig:
         return self._manager.getLogger(name)
 
     def log_line(self, name: str, line: str) -> None:
-        """Write a line of a process to the log file only."""
+        """Write a line of a process only to the log file."""
         record = logging.LogRecord(name, logging.INFO, "", 0, line, (), None)
         for handler in self._root.handlers:
             if isinstance(handler, logging.FileHandler):
@@ -120,7 +120,7 @@ class ProcessOutput:
         self._color = _PROCESS_COLORS[int(number) % len(_PROCESS_COLORS)] if number.isdecimal() else ""
 
     def write(self, stream: str, data: bytes) -> None:
-        """Write the complete lines of what a stream has received so far."""
+        """Write the complete lines that a stream has received so far."""
         *lines, self._pending[stream] = (self._pending[stream] + data).split(b"\n")
         for line in lines:
             self._write_line(stream, line)

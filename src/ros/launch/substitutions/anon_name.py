@@ -43,7 +43,7 @@ class AnonName(Substitution):
         return self.__name
 
     def describe(self) -> str:
-        """Return a description as a line of text."""
+        """Return a one-line description."""
         return f"AnonName({' + '.join(part.describe() for part in self.name)})"
 
     def perform(self, context: LaunchContext) -> str:

@@ -54,7 +54,7 @@ class _Several(Substitution):
         return self._args
 
     def describe(self) -> str:
-        """Return a description as a line of text."""
+        """Return a one-line description."""
         parts = (" + ".join(each.describe() for each in arg) for arg in self._args)
         return f"{type(self).__name__}({', '.join(parts)})"
 
@@ -203,7 +203,7 @@ class IfElseSubstitution(Substitution):
         return self._else_value
 
     def describe(self) -> str:
-        """Return a description as a line of text."""
+        """Return a one-line description."""
         parts = (self._condition, self._if_value, self._else_value)
         return f"IfElseSubstitution({', '.join(' + '.join(each.describe() for each in part) for part in parts)})"
 

@@ -57,7 +57,7 @@ class Command(Substitution):
         return self.__on_stderr
 
     def describe(self) -> str:
-        """Return a description as a line of text."""
+        """Return a one-line description."""
         return f"Command({' + '.join(part.describe() for part in self.command)})"
 
     def perform(self, context: LaunchContext) -> str:

@@ -50,7 +50,7 @@ class EnvironmentVariable(Substitution):
         return self.__default_value
 
     def describe(self) -> str:
-        """Return a description as a line of text."""
+        """Return a one-line description."""
         return f"EnvVar({' + '.join(part.describe() for part in self.name)})"
 
     def perform(self, context: LaunchContext) -> str:

@@ -48,7 +48,7 @@ class EqualsSubstitution(Substitution):
         return self.__right
 
     def describe(self) -> str:
-        """Return a description as a line of text."""
+        """Return a one-line description."""
         parts = (" + ".join(each.describe() for each in part) for part in (self.left, self.right))
         return f"{type(self).__name__}({' '.join(parts)})"
 

@@ -41,7 +41,7 @@ class FileContent(Substitution):
         return self.__path
 
     def describe(self) -> str:
-        """Return a description as a line of text."""
+        """Return a one-line description."""
         return f"FileContent({' + '.join(part.describe() for part in self.path)})"
 
     def perform(self, context: LaunchContext) -> str:

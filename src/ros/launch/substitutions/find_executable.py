@@ -42,7 +42,7 @@ class FindExecutable(Substitution):
         return self.__name
 
     def describe(self) -> str:
-        """Return a description as a line of text."""
+        """Return a one-line description."""
         return f"FindExec({' + '.join(part.describe() for part in self.name)})"
 
     def perform(self, context: LaunchContext) -> str:

@@ -38,7 +38,7 @@ class _LoopValue(Substitution):
         return self._name
 
     def describe(self) -> str:
-        """Return a description as a line of text."""
+        """Return a one-line description."""
         return f"{type(self).__name__}({' + '.join(part.describe() for part in self._name)})"
 
     def _value(self, context: LaunchContext) -> str | None:

@@ -50,7 +50,7 @@ class LaunchConfiguration(Substitution):
         return self.__variable_name
 
     def describe(self) -> str:
-        """Return a description as a line of text."""
+        """Return a one-line description."""
         return f"LaunchConfig({' + '.join(part.describe() for part in self.variable_name)})"
 
     def perform(self, context: LaunchContext) -> str:

@@ -31,7 +31,7 @@ class LaunchLogDir(Substitution):
         return cls, {}
 
     def describe(self) -> str:
-        """Return a description as a line of text."""
+        """Return a one-line description."""
         return "LaunchLogDir()"
 
     def perform(self, context: LaunchContext) -> str:

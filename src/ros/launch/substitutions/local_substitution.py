@@ -30,7 +30,7 @@ class LocalSubstitution(Substitution):
         return self.__expression
 
     def describe(self) -> str:
-        """Return a description as a line of text."""
+        """Return a one-line description."""
         return f"LocalVar('{self.__description or self.__expression}')"
 
     def perform(self, context: LaunchContext) -> str:

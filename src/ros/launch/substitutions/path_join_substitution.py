@@ -33,7 +33,7 @@ class PathJoinSubstitution(Substitution):
         return PathJoinSubstitution([*self.__substitutions, addition])
 
     def describe(self) -> str:
-        """Return a description as a line of text."""
+        """Return a one-line description."""
         parts = (" + ".join(each.describe() for each in part) for part in self.__substitutions)
         return f"PathJoin({', '.join(parts)})"
 

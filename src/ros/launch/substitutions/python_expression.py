@@ -57,7 +57,7 @@ class PythonExpression(Substitution):
         return self.__python_modules
 
     def describe(self) -> str:
-        """Return a description as a line of text."""
+        """Return a one-line description."""
         return f"PythonExpr({' + '.join(part.describe() for part in self.expression)})"
 
     def perform(self, context: LaunchContext) -> str:

@@ -25,7 +25,7 @@ class StringJoinSubstitution(Substitution):
         self.__delimiter = normalize_to_list_of_substitutions(delimiter)
 
     def describe(self) -> str:
-        """Return a description as a line of text."""
+        """Return a one-line description."""
         parts = (" + ".join(each.describe() for each in part) for part in self.__substitutions)
         return f"StringJoin({', '.join(parts)})"
 

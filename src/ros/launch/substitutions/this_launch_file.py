@@ -30,7 +30,7 @@ class ThisLaunchFile(Substitution):
         return cls, {}
 
     def describe(self) -> str:
-        """Return a description as a line of text."""
+        """Return a one-line description."""
         return "ThisLaunchFile()"
 
     def perform(self, context: LaunchContext) -> str:

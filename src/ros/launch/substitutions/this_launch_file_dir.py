@@ -30,7 +30,7 @@ class ThisLaunchFileDir(Substitution):
         return cls, {}
 
     def describe(self) -> str:
-        """Return a description as a line of text."""
+        """Return a one-line description."""
         return "ThisLaunchFileDir()"
 
     def perform(self, context: LaunchContext) -> str:

@@ -26,7 +26,7 @@ __all__ = ["LifecycleTransition"]
 
 @expose_action("lifecycle_transition")
 class LifecycleTransition(Action):
-    """Lead lifecycle nodes through transitions: each begins when the node has finished the one before.
+    """Perform transitions of lifecycle nodes, each after the node has finished the previous one.
 
     Args:
         lifecycle_node_names: Names of the nodes, with their namespaces.

@@ -64,7 +64,7 @@ class Node(ExecuteLocal):
         executable: Name of the executable in the package; without a package, its path.
         package: Name of the package.
         name: Name of the node, instead of that in its program.
-        namespace: Namespace, below that of PushRosNamespace.
+        namespace: Namespace, relative to PushRosNamespace.
         exec_name: Name of the process in the output.
         parameters: Dictionaries, files and descriptions of parameters; later ones override earlier ones.
         remappings: Pairs of names.

@@ -27,7 +27,7 @@ __all__ = ["ExecutableInPackage", "executable_in_package"]
 
 @expose_substitution("exec-in-package")
 class ExecutableInPackage(Substitution):
-    """The path of an executable of a package; for a console script that is not installed, that of a wrapper."""
+    """The path of an executable of a package; for a console script that is not installed, the path of a wrapper."""
 
     def __init__(self, executable: SomeSubstitutionsType, package: SomeSubstitutionsType) -> None:
         self.__executable = normalize_to_list_of_substitutions(executable)
@@ -50,7 +50,7 @@ class ExecutableInPackage(Substitution):
         return self.__package
 
     def describe(self) -> str:
-        """Return a description as a line of text."""
+        """Return a one-line description."""
         package, executable = (
             " + ".join(part.describe() for part in parts) for parts in (self.package, self.executable)
         )

@@ -44,7 +44,7 @@ class FindPackage(Substitution):
         return self.__package
 
     def describe(self) -> str:
-        """Return a description as a line of text."""
+        """Return a one-line description."""
         return f"{type(self).__name__}(pkg={' + '.join(part.describe() for part in self.package)})"
 
     def find(self, package_name: str) -> str:

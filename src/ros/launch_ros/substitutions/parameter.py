@@ -48,7 +48,7 @@ class Parameter(Substitution):
         return self.__name
 
     def describe(self) -> str:
-        """Return a description as a line of text."""
+        """Return a one-line description."""
         return f"Parameter(name={' + '.join(part.describe() for part in self.name)})"
 
     def perform(self, context: LaunchContext) -> str:

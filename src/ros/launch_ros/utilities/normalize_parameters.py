@@ -41,7 +41,7 @@ def normalize_parameters(parameters: Iterable[Any]) -> list[Any]:
 def normalize_parameter_dict(
     parameters: Mapping[Any, Any], *, _prefix: Sequence[Substitution] = ()
 ) -> dict[tuple[Substitution, ...], Any]:
-    """Return parameters by name; those of a nested dictionary have dotted names.
+    """Return parameters by name; parameters in a nested dictionary have dotted names.
 
     Raises:
         TypeError: A name or a value has a type that parameters do not have.
@@ -49,7 +49,7 @@ def normalize_parameter_dict(
     normalized: dict[tuple[Substitution, ...], Any] = {}
     for name, value in parameters.items():
         if not isinstance(name, str | Substitution | Sequence):
-            raise TypeError(f"the name of a parameter is a text, got {name!r}")
+            raise TypeError(f"the name of a parameter must be a string, got {name!r}")
         own = normalize_to_list_of_substitutions(name)
         full = (*_prefix, *([TextSubstitution(text=".")] if _prefix else []), *own)
         if isinstance(value, Mapping):

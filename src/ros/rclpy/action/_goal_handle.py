@@ -133,11 +133,11 @@ class ServerGoalHandle:
         self.__finish(GoalEvent.SUCCEED, response)
 
     def abort(self, response: Any = None) -> None:
-        """Finish the goal as aborted. The argument and the errors are those of `succeed`."""
+        """Finish the goal as aborted. The argument and it raises the same errors as `succeed`."""
         self.__finish(GoalEvent.ABORT, response)
 
     def canceled(self, response: Any = None) -> None:
-        """Finish the goal as cancelled, after an accepted cancel request. The argument is that of `succeed`.
+        """Finish the goal as cancelled, after an accepted cancel request. The argument is the same as for `succeed`.
 
         Raises:
             RCLError: No cancel request was accepted.

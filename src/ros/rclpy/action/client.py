@@ -193,7 +193,7 @@ class ActionClient:
 
         Returns:
             A future of a `ClientGoalHandle`, whose attribute `accepted` is the response of the server. Its
-            exceptions are those of `Client.call_async`.
+            exceptions are the same as for `Client.call_async`.
 
         Raises:
             TypeError: `goal` is not a goal of the action's type.

@@ -95,7 +95,7 @@ def default_cancel_callback(cancel_request: ServerGoalHandle) -> CancelResponse:
 class ActionServer:
     """Server of an action.
 
-    All callbacks may be coroutine functions. Execute callbacks are in a reentrant group of their own, so they run in
+    All callbacks may be coroutine functions. Execute callbacks are in a separate reentrant group, so they run in
     parallel to all other callbacks if the executor has several threads.
 
     Args:
@@ -116,7 +116,7 @@ class ActionServer:
         feedback_pub_qos_profile: QoS profile of the feedback publisher.
         status_pub_qos_profile: QoS profile of the status publisher.
         result_timeout: Time in seconds for which results are kept. Negative: no limit. The server stores at most 1000
-            goals; if they are more, it forgets the one that finished first, and rejects goals if none is finished.
+            goals; beyond that, it forgets the goal that finished first, and rejects goals if none is finished.
 
     Raises:
         TypeError: The execute callback is not callable.
@@ -259,8 +259,8 @@ class ActionServer:
             while not (has_room := self.__is_below_limits(size)) and self.__expiries:
                 self.__goals.pop(self.__expiries.popleft()[1], None)
         if not has_room:
-            limits = f"{MAX_GOALS} or {MAX_GOAL_BYTES >> 20} MiB, the limits"
-            self.__warn_once(f"Rejecting goals: the goals that are not finished would be more than {limits}.")
+            limits = f"{MAX_GOALS} or {MAX_GOAL_BYTES >> 20} MiB"
+            self.__warn_once(f"Rejecting goals: the unfinished goals would exceed the maximum of {limits}.")
         return has_room
 
     def __is_below_limits(self, size: int) -> bool:

@@ -117,7 +117,7 @@ class LifecycleNodeMixin(ManagedEntity):
     def create_lifecycle_publisher(self, *args: Any, **kwargs: Any) -> LifecyclePublisher:
         """Create a publisher that publishes only while the node is active.
 
-        The arguments are those of `Node.create_publisher` without `publisher_class`.
+        The arguments are the same as for `Node.create_publisher` without `publisher_class`.
 
         Raises:
             TypeError: The argument `publisher_class` is given.

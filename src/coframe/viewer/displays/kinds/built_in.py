@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The displays without a topic, which the page draws by itself: frames, grids, axes, and robots."""
+"""The displays without a topic, which the page draws itself: frames, grids, axes, and robots."""
 
 from __future__ import annotations
 

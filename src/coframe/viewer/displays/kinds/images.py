@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Camera images: raw images as grey or RGB pixels, compressed images unchanged."""
+"""Camera images: raw images as gray or RGB pixels, compressed images unchanged."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ MAX_PIXELS = 640 * 480
 """Raw images with more pixels are thinned to every n-th row and column."""
 MAX_COMPRESSED_PIXELS = 1 << 25  # A small file may need a lot of memory in the browser.
 MAX_COMPRESSED_BYTES = 16 << 20
-# For each encoding: bytes per pixel, and the indices of red, green and blue, or of grey.
+# For each encoding: bytes per pixel, and the indices of red, green and blue, or of gray.
 _CHANNELS = {
     "8UC1": (1, [0]),
     "8UC3": (3, [2, 1, 0]),
@@ -52,7 +52,7 @@ def draw_image(image: Any, options: Options) -> Drawing:
         raise CannotDrawError("the image has no pixels")
     every = max(1, math.ceil(math.sqrt(width * height / MAX_PIXELS)))
     pixels = data[: height * step].reshape(height, step)[::every, : width * size].reshape(-1, width, size)[:, ::every]
-    kind = ImageFormat.GREY if len(channels) == 1 else ImageFormat.RGB
+    kind = ImageFormat.GRAY if len(channels) == 1 else ImageFormat.RGB
     pixels = pixels[:, :, channels]
     stamp = stamp_ns(image.header.stamp)
     height, width = pixels.shape[:2]

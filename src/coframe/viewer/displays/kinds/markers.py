@@ -139,7 +139,7 @@ class MarkerSet:
             item, size = _item(marker, points, colors, size)
             if size > MAX_NUMBERS:
                 raise CannotDrawError(
-                    f"the points and colours of the markers have more than {MAX_NUMBERS} numbers, "
+                    f"the points and colors of the markers have more than {MAX_NUMBERS} numbers, "
                     "which is the viewer's limit"
                 )
             numbers += [np.array(points, np.float64).reshape(-1), np.array(colors, np.float64).reshape(-1)]
@@ -172,7 +172,7 @@ class MarkerRenderer:
         return self._set.draw(self._options)
 
     def has_expired(self, time: int) -> bool:
-        """Return whether the lifetime of a marker is over."""
+        """Return whether the lifetime of a marker has expired."""
         return self._set.has_expired(time)
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Laser scans and point clouds: points with one scalar or one colour each."""
+"""Laser scans and point clouds: points with one scalar or one color each."""
 
 from __future__ import annotations
 
@@ -79,7 +79,7 @@ def _intensities(cloud: Any, names: set[str], step: int) -> NDArray[np.float32] 
 def _scalars(
     points: NDArray[np.float32], options: Options, intensities: NDArray[np.float32] | None
 ) -> NDArray[np.float32] | None:
-    """Return the scalar that determines each point's colour: the requested one, or the intensity or distance."""
+    """Return the scalar that determines each point's color: the requested one, or the intensity or distance."""
     if options.color_by == "flat":
         return None
     if options.color_by == "axis":
@@ -94,7 +94,7 @@ def _scalars(
 def _colors(packed: NDArray[Any], *, alpha: bool) -> NDArray[np.uint8]:
     """Return red, green, blue and alpha from 0xAARRGGBB, which is often stored as if it were a float32."""
     if packed.dtype.itemsize != 4:
-        raise CannotDrawError(f"the colour field must have four bytes per point, not type {packed.dtype}")
+        raise CannotDrawError(f"the color field must have four bytes per point, not type {packed.dtype}")
     words = np.ascontiguousarray(packed.reshape(-1)).astype(packed.dtype.newbyteorder("<")).view("<u4")
     blue_first = words.view(np.uint8).reshape(-1, 4)
     colors = blue_first[:, [2, 1, 0, 3]]

@@ -39,7 +39,7 @@ class ProcessIO(RunningProcessEvent):
 
     @property
     def text(self) -> bytes:
-        """What was written."""
+        """The written text."""
         return self.__text
 
     @property
@@ -86,7 +86,7 @@ class ProcessStdin(ProcessTargetedEvent):
 
     @property
     def text(self) -> bytes:
-        """What to write."""
+        """The text to write."""
         return self.__text
 
     @property

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Check that the packages which `pip install 'coframe[all]'` installs have licences that allow any use."""
+"""Check that the packages which `pip install 'coframe[all]'` installs have licenses that allow any use."""
 
 import re
 import sys
@@ -7,20 +7,20 @@ from importlib import metadata
 
 from packaging.requirements import Requirement
 
-# In metadata, licences are SPDX expressions, classifiers or free text.
+# In metadata, licenses are SPDX expressions, classifiers or free text.
 ALLOWED = re.compile(
     r"\b(MIT|BSD|0BSD|Apache|ISC|PSF|Python Software Foundation|Zlib|CC0|MPL|Mozilla Public|EPL|HPND|Unlicense)",
     re.IGNORECASE,
 )
-# Packages whose metadata do not name the licence that their files contain.
+# Packages whose metadata do not name the license that their files contain.
 READ_BY_HAND = {
-    "apsw": "any licence that the OSI approves",
+    "apsw": "any license that the OSI approves",
     "xacro": "BSD-3-Clause",
 }
 
 
-def licence(name: str) -> str:
-    """Return what the metadata of an installed package say about its licence."""
+def license_of(name: str) -> str:
+    """Return what the metadata of an installed package say about its license."""
     data = metadata.metadata(name)
     classifiers = [text for text in data.get_all("Classifier") or [] if text.startswith("License ::")]
     return data.get("License-Expression") or "; ".join([(data.get("License") or "")[:200], *classifiers])
@@ -45,16 +45,16 @@ def dependencies(name: str, extras: set[str]) -> set[str]:
 
 
 def main() -> int:
-    """Print the packages whose licence is not on the list; return their number."""
+    """Print the packages whose license is not on the list; return their number."""
     refused = 0
     names = sorted(dependencies("coframe", {"all"}))
     for name in names:
-        text = READ_BY_HAND.get(name) or licence(name)
+        text = READ_BY_HAND.get(name) or license_of(name)
         if name not in READ_BY_HAND and not ALLOWED.search(text):
             shown = " ".join(text.split()) or "unknown"
-            print(f"{name}: its licence {shown!r} is not on the list in this script")
+            print(f"{name}: its license {shown!r} is not on the list in this script")
             refused += 1
-    print(f"licences: {len(names)} packages, {refused} refused")
+    print(f"licenses: {len(names)} packages, {refused} refused")
     return min(refused, 1)
 
 
