@@ -700,10 +700,10 @@ def observed(links):
 @pytest.mark.parametrize(
     ("links", "found", "findings"),
     [
-        ([(f"p{i}", f"c{i}") for i in range(3000)], {"TF001"}, 51),
+        ([(f"p{i}", f"c{i}") for i in range(3000)], {"TF001"}, 1),
         ([(f"f{i}", f"f{i + 1}") for i in range(3000)], set(), 0),
         ([(f"f{i}", f"f{(i + 1) % 3000}") for i in range(3000)], {"TF004"}, 1),
-        ([("root", f"a{i}") for i in range(2000)] + [(f"b{i}x", f"c{i}") for i in range(1000)], {"TF001"}, 51),
+        ([("root", f"a{i}") for i in range(2000)] + [(f"b{i}x", f"c{i}") for i in range(1000)], {"TF001"}, 1),
         ([("/" * 3000 + "a/" * 3000, "b"), ("a", "c")], None, None),
     ],
     ids=["trees", "chain", "loop", "wide", "slashes"],

@@ -46,6 +46,7 @@ class Finding:
         explains: Its consequences: findings that disappear with this one.
         harm: Why it matters, if it differs from the page of the code.
         edges: All edges with the same problem, if it was found for many of them; the text describes the first one.
+        topics: All topics with the same problem, likewise.
     """
 
     code: str
@@ -60,6 +61,7 @@ class Finding:
     explains: tuple[Finding, ...] = field(default=())
     harm: str = ""
     edges: tuple[tuple[str, str], ...] = ()
+    topics: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         if self.edge is not None:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Combine findings about the same problem of many edges, such as all joints of an arm with one publisher."""
+"""Combine findings about the same problem of many edges or topics, such as all joints of an arm."""
 
 from __future__ import annotations
 
@@ -16,48 +16,55 @@ if TYPE_CHECKING:
 
 __all__ = ["grouped"]
 
-_MIN_EDGES = 3
+_MIN_SUBJECTS = 3  # edges or topics
 # A number with its unit, in which the texts about the edges may differ.
 _FIGURE = re.compile(r"[-+]?\d[\d.,_]*(?:e[-+]?\d+)?\s?(?:ns|us|ms|min|s|h|Hz|mm|m|%|deg(?:rees)?)?\b")
 
 
 def grouped(findings: list[Finding]) -> list[Finding]:
-    """Return the findings, with one instead of several that differ only in their edges and numbers."""
+    """Return the findings, with one instead of several that differ only in their edges or topics, and in numbers."""
     groups: dict[Hashable, list[Finding]] = {}
     for position, finding in enumerate(findings):
-        groups.setdefault(position if finding.edge is None else _kind(finding), []).append(finding)
-    return [one for group in groups.values() for one in ([_merged(group)] if _edges(group) >= _MIN_EDGES else group)]
+        groups.setdefault(_kind(finding) if finding.subject else position, []).append(finding)
+    return [one for group in groups.values() for one in ([_merged(group)] if _is_many(group) else group)]
 
 
-def _edges(group: list[Finding]) -> int:
-    return len({finding.edge for finding in group if finding.edge is not None})
+def _is_many(group: list[Finding]) -> bool:
+    return len({finding.subject for finding in group}) >= _MIN_SUBJECTS
 
 
 def _kind(finding: Finding) -> Hashable:
-    """Return a key that is equal for findings about the same problem of different edges."""
-    return finding.code, finding.severity, finding.publishers, finding.harm, _pattern(finding)
+    """Return a key that is equal for findings about the same problem of different edges or topics."""
+    about_edge = finding.edge is not None
+    # The messages of several sensors have a publisher each; the transforms of one arm have the same one.
+    publishers = finding.publishers if about_edge else ()
+    return finding.code, finding.severity, about_edge, publishers, finding.harm, _pattern(finding)
 
 
 def _pattern(finding: Finding) -> str:
-    """Return the text without numbers and without the names of the edge."""
+    """Return the text without numbers and without the names of the edge, of the topic and of frames."""
     text = finding.text
-    for name in sorted(finding.edge or (), key=len, reverse=True):
-        text = text.replace(name, "\0")
+    for name in sorted({*finding.frames, finding.topic} - {""}, key=lambda name: (-len(name), name)):
+        text = re.sub(rf"(?<![\w/]){re.escape(name)}(?![\w/])", "\0", text)
     return _FIGURE.sub("\1", text)
 
 
 def _merged(group: list[Finding]) -> Finding:
-    """Return the first finding, extended by the other edges."""
+    """Return the first finding, extended by the other edges or topics."""
     first = group[0]
-    edges = tuple(dict.fromkeys(finding.edge for finding in group if finding.edge is not None))
-    others = listed(" -> ".join(edge) for edge in edges[1:])
+    edges = tuple(dict.fromkeys(edge for finding in group if finding.edge for edge in (finding.edge, *finding.edges)))
+    topics = () if edges else tuple(dict.fromkeys(finding.topic for finding in group))
+    others = listed(map(" -> ".join, edges[1:])) if edges else listed(topics[1:])
+    noun = "edges" if edges else "topics"
     stamps = [finding.first_stamp for finding in group if finding.first_stamp is not None]
     same_fix = all(finding.fix == first.fix for finding in group)
     return replace(
         first,
-        text=f"{first.text}; the same for {len(edges) - 1} other edges: {others}",
-        fix=first.fix if same_fix else f"{first.fix} Do the same for the other edges.",
+        text=f"{first.text}; the same for {len(edges or topics) - 1} other {noun}: {others}",
+        fix=first.fix if same_fix else f"{first.fix} Do the same for the other {noun}.",
         edges=edges,
+        topics=topics,
         frames=frozenset().union(*(finding.frames for finding in group)),
         first_stamp=min(stamps, default=None),
+        publishers=tuple(dict.fromkeys(name for finding in group for name in finding.publishers)),
     )

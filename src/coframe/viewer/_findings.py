@@ -149,7 +149,7 @@ def _row(finding: dict[str, Any], origin: int) -> FindingEntry:
         title=finding["title"],
         subject=_shortened(" → ".join(edge) if edge else finding["topic"] or ""),
         # An edge is shown in the row of its child.
-        frames=edge[1:] if edge else finding["frames"][:_MAX_FRAMES],
+        frames=[child for _, child in finding["edges"][:_MAX_FRAMES]] if edge else finding["frames"][:_MAX_FRAMES],
         text=_shortened(finding["text"]),
         why=finding["why"],
         fix=_shortened(finding["fix"]),

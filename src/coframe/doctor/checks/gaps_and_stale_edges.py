@@ -148,6 +148,7 @@ def _finding(edges: list[Edge], severity: Severity, text: str, fix: str, stamp: 
         text=text,
         fix=fix,
         edge=edges[0].key,
+        edges=tuple(edge.key for edge in edges),
         frames=frozenset(name for edge in edges for name in edge.key),
         first_stamp=stamp,
         publishers=publishers_of(edges),

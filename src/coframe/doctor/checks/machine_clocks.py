@@ -83,6 +83,7 @@ def _by_stamps(observation: Observation) -> Iterator[Finding]:
         "their machine is wrong",
         fix=_FIX,
         edge=edges[0].key,
+        edges=tuple(edge.key for edge in edges),
         frames=frozenset(name for edge in edges for name in edge.key),
         first_stamp=edges[0].first_stamp,
         publishers=publishers_of(edges),

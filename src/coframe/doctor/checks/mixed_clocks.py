@@ -65,6 +65,7 @@ def _finding(observation: Observation, usual: str, usual_names: list[str], clock
             else _FIX
         ),
         edge=first.key if first else None,
+        edges=tuple(edge.key for edge in edges),
         topic="" if first else sensors[0].topic,
         frames=frozenset(frames),
         first_stamp=stamps[0],
@@ -97,6 +98,7 @@ def _static(observation: Observation, usual: str) -> Iterator[Finding]:
             "clock "
             "than the other nodes, and its other messages will not match theirs.",
             edge=off[0].key,
+            edges=tuple(edge.key for edge in off),
             frames=frozenset(edge.child for edge in off),
             first_stamp=off[0].first_stamp,
             publishers=publishers_of(off),

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from coframe._output.formatting import count, listed
+from coframe._output.formatting import count, listed, quoted
 from coframe.analysis.missing_edges import missing_edge, unknown_mount
 from coframe.doctor._edge import publishers_of
 from coframe.doctor._finding import Finding, Severity
@@ -19,40 +19,61 @@ if TYPE_CHECKING:
 __all__ = ["CODE", "find"]
 
 CODE = "TF001"
-_MAX_TREES = 50  # maximum number of trees with a separate finding
+_MIN_ALIKE = 3  # trees that one finding lists
+_MAX_TREES = 50  # Robots have fewer.
 
 
 def find(observation: Observation) -> Iterator[Finding]:
-    """Yield one finding for every tree but the largest, and one for all trees beyond a limit."""
+    """Yield one finding for every tree but the largest; one for all that no likely edge connects, if there are many."""
     main, *others = observation.trees or [""]
     by_root: dict[str, list[Edge]] = {}
     for edge in observation.edges:
         by_root.setdefault(observation.root(edge.child), []).append(edge)
-    for root in others[:_MAX_TREES]:
-        missing = missing_edge(_from_root(observation, main), _from_root(observation, root))
+    tried = others[:_MAX_TREES]
+    likely = {root: missing_edge(_from_root(observation, main), _from_root(observation, root)) for root in tried}
+    unknown = [root for root in others if likely.get(root) is None]
+    if len(unknown) >= _MIN_ALIKE:
+        yield _several(observation, main, unknown, by_root)
+    for root in others:
+        missing = likely.get(root)
+        if missing is None and len(unknown) >= _MIN_ALIKE:
+            continue
         members = [frame for frame in observation.trees[root] if frame != root]
         below = f" with {listed(members)}" if members else ""
         edges = by_root.get(root, [])
         yield Finding(
             code=CODE,
             severity=Severity.WARNING,
-            text=f"{len(observation.trees)} separate trees: {main!r} with "
-            f"{count(len(observation.trees[main]) - 1, 'frame')} below it, and {root!r}{below}; "
+            text=f"{_trees(observation, main)}, and {root!r}{below}; "
             + (missing.text if missing else f"no transform to {root!r} is published"),
             fix=missing.fix if missing else unknown_mount(root),
             frames=frozenset({root, *observation.trees[root]}),
             first_stamp=min((edge.first_stamp for edge in edges), default=None),
             publishers=publishers_of(edges),
         )
-    if rest := others[_MAX_TREES:]:
-        yield Finding(
-            code=CODE,
-            severity=Severity.WARNING,
-            text=f"{len(rest)} more trees: {listed(rest)}; a publisher may keep creating frame names",
-            fix="Find the publisher that creates new frame names, or connect the frames of one robot to one root.",
-            frames=frozenset(rest),
-            first_stamp=min((edge.first_stamp for root in rest for edge in by_root.get(root, [])), default=None),
-        )
+
+
+def _several(observation: Observation, main: str, roots: list[str], by_root: dict[str, list[Edge]]) -> Finding:
+    """Return one finding for several trees that no likely edge connects with the largest one."""
+    edges = [edge for root in roots for edge in by_root.get(root, [])]
+    creates = "; a publisher may keep creating frame names" if len(roots) > _MAX_TREES else ""
+    return Finding(
+        code=CODE,
+        severity=Severity.WARNING,
+        text=f"{_trees(observation, main)}, and {len(roots)} trees to whose roots no transform is published: "
+        f"{quoted(roots)}{creates}",
+        fix="Find the publisher that creates new frame names, or connect the frames of one robot to one root."
+        if creates
+        else f"{unknown_mount(roots[0])} Do the same for the other roots.",
+        frames=frozenset(frame for root in roots for frame in (root, *observation.trees[root])),
+        first_stamp=min((edge.first_stamp for edge in edges), default=None),
+        publishers=publishers_of(edges),
+    )
+
+
+def _trees(observation: Observation, main: str) -> str:
+    below = count(len(observation.trees[main]) - 1, "frame")
+    return f"{len(observation.trees)} separate trees: {main!r} with {below} below it"
 
 
 def _from_root(observation: Observation, root: str) -> list[str]:

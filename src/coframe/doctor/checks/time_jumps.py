@@ -49,6 +49,7 @@ def find(observation: Observation) -> Iterator[Finding]:
         fix="Restart the listeners after a simulation was reset or a recording was restarted; replay a recording once, "
         "or with --clock and use_sim_time:=true, so that nodes detect the jump.",
         edge=found[0][0].key if found else None,
+        edges=tuple(edge.key for edge, _ in found),
         topic="" if found else "/clock",
         frames=frozenset(name for edge, _ in found for name in edge.key),
         first_stamp=first,
