@@ -25,6 +25,7 @@ void define_frozen(nb::module_& module);
 void define_failure(nb::module_& module);
 void define_message_codec(nb::module_& module);
 void define_event(nb::module_& module);
+void define_lie(nb::module_& module);
 void define_robots(nb::module_& module);
 void define_sensors(nb::module_& module);
 void define_shared(nb::module_& module);

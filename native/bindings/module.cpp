@@ -18,6 +18,7 @@ NB_MODULE(_core, module) {
   define_frozen(module);
   define_message_codec(module);
   define_event(module);
+  define_lie(module);
   define_robots(module);
   define_sensors(module);
   define_shared(module);

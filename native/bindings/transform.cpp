@@ -17,7 +17,8 @@ struct TransformObject {
   bool has_stamp;
   PyObject* target;  // str or None
   PyObject* source;
-  PyObject* batch;  // None, or a tuple of arrays
+  PyObject* batch;        // None, or a tuple of arrays
+  PyObject* uncertainty;  // None, or (covariance, names of the edges that count as exact)
 };
 
 PyTypeObject* transform_class = nullptr;  // the registered class, never released
@@ -26,17 +27,17 @@ TransformObject* self_of(PyObject* object) { return reinterpret_cast<TransformOb
 
 PyObject* or_none(PyObject* object) { return Py_NewRef(object ? object : Py_None); }
 
-// Arguments: 7 numbers, target, source, stamp, batch, and optionally the extrapolation.
+// Arguments: 7 numbers, target, source, stamp, batch, and optionally the extrapolation and the uncertainty.
 int initialize(PyObject* object, PyObject* arguments, PyObject* keywords) {
   if (keywords && PyDict_GET_SIZE(keywords) != 0) {
     PyErr_SetString(PyExc_TypeError, "the values of a transform are given by position");
     return -1;
   }
   double v[7];
-  PyObject *target, *source, *stamp, *batch;
+  PyObject *target, *source, *stamp, *batch, *uncertainty = Py_None;
   long long beyond = 0;
-  if (!PyArg_ParseTuple(arguments, "dddddddOOOO|L", &v[0], &v[1], &v[2], &v[3], &v[4], &v[5], &v[6], &target, &source,
-                        &stamp, &batch, &beyond)) {
+  if (!PyArg_ParseTuple(arguments, "dddddddOOOO|LO", &v[0], &v[1], &v[2], &v[3], &v[4], &v[5], &v[6], &target, &source,
+                        &stamp, &batch, &beyond, &uncertainty)) {
     return -1;
   }
   const long long nanoseconds = stamp == Py_None ? 0 : PyLong_AsLongLong(stamp);
@@ -49,6 +50,7 @@ int initialize(PyObject* object, PyObject* arguments, PyObject* keywords) {
   Py_XSETREF(self->target, Py_NewRef(target));
   Py_XSETREF(self->source, Py_NewRef(source));
   Py_XSETREF(self->batch, Py_NewRef(batch));
+  Py_XSETREF(self->uncertainty, Py_NewRef(uncertainty));
   return 0;
 }
 
@@ -58,6 +60,7 @@ void deallocate_transform(PyObject* object) {
   Py_XDECREF(self->target);
   Py_XDECREF(self->source);
   Py_XDECREF(self->batch);
+  Py_XDECREF(self->uncertainty);
   type->tp_free(object);
   Py_DECREF(type);
 }
@@ -78,6 +81,7 @@ PyObject* get_beyond(PyObject* object, void*) { return PyLong_FromLongLong(self_
 PyObject* get_target(PyObject* object, void*) { return or_none(self_of(object)->target); }
 PyObject* get_source(PyObject* object, void*) { return or_none(self_of(object)->source); }
 PyObject* get_batch(PyObject* object, void*) { return or_none(self_of(object)->batch); }
+PyObject* get_uncertainty(PyObject* object, void*) { return or_none(self_of(object)->uncertainty); }
 
 PyGetSetDef transform_properties[] = {
     {"values", get_values, nullptr, "(x, y, z, qx, qy, qz, qw) as floats; of a batch: an array (..., 7).", nullptr},
@@ -86,6 +90,8 @@ PyGetSetDef transform_properties[] = {
     {"source", get_source, nullptr, "The frame whose pose the values are, or None.", nullptr},
     {"_beyond", get_beyond, nullptr, "Nanoseconds of extrapolation beyond the data of an edge.", nullptr},
     {"_batch", get_batch, nullptr, "None, or (translations, quaternions, stamps, extrapolated) as arrays.", nullptr},
+    {"_uncertainty", get_uncertainty, nullptr, "None, or (covariance, names of the edges that count as exact).",
+     nullptr},
     {nullptr, nullptr, nullptr, nullptr, nullptr}};
 
 PyType_Slot transform_slots[] = {
@@ -113,6 +119,7 @@ nb::object make_transform(const Pose& pose, Stamp stamp, nb::handle target, nb::
   self->target = Py_NewRef(target.ptr());
   self->source = Py_NewRef(source.ptr());
   self->batch = Py_NewRef(Py_None);
+  self->uncertainty = Py_NewRef(Py_None);
   return nb::steal(object);
 }
 
@@ -162,6 +169,14 @@ void define_transform(nb::module_& module) {
         transform_class = reinterpret_cast<PyTypeObject*>(cls.release().ptr());
       },
       nb::arg("cls"), "Register the class of lookup results, a subclass of Transform with __slots__ = ().");
+  module.def(
+      "new_transform",
+      [](nb::args values) {
+        nb::object transform = nb::steal(PyType_GenericAlloc(transform_class, 0));
+        if (!transform.is_valid() || initialize(transform.ptr(), values.ptr(), nullptr) != 0) throw nb::python_error();
+        return transform;
+      },
+      "Return a transform of the registered class with exactly these values, the arguments of Transform().");
 }
 
 }  // namespace coframe::bindings

@@ -47,12 +47,6 @@ COFRAME_INLINE PoseLanes step_at(const JointMotion& joint, Positions positions, 
   return step;
 }
 
-// Writes rows of x, y, z, qx, qy, qz, qw.
-COFRAME_INLINE void write(const PoseLanes& pose, double* rows) {
-  store_fours(pose.p.x, pose.p.y, pose.p.z, pose.q.x, rows, 7);
-  store_fours(pose.q.x, pose.q.y, pose.q.z, pose.q.w, rows + 3, 7);
-}
-
 template <JointKind kKind>
 bool follow(const JointMotion& joint, Positions positions, std::size_t n, const PoseRows* parents, PoseRows* poses,
             double* out) {
@@ -61,13 +55,7 @@ bool follow(const JointMotion& joint, Positions positions, std::size_t n, const 
     PoseLanes pose = step_at<kKind>(joint, positions, i, not_finite);
     if (parents) pose = transformed<false>(load(*parents, i), pose);
     if (poses) store(pose, *poses, i);
-    if (i + kLanes <= n) {
-      write(pose, out + 7 * i);
-    } else {
-      double rows[7 * kLanes];
-      write(pose, rows);
-      std::memcpy(out + 7 * i, rows, (n - i) * 7 * sizeof(double));
-    }
+    write(pose, i, n, out);
   }
   return all_above(not_finite, -1.0);
 }

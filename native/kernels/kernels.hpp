@@ -59,6 +59,19 @@ struct alignas(64) TwistRows {
   double angular[3][kRowBlock];
 };
 
+// The poses of a batch: translations and quaternions, each in rows that begin `..._step` doubles apart. A step of 0
+// repeats one row.
+struct PoseBatch {
+  const double *p, *q;
+  std::ptrdiff_t p_step, q_step;
+};
+
+// One number per pose, or one for all if the step is 0.
+struct Fractions {
+  const double* numbers;
+  std::size_t step;
+};
+
 // The two samples around each row and the fraction between them. `older` and `newer` point to 8 numbers each: q, p and
 // one that is not part of the pose.
 struct alignas(64) Between {

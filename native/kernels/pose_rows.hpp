@@ -12,6 +12,10 @@ namespace {
 
 using PoseLanes = Step<Lanes>;
 
+struct TwistLanes {
+  Vector<Lanes> linear, angular;
+};
+
 COFRAME_INLINE PoseLanes splat(const Pose& pose) {
   return {{splat(pose.q[0]), splat(pose.q[1]), splat(pose.q[2]), splat(pose.q[3])},
           {splat(pose.p[0]), splat(pose.p[1]), splat(pose.p[2])}};
@@ -30,6 +34,35 @@ COFRAME_INLINE void store(const PoseLanes& pose, PoseRows& rows, std::size_t i) 
   store_lanes(pose.p.x, rows.p[0] + i);
   store_lanes(pose.p.y, rows.p[1] + i);
   store_lanes(pose.p.z, rows.p[2] + i);
+}
+
+// Loads the poses from `i` on of a batch of n; the last one is repeated for rows beyond it.
+COFRAME_INLINE PoseLanes load(const PoseBatch& batch, std::size_t i, std::size_t n) {
+  const double *p[kLanes], *q[kLanes];
+  for (std::size_t k = 0; k < kLanes; ++k) {
+    const auto row = static_cast<std::ptrdiff_t>(i + k < n ? i + k : n - 1);
+    p[k] = batch.p + row * batch.p_step;
+    q[k] = batch.q + row * batch.q_step;
+  }
+  PoseLanes pose;
+  load_columns(p, 0, pose.p.x, pose.p.y);
+  load_columns(p, 1, pose.p.y, pose.p.z);
+  load_columns(q, 0, pose.q.x, pose.q.y);
+  load_columns(q, 2, pose.q.z, pose.q.w);
+  return pose;
+}
+
+COFRAME_INLINE void write_group(const PoseLanes& pose, double* rows) {
+  store_fours(pose.p.x, pose.p.y, pose.p.z, pose.q.x, rows, 7);
+  store_fours(pose.q.x, pose.q.y, pose.q.z, pose.q.w, rows + 3, 7);
+}
+
+// Writes the poses from `i` on as rows of x, y, z, qx, qy, qz, qw to an array of n rows.
+COFRAME_INLINE void write(const PoseLanes& pose, std::size_t i, std::size_t n, double* out) {
+  if (i + kLanes <= n) return write_group(pose, out + 7 * i);
+  double rows[7 * kLanes];
+  write_group(pose, rows);
+  std::memcpy(out + 7 * i, rows, (n - i) * 7 * sizeof(double));
 }
 
 }  // namespace

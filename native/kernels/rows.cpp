@@ -11,10 +11,6 @@ namespace coframe::COFRAME_LEVEL {
 
 namespace {
 
-struct TwistLanes {
-  Vector<Lanes> linear, angular;
-};
-
 COFRAME_INLINE Quaternion<Lanes> load_rotations(const double* const* samples) {
   Quaternion<Lanes> q;
   load_columns(samples, 0, q.x, q.y);

@@ -25,6 +25,7 @@ class Transform:
         stamp: int | None,
         batch: Any,
         beyond: int = 0,
+        uncertainty: Any = None,
     ) -> None: ...
     @property
     def values(self) -> tuple[float, float, float, float, float, float, float]:
@@ -49,6 +50,10 @@ class Transform:
     @property
     def _batch(self) -> Any:
         """None, or (translations, quaternions, stamps, extrapolated) as arrays; the last two may be None."""
+
+    @property
+    def _uncertainty(self) -> Any:
+        """None, or (covariance (..., 6, 6), names of the edges that count as exact)."""
 
 class Failure:
     """The facts of a failed lookup; str() returns the text of tf2."""
@@ -520,6 +525,39 @@ def register_buffer_class(cls: type[Buffer]) -> None:
 
 def register_transform_class(cls: type[Transform]) -> None:
     """Register the class of lookup results, a subclass of Transform."""
+
+def new_transform(
+    x: float,
+    y: float,
+    z: float,
+    qx: float,
+    qy: float,
+    qz: float,
+    qw: float,
+    target: str | None,
+    source: str | None,
+    stamp: int | None,
+    batch: Any,
+    beyond: int = 0,
+    uncertainty: Any = None,
+    /,
+) -> PublicTransform:
+    """Return a transform of the registered class with exactly these values."""
+
+def compose_batches(a: tuple[Any, Any], b: tuple[Any, Any], inverse: bool, out: Any) -> None:
+    """Write a b, or a^-1 b, to `out`, (n, 7) float64: x, y, z, qx, qy, qz, qw.
+
+    The poses are translations (n, 3) and quaternions (n, 4), float64 with contiguous rows; (1, ...) repeats one.
+    """
+
+def exponentials(twists: Any, out: Any) -> None:
+    """Write the exponentials of twists (n, 6), linear and angular, to `out`, (n, 7)."""
+
+def logarithms(poses: tuple[Any, Any], out: Any) -> None:
+    """Write the logarithms of poses, as for compose_batches(), to `out`, (n, 6)."""
+
+def interpolate_batches(a: tuple[Any, Any], b: tuple[Any, Any], fractions: Any, screw: bool, out: Any) -> None:
+    """Write poses between a and b to `out`, (n, 7), along screw motions or with slerp; fractions are (n,) or (1,)."""
 
 def register_messages(
     transform_stamped: type,

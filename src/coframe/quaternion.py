@@ -10,10 +10,24 @@ from numpy.typing import NDArray
 
 Array: TypeAlias = NDArray[np.float64]
 
-__all__ = ["from_matrix", "from_rpy", "inverse", "multiply", "rotate", "to_matrix", "to_rpy"]
+__all__ = [
+    "from_euler",
+    "from_matrix",
+    "from_rotvec",
+    "from_rpy",
+    "inverse",
+    "multiply",
+    "rotate",
+    "to_euler",
+    "to_matrix",
+    "to_rotvec",
+    "to_rpy",
+]
 
 # Above this |sin(pitch)|, the x axis points straight up or down, and roll and yaw rotate about the same axis.
 _GIMBAL_LOCK = 1.0 - 1e-12
+# Below this sine of half an angle, two axes of Euler angles are the same.
+_EULER_LOCK = 1e-12
 
 
 def multiply(a: Array, b: Array) -> Array:
@@ -101,6 +115,91 @@ def to_rpy(q: Array) -> Array:
     roll = np.where(locked, np.arctan2(-m[..., 1, 2], m[..., 1, 1]), np.arctan2(m[..., 2, 1], m[..., 2, 2]))
     yaw = np.where(locked, 0.0, np.arctan2(m[..., 1, 0], m[..., 0, 0]))
     return np.stack((roll, pitch, yaw), axis=-1) + 0.0  # Adding 0 turns -0 into 0.
+
+
+def from_rotvec(rotvec: Array) -> Array:
+    """Return the quaternions (..., 4) of rotation vectors (..., 3): the axis times the angle in radians."""
+    angle = np.linalg.norm(rotvec, axis=-1, keepdims=True)
+    # sin(a / 2) / a; NumPy's sinc(x) is sin(pi x) / (pi x), and exact at 0.
+    return np.concatenate((0.5 * np.sinc(angle / (2.0 * np.pi)) * rotvec, np.cos(0.5 * angle)), axis=-1)
+
+
+def to_rotvec(q: Array) -> Array:
+    """Return the rotation vectors (..., 3) of rotations by at most half a turn."""
+    q = np.where(q[..., 3:] < 0.0, -q, q)
+    length = np.linalg.norm(q[..., :3], axis=-1, keepdims=True)
+    turns = length > 0.0
+    angle = 2.0 * np.arctan2(length, q[..., 3:])
+    vectors: Array = np.where(turns, angle / np.where(turns, length, 1.0), 2.0) * q[..., :3]
+    return vectors
+
+
+def from_euler(seq: str, angles: Array) -> Array:
+    """Return the quaternions (..., 4) of Euler angles (..., n) in radians, for a sequence of n axes.
+
+    Capital letters are rotations about the axes of the moved frame, small letters about fixed axes, as in SciPy.
+
+    Raises:
+        ValueError: ``seq`` is not one to three axes such as "ZYX" or "xyz".
+    """
+    axes, intrinsic = _axes(seq)
+    q: Array = np.zeros((*angles.shape[:-1], 4))
+    q[..., 3] = 1.0
+    for i, axis in enumerate(axes):
+        turn = np.zeros_like(q)
+        turn[..., axis], turn[..., 3] = np.sin(angles[..., i] / 2), np.cos(angles[..., i] / 2)
+        q = multiply(q, turn) if intrinsic else multiply(turn, q)
+    return q
+
+
+def to_euler(q: Array, seq: str) -> Array:
+    """Return Euler angles (..., 3) in radians; see :func:`from_euler`.
+
+    After E. Bernardes and S. Viollet, "Quaternion to Euler angles conversion: a direct, general and computationally
+    efficient method" (2022). In gimbal lock, the last angle is 0.
+
+    Raises:
+        ValueError: ``seq`` is not three axes, or two that follow each other are the same.
+    """
+    axes, intrinsic = _axes(seq)
+    if len(axes) != 3 or axes[0] == axes[1] or axes[1] == axes[2]:
+        raise ValueError(f"seq must be three axes of which neighbors differ, such as 'ZYX' or 'xyz', not {seq!r}")
+    i, j, k = reversed(axes) if intrinsic else axes
+    is_symmetric = i == k
+    k = 3 - i - j if is_symmetric else k
+    sign = (i - j) * (j - k) * (k - i) / 2
+    if is_symmetric:
+        a, b, c, d = q[..., 3], q[..., i], q[..., j], q[..., k] * sign
+    else:
+        a, b = q[..., 3] - q[..., j], q[..., i] + q[..., k] * sign
+        c, d = q[..., j] + q[..., 3], q[..., k] * sign - q[..., i]
+    low, high = np.hypot(c, d), np.hypot(a, b)
+    middle = 2.0 * np.arctan2(low, high)
+    half_sum, half_difference = np.arctan2(b, a), np.arctan2(d, c)
+    first, last = half_sum - half_difference, half_sum + half_difference
+    if intrinsic:  # the angles of fixed axes in reverse order
+        first, last = last, first
+    one_axis = np.where(high < _EULER_LOCK, 2.0 * half_difference * (1 if intrinsic else -1), 2.0 * half_sum)
+    is_locked = (low < _EULER_LOCK) | (high < _EULER_LOCK)
+    first, last = np.where(is_locked, one_axis, first), np.where(is_locked, 0.0, last)
+    if not is_symmetric:
+        first, last = (first * sign, last) if intrinsic else (first, last * sign)
+        middle = middle - np.pi / 2
+    angles = (first, middle, last)
+    stacked = np.stack(angles, axis=-1)
+    wrapped: Array = stacked - 2.0 * np.pi * np.round(stacked / (2.0 * np.pi))
+    return wrapped + 0.0  # Adding 0 turns -0 into 0.
+
+
+def _axes(seq: str) -> tuple[list[int], bool]:
+    """Return the numbers of the axes, and whether they move with the frame."""
+    is_known = 1 <= len(seq) <= 3 and (set(seq) <= set("xyz") or set(seq) <= set("XYZ"))
+    if not is_known:
+        raise ValueError(
+            f"seq must be one to three axes, all capital (of the moved frame) or all small (fixed), such as 'ZYX' or "
+            f"'xyz', not {seq!r}"
+        )
+    return ["xyz".index(axis) for axis in seq.lower()], seq.isupper()
 
 
 def __dir__() -> list[str]:

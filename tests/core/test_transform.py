@@ -170,7 +170,7 @@ def test_scipy_round_trip(rng, shape):
     assert Transform.from_scipy(rotation, translation).is_close(a, translation=0, rotation=1e-12)
     named = Transform.from_scipy(rotation, target="a", source="b")
     assert (named.target, named.source) == ("a", "b")
-    with pytest.raises(TypeError, match=r"must be a scipy.spatial.transform.Rotation, not list"):
+    with pytest.raises(TypeError, match=r"must be a scipy.spatial.transform.Rotation or RigidTransform, not list"):
         Transform.from_scipy([0, 0, 0, 1])
 
 

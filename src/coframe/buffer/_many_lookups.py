@@ -11,7 +11,7 @@ from coframe import _core, time
 from coframe.buffer import gaps
 from coframe.errors import ExtrapolationException
 from coframe.transform.resampling import StepLimits
-from coframe.transform.transform import batch_of, stamps_of
+from coframe.transform.values import batch_of, stamps_of
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray

@@ -9,7 +9,7 @@ import numpy as np
 
 from coframe import _core, time
 from coframe.errors import InvalidArgumentException
-from coframe.transform.transform import stamps_of
+from coframe.transform.values import stamps_of
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray

@@ -12,7 +12,7 @@ import numpy as np
 from coframe import quaternion
 from coframe._output.formatting import did_you_mean
 from coframe.robots._kinematics import KinematicTree
-from coframe.transform.transform import batch_of
+from coframe.transform.values import batch_of
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

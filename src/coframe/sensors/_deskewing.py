@@ -25,7 +25,7 @@ from coframe.sensors.clouds import (
 from coframe.sensors.motion import moves, still_frame
 from coframe.sensors.rounding import farthest, warn_of_rounding
 from coframe.time import MICROSECOND, MILLISECOND, SECOND, stamp_ns
-from coframe.transform.transform import stamps_of
+from coframe.transform.values import stamps_of
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
