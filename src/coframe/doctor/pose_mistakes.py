@@ -33,11 +33,12 @@ __all__ = [
     "OPTICAL",
     "Correction",
     "Explanation",
+    "angle_triples",
     "corrections",
     "described_rotation",
     "explain",
     "explain_either",
-    "in_other_units",
+    "inverted",
 ]
 
 OPTICAL = quaternion.from_rpy(np.array([-pi / 2, 0.0, -pi / 2]))
@@ -177,18 +178,11 @@ def corrections(pose: Array) -> Iterator[Correction]:
     The caller compares them with other data: gravity, the points of a lidar, or the axes of a camera.
     """
     place, turn = pose[:3], pose[None, 3:]
-    inverse = _inverted(pose[None])[0]
+    inverse = inverted(pose[None])[0]
     for mistake in _ROTATIONS:
         for turned in mistake.undo(turn):
             yield Correction(mistake.reading, mistake.fix, np.concatenate([place, turned[0]]))
     yield Correction(_INVERTED, _INVERTED_FIX, inverse)
-
-
-def in_other_units(translation: Array) -> Iterator[Correction]:
-    """Yield a translation (3,) that is read in other units than meters; the corrections have no rotation."""
-    for unit, factor in _UNITS:
-        reading, fix = _unit_texts(unit)
-        yield Correction(reading, fix, translation / factor)
 
 
 def described_rotation(turn: Array) -> str:
@@ -216,14 +210,15 @@ _BODY_FIX = "Add the rotation of optical frames (REP-103): roll -90, pitch 0, ya
 def _whole(
     published: Array, expected: Array, limits: tuple[float, float], difference: tuple[float, float]
 ) -> Explanation | None:
-    inverted = _inverted(published)
-    left = _distance(inverted[:, :3], expected[:, :3]), _rotation(inverted[:, 3:], expected[:, 3:])
+    inverse = inverted(published)
+    left = _distance(inverse[:, :3], expected[:, :3]), _rotation(inverse[:, 3:], expected[:, 3:])
     fits = all(rest <= limit for rest, limit in zip(left, limits, strict=True))
     explains = any(_MIN_RATIO * rest < before for rest, before in zip(left, difference, strict=True))
     return Explanation(_INVERTED, _INVERTED_FIX, *left) if fits and explains else None
 
 
-def _inverted(poses: Array) -> Array:
+def inverted(poses: Array) -> Array:
+    """Return the inverse of poses (N, 7)."""
     turn = quaternion.inverse(poses[:, 3:])
     return np.concatenate([-quaternion.rotate(turn, poses[:, :3]), turn], axis=1)
 
@@ -265,7 +260,7 @@ def _rotation(first: Array, second: Array) -> float:
 # Rotations
 
 
-def _angle_triples(turn: Array) -> list[Array]:
+def angle_triples(turn: Array) -> list[Array]:
     """Return all roll, pitch, yaw (N, 3) that give a rotation, with angles between -pi and pi."""
     rpy = quaternion.to_rpy(turn)
     roll, pitch, yaw = rpy.T
@@ -279,7 +274,7 @@ def _angle_triples(turn: Array) -> list[Array]:
 
 
 def _permuted(order: tuple[int, int, int], turn: Array) -> list[Array]:
-    return [quaternion.from_rpy(triple[:, order]) for triple in _angle_triples(turn)]
+    return [quaternion.from_rpy(triple[:, order]) for triple in angle_triples(turn)]
 
 
 def _permutation(order: tuple[int, int, int]) -> Mistake:
@@ -296,7 +291,7 @@ def _permutation(order: tuple[int, int, int]) -> Mistake:
 def _other_convention(turn: Array) -> list[Array]:
     """Return rotations about moving instead of fixed axes, in the order x, y, z."""
     found = []
-    for triple in _angle_triples(turn):
+    for triple in angle_triples(turn):
         parts = [quaternion.from_rpy(triple * np.eye(3)[axis]) for axis in range(3)]
         found.append(quaternion.multiply(quaternion.multiply(parts[0], parts[1]), parts[2]))
     return found
@@ -305,12 +300,12 @@ def _other_convention(turn: Array) -> list[Array]:
 def _from_other_convention(turn: Array) -> list[Array]:
     """Return the rotations about fixed axes with the angles that rotations about moving axes have."""
     # R = Rx(a) Ry(b) Rz(c) is the inverse of Rz(-c) Ry(-b) Rx(-a), whose roll, pitch and yaw are -a, -b, -c.
-    return [quaternion.from_rpy(-triple) for triple in _angle_triples(quaternion.inverse(turn))]
+    return [quaternion.from_rpy(-triple) for triple in angle_triples(quaternion.inverse(turn))]
 
 
 def _degrees_as_radians(turn: Array) -> list[Array]:
     found = []
-    for triple in _angle_triples(turn):
+    for triple in angle_triples(turn):
         angles = np.degrees(triple)
         for values in (angles, np.round(angles / _ROUND) * _ROUND):
             if np.abs(values - angles).max() > 0.1:  # degrees; not round
@@ -325,7 +320,7 @@ def _degrees_as_radians(turn: Array) -> list[Array]:
 def _round_degrees(turn: Array) -> list[Array]:
     """Return the rotations by round angles in degrees that give these rotations if they are used as radians."""
     found = []
-    for triple in _angle_triples(turn[:1]):
+    for triple in angle_triples(turn[:1]):
         choices = [_round_choices(angle) for angle in triple[0].tolist()]
         if any(value != 0.0 for choice in choices for value in choice):
             found += [quaternion.from_rpy(np.radians([each])) for each in product(*choices) if any(each)]
@@ -339,15 +334,15 @@ def _round_choices(angle: float) -> list[float]:
 
 
 def _radians_as_degrees(turn: Array) -> list[Array]:
-    return [quaternion.from_rpy(np.radians(triple)) for triple in _angle_triples(turn)]
+    return [quaternion.from_rpy(np.radians(triple)) for triple in angle_triples(turn)]
 
 
 def _degrees_of_radians(turn: Array) -> list[Array]:
-    return [quaternion.from_rpy(np.degrees(_angle_triples(turn)[0]))]
+    return [quaternion.from_rpy(np.degrees(angle_triples(turn)[0]))]
 
 
 def _doubled(turn: Array) -> list[Array]:
-    angles = [quaternion.from_rpy(2.0 * triple) for triple in _angle_triples(turn)]
+    angles = [quaternion.from_rpy(2.0 * triple) for triple in angle_triples(turn)]
     return [quaternion.multiply(turn, turn), *angles]
 
 
@@ -359,17 +354,17 @@ def _halved(turn: Array) -> list[Array]:
         length = np.linalg.norm(half, axis=1, keepdims=True)
         if (length > 1e-6).all():
             found.append(half / length)
-    return [*found, *(quaternion.from_rpy(triple / 2.0) for triple in _angle_triples(turn))]
+    return [*found, *(quaternion.from_rpy(triple / 2.0) for triple in angle_triples(turn))]
 
 
 def _with_sign(axis: int, turn: Array) -> list[Array]:
     signs = np.where(np.arange(3) == axis, -1.0, 1.0)
-    return [quaternion.from_rpy(triple * signs) for triple in _angle_triples(turn)[:1]]
+    return [quaternion.from_rpy(triple * signs) for triple in angle_triples(turn)[:1]]
 
 
 def _without_angle(axis: int, turn: Array) -> list[Array]:
     kept = np.where(np.arange(3) == axis, 0.0, 1.0)
-    return [quaternion.from_rpy(triple * kept) for triple in _angle_triples(turn)]
+    return [quaternion.from_rpy(triple * kept) for triple in angle_triples(turn)]
 
 
 def _times(right: Array, turn: Array) -> list[Array]:
@@ -440,6 +435,7 @@ _ROTATIONS = (
         partial(_times, OPTICAL),
         partial(_times, quaternion.inverse(OPTICAL)),
     ),
+    _turned(0, 180),
     Mistake("its angle is halved (the angle was used for the half angle)", _HALF, _doubled, _halved),
     Mistake("its angle is doubled (the angle was halved twice)", _HALF, _halved, _doubled),
     *(_permutation((a, b, c)) for a, b, c in ((2, 1, 0), *permutations(range(3))) if (a, b, c) != (0, 1, 2)),
@@ -469,7 +465,7 @@ _ROTATIONS = (
         )
         for axis in range(3)
     ),
-    *(_turned(axis, angle) for axis, angle in product(range(3), (180, 90, -90))),
+    *(_turned(axis, angle) for axis, angle in product(range(3), (180, 90, -90)) if (axis, angle) != (0, 180)),
 )  # fmt: skip
 
 

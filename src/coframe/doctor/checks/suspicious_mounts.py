@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""TF021: mounts that look like degrees for radians, millimeters for meters, or a missing optical rotation."""
+"""TF021: mounts that cannot be right: degrees as radians, other units, impossible axes, sensors below the ground."""
 
 from __future__ import annotations
 
@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from coframe import quaternion
 from coframe.analysis.static_command import static_command
+from coframe.doctor._camera_axes import is_optical, wrong_axes
 from coframe.doctor._finding import Finding, Severity
+from coframe.doctor.pose_mistakes import angle_triples, described_rotation, inverted
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -22,7 +23,17 @@ __all__ = ["CODE", "find"]
 
 CODE = "TF021"
 _ROUND_DEGREES = (30, 45, 60, 90, 120, 135, 150, 180, 270)
-_CLOSE = 2e-4  # radians
+_CLOSE = 2e-5  # radians, of a rotation about one axis
+_EXACT = 5e-7  # radians, of one of several angles
+_UNITS = (("mm", 1e3), ("cm", 1e2))
+_MIN_MOUNT = 5e-3  # meters
+_BELOW = -0.5  # meters
+_LEVEL = 0.2  # meters, and twice the sine of half an angle
+_TURNED = 1e-3  # radians
+_SEEING = {
+    f"sensor_msgs/msg/{name}"
+    for name in ("CameraInfo", "CompressedImage", "Image", "LaserScan", "MultiEchoLaserScan", "PointCloud2")
+}
 _FAR = 10.0  # meters between two frames of a robot
 _TOO_FAR = 1e6  # meters; it would be a kilometer in millimeters
 _WORLDS = ("world", "map", "odom", "earth", "utm", "ecef", "enu", "global", "ned")
@@ -30,68 +41,119 @@ _WORLDS = ("world", "map", "odom", "earth", "utm", "ecef", "enu", "global", "ned
 
 def find(observation: Observation) -> Iterator[Finding]:
     """Yield findings for edges that do not move, on any topic."""
-    for edge in observation.edges:
-        if edge.static or edge.constant:
-            yield from _degrees(edge)
-            yield from _millimeters(edge)
-            yield from _optical(edge)
+    mounts = [edge for edge in observation.edges if edge.static or edge.constant]
+    for edge in mounts:
+        turned = list(_optical(observation, edge)) if is_optical(edge) else []
+        yield from turned or _degrees(edge)
+        yield from _other_units(edge, mounts)
+    yield from _below_ground(observation)
 
 
 def _degrees(edge: Edge) -> Iterator[Finding]:
-    """Yield a finding for a rotation about one axis whose angle is a round number of degrees used as radians."""
-    axis = np.abs(edge.rotations[-1, :3])
-    if np.count_nonzero(axis > 1e-6) != 1:
-        return
-    about = int(np.argmax(axis))
-    x = float(edge.rotations[-1, about])
-    angle = 2.0 * np.arctan2(x, float(edge.rotations[-1, 3]))
-    for number in (sign * size for size in _ROUND_DEGREES for sign in (1, -1)):
-        if abs((angle - number + pi) % (2 * pi) - pi) < _CLOSE:
-            name = ("roll", "pitch", "yaw")[about]
-            yield _finding(
-                edge,
-                f"rotated by {degrees(angle) % 360:.1f} degrees about {'xyz'[about]}, which is {name} = {number} "
-                f"radians: was {number} degrees intended?",
-                f"Use radians: --{name} {number * pi / 180:.6f}; in code math.radians({number}).",
-            )
-            return
+    """Yield a finding for an angle that is a round number of degrees used as radians."""
+    axes = np.abs(edge.rotations[-1, :3]) > 1e-6
+    if np.count_nonzero(axes) == 1:
+        x, w = float(edge.rotations[-1, :3][axes][0]), float(edge.rotations[-1, 3])
+        angles = [np.where(axes, 2.0 * np.arctan2(x, w), 0.0)]
+        limit = _CLOSE
+    else:
+        angles, limit = [triple[0] for triple in angle_triples(edge.rotations[-1:])], _EXACT
+    for triple in angles:
+        for name, axis, angle in zip(("roll", "pitch", "yaw"), "xyz", triple.tolist(), strict=True):
+            for number in (sign * size for size in _ROUND_DEGREES for sign in (1, -1)):
+                if angle != 0.0 and abs((angle - number + pi) % (2 * pi) - pi) < limit:
+                    yield _finding(
+                        edge,
+                        f"rotated by {degrees(angle) % 360:.1f} degrees about {axis}, which is {name} = {number} "
+                        f"radians: was {number} degrees intended?",
+                        f"Use radians: --{name} {number * pi / 180:.6f}; in code math.radians({number}).",
+                    )
+                    return
 
 
-def _millimeters(edge: Edge) -> Iterator[Finding]:
-    names = {edge.parent.rpartition("/")[2].lower(), edge.child.rpartition("/")[2].lower()}
-    if edge.length < _FAR or any(name.startswith(world) for name in names for world in _WORLDS):
+def _other_units(edge: Edge, mounts: list[Edge]) -> Iterator[Finding]:
+    """Yield a finding for a mount that is farther from its parent than any part of a robot."""
+    if edge.length < _FAR or _is_in_world(edge):
         return
     if edge.length > _TOO_FAR:
         distance = f"the frames are {edge.length:.4g} m apart"
         yield _finding(edge, distance, "Check the values of the translation; they are in meters.")
         return
-    x, y, z = (edge.values[-1, :3] / 1000).tolist()
+    units = _likely_units(edge, mounts)
+    x, y, z = (edge.values[-1, :3] / units[0][1]).tolist()
+    intended = " or ".join(f"{edge.length:.4g} {unit}" for unit, _ in units)
     yield _finding(
         edge,
-        f"the frames are {edge.length:.4g} m apart: was {edge.length:.4g} mm intended?",
-        f"Use meters: --x {x:g} --y {y:g} --z {z:g}.",
+        f"the frames are {edge.length:.4g} m apart: was {intended} intended?",
+        f"Use meters: --x {x:.6g} --y {y:.6g} --z {z:.6g}" + (f" (for {units[0][0]})." if len(units) > 1 else "."),
     )
 
 
-def _optical(edge: Edge) -> Iterator[Finding]:
-    """Yield a finding for an optical frame without rotation: by REP-103 its z points forward and its x right."""
-    if "optical" not in edge.child.lower() or "optical" in edge.parent.lower():
-        return
-    if edge.angle < 1e-3:
-        rotation = quaternion.from_rpy(np.array([-pi / 2, 0.0, -pi / 2]))
-        command = static_command(*edge.key, [*edge.values[-1, :3].tolist(), *rotation.tolist()])
-        yield _finding(
-            edge,
-            f"{edge.child!r} is named optical, but is not rotated relative to {edge.parent!r}: its z axis points up "
-            "instead of forward",
-            f"Rotate it by roll -90, pitch 0, yaw -90 degrees: `{command}`.",
+def _likely_units(edge: Edge, mounts: list[Edge]) -> list[tuple[str, float]]:
+    """Return the units in which the distance is like those of the robot's other mounts, or possible; at least one."""
+    possible = [unit for unit in _UNITS if _MIN_MOUNT < edge.length / unit[1] < _FAR] or list(_UNITS[:1])
+    others = [other.length for other in mounts if other is not edge and _MIN_MOUNT < other.length < _FAR]
+    if not others:
+        return possible
+    alike = [unit for unit in possible if min(others) / 2.0 <= edge.length / unit[1] <= 2.0 * max(others)]
+    return alike or possible
+
+
+def _is_in_world(edge: Edge) -> bool:
+    names = {edge.parent.rpartition("/")[2].lower(), edge.child.rpartition("/")[2].lower()}
+    return any(name.startswith(world) for name in names for world in _WORLDS)
+
+
+def _optical(observation: Observation, edge: Edge) -> Iterator[Finding]:
+    """Yield a finding for an optical frame in which no camera can look: by REP-103 its z points forward, x right."""
+    found = wrong_axes(observation, edge)
+    if found is not None:
+        turned = described_rotation(found.pose[3:])
+        command = static_command(*found.edge.key, found.pose.tolist())
+        yield _finding(found.edge, found.text, f"{found.fix} The rotation is {turned}: `{command}`.".lstrip())
+
+
+def _below_ground(observation: Observation) -> Iterator[Finding]:
+    """Yield a note for a camera or lidar below the ground on which its robot drives."""
+    seen = set()
+    for sensor in observation.sensors:
+        if sensor.type not in _SEEING or sensor.frame in seen:
+            continue
+        seen.add(sensor.frame)
+        chain = observation.path(sensor.frame)
+        mount = next((edge for edge in chain if edge.static or edge.constant), None)
+        moving = [edge for edge in chain if not (edge.static or edge.constant)]
+        if len(chain) - len(moving) != 1 or mount is not chain[0] or mount is None:
+            continue  # of several mounts, any may be wrong
+        is_planar = moving and all(
+            np.abs(edge.values[:, 2]).max() < _LEVEL and np.abs(edge.rotations[:, :2]).max() < _LEVEL / 2
+            for edge in moving
         )
+        if not is_planar or mount.values[-1, 2] > _BELOW:
+            continue
+        yield from _under(mount)
 
 
-def _finding(edge: Edge, text: str, fix: str) -> Finding:
+def _under(mount: Edge) -> Iterator[Finding]:
+    pose = mount.last_pose
+    inverse = inverted(pose)[0]
+    mirrored = pose[0] * np.array([1.0, 1.0, -1.0, 1.0, 1.0, 1.0, 1.0])
+    inverted_text = f"the inverse of the transform is {inverse[2]:.3g} m above it; " if inverse[2] > 0.0 else ""
+    right = inverse if inverse[2] > 0.0 and mount.angle > _TURNED else mirrored
+    yield _finding(
+        mount,
+        f"{mount.child!r}, the frame of a camera or lidar, is {-mount.values[-1, 2]:.3g} m below {mount.parent!r}, "
+        f"which is on the ground: {inverted_text}with the other sign of z it is {mirrored[2]:.3g} m above it",
+        "Check the direction of the transform (the translation is the position of the child in the parent) and the "
+        f"sign of z (up is positive), for example `{static_command(*mount.key, np.round(right, 9).tolist())}`.",
+        Severity.NOTE,
+    )
+
+
+def _finding(edge: Edge, text: str, fix: str, severity: Severity = Severity.WARNING) -> Finding:
     return Finding(
         code=CODE,
-        severity=Severity.WARNING,
+        severity=severity,
         text=text,
         fix=fix,
         edge=edge.key,

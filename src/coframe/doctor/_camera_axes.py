@@ -1,0 +1,173 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The axes of optical frames: which way a camera looks on its robot, and what would make an impossible mount right.
+
+By REP-103, the z axis of an optical frame points forward, its x axis to the right and its y axis down in the image.
+"""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from coframe import quaternion
+from coframe.analysis.missing_edges import BASE_FRAMES
+from coframe.doctor.pose_mistakes import OPTICAL, corrections, explain
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from numpy.typing import NDArray
+
+    from coframe.doctor._edge import Edge
+    from coframe.doctor.observation import Observation
+
+__all__ = ["WrongAxes", "is_optical", "wrong_axes"]
+
+_SMALL = np.sin(np.radians(10.0))
+_LARGE = np.cos(np.radians(25.0))
+_TILTED = np.sin(np.radians(30.0))
+_UNROTATED = np.radians(10.0)  # how far calibrated cameras are off the axes of their robot
+_ALIGNED = 0.1  # of an axis of one frame in another, at most this much off 0 or 1
+_EXACT = np.radians(3.0)
+_REAR = re.compile("rear|back|aft")
+_DIRECTIONS = ("forward", "left", "up", "backward", "right", "down")
+_MAX_READINGS = 2
+
+
+class WrongAxes(NamedTuple):
+    """An optical frame with impossible axes.
+
+    Attributes:
+        edge: The edge whose correction makes them right, or the edge above the frame.
+        text: Which way the axes point, and what would make them right.
+        fix: What to do.
+        pose: The pose of the edge that makes them right, (7,).
+    """
+
+    edge: Edge
+    text: str
+    fix: str
+    pose: NDArray[np.float64]
+
+
+def is_optical(edge: Edge) -> bool:
+    """Return whether an edge leads to the optical frame of a camera, from a frame that is not optical."""
+    return "optical" in edge.child.lower() and "optical" not in edge.parent.lower()
+
+
+def wrong_axes(observation: Observation, edge: Edge) -> WrongAxes | None:
+    """Return what is wrong with the axes of an optical frame; None if a camera can be mounted in this way."""
+    if _is_body_of(edge.parent, edge.child):
+        return _unlike_rep103(edge)
+    chain = _static_chain(observation, edge)
+    turn = _product(chain, None)
+    if chain[-1].parent.rpartition("/")[2] not in BASE_FRAMES or _REAR.search(edge.child.lower()):
+        return None
+    if _angle(turn, _IDENTITY) < _UNROTATED:
+        return _unrotated(edge)
+    right, _, forward = _axes(turn)
+    down = _axes(turn)[1]
+    is_rolled = abs(right[2]) > _TILTED or down[2] > _SMALL
+    if not is_rolled or forward[0] > _TILTED:
+        return None
+    return _corrected(chain, turn)
+
+
+_IDENTITY = np.array([0.0, 0.0, 0.0, 1.0])
+
+
+def _is_body_of(parent: str, child: str) -> bool:
+    """Return whether two names are those of the body and the optical frame of one camera."""
+    generic = {"link", "frame", "optical", ""}
+    words = [set(re.split(r"[_/. -]|(?<=[a-z])(?=[A-Z])", name.lower())) - generic for name in (parent, child)]
+    return words[0] == words[1] and bool(words[0])
+
+
+def _unlike_rep103(edge: Edge) -> WrongAxes | None:
+    """Return what is wrong with the optical frame of a camera's body, whose rotation REP-103 defines."""
+    turn = edge.rotations[-1]
+    if _angle(turn, OPTICAL) < 2.0 * _UNROTATED:
+        return None
+    if _angle(turn, _IDENTITY) < _UNROTATED:
+        return _unrotated(edge)
+    zero = np.zeros(3)
+    published, expected = (np.concatenate([zero, each])[None] for each in (turn, OPTICAL))
+    found = explain(published, expected, radians=_EXACT)
+    matrix = quaternion.to_matrix(turn)
+    is_aligned = bool((np.abs(np.abs(matrix) - np.round(np.abs(matrix))) < _ALIGNED).all())
+    if found is None and not is_aligned:
+        return None
+    reading = f"; it is the rotation of REP-103 if {found.reading}" if found else ""
+    text = f"{_described(edge, turn)}{reading}"
+    return WrongAxes(edge, text, found.fix if found else "", np.concatenate([edge.values[-1, :3], OPTICAL]))
+
+
+def _unrotated(edge: Edge) -> WrongAxes:
+    text = (
+        f"{edge.child!r} is named optical, but is not rotated relative to {edge.parent!r}: its z axis points up "
+        "instead of forward"
+    )
+    turn = quaternion.multiply(edge.rotations[-1], OPTICAL)
+    return WrongAxes(edge, text, "", np.concatenate([edge.values[-1, :3], turn]))
+
+
+def _corrected(chain: Sequence[Edge], turn: NDArray[np.float64]) -> WrongAxes | None:
+    """Return the first edge and the corrections with which the camera is upright and looks forward."""
+    for edge in chain:
+        found = {}
+        for correction in corrections(np.concatenate([edge.values[-1, :3], edge.rotations[-1]])):
+            right, down, forward = _axes(_product(chain, (edge, correction.pose[3:])))
+            if abs(right[2]) < _SMALL and down[2] < -_LARGE and forward[0] > _LARGE:
+                found.setdefault(correction.reading, correction)
+        if found:
+            first, *_ = found.values()
+            readings = " or ".join(f"if {reading}" for reading in list(found)[:_MAX_READINGS])
+            text = f"{_described(chain[0], turn)}; the camera is upright and looks forward {readings}"
+            return WrongAxes(edge, text, first.fix, first.pose)
+    return None
+
+
+def _static_chain(observation: Observation, edge: Edge) -> list[Edge]:
+    """Return the edge and the static edges above it, up to the base of the robot."""
+    chain = [edge]
+    for above in observation.path(edge.parent):
+        if chain[-1].parent.rpartition("/")[2] in BASE_FRAMES or not (above.static or above.constant):
+            break
+        chain.append(above)
+    return chain
+
+
+def _product(chain: Sequence[Edge], changed: tuple[Edge, NDArray[np.float64]] | None) -> NDArray[np.float64]:
+    """Return the rotation from the upper end of a chain to its lower end, with another rotation of one edge."""
+    turn = _IDENTITY
+    for edge in reversed(chain):
+        own = changed[1] if changed is not None and edge is changed[0] else edge.rotations[-1]
+        turn = quaternion.multiply(turn, own)
+    return turn
+
+
+def _axes(turn: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the x, y and z axis of a frame, one row each."""
+    return np.asarray(quaternion.to_matrix(turn).T)
+
+
+def _angle(first: NDArray[np.float64], second: NDArray[np.float64]) -> float:
+    return float(2.0 * np.arccos(min(1.0, abs(float(first @ second)))))
+
+
+def _described(edge: Edge, turn: NDArray[np.float64]) -> str:
+    """Return which way the axes of an optical frame point instead of the right one."""
+    right, _, forward = (_direction(axis) for axis in _axes(turn))
+    wrong = [
+        f"its {axis} axis points {direction} instead of {expected}"
+        for axis, direction, expected in (("z", forward, "forward"), ("x", right, "right"))
+        if direction != expected
+    ]
+    return f"{edge.child!r} is named optical, but {' and '.join(wrong) or 'its axes are tilted'}"
+
+
+def _direction(axis: NDArray[np.float64]) -> str:
+    largest = int(np.argmax(np.abs(axis)))
+    return _DIRECTIONS[largest if axis[largest] > 0 else largest + 3]
