@@ -13,7 +13,7 @@ import numpy as np
 
 from coframe import quaternion
 from coframe.analysis.missing_edges import BASE_FRAMES
-from coframe.doctor.pose_mistakes import OPTICAL, corrections, explain
+from coframe.doctor.pose_mistakes import OPTICAL, Correction, corrections, explain
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -116,7 +116,7 @@ def _unrotated(edge: Edge) -> WrongAxes:
 def _corrected(chain: Sequence[Edge], turn: NDArray[np.float64]) -> WrongAxes | None:
     """Return the first edge and the corrections with which the camera is upright and looks forward."""
     for edge in chain:
-        found = {}
+        found: dict[str, Correction] = {}
         for correction in corrections(np.concatenate([edge.values[-1, :3], edge.rotations[-1]])):
             right, down, forward = _axes(_product(chain, (edge, correction.pose[3:])))
             if abs(right[2]) < _SMALL and down[2] < -_LARGE and forward[0] > _LARGE:

@@ -46,7 +46,7 @@ class Finding:
         explains: Its consequences: findings that disappear with this one.
         harm: Why it matters, if it differs from the page of the code.
         edges: All edges with the same problem, if it was found for many of them; the text describes the first one.
-        topics: All topics with the same problem, likewise.
+        topics: All topics with the same problem, if it was found for many of them.
     """
 
     code: str
