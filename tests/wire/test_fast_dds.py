@@ -99,6 +99,26 @@ def test_a_large_cloud_arrives(run):
     )
 
 
+def test_closed_endpoints_and_participants_leave_at_once(run):
+    """Without a key hash, Fast DDS would keep them until the lease of the participant expires, after 10 s."""
+    run(
+        """
+        fast = FastDds(domain_id())
+        fast.ask("guid", "writer", "rt/chatter", "std_msgs::msg::dds_::String_", "volatile")
+        participant = Participant.get()
+        node = participant.add_node("/", "listener")
+        text = find("std_msgs/msg/String")
+        subscriptions = [participant.subscription(node, "/chatter", text, QoS()) for _ in range(2)]
+        for left in (1, 0):
+            eventually(lambda: fast.ask("matched", "matched", "rt/chatter") == [str(left + 1)])
+            begun = time.monotonic()
+            subscriptions.pop().close() if left else participant.close()
+            eventually(lambda: fast.ask("matched", "matched", "rt/chatter") == [str(left)])
+            assert time.monotonic() - begun < 3
+        """
+    )
+
+
 def test_repeated_announcements_do_not_disturb(run, monkeypatch):
     interface = '<NetworkInterface address="127.0.0.1" multicast="true"/>'
     monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "SUBNET")  # where announcements are repeated
@@ -146,6 +166,124 @@ def test_late_static_transforms_arrive_before_why_answers(run):
             assert result.exit_code == 0, result.output
             assert "/calibration" in result.stdout
         """
+    )
+
+
+HISTORY = """
+import coframe._core as core
+
+text = find("std_msgs/msg/String")
+TOPIC, TYPE, DATA = "rt/map_name", "std_msgs::msg::dds_::String_", serialize(text(data="hall"))
+LATCHED = QoS(depth=1, transient_local=True)
+
+def join():
+    participant = Participant.get()
+    return participant, participant.subscription(participant.add_node("/", "viewer"), "/map_name", text, LATCHED)
+
+def seconds_to(condition):
+    begun = time.monotonic()
+    eventually(condition)
+    return time.monotonic() - begun
+
+def observer(participant):
+    return core.EndpointReader(participant._session.native.entity, core.SUBSCRIPTIONS, core.Event())
+
+def requests(changes):
+    return [topic for _, _, _, _, topic, _, _, user_data, _ in changes if b"coframe=history" in user_data]
+"""
+
+
+def test_history_arrives_when_its_writer_is_discovered(run):
+    """Without a request from coframe, it would arrive with the periodic heartbeat of Fast DDS, every 3 s."""
+    run(
+        HISTORY
+        + textwrap.dedent("""
+        fast = FastDds(domain_id())
+        guid = fast.ask("guid", "writer", TOPIC, TYPE, "transient")
+        fast.ask("written", "write", TOPIC, DATA.hex())
+        fast.announce("map_server", writers=[guid])
+        times = []
+        for _ in range(4):
+            participant, subscription = join()
+            eventually(lambda: participant.publishers("/map_name"))
+            times.append(seconds_to(lambda: subscription.take()))
+            times.append(seconds_to(lambda: ("/", "map_server") in participant.nodes()))
+            participant.close()
+        assert max(times) < 1 and sorted(times)[4] < 0.3, times
+        """)
+    )
+
+
+def test_history_of_a_node_that_starts_later_arrives_at_once(run):
+    run(
+        HISTORY
+        + textwrap.dedent("""
+        participant, subscription = join()
+        for number in range(1, 4):
+            fast = FastDds(domain_id())
+            fast.ask("guid", "writer", TOPIC, TYPE, "transient")
+            fast.ask("written", "write", TOPIC, DATA.hex())
+            eventually(lambda: len(participant.publishers("/map_name")) == number)
+            assert seconds_to(lambda: subscription.take()) < 1
+        participant.close()
+        """)
+    )
+
+
+def test_the_readers_that_request_history_are_few_and_not_shown(run):
+    run(
+        HISTORY
+        + textwrap.dedent("""
+        fast = FastDds(domain_id())
+        fast.ask("guid", "writer", TOPIC, TYPE, "transient")  # which writes nothing, so that no attempt succeeds
+        participant, subscription = join()
+        changes = observer(participant)
+        requested, shown = [], set()
+        def look():
+            requested.extend(requests(changes.take()))
+            shown.update(info.guid for info in participant.subscribers("/map_name"))
+            return requested.count(TOPIC)
+        eventually(lambda: look() == 3)
+        eventually(lambda: fast.ask("matched", "matched", TOPIC) == ["1"])
+        time.sleep(0.5)
+        assert look() == 3, requested
+        assert shown == {subscription.guid}
+        participant.close()
+        """)
+    )
+
+
+def test_history_is_requested_only_where_it_is_needed(run):
+    """Not from writers on Cyclone DDS, which send it without a request, and not for volatile subscriptions."""
+    run(
+        HISTORY
+        + textwrap.dedent("""
+        OTHER = '''if True:
+            import sys
+            from coframe.messages import find, serialize
+            from coframe.wire import Participant, QoS
+            text = find("std_msgs/msg/String")
+            participant = Participant.get()
+            node = participant.add_node("/", "other")
+            publisher = participant.publisher(node, "/map_name", text, QoS(depth=1, transient_local=True))
+            publisher.write(serialize(text(data="hall")))
+            sys.stdin.read()
+            participant.close()
+        '''
+        other = subprocess.Popen([sys.executable, "-c", OTHER], stdin=-1)
+        participant, subscription = join()
+        changes = observer(participant)
+        participant.subscription(participant.add_node("/", "listener"), "/chatter", text, QoS())
+        eventually(lambda: subscription.take())
+        other.stdin.close()
+        other.wait()
+        fast = FastDds(domain_id())
+        fast.ask("guid", "writer", "rt/chatter", TYPE, "transient")
+        fast.announce("talker")
+        eventually(lambda: participant.publishers("/chatter") and ("/", "talker") in participant.nodes())
+        assert set(requests(changes.take())) <= {"ros_discovery_info"}
+        participant.close()
+        """)
     )
 
 

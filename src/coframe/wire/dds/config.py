@@ -46,6 +46,11 @@ _RETRANSMISSION = (
     '<NackDelay>10ms</NackDelay><HeartbeatInterval min="5ms" minsched="10ms" max="2s">20ms</HeartbeatInterval>'
 )
 
+# Fast DDS identifies a closed endpoint or participant by its key hash. Without one, it would keep them until the lease
+# of the participant expires (10 s), show nodes that have ended, and wait for acknowledgements from closed readers. Only
+# discovery messages have keys, so that others remain as they are.
+_KEY_HASH = "<GenerateKeyhash>true</GenerateKeyhash>"
+
 # Hosts that could not reach each other for longer than the lease of 10 s find each other again by these announcements.
 # One multicast datagram is sent per interval; with static peers it would be one for each possible port of each peer.
 _ANNOUNCEMENTS = "<SPDPInterval>2s</SPDPInterval>"
@@ -130,7 +135,7 @@ def cyclone_config(environment: Mapping[str, str] = os.environ) -> str:
         WireError: An environment variable has an invalid value, or names a file that is not regular.
     """
     allowed = discovery_range(environment)
-    general, internal = _SIZES, _RETRANSMISSION
+    general, internal = _SIZES, _RETRANSMISSION + _KEY_HASH
     if allowed == "OFF":
         general += "<AllowMulticast>false</AllowMulticast>"
         # The tag excludes participants of other processes, even if they use the same port.

@@ -9,10 +9,11 @@ from coframe import _core
 from coframe.errors import WireError
 from coframe.wire.dds import config, library, participants
 from coframe.wire.dds._announcements import Announcements, participant_user_data
+from coframe.wire.dds._history import HistoryRequests
 from coframe.wire.dds.topics import create_topic
 from coframe.wire.qos import GRAPH_READER, GRAPH_WRITER, QoS
 from coframe.wire.rtps.announcer import NodeAnnouncer
-from coframe.wire.rtps.discovery_info import ADAPTS, TOPIC, TYPE
+from coframe.wire.rtps.discovery_info import ADAPTS, ROS_TYPE, TOPIC, TYPE
 from coframe.wire.rtps.graph import DdsGraph
 from coframe.wire.rtps.user_data import endpoint_user_data
 from coframe.wire.rtps.vendors import SERVICE_PARTITIONS, uses_service_partitions
@@ -56,15 +57,21 @@ class DdsSession:
         library.load()
         self.native = participants.join(domain, config.cyclone_config(), participant_user_data())
         self._announcements = Announcements(self.native, repeated=config.reaches_other_machines())
+        participant = self.native.entity
         self._announcer = NodeAnnouncer(
             self.native.guid,
-            _core.Writer(self.native.entity, self._graph_topic(), native_qos(GRAPH_WRITER), ADAPTS),
+            _core.Writer(
+                participant, self._graph_topic(), native_qos(GRAPH_WRITER), endpoint_user_data(ROS_TYPE, ADAPTS)
+            ),
         )
         self.graph = DdsGraph(
-            _core.Reader(self.native.entity, self._graph_topic(), native_qos(GRAPH_READER), "", changed),
-            _core.EndpointReader(self.native.entity, _core.PUBLICATIONS, changed),
-            _core.EndpointReader(self.native.entity, _core.SUBSCRIPTIONS, changed),
+            _core.Reader(
+                participant, self._graph_topic(), native_qos(GRAPH_READER), endpoint_user_data(ROS_TYPE), changed
+            ),
+            _core.EndpointReader(participant, _core.PUBLICATIONS, changed),
+            _core.EndpointReader(participant, _core.SUBSCRIPTIONS, changed),
         )
+        self._history = HistoryRequests(self.native, self.graph)
 
     def writer(
         self,
@@ -140,14 +147,16 @@ class DdsSession:
     def repeat_announcement(self) -> int:
         """Announce this process again if the network may have lost the first announcements."""
         self._announcer.repeat()
-        return self._announcements.send_due()
+        return min(self._announcements.send_due(), self._history.update())
 
     def adapt(self) -> str:
-        """Publish the nodes of this process in the form that the other participants can read."""
+        """Publish the nodes of this process in the form that the other participants can read, and request history."""
+        self._history.update()
         return self._announcer.adapt(self.graph)
 
     def close(self) -> None:
         """Leave the domain."""
+        self._history.close()
         self._announcer.close()
         self.graph.close()
         self.native.close()

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from collections.abc import Collection, Mapping
 
 TOPIC = "ros_discovery_info"
+ROS_TYPE = "rmw_dds_common/msg/ParticipantEntitiesInfo"
 TYPE = "rmw_dds_common::msg::dds_::ParticipantEntitiesInfo_"
 
 # Marks a writer on this topic whose form depends on the readers, so that no other process adapts to it.

@@ -11,7 +11,7 @@ from coframe.wire.graph import DiscoveredEndpoint, Graph
 from coframe.wire.qos import QoS
 from coframe.wire.rtps import vendors
 from coframe.wire.rtps.discovery_info import ADAPTS, TOPIC, decode_info
-from coframe.wire.rtps.user_data import type_hash_of
+from coframe.wire.rtps.user_data import REQUESTS_HISTORY, type_hash_of
 
 if TYPE_CHECKING:
     from coframe.wire._backend import BackendReader
@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 MAX_DEPARTED_WRITERS = 1_000  # remembered after they have left, because their requests may still be queued
 
 _BATCH = 256  # messages
+_HIDDEN = REQUESTS_HISTORY.encode()
 
 
 class EndpointReader(Protocol):
@@ -84,6 +85,20 @@ class DdsGraph(Graph):
                     found.setdefault(size, []).extend(names.full_name(node.namespace, node.name) for node in nodes)
         return found
 
+    def all_writers(self) -> dict[int, DiscoveredEndpoint]:
+        """Return the writers of all topics by their handles, without processing discovery messages."""
+        with self._lock:
+            return dict(self._writers)
+
+    def read_history(self, participant: bytes) -> set[tuple[str, str]]:
+        """Return the DDS topics, with their types, on which a participant has transient-local readers."""
+        with self._lock:
+            return {
+                (reader.topic, reader.type)
+                for reader in self._readers.values()
+                if reader.participant == participant and reader.qos.transient_local
+            }
+
     def _take_changes(self) -> bool:
         # Nodes are read before endpoints: if a participant leaves in between, its endpoints remove the nodes.
         changed = self._take_info()
@@ -104,20 +119,26 @@ class DdsGraph(Graph):
         return changed
 
     def _take_endpoints(self, reader: EndpointReader, known: dict[int, DiscoveredEndpoint]) -> bool:
-        changes = reader.take()
-        for handle, alive, guid, participant, topic, type_name, (depth, *policies), user_data, partitions in changes:
+        changed = False
+        for handle, alive, guid, participant, topic, type_name, (
+            depth,
+            *policies,
+        ), user_data, partitions in reader.take():
+            if user_data == _HIDDEN or (not alive and handle not in known):
+                continue
+            changed = True
             if alive:
                 qos = QoS(max(depth, 1), *policies)
                 known[handle] = DiscoveredEndpoint(
                     guid, participant, topic, type_name, qos, user_data, type_hash_of(user_data), partitions
                 )
                 continue
-            known.pop(handle, None)
+            del known[handle]
             if known is self._writers and not vendors.shares_services(guid):
                 self._departed[handle] = guid
                 if len(self._departed) > MAX_DEPARTED_WRITERS:
                     self._departed.popitem(last=False)
-        return bool(changes)
+        return changed
 
     def _remove_departed(self) -> None:
         participants = {writer.participant for writer in self._writers.values() if writer.topic == TOPIC}

@@ -7,6 +7,9 @@ import re
 
 from coframe.wire._type_hashes import type_hash_of_name
 
+REQUESTS_HISTORY = "coframe=history;"
+"""Marks a reader that exists only to request the history of writers. It belongs to no node and is not shown."""
+
 _TYPE_HASH = re.compile(rb"(?:^|;)typehash=(RIHS01_[0-9a-f]{64});")
 
 

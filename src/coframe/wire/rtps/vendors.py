@@ -8,10 +8,11 @@ from typing import TYPE_CHECKING, Final
 if TYPE_CHECKING:
     from coframe.wire.qos import QoS
 
+FAST_DDS: Final = "Fast DDS"
 _NAMES = {
     b"\x01\x01": "RTI Connext",
     b"\x01\x03": "OpenDDS",
-    b"\x01\x0f": "Fast DDS",
+    b"\x01\x0f": FAST_DDS,
     b"\x01\x10": "Cyclone DDS",
     b"\x01\x11": "GurumDDS",
     b"\x01\x12": "RustDDS",
@@ -32,7 +33,7 @@ Writers of replies are in the default partition: a client on Fast DDS ignores re
 itself matches a Fast DDS reader with "*". It waits for acknowledgements that the reader never sends (1 s when the
 writer is closed), and keeps messages for it; therefore writers have these partitions only where necessary.
 """
-_WITHOUT_DEFAULT_PARTITION = {"Fast DDS"}
+_WITHOUT_DEFAULT_PARTITION = {FAST_DDS}
 
 
 def vendor(guid: bytes) -> str:
