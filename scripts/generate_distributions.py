@@ -8,7 +8,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from coframe.distributions import BEHAVIOURS, DEFAULT, DEFINITIONS, REMOVED, VARIABLES, Distribution
+from coframe.distributions import BEHAVIORS, DEFAULT, DEFINITIONS, REMOVED, VARIABLES, Distribution
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -84,7 +84,7 @@ def page() -> str:
         removed=_rows((_removed_name(name), row.since.title, row.instead) for name, row in REMOVED.items()),
         behaviors=_rows(
             (row.what, row.since.title, row.before, row.after)
-            for row in sorted(BEHAVIOURS.values(), key=lambda row: row.since)
+            for row in sorted(BEHAVIORS.values(), key=lambda row: row.since)
         ),
     )
 

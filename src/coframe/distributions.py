@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
 __all__ = [
-    "BEHAVIOURS",
+    "BEHAVIORS",
     "DEFAULT",
     "DEFINITIONS",
     "NAMES",
@@ -127,12 +127,39 @@ REMOVED: Final[Mapping[str, Removed]] = {
 }
 """What distributions no longer have, by type, or by package with a slash at its end."""
 
-BEHAVIOURS: Final[Mapping[str, Behavior]] = {
+BEHAVIORS: Final[Mapping[str, Behavior]] = {
     "short_identifiers": Behavior(
         "identifiers in `ros_discovery_info`, if no other participant or both forms are in the domain",
         _JAZZY,
         "24 bytes",
         "16 bytes",
+    ),
+    "comparisons": Behavior(
+        "`Time` or `Duration` compared with an object of another class (`== None`)", _JAZZY, "`TypeError`", "not equal"
+    ),
+    "message_numbers": Behavior(
+        "information on a message for a callback with two arguments",
+        _JAZZY,
+        "two timestamps",
+        "also `publication_sequence_number` and `reception_sequence_number`, which are None",
+    ),
+    "message_publisher": Behavior(
+        "`publisher_gid` in this information", _KILTED, "absent", "the identifier of the publisher"
+    ),
+    "type_descriptions": Behavior(
+        "the service `~/get_type_description` of nodes, and their parameter `start_type_description_service`",
+        _JAZZY,
+        "absent",
+        "present",
+    ),
+    "bag_filter": Behavior(
+        "positional arguments of `rosbag2_py.StorageFilter`",
+        _JAZZY,
+        "`topics`, `topics_regex`, `topics_regex_to_exclude`",
+        "`topics`, `services_events`, `regex`, `exclude_topics`, `exclude_service_events`, `regex_to_exclude`",
+    ),
+    "call_timeout": Behavior(
+        "no response to `Client.call(request, timeout_sec=...)` in time", _KILTED, "returns None", "`TimeoutError`"
     ),
 }
 """The behaviors that differ, by the key that :func:`since` takes."""
@@ -175,8 +202,8 @@ def follows(variant: str) -> bool:
 
 
 def since(key: str) -> bool:
-    """Return whether this process has the newer form of a behavior of `BEHAVIOURS`."""
-    return current() >= BEHAVIOURS[key].since
+    """Return whether this process has the newer form of a behavior of `BEHAVIORS`."""
+    return current() >= BEHAVIORS[key].since
 
 
 def removal(ros_type: str) -> str:

@@ -103,11 +103,16 @@ def test_absent_names_say_what_to_use_instead(api):
         assert f"`{attribute}`" in text, f"docs/how-to/coming-from-tf2.md does not list {attribute}"
 
 
-def test_handles_say_that_they_do_not_exist():
-    for module, kind in (("publisher", "Publisher"), ("node", "Node"), ("timer", "Timer")):
-        cls = getattr(getattr(rclpy, module), kind)
-        with pytest.raises(AttributeError, match=f"{kind} has no handle: coframe has no C objects"):
-            _ = object.__new__(cls).handle
+def test_handles_are_opaque():
+    timer = rclpy.timer.Timer(None, rclpy.callback_groups.ReentrantCallbackGroup(), 1, rclpy.clock.Clock())
+    with timer.handle as handle:
+        assert handle == timer.handle
+        assert isinstance(handle.pointer, int)
+    with pytest.raises(AttributeError, match=r"The handle of a Timer has no attribute 'call_timer'\. coframe has no C"):
+        timer.handle.call_timer()
+    timer.handle.destroy_when_not_in_use()
+    with pytest.raises(rclpy.handle.InvalidHandle):
+        timer.reset()
 
 
 def test_names_that_upstream_modules_merely_import():

@@ -11,7 +11,7 @@ import pytest
 from rosbags.interfaces import Nodetype
 from rosbags.typesys import Stores, get_typestore
 
-from coframe.distributions import BEHAVIOURS, DEFAULT, DEFINITIONS, Distribution, selected
+from coframe.distributions import BEHAVIORS, DEFAULT, DEFINITIONS, Distribution, selected
 
 ROOT = Path(__file__).resolve().parents[2]
 STORES = {each: Stores[f"ROS2_{each.name}"] for each in Distribution}
@@ -145,7 +145,7 @@ def test_types_that_a_distribution_does_not_have_are_still_found_for_reading(tmp
 
 
 def test_every_behavior_says_what_differs() -> None:
-    for key, row in BEHAVIOURS.items():
+    for key, row in BEHAVIORS.items():
         assert row.before != row.after, key
         assert not row.what.endswith("."), key
 

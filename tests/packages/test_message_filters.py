@@ -228,6 +228,129 @@ def test_signatures_are_upstreams():
         "ApproximateTimeSynchronizer", "Cache", "SimpleFilter", "Subscriber", "TimeSynchronizer",
     }  # fmt: skip
     assert names(TimeSynchronizer) == ["fs", "queue_size"]
-    assert names(ApproximateTimeSynchronizer) == ["fs", "queue_size", "slop", "allow_headerless", "sync_arrival_time"]
+    arguments = ["fs", "queue_size", "slop", "allow_headerless", "sync_arrival_time", "offsets"]
+    assert names(ApproximateTimeSynchronizer) == arguments
     assert names(Cache) == ["f", "cache_size", "allow_headerless"]
     assert names(TimeSynchronizer.add) == ["self", "msg", "my_queue", "my_queue_index"]
+
+
+def test_a_sequencer_sorts_messages_and_delays_them(context_node):
+    node, spin = context_node
+    received = []
+    source = SimpleFilter()
+    sequencer = message_filters.TimeSequencer(source, 0.2, Duration(seconds=0.01), 10, node)
+    sequencer.registerCallback(lambda message: received.append((message.name, node.get_clock().now().nanoseconds)))
+    start = node.get_clock().now().nanoseconds
+    for name, offset in (("b", 20), ("a", 10), ("c", 30)):
+        source.signalMessage(stamped(start + offset * 1_000_000, name))
+    spin(lambda: len(received) == 3)
+    assert [name for name, _ in received] == ["a", "b", "c"]
+    assert all(at >= start + 210_000_000 for _, at in received)
+    source.signalMessage(stamped(start, "late"))
+    source.signalMessage(stamped(start + 40_000_000, "d"))
+    spin(lambda: len(received) == 4)
+    assert received[3][0] == "d"
+
+
+def test_a_sequencer_drops_the_earliest_messages_of_a_full_queue(context_node):
+    node, spin = context_node
+    received = []
+    sequencer = message_filters.TimeSequencer(None, 0.05, 0.01, 2, node)
+    sequencer.registerCallback(lambda message: received.append(message.name))
+    start = node.get_clock().now().nanoseconds
+    for number, name in enumerate("abc"):
+        sequencer.add(stamped(start + number, name))
+    spin(lambda: len(received) == 2)
+    assert received == ["b", "c"]
+
+
+@pytest.fixture
+def context_node(domain_id):
+    context = rclpy.context.Context()
+    context.init([], domain_id=domain_id)
+    node = rclpy.create_node("filters", context=context)
+    executor = rclpy.executors.SingleThreadedExecutor(context=context)
+    executor.add_node(node)
+
+    def spin(condition):
+        deadline = time.monotonic() + 10
+        while not condition():
+            assert time.monotonic() < deadline
+            executor.spin_once(timeout_sec=0.1)
+
+    yield node, spin
+    executor.shutdown()
+    node.destroy_node()
+    context.try_shutdown()
+
+
+def test_offsets_are_added_before_stamps_are_compared():
+    inputs, received, _ = synchronize(ApproximateTimeSynchronizer, 2, 5, 0.01, offsets=[Duration(seconds=1), 0.0])
+    inputs[0].signalMessage(stamped(0))
+    inputs[1].signalMessage(stamped(0))
+    assert received == []
+    inputs[1].signalMessage(stamped(1_000_000_000))
+    assert received == [[0, 1_000_000_000]]
+    with pytest.raises(ValueError, match="1 offsets for 2 filters"):
+        synchronize(ApproximateTimeSynchronizer, 2, 5, 0.01, offsets=[0.0])
+
+
+def test_a_chain_passes_messages_through_all_filters():
+    source, received = SimpleFilter(), []
+    chain = message_filters.Chain(message_filters.ComparisonFilter(source, lambda last, new: new.time != last.time))
+    chain.registerCallback(lambda message, word: received.append((message.name, word)), "word")
+    cache = Cache(None, 5)
+    assert chain.addFilter(cache) == 1
+    for time_, name in ((1, "a"), (1, "b"), (2, "c")):
+        source.signalMessage(stamped(time_, name))
+    assert received == [("a", "word"), ("c", "word")]
+    assert [message.name for message in cache.cache_msgs] == ["a", "c"]
+    assert (chain.getFilter(1), chain.getFilter(2)) == (cache, None)
+    chain.add(stamped(3, "d"))
+    assert received[-1] == ("d", "word")
+
+
+def test_delta_filters_let_changes_through():
+    received, by_function = [], []
+    delta = message_filters.DeltaFilter(None, "twist.linear.x", 0.5)
+    delta.registerCallback(lambda message: received.append(message.twist.linear.x))
+    other = message_filters.DeltaFilter(delta, lambda message: message.twist.linear.x, 2.0)
+    other.registerCallback(lambda message: by_function.append(message.twist.linear.x))
+    for x in (0.0, 0.4, 0.5, 0.9, -3.0):
+        delta.add(SimpleNamespace(twist=SimpleNamespace(linear=SimpleNamespace(x=x))))
+    assert received == [0.0, 0.5, -3.0]
+    assert by_function == [0.0, -3.0]
+
+
+def test_path_filters_measure_the_way():
+    received = []
+    path = message_filters.PathDeltaFilter(None, "point", 2.0)
+    path.registerCallback(lambda message: received.append(message.point.x))
+    for x in (0.0, 1.0, 0.0, 0.5, 2.0, 2.5):
+        message = PointStamped()
+        message.point.x = x
+        path.add(message)
+    assert received == [0.0, 0.0, 2.0]
+    pairs = message_filters.PathDeltaFilter(None, lambda message: (message, 0.0), 1.0)
+    pairs.registerCallback(received.append)
+    pairs.add(7.0)
+    assert received[-1] == 7.0
+
+
+def test_an_aligner_passes_messages_on_in_the_order_of_their_stamps():
+    first, second, received = SimpleFilter(), SimpleFilter(), []
+    aligner = message_filters.InputAligner(Duration(seconds=1e-6), first, second)
+    for index in (0, 1):
+        aligner.registerCallback(index, lambda message, index: received.append((index, message.time)), index)
+        aligner.setInputPeriod(index, Duration(nanoseconds=10))
+    first.signalMessage(stamped(10))
+    second.signalMessage(stamped(5))
+    assert received == [(1, 5), (0, 10)]
+    first.signalMessage(stamped(20))  # The second filter can still deliver 15.
+    assert received == [(1, 5), (0, 10)]
+    second.signalMessage(stamped(15))
+    assert received[2:] == [(1, 15), (0, 20)]
+    second.signalMessage(stamped(7))  # earlier than one that was passed on
+    first.signalMessage(stamped(2_000))
+    first.signalMessage(stamped(4_000))
+    assert received[4:] == [(0, 2_000)]

@@ -164,3 +164,22 @@ def test_mistakes_are_runtime_errors_that_say_what_is_wrong(tmp_path: Path) -> N
     with pytest.raises(TypeError, match="missing: type, serialization_format"):
         rosbag2_py.TopicMetadata("/a")
     writer.close()
+
+
+def test_filters_have_the_names_of_the_distributions(monkeypatch):
+    current = rosbag2_py.StorageFilter(["/a"], ["/s/_service_event"], "b.*", ["/c"], [], "d.*")
+    assert (current.topics, current.services_events, current.regex) == (["/a"], ["/s/_service_event"], "b.*")
+    assert (current.exclude_topics, current.topics_regex_to_exclude) == (["/c"], "d.*")
+    assert rosbag2_py.StorageFilter(topics_regex="x").regex == rosbag2_py.StorageFilter(regex="x").topics_regex == "x"
+    with pytest.raises(TypeError, match="does not take the argument 'topic' here; it has topics, services_events"):
+        rosbag2_py.StorageFilter(topic=["/a"])
+    monkeypatch.setattr("rosbag2_py._options.since", lambda _: False)
+    assert rosbag2_py.StorageFilter(["/a"], "b.*", "c.*").regex_to_exclude == "c.*"
+    with pytest.raises(TypeError, match="takes 3 arguments, but 4 were given"):
+        rosbag2_py.StorageFilter([], "", "", [])
+
+
+def test_read_orders_have_the_names_of_ros():
+    names = rosbag2_py.ReadOrderSortBy
+    assert [names.ReceivedTimestamp.value, names.PublishedTimestamp.value, names.File.value] == [0, 1, 2]
+    assert rosbag2_py.ReadOrder().sort_by is names.ReceivedTimestamp

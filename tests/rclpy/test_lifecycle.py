@@ -135,7 +135,7 @@ def test_entities_follow_the_node_and_can_fail(context):
     node.trigger_configure()
     assert node.trigger_activate() is FAILURE
     assert label(node) == "inactive"
-    assert list(node.services) == []
+    assert [service.srv_name for service in node.services] == ["~/get_type_description"]
     with pytest.raises(TypeError, match="publisher_class"):
         node.create_lifecycle_publisher(String, "chatter", 1, publisher_class=LifecyclePublisher)
     assert node.destroy_lifecycle_publisher(publisher)

@@ -84,7 +84,8 @@ def test_client_of_another_node(context, make_node, executor, wait_until, tmp_pa
         executor.spin_until_future_complete(future, timeout_sec=10)
         return future.result()
 
-    assert set(result(client.list_parameters()).result.names) == {"use_sim_time", "rate", "gain.p", "any"}
+    names = {"use_sim_time", "start_type_description_service", "rate", "gain.p", "any"}
+    assert set(result(client.list_parameters()).result.names) == names
     assert result(client.list_parameters(["gain"], 1)).result.names == ["gain.p"]
     assert [value.integer_value for value in result(client.get_parameters(["rate"])).values] == [5]
     assert list(result(client.get_parameter_types(["rate", "gain.p"])).types) == [2, 3]

@@ -16,8 +16,7 @@ from rclpy.callback_groups import MutuallyExclusiveCallbackGroup
 from rclpy.executors import MultiThreadedExecutor, SingleThreadedExecutor
 from rclpy.logging import LoggingSeverity
 from rclpy.parameter import Parameter
-from rclpy.qos import QoSProfile, qos_profile_system_default
-from rclpy.service_introspection import ServiceIntrospectionState
+from rclpy.qos import QoSProfile
 from std_srvs.srv import SetBool, Trigger
 
 
@@ -154,7 +153,7 @@ def test_parameter_services(context, make_node, executor):
         return future.result()
 
     listed = call(ListParameters, "list_parameters").result
-    assert set(listed.names) == {"use_sim_time", "rate", "gain.p"}
+    assert set(listed.names) == {"use_sim_time", "start_type_description_service", "rate", "gain.p"}
     assert listed.prefixes == ["gain"]
     assert call(ListParameters, "list_parameters", prefixes=["gain"]).result.names == ["gain.p"]
     [value] = call(GetParameters, "get_parameters", names=["rate"]).values
@@ -189,16 +188,6 @@ def test_log_levels_through_services(context, make_node, executor):
     assert [(level.name, level.level) for level in found] == [("served", 10), ("unknown", 0)]
     rclpy.logging.clear_config()
     served.destroy_node()
-
-
-def test_introspection_can_only_be_off(node):
-    client = node.create_client(SetBool, "switch")
-    client.configure_introspection(node.get_clock(), qos_profile_system_default, ServiceIntrospectionState.OFF)
-    service = node.create_service(SetBool, "switch", lambda _, response: response)
-    with pytest.raises(NotImplementedError, match=r"Service introspection \(METADATA\) does not exist"):
-        service.configure_introspection(
-            node.get_clock(), qos_profile_system_default, ServiceIntrospectionState.METADATA
-        )
 
 
 def test_pending_requests_by_number(node):

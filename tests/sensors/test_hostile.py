@@ -67,7 +67,7 @@ def test_a_cloud_without_wrong_sizes_is_accepted():
         ({"height": 2**70}, "data has 96 bytes"),
         ({"fields": [UncheckedField(name, MAX_UINT32, 7, 1) for name in "xyz"]}, "'x' ends at byte"),
         ({"fields": [UncheckedField(name, -4, 7, 1) for name in "xyz"]}, "must not be negative"),
-        ({"fields": [UncheckedField(name, 0, 9, 1) for name in "xyz"]}, "datatype 9"),
+        ({"fields": [UncheckedField(name, 0, 12, 1) for name in "xyz"]}, "datatype 12"),
         ({"fields": [UncheckedField(name, 0, 7, 3) for name in "xyz"]}, "'x' must have one number per point, not 3"),
         ({"fields": [UncheckedField(name, 0, 5, 1) for name in "xyz"]}, "float32 or float64, not int32"),
         ({"fields": [UncheckedField(name, 9, 8, 1) for name in "xyz"]}, "'x' ends at byte 17"),

@@ -11,10 +11,10 @@ from coframe.messages import find
 from coframe.messages.type_hash import type_hash
 from coframe.type_names import TF_MESSAGE
 from coframe.wire import QoS, request_header
-from coframe.wire._type_hashes import TF_MESSAGE_HASH
 from coframe.wire.dds.topics import create_topic
 from coframe.wire.rtps.discovery_info import TOPIC, NodeInfo, decode_info, encode_info
 from coframe.wire.rtps.user_data import endpoint_user_data, type_hash_of
+from coframe.wire.type_hashes import TF_MESSAGE_HASH
 
 PARTICIPANT = "01103a4b5c6d7e8f90a1b2c3000001c1"
 READER, WRITER = "01103a4b5c6d7e8f90a1b2c300000504", "01103a4b5c6d7e8f90a1b2c300000403"

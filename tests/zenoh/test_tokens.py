@@ -9,9 +9,9 @@ from hypothesis import strategies as st
 
 pytest.importorskip("xxhash", reason="Zenoh's identifiers need xxhash")
 
-from coframe.wire._type_hashes import type_hash_of_name
 from coframe.wire.names import Endpoint
 from coframe.wire.qos import INFINITE, SENSOR, TF, TF_STATIC_WRITER, QoS
+from coframe.wire.type_hashes import type_hash_of_name
 from coframe.wire.zenoh import _keys as keys
 from coframe.wire.zenoh import _tokens as tokens
 from coframe.wire.zenoh._large_types import has_unbounded_bytes

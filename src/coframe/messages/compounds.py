@@ -47,11 +47,17 @@ def member_messages(package: str, kind: str, name: str, parts: Sequence[Structur
     }
 
 
-def event(package: str, name: str) -> Structure:
-    """Return the message in which a service of ROS 2 Iron and later publishes its requests and responses."""
+def event(package: str, name: str, kind: str = "srv") -> Structure:
+    """Return the message in which a service of ROS 2 Iron and later publishes its requests and responses.
+
+    Args:
+        package: The package of the service.
+        name: The name of the service.
+        kind: ``srv``, or ``action`` for a service of the action protocol.
+    """
 
     def of(part: str) -> BoundedSequence:
-        return BoundedSequence(NamespacedType((package, "srv"), f"{name}_{part}"), 1)
+        return BoundedSequence(NamespacedType((package, kind), f"{name}_{part}"), 1)
 
     info = Field("info", NamespacedType(("service_msgs", "msg"), "ServiceEventInfo"), None)
     return _structure(info, Field("request", of("Request"), None), Field("response", of("Response"), None))

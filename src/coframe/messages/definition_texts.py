@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from coframe.messages.message import Message
     from coframe.messages.schema_classes import ResolvedSchema
 
-__all__ = ["definition_of", "recorded_definition"]
+__all__ = ["definition_of", "recorded_definition", "source_of"]
 
 _SEPARATOR = "=" * 80
 _NAMES = {"boolean": "bool", "octet": "byte", "float": "float32", "double": "float64"}
@@ -48,6 +48,24 @@ def definition_of(ros_type: str) -> str:
     except LookupError:
         return ""
     return _joined(texts)
+
+
+def source_of(ros_type: str) -> tuple[str, str]:
+    """Return the format and the text of the file that defines a type.
+
+    The format is ``msg``, ``srv``, ``action`` or ``idl``; it is ``implicit``, and the text empty, for parts of services
+    and actions.
+
+    Raises:
+        LookupError: coframe does not have the type.
+    """
+    package, kind, name = ros_type.split("/")
+    find(ros_type)
+    found = shipped(package) if is_generated(package) else find_package(package)
+    if found is None or name not in found.names(kind):
+        return "implicit", ""
+    definition = found.definition(kind, name)
+    return ("idl" if definition.is_idl else kind), definition.text
 
 
 def recorded_definition(cls: type[Message], schema: ResolvedSchema) -> str:
@@ -108,9 +126,9 @@ def _definition(ros_type: str) -> _Definition:
     """
     package, _, rest = ros_type.partition("/")
     kind, _, name = rest.partition("/")
-    if kind == "srv" and name.endswith(_EVENT):
+    if kind in ("srv", "action") and name.endswith(_EVENT):
         find(ros_type.removesuffix(_EVENT))
-        return _written(event(package, name.removesuffix(_EVENT)))
+        return _written(event(package, name.removesuffix(_EVENT), kind))
     find(ros_type)
     found = shipped(package) if is_generated(package) else find_package(package)
     if found is None:

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from operator import ne
-from typing import Any, ClassVar
+from typing import Any, ClassVar, Final
 
 import numpy as np
 
@@ -12,7 +12,7 @@ from coframe._output import html_tables
 from coframe.messages._fields import CHECKED, Check, attribute, constructor_conversion, number_of
 from coframe.messages._yaml_text import to_yaml
 from coframe.messages.definition import AbstractSequence, AbstractType, describe
-from coframe.messages.registry import classes
+from coframe.messages.registry import classes, find
 
 
 class MessageType(type):
@@ -83,10 +83,23 @@ class Message(metaclass=MessageType):
         return html_tables.section(self.ROS_TYPE, html_tables.preformatted(lines))
 
 
+EVENT_SUFFIX: Final = "_Event"  # of the type in which a service publishes its requests and responses
+
+
+class _EventClass:
+    """Attribute ``Event`` of services: the class is created when it is first used."""
+
+    def __get__(self, _: object, service: type[Service]) -> Any:
+        return find(service.ROS_TYPE + EVENT_SUFFIX)
+
+
 class Service:
-    """Base class of services, which contain the classes Request and Response and have no instances."""
+    """Base class of services, which contain the classes Request, Response and Event and have no instances."""
 
     ROS_TYPE: ClassVar[str]
+    Request: ClassVar[Any]
+    Response: ClassVar[Any]
+    Event: ClassVar[Any] = _EventClass()
 
     def __init_subclass__(cls) -> None:
         _register(cls)

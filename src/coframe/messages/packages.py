@@ -195,9 +195,11 @@ def exports(package: InterfacePackage, kind: str) -> Exports:
         ros_type = f"{package.name}/{kind}/{name}"
         if package.folder is None and (reason := removal(ros_type)):
             raise ImportError(reason)
+        from coframe.messages.events import create_event_class  # noqa: PLC0415 - no class is used before
+
         if ros_type not in registry.classes:
             package.create(kind, name)
-        if ros_type not in registry.classes:
+        if ros_type not in registry.classes and not (name.endswith("_Event") and create_event_class(ros_type)):
             raise AttributeError(f"module '{package.name}.{kind}' has no attribute '{name}'")
         return registry.classes[ros_type]
 

@@ -33,9 +33,15 @@ def find(ros_type: str) -> Any:
     package, kind, name = match.groups()
     if not _load(package, kind, name):
         raise LookupError(f"no type {ros_type}: coframe has no package {package} with {kind} types")
-    if ros_type not in classes:
+    if ros_type not in classes and not (name.endswith("_Event") and _create_event_class(ros_type)):
         raise LookupError(f"no type {ros_type}: package {package} has no {kind} type {name}")
     return classes[ros_type]
+
+
+def _create_event_class(ros_type: str) -> bool:
+    from coframe.messages.events import create_event_class  # noqa: PLC0415 - it imports this module
+
+    return create_event_class(ros_type)
 
 
 def class_of(type_: NamespacedType) -> Any:

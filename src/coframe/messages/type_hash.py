@@ -26,7 +26,7 @@ from coframe.messages.definition import (
 from coframe.messages.message import Action, Message, Service
 from coframe.messages.registry import find
 
-__all__ = ["type_hash"]
+__all__ = ["description_text", "type_hash"]
 
 _PREFIX = "RIHS01_"
 # The numbers of type_description_interfaces/msg/FieldType.
@@ -85,12 +85,23 @@ def type_hash(interface: Any) -> str:
         >>> type_hash(find("std_msgs/msg/String"))
         'RIHS01_df668c740482bbd48fb39d76a70dfd4bd59db1288021743503259e948f6b1a18'
     """
+    return _PREFIX + hashlib.sha256(description_text(interface).encode()).hexdigest()
+
+
+def description_text(interface: Any) -> str:
+    """Return the description of a message, service or action class as JSON, whose SHA-256 is the hash.
+
+    It has the fields of type_description_interfaces/msg/TypeDescription, without the default values.
+
+    Raises:
+        LookupError: The definition contains a message that is unknown.
+        TypeError: It is not such a class.
+    """
     if not _is_interface(interface):
         raise TypeError(f"expected a message, service or action class, not {interface!r}")
     described = _description(interface)
     referenced = ", ".join(described.referenced[name] for name in sorted(described.referenced))
-    text = f'{{"type_description": {described.text}, "referenced_type_descriptions": [{referenced}]}}'
-    return _PREFIX + hashlib.sha256(text.encode()).hexdigest()
+    return f'{{"type_description": {described.text}, "referenced_type_descriptions": [{referenced}]}}'
 
 
 def _is_interface(interface: Any) -> bool:

@@ -25,7 +25,7 @@ _POSITION = ("x", "y", "z")
 _FLOAT64 = 8  # PointField.FLOAT64
 NORMALS = (("normal_x", "normal_y", "normal_z"), ("nx", "ny", "nz"))
 # NumPy dtypes by PointField constant, for both byte orders.
-_KINDS = {1: "i1", 2: "u1", 3: "i2", 4: "u2", 5: "i4", 6: "u4", 7: "f4", 8: "f8"}
+_KINDS = {1: "i1", 2: "u1", 3: "i2", 4: "u2", 5: "i4", 6: "u4", 7: "f4", 8: "f8", 9: "i8", 10: "u8", 11: "b1"}
 _DTYPES = {
     is_bigendian: {number: np.dtype(order + kind) for number, kind in _KINDS.items()}
     for is_bigendian, order in ((False, "<"), (True, ">"))

@@ -85,5 +85,9 @@ class GraphQueries:
         """Return the full name of the node that a writer belongs to, such as "/talker"; None if it is unknown."""
         return self._graph.writer_node(handle)
 
+    def find_writer(self, handle: int) -> DiscoveredEndpoint | None:
+        """Return a writer by its handle; None if it has left."""
+        return self._graph.writer(handle)
+
     def _describe(self, endpoints: dict[int, DiscoveredEndpoint]) -> list[EndpointInfo]:
         return [self._graph.describe(endpoint) for endpoint in endpoints.values()]

@@ -75,6 +75,10 @@ class GraphNode:
         """The node's open endpoints."""
         return list(self._endpoints.values())
 
+    def find_writer(self, handle: int) -> DiscoveredEndpoint | None:
+        """Return the writer that sent a `Sample`, given its handle; None if it has left."""
+        return self._participant.find_writer(handle)
+
     def info(self) -> NodeInfo:
         """Return the description of this node that is published on the graph."""
         endpoints = self.endpoints
@@ -134,6 +138,12 @@ class LocalEndpoint:
     def matched(self) -> int:
         """The number of matched endpoints on the other side; 0 after `close`."""
         return self._unless_closed(lambda: self._endpoint.matched, 0)
+
+    def writer(self, handle: int) -> DiscoveredEndpoint | None:
+        """Return the writer that sent a `Sample`, given its handle; None if it has left."""
+        with self._lock:
+            node = self._nodes[0] if self._nodes else None
+        return None if node is None else node.find_writer(handle)
 
     def matched_handles(self) -> set[int]:
         """Return the handles of the matched endpoints on the other side."""

@@ -5,7 +5,23 @@ Filters only use the public API of rclpy, so they also work with a sourced ROS t
 """
 
 from message_filters._cache import Cache
+from message_filters._chain import Chain
 from message_filters._filters import SimpleFilter, Subscriber
+from message_filters._sequencer import TimeSequencer
 from message_filters._synchronizers import ApproximateTimeSynchronizer, TimeSynchronizer
+from message_filters.delta_filter import ComparisonFilter, DeltaFilter, PathDeltaFilter
+from message_filters.input_aligner import InputAligner
 
-__all__ = ["ApproximateTimeSynchronizer", "Cache", "SimpleFilter", "Subscriber", "TimeSynchronizer"]
+__all__ = [
+    "ApproximateTimeSynchronizer",
+    "Cache",
+    "Chain",
+    "ComparisonFilter",
+    "DeltaFilter",
+    "InputAligner",
+    "PathDeltaFilter",
+    "SimpleFilter",
+    "Subscriber",
+    "TimeSequencer",
+    "TimeSynchronizer",
+]

@@ -6,6 +6,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from rclpy.clock import Clock, ROSClock
+from rclpy.duration import Duration
 from rclpy.logging import get_logger
 from rclpy.time import Time
 
@@ -29,6 +30,13 @@ def header_nanoseconds(message: Any) -> int:
     if hasattr(stamp, "nanoseconds"):
         return int(stamp.nanoseconds)
     return int(stamp.sec) * 1_000_000_000 + int(stamp.nanosec)
+
+
+def as_nanoseconds(duration: Duration | float) -> int:
+    """Return a `Duration`, or a number of seconds, in nanoseconds."""
+    if isinstance(duration, Duration):
+        return int(duration.nanoseconds)
+    return int(duration * 1_000_000_000)
 
 
 class ArrivalClock:

@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING, Any
 
 from message_filters._filters import SimpleFilter
 from message_filters._matching import first_match
-from message_filters._stamps import ArrivalClock, header_nanoseconds, header_stamp, warn_headerless
+from message_filters._stamps import ArrivalClock, as_nanoseconds, header_nanoseconds, header_stamp, warn_headerless
 from rclpy.duration import Duration
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Sequence
 
 
 class TimeSynchronizer(SimpleFilter):
@@ -77,6 +77,8 @@ class ApproximateTimeSynchronizer(TimeSynchronizer):
         allow_headerless: Whether to use the time of arrival as stamp of messages without a header. Otherwise, they are
             ignored with a warning.
         sync_arrival_time: Whether to use the time of arrival as stamp of all messages.
+        offsets: For each filter, a `Duration` or seconds that are added to its stamps before they are compared. None:
+            no offsets.
     """
 
     def __init__(
@@ -86,8 +88,13 @@ class ApproximateTimeSynchronizer(TimeSynchronizer):
         slop: float,
         allow_headerless: bool = False,
         sync_arrival_time: bool = False,
+        *,
+        offsets: Sequence[Duration | float] | None = None,
     ) -> None:
         super().__init__(fs, queue_size)
+        self._offsets = [0] * len(self.queues) if offsets is None else [as_nanoseconds(each) for each in offsets]
+        if len(self._offsets) != len(self.queues):
+            raise ValueError(f"{len(self._offsets)} offsets for {len(self.queues)} filters")
         self.slop = Duration(seconds=slop)
         self.allow_headerless = allow_headerless
         self.sync_arrival_time = sync_arrival_time
@@ -106,15 +113,15 @@ class ApproximateTimeSynchronizer(TimeSynchronizer):
                 warn_headerless("message_filters_approx")
                 return
             stamp = self._arrivals.now()
-        new = stamp.nanoseconds
+        index = my_queue_index
+        if index is None:
+            index = next(number for number, queue in enumerate(self.queues) if queue is my_queue)
+        new = stamp.nanoseconds + self._offsets[index]
         with self.lock:
             self._arrivals.clear_after_jump_back(self.queues)
             _store(msg, new, my_queue, self.queue_size)
             if new not in my_queue or not all(self.queues):
                 return
-            index = my_queue_index
-            if index is None:
-                index = next(number for number, queue in enumerate(self.queues) if queue is my_queue)
             others = first_match(new, self.queues[:index] + self.queues[index + 1 :], self.slop.nanoseconds)
             if others is not None:
                 stamps = [*others[:index], new, *others[index:]]

@@ -66,11 +66,13 @@ from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.impl import implementation_singleton  # noqa: F401 - libraries use it as an attribute
 from rclpy.parameter import Parameter
+from rclpy.qos import qos_profile_rosout_default
 from rclpy.signals import (
     SignalHandlerOptions,
     install_signal_handlers,
     uninstall_signal_handlers,
 )
+from rclpy.subscription import MessageInfo
 from rclpy.task import Future
 from rclpy.utilities import (
     get_default_context,
@@ -85,11 +87,13 @@ if TYPE_CHECKING:
 
     from rclpy.executors import Executor
     from rclpy.node import Node
+    from rclpy.qos import QoSProfile
 
 __all__ = [
     "Context",
     "Future",
     "InitContextManager",
+    "MessageInfo",
     "Parameter",
     "SignalHandlerOptions",
     "SingleThreadedExecutor",
@@ -252,6 +256,7 @@ def create_node(
     allow_undeclared_parameters: bool = False,
     automatically_declare_parameters_from_overrides: bool = False,
     enable_logger_service: bool = False,
+    rosout_qos_profile: QoSProfile | int = qos_profile_rosout_default,
 ) -> Node:
     """Create a node. The arguments are the same as for `rclpy.node.Node`."""
     return node.Node(
@@ -266,6 +271,7 @@ def create_node(
         allow_undeclared_parameters=allow_undeclared_parameters,
         automatically_declare_parameters_from_overrides=automatically_declare_parameters_from_overrides,
         enable_logger_service=enable_logger_service,
+        rosout_qos_profile=rosout_qos_profile,
     )
 
 

@@ -15,6 +15,8 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
     from types import ModuleType
 
+    from typing_extensions import Self
+
 # Where the names are defined that upstream's modules import from each other.
 _ORIGINS: Final = {
     "rcl_interfaces.msg": (
@@ -43,9 +45,11 @@ _ORIGINS: Final = {
     "rclpy.qos": ("QoSHistoryPolicy", "QoSProfile"),
     "rclpy.qos_event": ("QoSEventHandler",),
     "rclpy.service": ("Service",),
-    "rclpy.subscription": ("Subscription",),
-    "rclpy.task": ("Future",),
-    "rclpy.timer": ("Timer",),
+    "rclpy.service_introspection": ("ServiceIntrospectionState",),
+    "rclpy.signals": ("SignalHandlerGuardCondition",),
+    "rclpy.subscription": ("MessageInfo", "Subscription"),
+    "rclpy.task": ("Future", "Task"),
+    "rclpy.timer": ("Timer", "TimerInfo"),
     "rclpy.topic_endpoint_info": ("TopicEndpointInfo",),
     "rclpy.type_support": (
         *("MsgType", "SrvType", "SrvTypeRequest", "SrvTypeResponse"),
@@ -68,7 +72,6 @@ _WAIT_SETS = (
     "This is a part of upstream's executors. Override wait_for_ready_callbacks of an executor, or create a task with "
     "Executor.create_task."
 )
-_SIGNALS = "Signal handlers wake executors themselves. Use Context.on_shutdown to be called at a shutdown."
 _HANDLES = "coframe has no C objects. Use the methods of the Python object."
 _ACTIONS = "Executors run actions without these methods of a waitable. Use the methods with `goal` in their names."
 
@@ -78,9 +81,6 @@ ABSENT: Final = {
     "rclpy.context.g_logging_ref_count": _LOCKS,
     "rclpy.utilities.g_context_lock": _LOCKS,
     "rclpy.utilities.g_default_context": _LOCKS,
-    "rclpy.executors.SignalHandlerGuardCondition": _SIGNALS,
-    "rclpy.signals.SignalHandlerGuardCondition": _SIGNALS,
-    "rclpy.wait_for_message.SignalHandlerGuardCondition": _SIGNALS,
     "rclpy.executors.TimeoutObject": _WAIT_SETS,
     "rclpy.executors.WaitableEntityType": _WAIT_SETS,
     "rclpy.impl.implementation_singleton.import_c_library": _HANDLES,
@@ -92,7 +92,7 @@ ABSENT: Final = {
     "rclpy.impl.rcutils_logger.get_filters_from_kwargs": _FILTERS,
     "rclpy.impl.rcutils_logger.supported_filters": _FILTERS,
 }
-# The same for the attributes of classes. `handle` is a property that raises the sentence.
+# The same for the attributes of classes.
 ABSENT_ATTRIBUTES: Final = {
     "ActionClient": ({"add_future", "add_to_wait_set", "execute", "get_num_entities", "is_ready"}, _ACTIONS),
     "ActionServer": ({"add_future", "add_to_wait_set", "execute", "get_num_entities", "is_ready"}, _ACTIONS),
@@ -101,18 +101,50 @@ for _attributes, _ in ABSENT_ATTRIBUTES.values():
     _attributes.update({"notify_goal_done", "remove_future", "take_data"})
 
 
+class EntityHandle:
+    """The value of the attribute `handle` of an entity, which is a C object in upstream's rclpy.
+
+    It is a context manager, can be passed to a wait set, and says in an error that other attributes do not exist.
+    """
+
+    def __init__(self, entity: Any) -> None:
+        self._entity = entity
+
+    @property
+    def pointer(self) -> int:
+        """A number that identifies the entity while it exists."""
+        return id(self._entity)
+
+    def destroy_when_not_in_use(self) -> None:
+        """Destroy the entity."""
+        (getattr(self._entity, "destroy", None) or self._entity.destroy_node)()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        """Leave the entity as it is."""
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, EntityHandle) and other.pointer == self.pointer
+
+    def __hash__(self) -> int:
+        return id(self._entity)
+
+    def __getattr__(self, name: str) -> Any:
+        raise AttributeError(f"The handle of a {type(self._entity).__name__} has no attribute {name!r}. {_HANDLES}")
+
+
 class Handle:
-    """Property `handle` of the entities, which are C objects only in upstream's rclpy."""
+    """Property `handle` of the entities."""
 
-    def __get__(self, entity: object, owner: type[object]) -> Handle:
-        if entity is None:
-            return self
-        raise no_handle(owner)
+    def __get__(self, entity: object, owner: type[object]) -> Any:
+        return self if entity is None else EntityHandle(entity)
 
 
-def no_handle(owner: type[object]) -> AttributeError:
-    """Return the error of reading `handle`."""
-    return AttributeError(f"{owner.__name__} has no handle: {_HANDLES}")
+def entity_of(handle: Any) -> Any:
+    """Return the entity of a handle, and any other object itself."""
+    return handle._entity if isinstance(handle, EntityHandle) else handle  # noqa: SLF001 - the class is above
 
 
 def install(modules: Iterable[ModuleType]) -> None:

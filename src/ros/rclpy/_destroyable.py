@@ -1,7 +1,48 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The error of using a destroyed entity."""
+"""What publishers, subscriptions, timers and other entities of a node have in common: how they are destroyed."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
 
 from rclpy.exceptions import InvalidHandle, _with_hint
+
+if TYPE_CHECKING:
+    from types import TracebackType
+
+    from typing_extensions import Self
+
+__all__ = ["Destroyable", "LoggingEntity", "destroyed"]
+
+
+class Destroyable:
+    """Base class of entities. At the end of a `with` block, the entity is destroyed."""
+
+    def destroy(self) -> None:
+        """Destroy the entity."""
+        raise NotImplementedError(f"{type(self).__name__} does not implement destroy()")
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        exc_type: type[BaseException] | None,
+        exc_value: BaseException | None,
+        traceback: TracebackType | None,
+    ) -> None:
+        self.destroy()
+
+
+class LoggingEntity(Destroyable):
+    """Base class of publishers, subscriptions, clients and services, which log with the logger of their node."""
+
+    _Coframe__logger_name = ""
+
+    @property
+    def logger_name(self) -> str:
+        """The name of the node's logger."""
+        return self._Coframe__logger_name
 
 
 def destroyed(what: str) -> InvalidHandle:

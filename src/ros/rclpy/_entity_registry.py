@@ -9,7 +9,7 @@ from __future__ import annotations
 import threading
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from rclpy._destroyable import destroyed
+from rclpy._destroyable import LoggingEntity, destroyed
 from rclpy.callback_groups import CallbackGroup, MutuallyExclusiveCallbackGroup
 from rclpy.client import Client
 from rclpy.exceptions import RCLError, _with_hint
@@ -39,8 +39,9 @@ class EntityRegistry:
         waitables: The entities that an executor waits for. Executors read the tuple without a lock.
     """
 
-    def __init__(self, node_name: str, context: Context) -> None:
+    def __init__(self, node_name: str, logger_name: str, context: Context) -> None:
         self._node_name = node_name
+        self._logger_name = logger_name
         self._context = context
         self._lock = threading.RLock()
         self._entities: dict[type[Any], list[Any]] = {kind: [] for kind in (*_WAITED_FOR, Publisher, Rate)}
@@ -51,6 +52,11 @@ class EntityRegistry:
     def of(self, kind: type[EntityT]) -> list[EntityT]:
         """Return the entities of a kind."""
         return self._entities[kind]
+
+    def all(self) -> list[Any]:
+        """Return all entities."""
+        with self._lock:
+            return [entity for entities in self._entities.values() for entity in entities]
 
     def check_not_destroyed(self) -> None:
         """Raise an error if the node was destroyed."""
@@ -80,6 +86,8 @@ class EntityRegistry:
         with self._lock:
             self._like(entity).append(entity)
             self._collect_waitables()
+        if isinstance(entity, LoggingEntity):
+            entity._Coframe__logger_name = self._logger_name
         group = getattr(entity, "callback_group", None)
         if group is not None:
             group.add_entity(entity)

@@ -17,12 +17,14 @@ from rclpy.publisher import Publisher
 from rclpy.qos import QoSProfile, as_qos_profile, qos_profile_services_default
 from rclpy.qos_overriding_options import QoSOverridingOptions, apply_qos_overrides
 from rclpy.service import Service
+from rclpy.service_introspection import EVENT_TOPIC, ServiceEvents
 from rclpy.subscription import Subscription
 from rclpy.type_support import check_is_valid_srv_type, message_class
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
+    from coframe.wire.endpoints import Publisher as WirePublisher
     from rclpy._remapping import NameResolver
     from rclpy.callback_groups import CallbackGroup
     from rclpy.executors import Executor
@@ -139,20 +141,15 @@ class Node(NodeParameters, NodeGraph):
             event_callbacks: Callbacks for QoS events. None: incompatible QoS is logged.
             qos_overriding_options: QoS policies that parameters may override. None: no policies.
             raw: Whether to pass serialized messages to the callback.
-            content_filter_options: None, because coframe has no content filters.
+            content_filter_options: Condition that messages must meet, which is evaluated here, not by the publishers.
+                None: all messages.
 
         Raises:
             InvalidQosOverridesError: A parameter value is not valid for its policy.
             InvalidTopicNameException: The topic name is not valid.
             AttributeError, RuntimeError: `msg_type` is not a message class.
-            RCLError: The context was shut down.
-            NotImplementedError: Options of a content filter are given.
+            RCLError: The context was shut down, or the condition of the content filter is invalid.
         """
-        if content_filter_options is not None:
-            raise NotImplementedError(
-                f"coframe has no content filters ({content_filter_options.filter_expression!r}). Skip the messages in "
-                "the callback instead."
-            )
         name = self._Coframe__names.resolve(topic)
         msg_type, qos = message_class(msg_type), as_qos_profile(qos_profile)
         check_callback(callback)
@@ -172,6 +169,8 @@ class Node(NodeParameters, NodeGraph):
         group = self._Coframe__entities.group(callback_group)
         handlers = callbacks.create_event_handlers(group, wire, topic)
         subscription = Subscription(wire, msg_type, topic, name, callback, group, qos, raw, event_handlers=handlers)
+        if content_filter_options is not None:
+            subscription.set_content_filter(*content_filter_options)
         return self._Coframe__entities.add_with_events(subscription, handlers, reporter)
 
     def create_client(
@@ -220,6 +219,7 @@ class Node(NodeParameters, NodeGraph):
                 name,
                 qos_profile,
                 group,
+                self.__service_events(srv_type, name),
             )
         )
 
@@ -273,9 +273,18 @@ class Node(NodeParameters, NodeGraph):
             graph_node, name, srv_type.Request, qos, "request", wakeup
         )
         group = self._Coframe__entities.group(callback_group)
+        events = self.__service_events(srv_type, name)
         return self._Coframe__entities.add(
-            kind(requests, replies, srv_type, srv_name, name, callback, group, qos_profile)
+            kind(requests, replies, srv_type, srv_name, name, callback, group, qos_profile, events)
         )
+
+    def __service_events(self, srv_type: Any, service_name: str) -> ServiceEvents:
+        def create_publisher(event_type: Any, qos: QoSProfile) -> WirePublisher:
+            return self._Coframe__participant.publisher(
+                self._Coframe__graph_node, service_name + EVENT_TOPIC, event_type, qos._Coframe__to_wire()
+            )
+
+        return ServiceEvents(srv_type, create_publisher)
 
     def destroy_publisher(self, publisher: Publisher) -> bool:
         """Destroy a publisher. Return False if it does not belong to this node."""

@@ -5,10 +5,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Final
 
+from coframe.wire.type_hashes import type_hash_of_name
 from rclpy.client import wait_until_ready
 from rclpy.duration import Duration
 from rclpy.exceptions import NodeNameNonExistentError, RCLError, _with_hint
 from rclpy.qos import DurabilityPolicy, HistoryPolicy, LivelinessPolicy, QoSProfile, ReliabilityPolicy
+from rclpy.service_endpoint_info import ServiceEndpointInfo, ServiceEndpointTypeEnum
 from rclpy.topic_endpoint_info import TopicEndpointInfo, TopicEndpointTypeEnum
 from rclpy.type_hash import TypeHash
 
@@ -113,6 +115,39 @@ class NodeGraph:
         topic, kind = self.__topic_and_kind(topic_name, no_mangle=no_mangle)
         endpoints = self._Coframe__participant.subscribers(topic, kind=kind)
         return [_info(endpoint, TopicEndpointTypeEnum.SUBSCRIPTION) for endpoint in endpoints]
+
+    def get_clients_info_by_service(self, service_name: str, no_mangle: bool = False) -> list[ServiceEndpointInfo]:
+        """Return information about all clients of a service.
+
+        Args:
+            service_name: Name of the service.
+            no_mangle: Whether the name is that of a DDS topic, for example `rq/add_two_intsRequest`.
+
+        Raises:
+            ValueError: The name is not valid.
+        """
+        return self.__service_endpoints(service_name, ServiceEndpointTypeEnum.CLIENT, no_mangle=no_mangle)
+
+    def get_servers_info_by_service(self, service_name: str, no_mangle: bool = False) -> list[ServiceEndpointInfo]:
+        """Return information about all servers of a service; see `get_clients_info_by_service`."""
+        return self.__service_endpoints(service_name, ServiceEndpointTypeEnum.SERVER, no_mangle=no_mangle)
+
+    def __service_endpoints(
+        self, name: str, side: ServiceEndpointTypeEnum, *, no_mangle: bool
+    ) -> list[ServiceEndpointInfo]:
+        if no_mangle:
+            name, _ = self.__topic_and_kind(name, no_mangle=True)
+        else:
+            try:
+                name = self.resolve_service_name(name)
+            except RCLError as error:
+                raise _with_hint(ValueError(f"service name '{name}' is invalid"), f"{error}.") from None
+        participant = self._Coframe__participant
+        senders, receivers = (participant.publishers, participant.subscribers)
+        if side is ServiceEndpointTypeEnum.SERVER:
+            senders, receivers = receivers, senders
+        requests, replies = senders(name, kind="request"), receivers(name, kind="reply")
+        return [_service_info(request, _reply_of(request, replies), side) for request in requests]
 
     def get_publisher_names_and_types_by_node(
         self, node_name: str, node_namespace: str, no_demangle: bool = False
@@ -228,6 +263,33 @@ def _info(endpoint: EndpointInfo, kind: TopicEndpointTypeEnum) -> TopicEndpointI
         qos_profile=_profile(endpoint.qos),
         topic_type_hash=TypeHash.from_text(endpoint.type_hash),
     )
+
+
+def _reply_of(request: EndpointInfo, replies: list[EndpointInfo]) -> EndpointInfo | None:
+    """Return the endpoint for replies that belongs to the same node; None if it is not discovered yet."""
+    return next((each for each in replies if (each.node, each.namespace) == (request.node, request.namespace)), None)
+
+
+def _service_info(
+    request: EndpointInfo, reply: EndpointInfo | None, side: ServiceEndpointTypeEnum
+) -> ServiceEndpointInfo:
+    ends = [request] if reply is None else [request, reply]
+    return ServiceEndpointInfo(
+        node_name=request.node or "_NODE_NAME_UNKNOWN_",
+        node_namespace=request.namespace or "_NODE_NAMESPACE_UNKNOWN_",
+        service_type=_service_type(request.ros_type),
+        service_type_hash=TypeHash.from_text(_service_hash(request)),
+        endpoint_type=side,
+        endpoint_count=len(ends),
+        endpoint_gids=[list(end.guid.ljust(_GID_LENGTH, b"\0")) for end in ends],
+        qos_profiles=[_profile(end.qos) for end in ends],
+    )
+
+
+def _service_hash(request: EndpointInfo) -> str:
+    """Return the hash of a service: over DDS, an endpoint announces that of its requests only."""
+    own = type_hash_of_name(request.ros_type)
+    return type_hash_of_name(_service_type(request.ros_type)) if own == request.type_hash else request.type_hash
 
 
 def _profile(qos: WireQoS) -> QoSProfile:

@@ -12,12 +12,12 @@ from coframe.messages import codec
 from rcl_interfaces.msg import Log
 from rclpy.constants import S_TO_NS
 from rclpy.impl.console import Record, console
-from rclpy.qos import qos_profile_rosout_default
 from rclpy.time import Time
 
 if TYPE_CHECKING:
     from coframe.wire.endpoints import GraphNode
     from coframe.wire.participant import Participant
+    from rclpy.qos import QoSProfile
 
 _END_OF_STAMPS: Final = 2**31 * S_TO_NS
 
@@ -29,12 +29,11 @@ class RosoutPublisher:
         participant: The participant.
         graph_node: The participant's graph entry of the node.
         logger_name: Name of the node's logger.
+        qos: QoS profile of the publisher.
     """
 
-    def __init__(self, participant: Participant, graph_node: GraphNode, logger_name: str) -> None:
-        self._publisher = participant.publisher(
-            graph_node, "/rosout", Log, qos_profile_rosout_default._Coframe__to_wire()
-        )
+    def __init__(self, participant: Participant, graph_node: GraphNode, logger_name: str, qos: QoSProfile) -> None:
+        self._publisher = participant.publisher(graph_node, "/rosout", Log, qos._Coframe__to_wire())
         self._logger_name = logger_name
         # The bound method is stored, because `close` compares it by identity.
         self._sink = self._publish

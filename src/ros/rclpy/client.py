@@ -13,15 +13,16 @@ from functools import partial
 from typing import TYPE_CHECKING, Any, Final
 
 from coframe._core import Event
+from coframe.distributions import since
 from coframe.messages import codec
 from coframe.time import MILLISECOND
 from coframe.wire import request_header
 from coframe.wire.request_header import RequestHeader
 from coframe.wire.service_endpoints import RefusedRequestError
 from rclpy._absent import Handle
-from rclpy._destroyable import destroyed
+from rclpy._destroyable import LoggingEntity, destroyed
 from rclpy.constants import S_TO_NS
-from rclpy.service_introspection import check_introspection
+from rclpy.service_introspection import REQUEST_SENT, RESPONSE_RECEIVED
 from rclpy.task import Future
 
 if TYPE_CHECKING:
@@ -34,13 +35,13 @@ if TYPE_CHECKING:
     from rclpy.context import Context
     from rclpy.executors import Executor
     from rclpy.qos import QoSProfile
-    from rclpy.service_introspection import ServiceIntrospectionState
+    from rclpy.service_introspection import ServiceEvents, ServiceIntrospectionState
 
 # Endpoints appear in the graph shortly before they match, so the condition is checked again after this time.
 _MATCH_CHECK_PERIOD_NS: Final = 20 * MILLISECOND
 
 
-class Client:
+class Client(LoggingEntity):
     """Client that sends requests to a service. Create it with `Node.create_client`."""
 
     handle = Handle()
@@ -57,7 +58,9 @@ class Client:
         service_name: str,
         qos_profile: QoSProfile,
         callback_group: CallbackGroup,
+        events: ServiceEvents,
     ) -> None:
+        self.__events = events
         self.context = context
         self.srv_type = srv_type
         self.srv_name = srv_name
@@ -90,10 +93,11 @@ class Client:
             timeout_sec: Maximum time to wait in seconds. None: until the response or the shutdown of the context.
 
         Returns:
-            The response, or None if it did not arrive in time.
+            The response. None if the context was shut down, and up to Jazzy also if it did not arrive in time.
 
         Raises:
             TypeError: `request` is not a request of the service's type.
+            TimeoutError: The response did not arrive in time, from Kilted on.
             WireError: The request was not sent, because the middleware of the servers sends requests in another form.
             DecodeError: The response is invalid.
         """
@@ -101,6 +105,8 @@ class Client:
         take_responses_until([self], future, timeout_sec)
         if not future.done():
             self.remove_pending_request(future)
+            if timeout_sec is not None and self.context.ok() and since("call_timeout"):
+                raise TimeoutError(f"no response from the service '{self.service_name}' within {timeout_sec:g} s")
             return None
         return future.result()
 
@@ -133,6 +139,7 @@ class Client:
         future._Coframe__add_waiter(partial(self.__forget, header.sequence))
         try:
             self.__requests.write(request_header.join(header, cdr))
+            self.__events.publish(REQUEST_SENT, header, request=request)
         except RefusedRequestError as error:
             future.set_exception(error)
         return future
@@ -149,13 +156,14 @@ class Client:
     def configure_introspection(
         self, clock: Clock, service_event_qos_profile: QoSProfile, introspection_state: ServiceIntrospectionState
     ) -> None:
-        """Configure the introspection of the requests, which coframe does not have.
+        """Publish events of the requests and responses of this client on the topic `SERVICE/_service_event`, or stop.
 
-        Raises:
-            NotImplementedError: The state is not OFF.
+        Args:
+            clock: Clock of the stamps.
+            service_event_qos_profile: QoS profile of the topic.
+            introspection_state: What is published.
         """
-        del clock, service_event_qos_profile
-        check_introspection(introspection_state)
+        self.__events.configure(clock, service_event_qos_profile, introspection_state)
 
     def remove_pending_request(self, future: Future[Any]) -> None:
         """Remove a pending request. Its response will be dropped."""
@@ -194,6 +202,7 @@ class Client:
     def destroy(self) -> None:
         """Destroy the client. Prefer `Node.destroy_client`."""
         if self.__replies is not None:
+            self.__events.close()
             self.__replies.close()
             self.__requests.close()
             self.__replies = None
@@ -218,7 +227,7 @@ class Client:
             with self.__lock:
                 pending = self.__pending.pop(header.sequence, None)
             if pending is not None:
-                return partial(self.__deliver, *pending, cdr)
+                return partial(self.__deliver, header, *pending, cdr)
         return None
 
     def _Coframe__take_all(self) -> None:
@@ -226,10 +235,12 @@ class Client:
             if (deliver := self._Coframe__take()) is not None:
                 deliver()
 
-    def __deliver(self, future: Future[Any], convert: Callable[[Any], Any], cdr: bytes) -> None:
+    def __deliver(self, header: RequestHeader, future: Future[Any], convert: Callable[[Any], Any], cdr: bytes) -> None:
         future._set_executor(self.__executor())
         try:
-            result = convert(codec.deserialize_whole(cdr, self.srv_type.Response))
+            response = codec.deserialize_whole(cdr, self.srv_type.Response)
+            self.__events.publish(RESPONSE_RECEIVED, header, response=response)
+            result = convert(response)
         except ValueError as error:
             future.set_exception(error)
         else:

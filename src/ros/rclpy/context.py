@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from typing_extensions import Self
 
     from coframe.wire.participant import Participant
+    from rclpy.node import Node
 
 # A plain list, so that a signal handler can iterate over it at any time.
 _running: list[Context] = []
@@ -45,6 +46,7 @@ class Context:
         self.__is_initialized = False
         self.__is_ok = False
         self._Coframe__was_shut_down_by_signal = False
+        self.__tracked_nodes: list[weakref.ref[Node]] = []
         self.__shutdown_callbacks: list[Callable[[], Callable[[], object] | None]] = []
         self._Coframe__shutdown = Interruption()
         self._Coframe__wakeup = Wakeup()
@@ -101,7 +103,12 @@ class Context:
             raise RuntimeError("failed to shutdown: shutdown was already called on the given context")
 
     def destroy(self) -> None:
-        """Shut down the context unless it is shut down already."""
+        """Destroy the tracked nodes, and shut down the context unless it is shut down already."""
+        with self._lock:
+            references, self.__tracked_nodes = self.__tracked_nodes, []
+        for reference in references:
+            if (node := reference()) is not None:
+                node.destroy_node()
         self.try_shutdown()
 
     def try_shutdown(self) -> None:
@@ -120,6 +127,16 @@ class Context:
             self.__shutdown_callbacks.append(weakref.WeakMethod(callback))
         else:
             self.__shutdown_callbacks.append(lambda: callback)
+
+    def track_node(self, node: Node) -> None:
+        """Destroy a node when the context is destroyed, unless the node is destroyed before."""
+        with self._lock:
+            self.__tracked_nodes.append(weakref.ref(node))
+
+    def untrack_node(self, node: Node) -> None:
+        """Leave a node that `track_node` added alone when the context is destroyed."""
+        with self._lock:
+            self.__tracked_nodes = [reference for reference in self.__tracked_nodes if reference() is not node]
 
     def __enter__(self) -> Self:
         if not self.__is_initialized:

@@ -3,9 +3,11 @@
 
 from __future__ import annotations
 
+import math
 from typing import Final
 
 import builtin_interfaces.msg
+from coframe.distributions import since
 from rclpy._numbers import require_number
 from rclpy.constants import S_TO_NS
 
@@ -43,14 +45,34 @@ class Duration:
     def __str__(self) -> str:
         return "Infinite" if self.nanoseconds == INT64_LIMIT - 1 else f"{self.nanoseconds} nanoseconds"
 
-    # A comparison with a number raises an error, because `Duration(seconds=5) == 5` would silently be False.
+    def __add__(self, other: Duration) -> Duration:
+        if isinstance(other, Duration):
+            return Duration(nanoseconds=self.nanoseconds + other.nanoseconds)
+        return NotImplemented
+
+    def __sub__(self, other: Duration) -> Duration:
+        if isinstance(other, Duration):
+            return Duration(nanoseconds=self.nanoseconds - other.nanoseconds)
+        return NotImplemented
+
+    def __mul__(self, other: float) -> Duration:
+        if isinstance(other, int):
+            return Duration(nanoseconds=self.nanoseconds * other)
+        if not isinstance(other, float):
+            return NotImplemented
+        if other == math.inf:
+            return Infinite
+        if not math.isfinite(other):
+            raise ValueError("Can't multiply duration with nan")
+        return Duration(nanoseconds=int(self.nanoseconds * other))
+
+    # Up to Humble, `Duration(seconds=5) == 5` raises an error, because it would silently be False.
     def __eq__(self, other: object) -> bool:
         if isinstance(other, Duration):
             return self.nanoseconds == other.nanoseconds
+        if since("comparisons"):
+            return NotImplemented
         raise TypeError("Can't compare duration with object of type: ", type(other))
-
-    def __ne__(self, other: object) -> bool:
-        return not self == other
 
     __hash__ = None  # type: ignore[assignment]
 

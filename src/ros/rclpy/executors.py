@@ -37,6 +37,9 @@ if TYPE_CHECKING:
 _SHUTDOWN_ERRORS: Final = (NotInitializedException, RCLError, ROSInterruptException)
 
 
+_THREAD_NAME: Final = "rclpy"
+
+
 class TimeoutException(Exception):
     """No callback became ready in time."""
 
@@ -132,6 +135,10 @@ class Executor:
         task: Task[Any] = Task(callback, args, kwargs, executor=self)
         self._Coframe__schedule(task)
         return task
+
+    def create_future(self) -> Future[Any]:
+        """Return a future whose done callbacks run in this executor."""
+        return Future(executor=self)
 
     def shutdown(self, timeout_sec: float | None = None) -> bool:
         """Stop spinning and wait for the running callbacks.
@@ -444,9 +451,6 @@ class MultiThreadedExecutor(Executor):
 
     Raises:
         ValueError: The size is not positive.
-
-    Raises:
-        ValueError: The size is not positive.
     """
 
     def __init__(self, num_threads: int | None = None, *, context: Context | None = None) -> None:
@@ -454,15 +458,21 @@ class MultiThreadedExecutor(Executor):
         if num_threads is not None and num_threads <= 0:
             raise ValueError("max_workers must be greater than 0")
         self.__num_threads = max(os.cpu_count() or 4, 2) if num_threads is None else num_threads
-        self.__pool = ThreadPoolExecutor(self.__num_threads, thread_name_prefix="rclpy")
+        self.__pool = ThreadPoolExecutor(self.__num_threads, thread_name_prefix=_THREAD_NAME)
         self.__free = self.__num_threads
         self.__free_lock = threading.Lock()
         self.__failed: deque[Task[Any]] = deque()
 
-    def shutdown(self, timeout_sec: float | None = None) -> bool:
-        """Stop spinning and wait for the running callbacks; see `Executor.shutdown`."""
+    def shutdown(self, timeout_sec: float | None = None, *, wait_for_threads: bool = True) -> bool:
+        """Stop spinning and wait for the running callbacks; see `Executor.shutdown`.
+
+        Args:
+            timeout_sec: Maximum time to wait for the callbacks in seconds. None: no limit.
+            wait_for_threads: Whether to wait until the threads have ended as well, if all callbacks ended in time.
+        """
         has_ended = super().shutdown(timeout_sec)
-        self.__pool.shutdown(wait=False)
+        is_in_pool = threading.current_thread().name.startswith(_THREAD_NAME)
+        self.__pool.shutdown(wait=wait_for_threads and has_ended and not is_in_pool)
         return has_ended
 
     def _Coframe__wait_for_work(

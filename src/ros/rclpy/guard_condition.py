@@ -9,6 +9,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from rclpy._absent import Handle
+from rclpy._destroyable import Destroyable
 from rclpy.utilities import get_default_context
 
 if TYPE_CHECKING:
@@ -18,7 +19,7 @@ if TYPE_CHECKING:
     from rclpy.context import Context
 
 
-class GuardCondition:
+class GuardCondition(Destroyable):
     """Condition whose callback runs once after a trigger. Create it with `Node.create_guard_condition`."""
 
     handle = Handle()
@@ -26,7 +27,7 @@ class GuardCondition:
     def __init__(
         self,
         callback: Callable[[], Any] | None,
-        callback_group: CallbackGroup,
+        callback_group: CallbackGroup | None,
         context: Context | None = None,
     ) -> None:
         self.callback = callback

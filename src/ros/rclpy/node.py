@@ -10,9 +10,10 @@ from __future__ import annotations
 import weakref
 from typing import TYPE_CHECKING, Any, TypeVar
 
+from coframe.distributions import since
 from rcl_interfaces.msg import ParameterEvent
 from rclpy import _arguments, _node_endpoints
-from rclpy._absent import Handle, no_handle
+from rclpy._absent import Handle
 from rclpy._arguments import Arguments
 from rclpy._entity_registry import EntityRegistry, check_callback
 from rclpy._node_parameters import NodeParameters
@@ -26,10 +27,17 @@ from rclpy.guard_condition import GuardCondition
 from rclpy.impl.rcutils_logger import RcutilsLogger
 from rclpy.parameter import Parameter
 from rclpy.parameter_service import ParameterService
-from rclpy.qos import qos_profile_parameter_events, qos_profile_services_default  # noqa: F401
+from rclpy.qos import (
+    QoSProfile,
+    as_qos_profile,
+    qos_profile_parameter_events,
+    qos_profile_rosout_default,
+    qos_profile_services_default,  # noqa: F401
+)
 from rclpy.qos_overriding_options import QoSOverridingOptions  # noqa: F401
 from rclpy.time_source import USE_SIM_TIME_NAME, TimeSource
 from rclpy.timer import Rate, Timer
+from rclpy.type_description_service import TypeDescriptionService
 from rclpy.type_support import check_is_valid_srv_type  # noqa: F401
 from rclpy.utilities import get_default_context
 from rclpy.validate_namespace import validate_namespace
@@ -64,6 +72,7 @@ class Node(_node_endpoints.Node):
         allow_undeclared_parameters: Whether undeclared parameters may be used.
         automatically_declare_parameters_from_overrides: Whether to declare all parameter overrides.
         enable_logger_service: Whether other nodes can get and set the log levels.
+        rosout_qos_profile: QoS profile of the publisher of /rosout, or its depth.
 
     Raises:
         NotInitializedException: The context is not initialized or was shut down.
@@ -87,6 +96,7 @@ class Node(_node_endpoints.Node):
         allow_undeclared_parameters: bool = False,
         automatically_declare_parameters_from_overrides: bool = False,
         enable_logger_service: bool = False,
+        rosout_qos_profile: QoSProfile | int = qos_profile_rosout_default,
     ) -> None:
         self.__context = context or get_default_context()
         if not self.__context.ok():
@@ -94,9 +104,9 @@ class Node(_node_endpoints.Node):
         arguments = _arguments_for(self.__context, cli_args, use_global_arguments=use_global_arguments)
         self._Coframe__names = _names_for(node_name, namespace or "", arguments)
         self.__executor: Callable[[], Executor | None] = _no_executor
-        self._Coframe__entities = EntityRegistry(self.get_fully_qualified_name(), self.__context)
-        self.__timers_of_rates: dict[Rate, Timer] = {}
         self.__logger = RcutilsLogger(self.get_fully_qualified_name().lstrip("/").replace("/", "."))
+        self._Coframe__entities = EntityRegistry(self.get_fully_qualified_name(), self.__logger.name, self.__context)
+        self.__timers_of_rates: dict[Rate, Timer] = {}
         self.__clock = ROSClock()
 
         overrides = {
@@ -114,7 +124,10 @@ class Node(_node_endpoints.Node):
         self._Coframe__polled_subscriptions: list[PolledSubscription] = []
         self.__rosout: RosoutPublisher | None = None
         if enable_rosout and arguments.logging.rosout:
-            self.__rosout = RosoutPublisher(self._Coframe__participant, self._Coframe__graph_node, self.__logger.name)
+            qos = as_qos_profile(rosout_qos_profile)
+            self.__rosout = RosoutPublisher(
+                self._Coframe__participant, self._Coframe__graph_node, self.__logger.name, qos
+            )
         self._Coframe__time_sources: list[TimeSource] = []
         try:
             self.__parameter_events = self.create_publisher(
@@ -129,6 +142,8 @@ class Node(_node_endpoints.Node):
             TimeSource(node=self).attach_clock(self.__clock)
             if not self.has_parameter(USE_SIM_TIME_NAME):
                 self.declare_parameter(USE_SIM_TIME_NAME, False)
+            if since("type_descriptions"):
+                TypeDescriptionService(self)
             if start_parameter_services:
                 ParameterService(self)
             if enable_logger_service:
@@ -142,8 +157,6 @@ class Node(_node_endpoints.Node):
     if not TYPE_CHECKING:  # With `__getattr__`, type checkers would accept every misspelled attribute.
 
         def __getattr__(self, name: str) -> Any:
-            if name == "handle":  # The error of the property ends here as well.
-                raise no_handle(type(self))
             if name.startswith(("_Node__", "_NodeParameters__", "_Coframe__")):
                 raise AttributeError(
                     f"The node {type(self).__name__} is not initialized. "
@@ -238,7 +251,7 @@ class Node(_node_endpoints.Node):
     def create_timer(
         self,
         timer_period_sec: float,
-        callback: Callable[[], Any],
+        callback: Callable[..., Any],
         callback_group: CallbackGroup | None = None,
         clock: Clock | None = None,
         autostart: bool = True,
@@ -247,7 +260,8 @@ class Node(_node_endpoints.Node):
 
         Args:
             timer_period_sec: Period in seconds.
-            callback: Function or coroutine function that is called without arguments.
+            callback: Function or coroutine function. It is called without arguments; a parameter that is annotated with
+                `rclpy.timer.TimerInfo` gets the times of the call.
             callback_group: Group of the callback. None: the default group of the node.
             clock: Clock that measures the period. None: the clock of the node.
             autostart: Whether the timer starts now, and not with its `reset()`.
@@ -256,9 +270,7 @@ class Node(_node_endpoints.Node):
         self._Coframe__entities.check_usable("timer")
         period_ns = int(float(timer_period_sec) * S_TO_NS)
         group = self._Coframe__entities.group(callback_group)
-        timer = Timer(callback, group, period_ns, clock or self.__clock, context=self.context)
-        if not autostart:
-            timer.cancel()
+        timer = Timer(callback, group, period_ns, clock or self.__clock, context=self.context, autostart=autostart)
         return self._Coframe__entities.add(timer)
 
     def create_guard_condition(

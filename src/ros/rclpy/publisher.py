@@ -12,7 +12,7 @@ from coframe.errors import WireError
 from coframe.messages import codec
 from coframe.messages.native_codec import native_codec
 from rclpy._absent import Handle
-from rclpy._destroyable import destroyed
+from rclpy._destroyable import LoggingEntity, destroyed
 from rclpy.duration import Duration, Infinite
 from rclpy.exceptions import RCLError
 
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from rclpy.qos import QoSProfile
 
 
-class Publisher:
+class Publisher(LoggingEntity):
     """Publisher of a topic. Create it with `Node.create_publisher`."""
 
     handle = Handle()

@@ -12,7 +12,8 @@ from coframe.errors import DecodeError
 from coframe.messages import codec
 from coframe.wire import request_header
 from rclpy._absent import Handle
-from rclpy.service_introspection import check_introspection
+from rclpy._destroyable import LoggingEntity
+from rclpy.service_introspection import REQUEST_RECEIVED, RESPONSE_SENT
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -22,7 +23,7 @@ if TYPE_CHECKING:
     from rclpy.callback_groups import CallbackGroup
     from rclpy.clock import Clock
     from rclpy.qos import QoSProfile
-    from rclpy.service_introspection import ServiceIntrospectionState
+    from rclpy.service_introspection import ServiceEvents, ServiceIntrospectionState
 
 # A client may match the server before the server matches the client. A reply sent before that is lost.
 _MATCH_TIMEOUT_S: Final = 0.1
@@ -31,7 +32,7 @@ _MATCH_TIMEOUT_S: Final = 0.1
 _MATCH_PAUSE_S: Final = 5.0
 
 
-class Service:
+class Service(LoggingEntity):
     """Server of a service. Create it with `Node.create_service`."""
 
     handle = Handle()
@@ -46,7 +47,9 @@ class Service:
         callback: Callable[[Any, Any], Any],
         callback_group: CallbackGroup,
         qos_profile: QoSProfile,
+        events: ServiceEvents,
     ) -> None:
+        self.__events = events
         self.__requests: ServiceSubscription | None = requests
         self.__replies = replies
         self.srv_type = srv_type
@@ -65,13 +68,14 @@ class Service:
     def configure_introspection(
         self, clock: Clock, service_event_qos_profile: QoSProfile, introspection_state: ServiceIntrospectionState
     ) -> None:
-        """Configure the introspection of the service, which coframe does not have.
+        """Publish events of the requests and responses of this server on the topic `SERVICE/_service_event`, or stop.
 
-        Raises:
-            NotImplementedError: The state is not OFF.
+        Args:
+            clock: Clock of the stamps.
+            service_event_qos_profile: QoS profile of the topic.
+            introspection_state: What is published.
         """
-        del clock, service_event_qos_profile
-        check_introspection(introspection_state)
+        self.__events.configure(clock, service_event_qos_profile, introspection_state)
 
     def send_response(self, response: Any, header: RequestHeader) -> None:
         """Send the response to a request.
@@ -89,6 +93,7 @@ class Service:
             return
         self.__wait_for_client()
         self.__replies.write(request_header.join(header, codec.serialize(response)))
+        self.__events.publish(RESPONSE_SENT, header, response=response)
 
     def __wait_for_client(self) -> None:
         """Wait shortly until a client is discovered, because a reply that is sent before does not reach it."""
@@ -104,6 +109,7 @@ class Service:
     def destroy(self) -> None:
         """Destroy the service. Prefer `Node.destroy_service`."""
         if self.__requests is not None:
+            self.__events.close()
             self.__requests.close()
             self.__replies.close()
             self.__requests = None
@@ -122,6 +128,7 @@ class Service:
             except DecodeError as error:
                 requests.ignore_request(message, f"is invalid ({error})")
                 continue
+            self.__events.publish(REQUEST_RECEIVED, message.header, request=request)
             return partial(self._Coframe__answer, message.header, request)
         return None
 

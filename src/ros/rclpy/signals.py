@@ -6,6 +6,7 @@ from __future__ import annotations
 import signal
 import sys
 import threading
+import weakref
 from enum import IntFlag
 from typing import TYPE_CHECKING, Any
 
@@ -13,10 +14,13 @@ from coframe._process.signal_handlers import SignalHandlers
 from rclpy.context import _shut_down_by_signal
 from rclpy.exceptions import ROSInterruptException
 from rclpy.executors import ExternalShutdownException
+from rclpy.guard_condition import GuardCondition
 
 if TYPE_CHECKING:
     from collections.abc import Callable
     from types import FrameType, TracebackType
+
+    from rclpy.context import Context
 
 
 class SignalHandlerOptions(IntFlag):
@@ -73,10 +77,33 @@ def get_current_signal_handlers_options() -> SignalHandlerOptions:
     return _options if _handlers.active else SignalHandlerOptions.NO
 
 
+class SignalHandlerGuardCondition(GuardCondition):
+    """Guard condition that SIGINT and SIGTERM trigger while rclpy's signal handlers are installed.
+
+    Args:
+        context: Context whose executors wait for it. None: the default context.
+    """
+
+    def __init__(self, context: Context | None = None) -> None:
+        super().__init__(callback=None, callback_group=None, context=context)
+        _guard_conditions.add(self)
+
+    def destroy(self) -> None:
+        """Destroy the guard condition, which signals no longer trigger."""
+        _guard_conditions.discard(self)
+        super().destroy()
+
+
+# Read in a signal handler. Guard conditions that are not referenced anymore are removed.
+_guard_conditions: weakref.WeakSet[SignalHandlerGuardCondition] = weakref.WeakSet()
+
+
 def _handle(number: int, frame: FrameType | None) -> None:
     global _was_signalled  # noqa: PLW0603
     _was_signalled = True
     _shut_down_by_signal()
+    for guard_condition in tuple(_guard_conditions):
+        guard_condition.trigger()
     previous = _handlers.previous(number)
     if previous is not None:
         previous(number, frame)

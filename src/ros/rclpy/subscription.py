@@ -6,14 +6,20 @@ from __future__ import annotations
 import inspect
 import time
 from functools import partial
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Any, Final, TypedDict
 
+from coframe.distributions import since
 from coframe.errors import DecodeError
 from coframe.messages import codec
 from coframe.messages.native_codec import native_codec
 from coframe.wire.tf_reader import TfReader
 from rclpy._absent import Handle
+from rclpy._content_filter import ContentFilter
+from rclpy._destroyable import LoggingEntity
+from rclpy.exceptions import RCLError
 from rclpy.logging import get_logger
+from rclpy.subscription_content_filter_options import ContentFilterOptions
+from rclpy.utilities import get_rmw_implementation_identifier
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -28,7 +34,25 @@ _WARNING_PERIOD_S: Final = 10.0
 _log = get_logger("rclpy")
 
 
-class Subscription:
+class MessageInfo(TypedDict):
+    """Information on a received message, which a callback with two arguments gets.
+
+    Attributes:
+        source_timestamp: The time at which it was published, in nanoseconds since 1970 on the publisher's clock.
+        received_timestamp: The time at which it was received, in nanoseconds since 1970.
+        publication_sequence_number: Its number among the messages of the publisher; None, as with most middlewares.
+        reception_sequence_number: Its number among the received messages; None, as with most middlewares.
+        publisher_gid: The identifier of the publisher, in `data`; None if it has left.
+    """
+
+    source_timestamp: int
+    received_timestamp: int
+    publication_sequence_number: int | None
+    reception_sequence_number: int | None
+    publisher_gid: dict[str, Any] | None
+
+
+class Subscription(LoggingEntity):
     """Subscription to a topic. Create it with `Node.create_subscription`.
 
     The middleware queues messages, up to the depth of the QoS profile, until an executor takes them.
@@ -59,11 +83,36 @@ class Subscription:
         self.qos_profile = qos_profile
         self.raw = raw
         self.event_handlers = event_handlers or []
+        self.__filter: ContentFilter | None = None
 
     @property
     def topic_name(self) -> str:
         """The fully qualified name of the topic. `topic` is the name that was given."""
         return self.__topic_name
+
+    @property
+    def is_cft_enabled(self) -> bool:
+        """Whether a content filter is set."""
+        return self.__filter is not None
+
+    def set_content_filter(self, filter_expression: str, expression_parameters: list[str]) -> None:
+        """Let only messages through that meet a condition; see `ContentFilterOptions`. An empty condition removes it.
+
+        Raises:
+            RCLError: The condition is invalid.
+        """
+        new = ContentFilter(self.msg_type, filter_expression, expression_parameters)
+        self.__filter = new if filter_expression else None
+
+    def get_content_filter(self) -> ContentFilterOptions:
+        """Return the content filter.
+
+        Raises:
+            RCLError: There is none.
+        """
+        if self.__filter is None:
+            raise RCLError("failed to get content filter: the subscription has none")
+        return ContentFilterOptions(self.__filter.expression, list(self.__filter.parameters))
 
     def get_publisher_count(self) -> int:
         """Return the number of matched publishers."""
@@ -96,12 +145,32 @@ class Subscription:
         try:
             is_done = self.raw or not isinstance(sample.data, bytes)
             message = sample.data if is_done else codec.deserialize(sample.data, self.msg_type)
+            if self.__filter is not None and not self.__is_let_through(message):
+                return None
         except DecodeError as error:  # A damaged message of another program must not end this one.
             _log.warning(f"Dropped a message on {self.topic_name}: {error}", throttle_duration_sec=_WARNING_PERIOD_S)
             return None
         if not self.__accepts_info:
             return self.callback(message)
-        return self.callback(message, {"source_timestamp": sample.source_timestamp, "received_timestamp": received})
+        return self.callback(message, self.__info(sample, received))
+
+    def __is_let_through(self, message: Any) -> bool:
+        whole = codec.deserialize(message, self.msg_type) if self.raw else message
+        return self.__filter is None or self.__filter.accepts(whole)
+
+    def __info(self, sample: Sample, received: int) -> dict[str, Any]:
+        info: dict[str, Any] = {"source_timestamp": sample.source_timestamp, "received_timestamp": received}
+        if since("message_numbers"):
+            info |= {"publication_sequence_number": None, "reception_sequence_number": None}
+        if since("message_publisher"):
+            info["publisher_gid"] = self.__publisher_gid(sample)
+        return info
+
+    def __publisher_gid(self, sample: Sample) -> dict[str, Any] | None:
+        writer = None if self.__wire is None else self.__wire.writer(sample.writer)
+        if writer is None:
+            return None
+        return {"implementation_identifier": get_rmw_implementation_identifier(), "data": writer.guid}
 
 
 def _accepts_message_info(callback: Callable[..., Any]) -> bool:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Options of content filters, with which the middleware drops messages before they reach a subscription."""
+"""Options of content filters, which let only some messages of a topic through to the callback of a subscription."""
 
 from typing import NamedTuple
 
@@ -7,7 +7,13 @@ __all__ = ["ContentFilterOptions"]
 
 
 class ContentFilterOptions(NamedTuple):
-    """A filter of messages. coframe has no content filters: `create_subscription` rejects the options."""
+    """A filter of messages, in the language of DDS.
+
+    Attributes:
+        filter_expression: A condition on fields, such as ``pose.x > %0 AND name LIKE 'arm%'``. It has comparisons
+            (``= <> != < <= > >=``), ``LIKE``, ``BETWEEN ... AND ...``, ``AND``, ``OR``, ``NOT`` and parentheses.
+        expression_parameters: The values of ``%0``, ``%1`` and so on, as literals: ``"1.5"``, ``"'text'"``.
+    """
 
     filter_expression: str
     expression_parameters: list[str]

@@ -118,6 +118,18 @@ class Future(Generic[T]):
         else:
             callback(self)
 
+    def remove_done_callback(self, callback: Callable[[Future[T]], object]) -> bool:
+        """Remove a callback that `add_done_callback` added.
+
+        Returns:
+            Whether it was removed, False if it was not added or the future is complete.
+        """
+        with self._lock:
+            if callback not in self._callbacks:
+                return False
+            self._callbacks.remove(callback)
+            return True
+
     def _Coframe__is_complete(self) -> bool:
         return self._done or self._cancelled
 

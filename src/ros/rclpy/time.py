@@ -6,6 +6,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, overload
 
 import builtin_interfaces.msg
+from coframe.distributions import since
 from rclpy._clock_type import ClockType
 from rclpy._numbers import require_number
 from rclpy.constants import S_TO_NS
@@ -95,15 +96,14 @@ class Time:
                 raise ValueError("Subtraction leads to negative time") from error
         return NotImplemented
 
-    # A comparison with a number raises an error, because `Time(nanoseconds=5) == 5` would silently be False.
+    # Up to Humble, `Time(nanoseconds=5) == 5` raises an error, because it would silently be False.
     def __eq__(self, other: object) -> bool:
         if isinstance(other, Time):
             self._check_same_clock(other, "compare")
             return self.nanoseconds == other.nanoseconds
+        if since("comparisons"):
+            return NotImplemented
         raise TypeError("Can't compare time with object of type: ", type(other))
-
-    def __ne__(self, other: object) -> bool:
-        return not self == other
 
     __hash__ = None  # type: ignore[assignment]
 

@@ -6,15 +6,19 @@
 
 from __future__ import annotations
 
+import inspect
 import threading
 import time
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from coframe._core import Event
 from rclpy._absent import Handle
-from rclpy._destroyable import destroyed
+from rclpy._clock_type import ClockType
+from rclpy._destroyable import Destroyable, destroyed
 from rclpy._interruption import Interruption
 from rclpy.exceptions import RCLError, ROSInterruptException
+from rclpy.time import Time
 from rclpy.utilities import get_default_context
 
 if TYPE_CHECKING:
@@ -25,7 +29,49 @@ if TYPE_CHECKING:
     from rclpy.context import Context
 
 
-class Timer:
+class TimerInfo:
+    """Information on a call of a timer, for callbacks with a parameter that is annotated with this class.
+
+    Args:
+        expected_call_time: Time at which the call was due, in nanoseconds of the timer's clock.
+        actual_call_time: Time of the call.
+        clock_type: Type of the clock.
+
+    Raises:
+        TypeError: The type is not a `ClockType`.
+        ValueError: A time is negative.
+    """
+
+    def __init__(
+        self,
+        *,
+        expected_call_time: int = 0,
+        actual_call_time: int = 0,
+        clock_type: ClockType = ClockType.SYSTEM_TIME,
+    ) -> None:
+        if not isinstance(clock_type, ClockType):
+            raise TypeError("Clock type must be a ClockType enum")
+        if expected_call_time < 0 or actual_call_time < 0:
+            raise ValueError("call time values must not be negative")
+        self._expected_call_time = Time(nanoseconds=expected_call_time, clock_type=clock_type)
+        self._actual_call_time = Time(nanoseconds=actual_call_time, clock_type=clock_type)
+
+    @property
+    def expected_call_time(self) -> Time:
+        """The time at which the call was due."""
+        return self._expected_call_time
+
+    @property
+    def actual_call_time(self) -> Time:
+        """The time of the call."""
+        return self._actual_call_time
+
+
+# With `from __future__ import annotations`, an annotation is a text.
+_INFO_ANNOTATIONS = (TimerInfo, "TimerInfo", "timer.TimerInfo", "rclpy.timer.TimerInfo")
+
+
+class Timer(Destroyable):
     """Timer with a periodic callback. Create it with `Node.create_timer`.
 
     The period is measured in simulated time while a simulator sets the clock, otherwise in steady time. Setting the
@@ -36,12 +82,13 @@ class Timer:
 
     def __init__(
         self,
-        callback: Callable[[], Any] | None,
-        callback_group: CallbackGroup,
+        callback: Callable[..., Any] | None,
+        callback_group: CallbackGroup | None,
         timer_period_ns: int,
         clock: Clock,
         *,
         context: Context | None = None,
+        autostart: bool = True,
     ) -> None:
         if timer_period_ns < 0:
             raise RCLError("failed to create timer: timer period must be non-negative")
@@ -54,11 +101,21 @@ class Timer:
         self.__clock = clock
         self.__context = context or get_default_context()
         self.__period_ns = int(timer_period_ns)
-        self.__is_canceled = False
+        self.__is_canceled = not autostart
         self._Coframe__destruction = Interruption()
         self.__lock = threading.Lock()
         self._Coframe__ended_periods = 0
         self.__start()
+
+    @property
+    def callback(self) -> Callable[..., Any] | None:
+        """The function that is called at the end of each period."""
+        return self.__callback
+
+    @callback.setter
+    def callback(self, value: Callable[..., Any] | None) -> None:
+        self.__callback = value
+        self.__info_parameter = None if value is None else _info_parameter(value)
 
     @property
     def clock(self) -> Clock:
@@ -152,7 +209,23 @@ class Timer:
         return None if self._Coframe__is_simulated and remaining > 0 else remaining
 
     def _Coframe__take(self) -> Callable[[], Any] | None:
-        return self.callback if self._Coframe__end_period() else None
+        expected = self.__next_ns
+        if not self._Coframe__end_period():
+            return None
+        if self.__info_parameter is None:
+            return self.__callback
+        return partial(self.__call_with_info, self.__info_parameter, expected)
+
+    def __call_with_info(self, parameter: str, expected: int) -> Any:
+        if self.__callback is None:
+            return None
+        # The period is measured in steady time. The times are those of the timer's clock.
+        now = self.__clock._Coframe__now_ns()
+        due = now - max(self._Coframe__now_ns() - expected, 0)
+        info = TimerInfo(
+            expected_call_time=max(due, 0), actual_call_time=max(now, 0), clock_type=self.__clock.clock_type
+        )
+        return self.__callback(**{parameter: info})
 
     def _Coframe__end_period(self) -> bool:
         """Schedule the next call if one is due now. Missed periods are skipped."""
@@ -171,7 +244,16 @@ class Timer:
             return True
 
 
-class Rate:
+def _info_parameter(callback: Callable[..., Any]) -> str | None:
+    """Return the name of the parameter that is annotated with `TimerInfo`; None if there is none."""
+    try:
+        parameters = inspect.signature(callback).parameters.values()
+    except (TypeError, ValueError):  # Some built-in functions have no signature.
+        return None
+    return next((each.name for each in parameters if each.annotation in _INFO_ANNOTATIONS), None)
+
+
+class Rate(Destroyable):
     """Rate that sleeps to run a loop at a frequency. Create it with `Node.create_rate`.
 
     Its timer belongs to the node, so `rclpy.spin_once(node)` returns at the end of each period. `sleep()` returns at

@@ -46,10 +46,6 @@ class TopicEndpointInfo:
     __hash__ = None  # type: ignore[assignment]
 
     def __str__(self) -> str:
-        qos = self.qos_profile
-        history = qos.history.name
-        if qos.history is HistoryPolicy.KEEP_LAST:
-            history = f"{history} ({qos.depth})"
         gid = ".".join(f"{byte:02x}" for byte in self.endpoint_gid)
         return "\n".join(
             [
@@ -59,12 +55,22 @@ class TopicEndpointInfo:
                 f"Endpoint type: {self.endpoint_type.name}",
                 f"GID: {gid}",
                 "QoS profile:",
-                f"  Reliability: {qos.reliability.name}",
-                f"  History (Depth): {history}",
-                f"  Durability: {qos.durability.name}",
-                f"  Lifespan: {qos.lifespan}",
-                f"  Deadline: {qos.deadline}",
-                f"  Liveliness: {qos.liveliness.name}",
-                f"  Liveliness lease duration: {qos.liveliness_lease_duration}",
+                *(f"  {line}" for line in qos_lines(self.qos_profile)),
             ]
         )
+
+
+def qos_lines(qos: QoSProfile) -> list[str]:
+    """Return a QoS profile as `ros2 topic info --verbose` prints it."""
+    history = qos.history.name
+    if qos.history is HistoryPolicy.KEEP_LAST:
+        history = f"{history} ({qos.depth})"
+    return [
+        f"Reliability: {qos.reliability.name}",
+        f"History (Depth): {history}",
+        f"Durability: {qos.durability.name}",
+        f"Lifespan: {qos.lifespan}",
+        f"Deadline: {qos.deadline}",
+        f"Liveliness: {qos.liveliness.name}",
+        f"Liveliness lease duration: {qos.liveliness_lease_duration}",
+    ]

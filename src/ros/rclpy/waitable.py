@@ -9,6 +9,9 @@ from __future__ import annotations
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
+from rclpy._absent import entity_of
+from rclpy._destroyable import Destroyable
+
 if TYPE_CHECKING:
     from collections.abc import Callable
 
@@ -110,6 +113,7 @@ class WaitSet:
                 entity._Coframe__take()
 
     def _add(self, kind: str, entity: Any) -> int:
+        entity = entity_of(entity)
         if not hasattr(entity, "_Coframe__remaining_ns"):
             raise TypeError(f"A wait set takes entities of rclpy, not {type(entity).__name__}.")
         entities = self._entities.setdefault(kind, [])
@@ -117,7 +121,7 @@ class WaitSet:
         return len(entities) - 1
 
 
-class Waitable:
+class Waitable(Destroyable):
     """Base class of a user's own waitables. Add an instance with `Node.add_waitable`.
 
     An executor calls `add_to_wait_set` and `is_ready`. If the waitable is ready, it calls `take_data` and then
@@ -132,6 +136,9 @@ class Waitable:
         self.callback_group.add_entity(self)
         self._futures: list[Future[Any]] = []
         self.__wait_set = WaitSet()
+
+    def destroy(self) -> None:
+        """Do nothing at the end of a `with` block. A waitable with entities of its own overrides this."""
 
     def add_future(self, future: Future[Any]) -> None:
         """Keep a future of this waitable."""

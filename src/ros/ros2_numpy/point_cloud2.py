@@ -45,6 +45,10 @@ _TYPES = {
     PointField.UINT32: "u4",
     PointField.FLOAT32: "f4",
     PointField.FLOAT64: "f8",
+    # The constants INT64, UINT64 and BOOL, which PointField has from Lyrical on.
+    9: "i8",
+    10: "u8",
+    11: "?",
 }
 _NUMBERS = {np.dtype(name): number for number, name in _TYPES.items()}
 _XYZ = ["x", "y", "z"]

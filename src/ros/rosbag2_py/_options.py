@@ -7,6 +7,8 @@ from dataclasses import dataclass, field
 from enum import Enum
 from typing import Any
 
+from coframe.distributions import since
+
 __all__ = ["ConverterOptions", "ReadOrder", "ReadOrderSortBy", "StorageFilter", "StorageOptions", "TopicMetadata"]
 
 
@@ -35,13 +37,63 @@ class ConverterOptions:
     output_serialization_format: str = ""
 
 
-@dataclass
-class StorageFilter:
-    """The topics to read; empty: all. Regular expressions must match the whole name of a topic."""
+_FILTER_HUMBLE = ("topics", "regex", "regex_to_exclude")
+_FILTER = ("topics", "services_events", "regex", "exclude_topics", "exclude_service_events", "regex_to_exclude")
+_FILTER_ALIASES = {"topics_regex": "regex", "topics_regex_to_exclude": "regex_to_exclude"}
 
-    topics: list[str] = field(default_factory=list)
-    topics_regex: str = ""
-    topics_regex_to_exclude: str = ""
+
+class StorageFilter:
+    """The topics and services to read; if none is given, all. Regular expressions must match a whole name.
+
+    Positional arguments have the order of the distribution that the process follows: up to Humble `topics`,
+    `topics_regex`, `topics_regex_to_exclude`, from Jazzy on the order below.
+
+    Args:
+        topics: Names of topics.
+        services_events: Names of topics with events of services, such as `/add_two_ints/_service_event`.
+        regex: Regular expression of names; Humble's `topics_regex`.
+        exclude_topics: Names of topics to leave out.
+        exclude_service_events: Names of topics with events of services to leave out.
+        regex_to_exclude: Regular expression of names to leave out; Humble's `topics_regex_to_exclude`.
+    """
+
+    def __init__(self, *words: Any, **fields: Any) -> None:
+        order = _FILTER if since("bag_filter") else _FILTER_HUMBLE
+        values = dict(zip(order, words, strict=False))
+        for name, value in fields.items():
+            known = _FILTER_ALIASES.get(name, name)
+            if known not in _FILTER or known in values:
+                raise TypeError(f"StorageFilter() does not take the argument {name!r} here; it has {', '.join(order)}")
+            values[known] = value
+        if len(words) > len(order):
+            raise TypeError(f"StorageFilter() takes {len(order)} arguments, but {len(words)} were given")
+        self.topics: list[str] = list(values.get("topics", []))
+        self.services_events: list[str] = list(values.get("services_events", []))
+        self.regex: str = values.get("regex", "")
+        self.exclude_topics: list[str] = list(values.get("exclude_topics", []))
+        self.exclude_service_events: list[str] = list(values.get("exclude_service_events", []))
+        self.regex_to_exclude: str = values.get("regex_to_exclude", "")
+
+    @property
+    def topics_regex(self) -> str:
+        """`regex` under its name up to Humble."""
+        return self.regex
+
+    @topics_regex.setter
+    def topics_regex(self, value: str) -> None:
+        self.regex = value
+
+    @property
+    def topics_regex_to_exclude(self) -> str:
+        """`regex_to_exclude` under its name up to Humble."""
+        return self.regex_to_exclude
+
+    @topics_regex_to_exclude.setter
+    def topics_regex_to_exclude(self, value: str) -> None:
+        self.regex_to_exclude = value
+
+    def __repr__(self) -> str:
+        return f"StorageFilter({', '.join(f'{name}={getattr(self, name)!r}' for name in _FILTER)})"
 
 
 class TopicMetadata:
@@ -81,14 +133,14 @@ class TopicMetadata:
 class ReadOrderSortBy(Enum):
     """By what messages are sorted."""
 
-    RECEIVED_TIMESTAMP = 0
-    PUBLISHED_TIMESTAMP = 1
-    FILE = 2
+    ReceivedTimestamp = 0
+    PublishedTimestamp = 1
+    File = 2
 
 
 @dataclass
 class ReadOrder:
     """The order in which messages are read."""
 
-    sort_by: ReadOrderSortBy = ReadOrderSortBy.RECEIVED_TIMESTAMP
+    sort_by: ReadOrderSortBy = ReadOrderSortBy.ReceivedTimestamp
     reverse: bool = False

@@ -102,13 +102,15 @@ class SequentialReader:
     def set_filter(self, storage_filter: StorageFilter) -> None:
         """Read only some topics, from the current position on."""
         names = list(self.__recording().topics)
-        chosen = set(storage_filter.topics or names)
-        if storage_filter.topics_regex:
-            pattern = re.compile(storage_filter.topics_regex)
+        named = {*storage_filter.topics, *storage_filter.services_events}
+        chosen = named or set(names)
+        if storage_filter.regex:
+            pattern = re.compile(storage_filter.regex)
             matching = {name for name in names if pattern.fullmatch(name)}
-            chosen = (chosen | matching) if storage_filter.topics else matching
-        if storage_filter.topics_regex_to_exclude:
-            excluded = re.compile(storage_filter.topics_regex_to_exclude)
+            chosen = (chosen | matching) if named else matching
+        chosen -= {*storage_filter.exclude_topics, *storage_filter.exclude_service_events}
+        if storage_filter.regex_to_exclude:
+            excluded = re.compile(storage_filter.regex_to_exclude)
             chosen = {name for name in chosen if not excluded.fullmatch(name)}
         self.__topics = [name for name in names if name in chosen]
         self.__continue()
@@ -124,8 +126,8 @@ class SequentialReader:
         self.__begin(timestamp)
 
     def set_read_order(self, read_order: ReadOrder) -> bool:
-        """Return whether the order is supported; only the receive order is, which is the default."""
-        return read_order.sort_by is ReadOrderSortBy.RECEIVED_TIMESTAMP and not read_order.reverse
+        """Return whether the order is supported: that of receipt is, which is the default."""
+        return read_order.sort_by is ReadOrderSortBy.ReceivedTimestamp and not read_order.reverse
 
     def __recording(self) -> Recording:
         if self.__opened is None:

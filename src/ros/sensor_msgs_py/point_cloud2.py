@@ -23,6 +23,10 @@ _DATATYPES: dict[int, np.dtype[Any]] = {
     PointField.UINT32: np.dtype(np.uint32),
     PointField.FLOAT32: np.dtype(np.float32),
     PointField.FLOAT64: np.dtype(np.float64),
+    # The constants INT64, UINT64 and BOOL, which PointField has from Lyrical on.
+    9: np.dtype(np.int64),
+    10: np.dtype(np.uint64),
+    11: np.dtype(np.bool_),
 }
 
 DUMMY_FIELD_PREFIX = "unnamed_field"

@@ -10,7 +10,7 @@ from __future__ import annotations
 import struct
 from typing import TYPE_CHECKING, NamedTuple
 
-from coframe.distributions import BEHAVIOURS, selected
+from coframe.distributions import BEHAVIORS, selected
 from coframe.wire.graph import NodeInfo
 from coframe.wire.names import MAX_NAME
 
@@ -40,7 +40,7 @@ class ParticipantInfo(NamedTuple):
 
 def gid_size(environment: Mapping[str, str]) -> int:
     """Return the size of an identifier in bytes in the distribution that the environment selects."""
-    has_short = selected(environment) >= BEHAVIOURS["short_identifiers"].since
+    has_short = selected(environment) >= BEHAVIORS["short_identifiers"].since
     return 16 if has_short else 24
 
 

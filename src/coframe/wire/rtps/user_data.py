@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import re
 
-from coframe.wire._type_hashes import type_hash_of_name
+from coframe.wire.type_hashes import type_hash_of_name
 
 REQUESTS_HISTORY = "coframe=history;"
 """Marks a reader that exists only to request the history of writers. It belongs to no node and is not shown."""

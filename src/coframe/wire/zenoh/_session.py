@@ -14,8 +14,8 @@ from coframe._output.escaping import shown
 from coframe.errors import WireError
 from coframe.time import SECOND
 from coframe.wire import _descriptors as descriptors
-from coframe.wire._type_hashes import type_hash_of_name
 from coframe.wire.names import check_name
+from coframe.wire.type_hashes import type_hash_of_name
 from coframe.wire.zenoh import _keys as keys
 from coframe.wire.zenoh import _library as library
 from coframe.wire.zenoh import _tokens as tokens

@@ -1,6 +1,7 @@
 # Written by scripts/generate_messages.py from interfaces/action_msgs/srv; do not edit.
 """Services of action_msgs."""
 
+from coframe.messages.events import event_attributes
 from coframe.messages.generated.action_msgs.srv import (
     CancelGoal,
     CancelGoal_Request,
@@ -12,3 +13,5 @@ __all__ = [
     "CancelGoal_Request",
     "CancelGoal_Response",
 ]
+
+__getattr__ = event_attributes("action_msgs", "srv")

@@ -1,6 +1,7 @@
 # Written by scripts/generate_messages.py from interfaces/nav_msgs/srv; do not edit.
 """Services of nav_msgs."""
 
+from coframe.messages.events import event_attributes
 from coframe.messages.generated.nav_msgs.srv import (
     GetMap,
     GetMap_Request,
@@ -30,3 +31,5 @@ __all__ = [
     "SetMap_Request",
     "SetMap_Response",
 ]
+
+__getattr__ = event_attributes("nav_msgs", "srv")

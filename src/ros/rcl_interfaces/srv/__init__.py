@@ -1,6 +1,7 @@
 # Written by scripts/generate_messages.py from interfaces/rcl_interfaces/srv; do not edit.
 """Services of rcl_interfaces."""
 
+from coframe.messages.events import event_attributes
 from coframe.messages.generated.rcl_interfaces.srv import (
     DescribeParameters,
     DescribeParameters_Request,
@@ -54,3 +55,5 @@ __all__ = [
     "SetParameters_Request",
     "SetParameters_Response",
 ]
+
+__getattr__ = event_attributes("rcl_interfaces", "srv")

@@ -16,6 +16,7 @@ from action_msgs.srv import CancelGoal
 from coframe._output.warn_once import WarnOnce
 from coframe.errors import DecodeError
 from coframe.messages import codec
+from rclpy._destroyable import Destroyable
 from rclpy.action._names import CANCEL_GOAL, FEEDBACK, FEEDBACK_QOS, GET_RESULT, SEND_GOAL, STATUS, resolve_action_name
 from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.client import take_responses_until, wait_until_ready
@@ -27,7 +28,9 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from rclpy.callback_groups import CallbackGroup
+    from rclpy.clock import Clock
     from rclpy.node import Node
+    from rclpy.service_introspection import ServiceIntrospectionState
     from rclpy.task import Future
 
 # Feedback can arrive after the result, because they take different ways through the middleware.
@@ -91,7 +94,7 @@ class ClientGoalHandle:
         return self._action_client._get_result_async(self)
 
 
-class ActionClient:
+class ActionClient(Destroyable):
     """Client of an action.
 
     The blocking methods do not need a spinning node. They work in any callback, as long as another executor runs the
@@ -231,6 +234,13 @@ class ActionClient:
             Whether a server is available. False if the context was shut down.
         """
         return wait_until_ready(self._node.context, self._node._Coframe__participant, self.server_is_ready, timeout_sec)
+
+    def configure_introspection(
+        self, clock: Clock, service_event_qos_profile: QoSProfile, introspection_state: ServiceIntrospectionState
+    ) -> None:
+        """Publish events of the action's three services, or stop; see `Client.configure_introspection`."""
+        for client in self.__clients:
+            client.configure_introspection(clock, service_event_qos_profile, introspection_state)
 
     def destroy(self) -> None:
         """Destroy the client. Repeated calls have no effect. Pending futures are never completed."""

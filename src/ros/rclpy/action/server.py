@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING, Any, Final
 from action_msgs.msg import GoalInfo, GoalStatus
 from action_msgs.srv import CancelGoal
 from coframe._output.warn_once import WarnOnce
+from rclpy._destroyable import Destroyable
 from rclpy.action._goal_handle import GoalEvent, ServerGoalHandle, can_be_cancelled
 from rclpy.action._names import (
     CANCEL_GOAL,
@@ -42,7 +43,9 @@ if TYPE_CHECKING:
 
     from coframe.wire.request_header import RequestHeader
     from rclpy.callback_groups import CallbackGroup
+    from rclpy.clock import Clock
     from rclpy.node import Node
+    from rclpy.service_introspection import ServiceIntrospectionState
     from unique_identifier_msgs.msg import UUID
 
 __all__ = [
@@ -92,7 +95,7 @@ def default_cancel_callback(cancel_request: ServerGoalHandle) -> CancelResponse:
     return CancelResponse.REJECT
 
 
-class ActionServer:
+class ActionServer(Destroyable):
     """Server of an action.
 
     All callbacks may be coroutine functions. Execute callbacks are in a separate reentrant group, so they run in
@@ -221,6 +224,13 @@ class ActionServer:
         """Schedule the execute callback of a goal. Prefer `ServerGoalHandle.execute`."""
         self.__to_execute.append((execute_callback or self.__execute_callback, goal_handle))
         self.__execution.trigger()
+
+    def configure_introspection(
+        self, clock: Clock, service_event_qos_profile: QoSProfile, introspection_state: ServiceIntrospectionState
+    ) -> None:
+        """Publish events of the action's three services, or stop; see `Service.configure_introspection`."""
+        for service in self.__services:
+            service.configure_introspection(clock, service_event_qos_profile, introspection_state)
 
     def destroy(self) -> None:
         """Destroy the server and its goal handles. Repeated calls have no effect."""

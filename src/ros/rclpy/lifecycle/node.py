@@ -219,8 +219,12 @@ class LifecycleNodeMixin(ManagedEntity):
     def __publish_event(self, edge: Edge) -> None:
         if self.__events is None:
             return
-        stamp = self.__node.get_clock().now().nanoseconds
-        event = TransitionEvent(timestamp=stamp, start_state=_state(edge.start), goal_state=_state(edge.goal))
+        now = self.__node.get_clock().now()
+        event: Any = TransitionEvent(start_state=_state(edge.start), goal_state=_state(edge.goal))
+        if hasattr(event, "stamp"):  # from Lyrical on
+            event.stamp = now.to_msg()
+        else:
+            event.timestamp = now.nanoseconds
         event.transition = Transition(id=edge.transition, label=edge.label)
         self.__events.publish(event)
 

@@ -1,6 +1,7 @@
 # Written by scripts/generate_messages.py from interfaces/std_srvs/srv; do not edit.
 """Services of std_srvs."""
 
+from coframe.messages.events import event_attributes
 from coframe.messages.generated.std_srvs.srv import (
     Empty,
     Empty_Request,
@@ -24,3 +25,5 @@ __all__ = [
     "Trigger_Request",
     "Trigger_Response",
 ]
+
+__getattr__ = event_attributes("std_srvs", "srv")

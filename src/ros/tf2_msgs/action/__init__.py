@@ -1,6 +1,7 @@
 # Written by scripts/generate_messages.py from interfaces/tf2_msgs/action; do not edit.
 """Actions of tf2_msgs."""
 
+from coframe.messages.events import event_attributes
 from coframe.messages.generated.tf2_msgs.action import (
     LookupTransform,
     LookupTransform_Feedback,
@@ -28,3 +29,5 @@ __all__ = [
     "LookupTransform_SendGoal_Request",
     "LookupTransform_SendGoal_Response",
 ]
+
+__getattr__ = event_attributes("tf2_msgs", "action")

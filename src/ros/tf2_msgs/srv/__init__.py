@@ -1,6 +1,7 @@
 # Written by scripts/generate_messages.py from interfaces/tf2_msgs/srv; do not edit.
 """Services of tf2_msgs."""
 
+from coframe.messages.events import event_attributes
 from coframe.messages.generated.tf2_msgs.srv import (
     FrameGraph,
     FrameGraph_Request,
@@ -12,3 +13,5 @@ __all__ = [
     "FrameGraph_Request",
     "FrameGraph_Response",
 ]
+
+__getattr__ = event_attributes("tf2_msgs", "srv")

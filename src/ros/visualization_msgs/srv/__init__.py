@@ -1,6 +1,7 @@
 # Written by scripts/generate_messages.py from interfaces/visualization_msgs/srv; do not edit.
 """Services of visualization_msgs."""
 
+from coframe.messages.events import event_attributes
 from coframe.messages.generated.visualization_msgs.srv import (
     GetInteractiveMarkers,
     GetInteractiveMarkers_Request,
@@ -12,3 +13,5 @@ __all__ = [
     "GetInteractiveMarkers_Request",
     "GetInteractiveMarkers_Response",
 ]
+
+__getattr__ = event_attributes("visualization_msgs", "srv")
