@@ -4,18 +4,21 @@
 import itertools
 import random
 import sqlite3
+import struct
 import sys
 import time
 
 import numpy as np
 import pytest
 import recordings
+from click.testing import CliRunner
 from mcap.reader import make_reader
 from mcap.writer import CompressionType
-from recordings import COUNT, START, messages
+from recordings import COUNT, SECOND, START, messages
 from rosbags.rosbag1 import Writer as Rosbag1Writer
 
 import coframe
+from coframe.cli.app import app
 
 KINDS = [
     "zstd.mcap",
@@ -124,14 +127,114 @@ def test_a_record_with_a_wrong_length_is_skipped_using_the_index(tmp_path):
     assert "are damaged" in recording.problems[0]
 
 
-def test_a_flipped_bit_is_reported(tmp_path):
+def test_transforms_in_a_chunk_with_a_flipped_bit_are_left_out(tmp_path):
+    """One of them has another pose, and only the checksum shows it."""
     path = recordings.write_mcap(tmp_path / "a.mcap", CompressionType.NONE)
     data = bytearray(path.read_bytes())
     data[data.index(b"odom") + 60] ^= 1
     path.write_bytes(data)
     recording = coframe.open_bag(path)
-    assert recording.topics["/tf"].messages == COUNT
-    assert "its checksum does not match" in recording.problems[0]
+    read = recording.topics["/tf"].messages
+    assert COUNT / 2 < read < COUNT
+    problems = " ".join(recording.problems)
+    assert "its checksum does not match" in problems
+    assert f"their transforms may be wrong ({COUNT - read} times)" in problems
+    assert recording.buffer.trajectory("odom", "base").stamps[0] > START + SECOND // 10
+
+
+def records(path):
+    """Return the records of an MCAP file that are not in chunks: (opcode, content) each."""
+    data, position, found = path.read_bytes(), 8, []
+    while position < len(data) - 8:
+        opcode, length = struct.unpack_from("<BQ", data, position)
+        found.append((opcode, data[position + 9 : position + 9 + length]))
+        position += 9 + length
+    return found
+
+
+def write_records(path, found):
+    magic = b"\x89MCAP0\r\n"
+    path.write_bytes(magic + b"".join(struct.pack("<BQ", code, len(data)) + data for code, data in found) + magic)
+    return path
+
+
+CHANNEL, MESSAGE, STATISTICS, DATA_END, FOOTER = 4, 5, 11, 15, 2
+
+
+def without_summary(found):
+    return [(FOOTER, bytes(20)) if code == FOOTER else (code, data) for code, data in found]
+
+
+@pytest.mark.parametrize("lost", ["message", "private message", "nothing"])
+def test_messages_that_the_recorder_counted_but_that_are_missing_are_reported(tmp_path, lost):
+    path = recordings.write_mcap(tmp_path / "a.mcap", chunked=False)
+    data = bytearray(path.read_bytes())
+    if lost != "nothing":
+        found = records(path)
+        row = [number for number, (code, _) in enumerate(found) if code == MESSAGE][20]
+        start = 8 + sum(9 + len(content) for _, content in found[:row])
+        data[start] = 0x99 if lost == "private message" else 0x06
+        if lost == "message":  # instead of one message, a message of a channel with no messages
+            data[start], data[start + 9] = MESSAGE, 1 if data[start + 9] == 2 else 2
+    path.write_bytes(data)
+    problems = " ".join(coframe.open_bag(path).problems)
+    assert (f"its statistics count {COUNT} messages on /tf, but {COUNT - 1} were read" in problems) == (
+        lost != "nothing"
+    )
+
+
+@pytest.mark.parametrize(
+    ("counts", "sentence"),
+    [
+        ({}, "its statistics count 7 messages, but 61 were read"),
+        ({1: 1, 2: 6}, "its statistics count 6 messages on /tf, but 60 were read"),
+        ({1: 1, 2: 60}, "its statistics contradict themselves: 7 messages in total, but 61 on all topics"),
+        ({1: 1, 2: 60, 9: 3}, "its statistics count 3 messages on channel 9, but 0 were read"),
+    ],
+)
+def test_statistics_that_disagree_with_the_messages_are_reported(tmp_path, counts, sentence):
+    path = recordings.write_mcap(tmp_path / "a.mcap", chunked=False)
+    listed = b"".join(struct.pack("<HQ", *pair) for pair in counts.items())
+    body = struct.pack("<QHIIIIQQI", 7, 1, 2, 0, 0, 0, 0, 0, len(listed)) + listed
+    found = [record for record in without_summary(records(path)) if record[0] <= MESSAGE or record[0] == DATA_END]
+    start = 8 + sum(9 + len(content) for _, content in found[:-1])
+    found = [*found[:-1], (STATISTICS, body), (FOOTER, struct.pack("<QQI", start, 0, 0))]
+    recording = coframe.open_bag(write_records(tmp_path / "b.mcap", found))
+    assert sentence in " ".join(recording.problems)
+    recordings.assert_same(recording.buffer)
+    ended = CliRunner().invoke(app, ["bag", "info", str(tmp_path / "b.mcap")])
+    assert sentence in ended.stderr
+
+
+def test_a_channel_with_a_second_definition_has_the_messages_behind_it(tmp_path):
+    path = recordings.write_mcap(tmp_path / "a.mcap", chunked=False)
+    found = without_summary(records(path))
+    end = next(number for number, (code, _) in enumerate(found) if code == DATA_END)
+    (moving,) = (data for code, data in found[:end] if code == CHANNEL and b"/tf_static" not in data)
+    middle = [number for number, (code, _) in enumerate(found[:end]) if code == MESSAGE][41]
+    other = moving.replace(b"\x03\0\0\0/tf", b"\x05\0\0\0/fork")
+    found = [*found[:middle], (CHANNEL, other), *found[middle:end], found[end], (FOOTER, bytes(20))]
+    recording = coframe.open_bag(write_records(tmp_path / "b.mcap", found))
+    assert {name: topic.messages for name, topic in recording.topics.items()} == {
+        "/tf": 40,
+        "/tf_static": 1,
+        "/fork": 20,
+    }
+    assert "defined differently for /tf and for /fork" in " ".join(recording.problems)
+
+
+def test_a_chunk_that_only_the_index_knows_is_reported(tmp_path):
+    path = recordings.write_mcap(tmp_path / "a.mcap")
+    data = bytearray(path.read_bytes())
+    with path.open("rb") as stream:
+        second = make_reader(stream).get_summary().chunk_indexes[1]
+    data[second.chunk_start_offset] = 0x90  # the opcode of an application
+    path.write_bytes(data)
+    recording = coframe.open_bag(path)
+    assert COUNT / 2 < recording.topics["/tf"].messages < COUNT
+    problems = " ".join(recording.problems)
+    assert f"there is no chunk at byte {second.chunk_start_offset}, where the index lists one" in problems
+    assert f"its statistics count {COUNT} messages on /tf" in problems
 
 
 def test_a_bag_of_ros_1_without_its_index(tmp_path):

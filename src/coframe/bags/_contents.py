@@ -148,6 +148,13 @@ class _Reading:
             if channel not in tracks:
                 tracks[channel] = self._index.add_track(storage, channel), self._collected.ingest(channel)
             track, ingest = tracks[channel]
+            if not batch.is_intact and _has_transforms(channel):
+                # A flipped bit in a transform would be a wrong pose without a word.
+                text = (
+                    f"{channel.topic}: messages in damaged chunks were left out, because their transforms may be wrong"
+                )
+                self._problems.add(text, len(batch.received))
+                continue
             track.add(batch)
             if batch.messages is not None and ingest is not None:
                 ingest(batch.received, batch.messages)

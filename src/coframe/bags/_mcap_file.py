@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from coframe import _core
+from coframe._output.formatting import count
 from coframe.bags._compression import MAX_UNPACKED_BYTES, DamagedError, unpack
 from coframe.bags.formats import MCAP
 from coframe.bags.storage import MAX_DAMAGED_PLACES, Batch, Channel, ChunkedStorage, next_chunk
@@ -21,17 +22,22 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Generator, Iterator
     from pathlib import Path
 
+    from numpy.typing import NDArray
+
     from coframe.bags._problems import Problems
 
 __all__ = ["McapStorage"]
 
 _FOOTER, _SCHEMA, _CHANNEL, _MESSAGE, _CHUNK, _CHUNK_INDEX, _DATA_END = 0x02, 0x03, 0x04, 0x05, 0x06, 0x08, 0x0F
+_STATISTICS = 0x0B
 _LAST_OPCODE = 0x0F  # opcodes from 0x80 are reserved for applications
 _RECORD = struct.Struct("<BQ")  # opcode, length
 _MESSAGE_RECORD = struct.Struct("<BQHIQQ")  # opcode, length, channel, sequence, log time, publish time
 _CHUNK_HEAD = struct.Struct("<QQQI")  # first and last log time, unpacked size, its CRC or 0
 _BLOCK = 4 << 20  # bytes to read at once from records outside chunks
 _FOOTER_RECORD = struct.Struct("<BQQQI")  # opcode, length, start of the summary, of its offsets, CRC
+_STATISTICS_HEAD = struct.Struct("<QHIIIIQQI")  # messages, other counts, times, bytes of the counts by channel
+_CHANNEL_COUNT = struct.Struct("<HQ")
 _CRC_AND_MAGIC = 4 + len(MCAP.magic)  # bytes at the end of the file that the CRC of the summary does not cover
 
 
@@ -44,6 +50,10 @@ class McapStorage(ChunkedStorage):
         super().__init__(path, problems)
         self._schemas: dict[int, tuple[str, str, bytes]] = {}
         self._channels: dict[int, Channel] = {}
+        self._defined: dict[int, bytes] = {}  # the records of channels
+        self._counts: dict[int, int] = {}  # messages by channel
+        self._listed: dict[int, int] | None = None  # the same by the statistics in the summary
+        self._listed_total: int | None = None
 
     def channels(self) -> list[Channel]:
         """Return the channels found so far."""
@@ -53,8 +63,11 @@ class McapStorage(ChunkedStorage):
         """Yield all messages in file order, including the bytes of unwanted ones, because chunks contain both."""
         del wanted
         done = 0
-        for offset, opcode, end in self._walk(self._read_summary()):
+        chunks = self._read_summary()
+        missing = set(chunks)
+        for offset, opcode, end in self._walk(chunks):
             if opcode == _CHUNK:
+                missing.discard(offset)
                 yield from self._chunk_batches(offset)
                 progress(end)
             elif opcode in {_SCHEMA, _CHANNEL, _MESSAGE} and offset >= done:
@@ -64,6 +77,9 @@ class McapStorage(ChunkedStorage):
                 data = self.bytes_at(offset, max(end - offset, _BLOCK))
                 done = offset + (yield from self._inner(data, offset))
                 progress(done)
+        if missing:
+            self.add_problem(f"there is no chunk at byte {min(missing)}, where the index lists one", len(missing))
+        self._check_statistics()
         progress(self.size)
 
     def _walk(self, chunks: list[int]) -> Iterator[tuple[int, int, int]]:
@@ -131,12 +147,42 @@ class McapStorage(ChunkedStorage):
         while position + _RECORD.size <= len(summary):
             opcode, length = _RECORD.unpack_from(summary, position)
             content = summary[position + _RECORD.size : position + _RECORD.size + length]
-            if opcode == _CHUNK_INDEX:
+            if opcode == _STATISTICS:
+                self._read_statistics(content)
+            elif opcode == _CHUNK_INDEX:
                 chunks.append(int.from_bytes(content[16:24], "little"))
             elif opcode in {_SCHEMA, _CHANNEL}:
                 self._define(opcode, content)
             position += _RECORD.size + length
         return sorted(chunk for chunk in chunks if 0 < chunk < self.size)
+
+    def _read_statistics(self, content: bytes) -> None:
+        """Read how many messages the recorder counted."""
+        if len(content) < _STATISTICS_HEAD.size:
+            return
+        self._listed_total, *_, size = _STATISTICS_HEAD.unpack_from(content)
+        counts = content[_STATISTICS_HEAD.size :][:size]
+        if size and len(counts) == size and size % _CHANNEL_COUNT.size == 0:
+            self._listed = dict(_CHANNEL_COUNT.iter_unpack(counts))
+
+    def _check_statistics(self) -> None:
+        """Report messages that the recorder counted but that are not there, or the other way round."""
+        read = sum(self._counts.values())
+        if self._listed is None:
+            if self._listed_total not in {None, read}:
+                self.add_problem(f"its statistics count {self._listed_total} messages, but {read} were read")
+            return
+        for number in sorted(self._listed.keys() | self._counts.keys()):
+            listed, found = self._listed.get(number, 0), self._counts.get(number, 0)
+            if listed != found:
+                topic = self._channels[number].topic if number in self._channels else f"channel {number}"
+                text = f"its statistics count {count(listed, 'message')} on {topic}, but {found}"
+                self.add_problem(f"{text} {'was' if found == 1 else 'were'} read")
+        if self._listed_total != sum(self._listed.values()):
+            self.add_problem(
+                f"its statistics contradict themselves: {self._listed_total} messages in total, but "
+                f"{sum(self._listed.values())} on all topics"
+            )
 
     def _check_footer(self, data_end: int) -> None:
         """Report a footer that does not match the end of the data."""
@@ -154,16 +200,22 @@ class McapStorage(ChunkedStorage):
     def _chunk_batches(self, offset: int) -> Iterator[Batch]:
         base = self.add_chunk(offset)
         try:
-            data = self.unpack_chunk(offset)
+            data, is_intact = self._unpack(offset)
         except DamagedError as error:
             self.add_problem(f"the chunk at byte {offset} cannot be unpacked: {error}")
             return
-        done = yield from self._inner(data, base)
+        if not is_intact:
+            self.add_problem(f"the chunk at byte {offset} is damaged: its checksum does not match")
+        done = yield from self._inner(data, base, is_intact=is_intact)
         if done < len(data):
             self.add_problem(f"{len(data) - done} bytes inside a chunk are damaged or missing")
 
     def unpack_chunk(self, offset: int) -> bytes:
         """Return the records of the chunk at an offset of the file."""
+        return self._unpack(offset)[0]
+
+    def _unpack(self, offset: int) -> tuple[bytes, bool]:
+        """Return the records of a chunk, and whether they match its checksum."""
         opcode, length = _RECORD.unpack(self.bytes_at(offset, _RECORD.size))
         assert opcode == _CHUNK
         chunk = memoryview(self.bytes_at(offset + _RECORD.size, min(length, self.size - offset - _RECORD.size)))
@@ -176,30 +228,39 @@ class McapStorage(ChunkedStorage):
         packed = chunk[start + 8 :]
         self.check_budget(offset, len(packed), size)
         data = unpack(compression, packed, size)
-        if crc and zlib.crc32(data) != crc:
-            self.add_problem(f"the chunk at byte {offset} is damaged: its checksum does not match")
-        return data
+        return data, crc in {0, zlib.crc32(data)}
 
-    def _inner(self, data: bytes, base: int) -> Generator[Batch, None, int]:
+    def _inner(self, data: bytes, base: int, *, is_intact: bool = True) -> Generator[Batch, None, int]:
         """Yield the messages in a sequence of records; return the number of bytes that were read.
 
         Args:
             data: The records.
             base: Added to an offset in ``data`` to get a position.
+            is_intact: Whether the records are as they were written.
         """
         *columns, definitions, done = _core.mcap_records(data)
+        before: dict[int, list[tuple[int, Channel]]] = {}  # definitions until a record, by number
         for opcode, start, end in definitions:
-            self._define(opcode, data[start:end])
+            if not is_intact and int.from_bytes(data[start : start + 2], "little") in self._channels:
+                continue
+            if (replaced := self._define(opcode, data[start:end])) is not None:
+                before.setdefault(replaced[0], []).append((start, replaced[1]))
         channels = np.frombuffer(columns[0], dtype=np.uint16)
         times, records, starts, ends = (np.frombuffer(column, dtype=np.uint64) for column in columns[1:])
         for number in np.unique(channels).tolist() if len(channels) > 1 else channels.tolist():
-            channel = self._channels.get(number)
-            rows = (channels == number) & (times < _TOO_LATE)
-            if channel is None:
-                self.add_problem(f"messages of channel {number}, which is not defined", int(np.count_nonzero(rows)))
-            else:
-                messages = Slices(data, starts[rows], ends[rows])
-                yield Batch(channel, times[rows].astype(np.int64), records[rows] + np.uint64(base), messages)
+            of_channel = channels == number
+            self._counts[number] = self._counts.get(number, 0) + int(np.count_nonzero(of_channel))
+            valid = of_channel & (times < _TOO_LATE)
+            parts = [(valid, self._channels.get(number))]
+            if number in before:
+                parts = _divided(valid, records, before[number], parts[0][1])
+            for rows, channel in parts:
+                if channel is None:
+                    self.add_problem(f"messages of channel {number}, which is not defined", int(np.count_nonzero(rows)))
+                else:
+                    messages = Slices(data, starts[rows], ends[rows])
+                    positions = records[rows] + np.uint64(base)
+                    yield Batch(channel, times[rows].astype(np.int64), positions, messages, is_intact)
         if (times >= _TOO_LATE).any():
             self.add_problem("messages with an invalid receive time", int(np.count_nonzero(times >= _TOO_LATE)))
         return done
@@ -218,22 +279,26 @@ class McapStorage(ChunkedStorage):
             start + _MESSAGE_RECORD.size : start + _RECORD.size + _RECORD.unpack_from(source, start)[1]
         ]
 
-    def _define(self, opcode: int, data: bytes) -> None:
-        """Read a schema or a channel unless it is already known; the summary and later chunks repeat them."""
+    def _define(self, opcode: int, data: bytes) -> tuple[int, Channel] | None:
+        """Read a schema or a channel unless it is already known; the summary and later chunks repeat them.
+
+        Returns:
+            The number of a channel and its definition so far, if this is another one.
+        """
         identifier = int.from_bytes(data[:2], "little")
-        if opcode == _CHANNEL and identifier in self._channels:
-            return
+        if opcode == _CHANNEL and self._defined.get(identifier) == data:
+            return None
         try:
             if opcode == _SCHEMA:
                 known = self._schemas.get(identifier)
                 if known is not None and known[2] and data.endswith(known[2]):
-                    return
+                    return None
                 name, position = _text(data, 2)
                 kind, position = _text(data, position)
                 name, kind = sys.intern(name), sys.intern(kind)  # Tens of thousands of schemas can have the same name.
                 (length,) = struct.unpack_from("<I", data, position)
                 self._schemas[identifier] = (name, kind, data[position + 4 : position + 4 + length])
-                return
+                return None
             number, schema = struct.unpack_from("<HH", data)
             topic, position = _text(data, 4)
             encoding, position = _text(data, position)
@@ -241,11 +306,19 @@ class McapStorage(ChunkedStorage):
             offered_qos = _entry(data, position, "offered_qos_profiles")
         except (struct.error, ValueError, IndexError):
             self.add_problem("the definition of a channel is damaged")
-            return
+            return None
         name, kind, definition = self._schemas.get(schema, ("", "", b""))
         if encoding in {"cdr", "ros1"}:
             name = _ros_type(name)
-        self._channels[number] = Channel(topic, name, encoding, definition, kind, offered_qos)
+        channel = Channel(topic, name, encoding, definition, kind, offered_qos)
+        known_channel = self._channels.get(number)
+        if known_channel is not None and _facts(known_channel) == _facts(channel):
+            self._defined[number] = data
+            return None  # Messages of a channel are one track, also if its metadata are written in another order.
+        if known_channel is not None and known_channel.type:
+            self.add_problem(f"channel {number} is defined differently for {known_channel.topic} and for {topic}")
+        self._channels[number], self._defined[number] = channel, data
+        return None if known_channel is None else (number, known_channel)
 
 
 _TOO_LATE = np.uint64(1 << 63)
@@ -257,6 +330,24 @@ def _ros_type(name: str) -> str:
         return name if "/msg/" in name else sys.intern(ros_name(name))
     except ValueError:
         return name
+
+
+def _divided(
+    rows: NDArray[np.bool_],
+    records: NDArray[np.uint64],
+    before: list[tuple[int, Channel]],
+    channel: Channel | None,
+) -> list[tuple[NDArray[np.bool_], Channel | None]]:
+    """Return the rows before and after each new definition of their channel, with the definition."""
+    parts: list[tuple[NDArray[np.bool_], Channel | None]] = []
+    for end, old in before:
+        parts.append((rows & (records < end), old))
+        rows = rows & (records >= end)
+    return [(part, definition) for part, definition in [*parts, (rows, channel)] if part.any()]
+
+
+def _facts(channel: Channel) -> tuple[str, str, str, bytes]:
+    return channel.topic, channel.type, channel.encoding, channel.definition
 
 
 def _is_record(opcode: int) -> bool:

@@ -67,12 +67,14 @@ class Batch(NamedTuple):
         received: Receive times, (N,) int64 nanoseconds.
         positions: Arguments for :meth:`Storage.read`, (N,) uint64.
         messages: The bytes; None if they are not wanted and reading them would take time.
+        is_intact: False if their checksum shows that some of their bytes have changed.
     """
 
     channel: Channel
     received: NDArray[np.int64]
     positions: NDArray[np.uint64]
     messages: Slices | None
+    is_intact: bool = True
 
 
 class Storage(ABC):
