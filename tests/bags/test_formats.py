@@ -429,7 +429,7 @@ def test_files_that_are_not_recordings_are_errors(tmp_path):
     (tmp_path / "old.bag").write_bytes(b"#ROSBAG V1.2\n")
     (tmp_path / "folder").mkdir()
     for name, reason in [
-        ("empty.mcap", "the file is empty"),
+        ("empty.mcap", "it is empty"),
         ("text.db3", "in none of these formats: MCAP, SQLite"),
         ("old.bag", "bags of version 1"),
         ("folder", "is not a recording"),

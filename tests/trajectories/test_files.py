@@ -69,7 +69,7 @@ def test_stamps_of_tum_files_are_exact(tmp_path, stamp, expected):
 @pytest.mark.parametrize(
     ("text", "reason"),
     [
-        ("", "contains no poses"),
+        ("", "it is empty"),
         ("# nothing\n", "contains no poses"),
         ("1 2 3\n", "is not a trajectory: line 1 has 3 columns separated by spaces"),
         ("1 0 0 0 0 0 0 1\n2 0 0\n", "line 2: 3 columns; the lines above have 8"),

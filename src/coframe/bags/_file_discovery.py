@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO, NamedTuple
 
 from coframe._files.bounded_yaml import read_yaml
+from coframe._files.other_files import BEGINNING, what_else
 from coframe._files.regular_files import UnsuitableFileError, open_regular, read_regular, reading_hint
 from coframe._files.temporary_folders import temporary_folder
 from coframe._output.formatting import listed
@@ -44,18 +45,6 @@ if TYPE_CHECKING:
 __all__ = ["OpenedFiles", "open_files"]
 
 _ZSTD = b"\x28\xb5\x2f\xfd"
-# What other files are, by their first bytes.
-_OTHER_FILES = {
-    b"version https://": "it is a pointer of Git LFS, not the recording; `git lfs pull` downloads that",
-    b"\x1f\x8b": "it is compressed with gzip; unpack it with gunzip",
-    b"BZh": "it is compressed with bzip2; unpack it with bunzip2",
-    b"\xfd7zXZ\0": "it is compressed with xz; unpack it with unxz",
-    b"PK\x03\x04": "it is a zip archive; unpack it with unzip",
-    b"7z\xbc\xaf": "it is a 7z archive; unpack it",
-    b"<!DOCTYPE": "it is a web page, probably from a failed download",
-    b"<html": "it is a web page, probably from a failed download",
-    bytes(16): "it begins with zeros; its beginning was never written, or is lost",
-}
 _UNPACKED_PIECE = 1 << 20  # bytes
 _MAX_METADATA_BYTES = 16 << 20
 _MAX_EXPANSION = 16 << 20  # bytes; incompressible data grows by less than this
@@ -160,7 +149,7 @@ def _is_candidate(file: Path, problems: Problems) -> bool:
 
 def _beginning(file: Path) -> bytes:
     with open_regular(file) as opened:
-        return opened.read(16)
+        return opened.read(BEGINNING)
 
 
 def _natural(file: Path) -> list[tuple[int, int, str]]:
@@ -180,9 +169,8 @@ def _open(file: Path, problems: Problems, closing: ExitStack) -> Storage | None:
             return _opened(each, file, problems, closing)
     names = [each.name for each in formats()]
     reason = next(filter(None, (each.refusal(start) for each in formats())), "")
-    unknown = f"the file is in none of these formats: {', '.join(names)}" if start else "the file is empty"
-    other = next((what for first, what in _OTHER_FILES.items() if start.startswith(first)), "")
-    problems.add(f"{file.name}: {reason or other or unknown}")
+    unknown = f"the file is in none of these formats: {', '.join(names)}"
+    problems.add(f"{file.name}: {reason or what_else(start) or unknown}")
     return None
 
 

@@ -30,16 +30,18 @@ def looks_like_seconds(stamps: NDArray[np.int64]) -> bool:
     return 0 < abs(int(np.median(steps))) < MIN_SPACING
 
 
-def findings(stamps: NDArray[np.int64], positions: NDArray[np.float64], xyzw: NDArray[np.float64]) -> Iterator[str]:
+def findings(
+    stamps: NDArray[np.int64] | None, positions: NDArray[np.float64], xyzw: NDArray[np.float64]
+) -> Iterator[str]:
     """Yield one sentence for each suspicious property.
 
     Args:
-        stamps: (N,) nanoseconds.
+        stamps: (N,) nanoseconds; None if the file has no times.
         positions: (N, 3) meters.
         xyzw: (N, 4) quaternions as they were read.
     """
-    steps = np.diff(stamps)
-    if (steps <= 0).any():
+    steps = np.ones(0) if stamps is None else np.diff(stamps)
+    if stamps is not None and (steps <= 0).any():
         row = int(np.flatnonzero(steps <= 0)[0]) + 2
         yield (
             f"the times do not increase at {count(int((steps <= 0).sum()), 'pose')}; the first one is pose {row}, at "
@@ -53,12 +55,19 @@ def findings(stamps: NDArray[np.int64], positions: NDArray[np.float64], xyzw: ND
             f"with norm {norms[wrong[0]]:.4g}"
         )
     as_read = _resultant(positions, xyzw)
-    for order, columns in (("w first", (1, 2, 3, 0)), ("w last", (3, 0, 1, 2))):
-        other = _resultant(positions, xyzw[:, columns])
-        if as_read is not None and other is not None and as_read < _SCATTERED and other > _STRAIGHT:
+    if as_read is None or as_read >= _SCATTERED:
+        return
+    readings = {
+        "the quaternions are read with w first": (positions, xyzw[:, (1, 2, 3, 0)]),
+        "the quaternions are read with w last": (positions, xyzw[:, (3, 0, 1, 2)]),
+        "the poses are inverted": (_inverted(positions, xyzw), xyzw * (-1, -1, -1, 1)),
+    }
+    for how, (places, rotations) in readings.items():
+        other = _resultant(places, rotations)
+        if other is not None and other > _STRAIGHT:
             yield (
-                f"the path is smoother if the quaternions are read with {order}: {_percent(other)} instead of "
-                f"{_percent(as_read)} of the motion is in one direction of the moving frame"
+                f"the path is smoother if {how}: {_percent(other)} instead of {_percent(as_read)} of the motion is in "
+                "one direction of the moving frame"
             )
 
 
@@ -73,10 +82,21 @@ def _resultant(positions: NDArray[np.float64], xyzw: NDArray[np.float64]) -> flo
     if np.count_nonzero(moving) < _MIN_MOVES:
         return None
     directions = steps[moving] / lengths[moving, None]
-    vector, scalar = -xyzw[:-1][moving, :3], xyzw[:-1][moving, 3:]  # the inverse rotations
-    vector, scalar = vector / norms[moving, None], scalar / norms[moving, None]
-    turned = directions + 2 * np.cross(vector, np.cross(vector, directions) + scalar * directions)
+    turned = _turned(directions, xyzw[:-1][moving] * (-1, -1, -1, 1) / norms[moving, None])
     return float(np.linalg.norm(turned.mean(axis=0)))
+
+
+def _inverted(positions: NDArray[np.float64], xyzw: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the positions of the inverse poses."""
+    norms = np.linalg.norm(xyzw, axis=1)[:, None]
+    return -_turned(positions, xyzw * (-1, -1, -1, 1) / np.where(norms > 0, norms, 1.0))
+
+
+def _turned(vectors: NDArray[np.float64], xyzw: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return vectors rotated by unit quaternions."""
+    axis, scalar = xyzw[:, :3], xyzw[:, 3:]
+    turned: NDArray[np.float64] = vectors + 2 * np.cross(axis, np.cross(axis, vectors) + scalar * vectors)
+    return turned
 
 
 def _percent(share: float) -> str:

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 from coframe.time import SECOND
 
-__all__ = ["Columns", "header_columns", "split"]
+__all__ = ["Columns", "header_columns", "is_separated_by_spaces", "split"]
 
 _POSE = ("x", "y", "z", "qx", "qy", "qz", "qw")
 _UNIT = re.compile(r"\[(.*?)\]|\((.*?)\)")
@@ -17,6 +17,8 @@ _STAMP = re.compile(
 )
 _ROTATION = re.compile(r"(?:.*[.])?(?:q|quat|quaternion|orientation|rotation|rot)(?:[._].*)?[._]?([xyzw])")
 _POSITION = re.compile(r"(?:(?:.*[.])?(?:p|t|pos|position|trans|translation)(?:[._].*)?[._]?)?([xyz])")
+_DECIMAL_COMMA = re.compile(r"[+-]?\d+(?:,\d+)?(?:[eE][+-]?\d+)?|nan", re.ASCII | re.IGNORECASE)
+_MIN_CELLS = 8  # of a pose with its time
 _UNITS = {"n": 1, "u": 1_000, "m": 1_000_000, "s": SECOND}  # by the first letter
 
 
@@ -35,11 +37,22 @@ class Columns(NamedTuple):
 
 
 def split(line: str) -> list[str]:
-    """Return the cells of a line, which are separated by commas, semicolons or spaces."""
+    """Return the cells of a line, which are separated by commas, semicolons, tabs or spaces.
+
+    Numbers may have a decimal comma if another character separates them.
+    """
+    cells = [cell.strip() for cell in line.split(";")] if ";" in line else line.split()
+    if len(cells) >= _MIN_CELLS and "," in line and all(map(_DECIMAL_COMMA.fullmatch, cells)):
+        return [cell.replace(",", ".") for cell in cells]
     for separator in ",;":
         if separator in line:
             return [cell.strip() for cell in line.split(separator)]
     return line.split()
+
+
+def is_separated_by_spaces(line: str) -> bool:
+    """Return whether spaces or tabs separate the cells of a line."""
+    return split(line) == line.replace(",", ".").split()
 
 
 def header_columns(line: str) -> Columns | None:

@@ -15,12 +15,13 @@ from typing import TYPE_CHECKING, BinaryIO
 
 import numpy as np
 
+from coframe._files.other_files import BEGINNING, what_else
 from coframe._files.regular_files import open_regular
 from coframe._output.formatting import count
 from coframe.errors import InvalidArgumentException, TrajectoryError
 from coframe.time import SECOND
 from coframe.trajectories._checks import findings, looks_like_seconds
-from coframe.trajectories._columns import Columns, header_columns, split
+from coframe.trajectories._columns import Columns, header_columns, is_separated_by_spaces, split
 from coframe.trajectories.formats import POSE_COLUMNS
 from coframe.transform.transform import Transform
 
@@ -36,12 +37,16 @@ READABLE_FORMATS = ("tum", "kitti", "euroc", "csv", "npz")
 MAX_LINE = 10_000  # characters
 MAX_POSES = 1_000_000  # 2.7 hours at 100 Hz
 MAX_UNPACKED = 256 << 20  # bytes of an npz file after decompression
+_ZIP = b"PK"
+_UTF_16 = (b"\xff\xfe", b"\xfe\xff")  # as PowerShell writes text
+_COMMAND = "`coframe trajectory BAG TARGET SOURCE -o FILE` writes the trajectory of a frame in a recording."
 _SECONDS = re.compile(r"(-?)(\d+)(?:\.(\d*))?", re.ASCII)
 _LATEST = 1 << 63
 # The columns of files without a header line.
 _W_LAST, _W_FIRST = (Columns(0, pose, None) for pose in ((1, 2, 3, 4, 5, 6, 7), (1, 2, 3, 5, 6, 7, 4)))
 _OPENVINS_COLUMNS = 20  # TUM, and twelve values of the covariance
 _MAX_DIGITS = 40  # of a time that a message quotes
+MIN_MATRIX_ERROR, MAX_MATRIX_ERROR = 1e-5, 1e-3  # of numbers with five, and with three decimals
 MAX_SECONDS = 1e11  # of a time; in nanoseconds this is 100 s
 _NAMED_UNIT = (
     "Name the columns and the unit in the first line: 'timestamp[ns] x y z qx qy qz qw' or "
@@ -54,6 +59,17 @@ _LAYOUTS = (
     "least 8 separated by commas (ns, x, y, z, qw, qx, qy, qz), and CSV begins with a header line: "
     f"stamp_ns,{','.join(POSE_COLUMNS)}."
 )
+
+
+# What other numbers of columns may be.
+_OTHER_LAYOUTS = {
+    3: "positions without rotations",
+    4: "times and positions without rotations",
+    7: "poses without times",
+    13: "times and 3x4 matrices",
+    16: "4x4 matrices",
+    17: "times and 4x4 matrices",
+}
 
 
 class _UnitError(ValueError):
@@ -96,16 +112,20 @@ def read_trajectory(
     file = Path(path)
     try:
         with open_regular(file) as stream:
-            is_zip = stream.read(2) == b"PK"
+            beginning = stream.read(BEGINNING)
             stream.seek(0)
+            is_zip = beginning.startswith(_ZIP)
             if format_ == "npz" or (format_ is None and is_zip):
                 poses, sentences = _read_npz(file, stream)
+            elif what := what_else(beginning):
+                raise TrajectoryError(f"{file} is not a trajectory: {what}", hint=_COMMAND if "rec" in what else "")
             else:
-                text = io.TextIOWrapper(stream, encoding="utf-8-sig")
+                encoding = "utf-16" if beginning.startswith(_UTF_16) else "utf-8-sig"
+                text = io.TextIOWrapper(stream, encoding=encoding)
                 poses, sentences = _read_text(file, iter(partial(text.readline, MAX_LINE + 1), ""), format_)
     except OSError as error:
         raise TrajectoryError(f"{file} cannot be read: {error.strerror or error}") from None
-    except UnicodeDecodeError:
+    except UnicodeError:
         raise TrajectoryError(f"{file} is not a trajectory: it is not a text file", hint=_LAYOUTS) from None
     except InvalidArgumentException as error:
         raise TrajectoryError(f"{file}: {error}", hint=error.hint) from None
@@ -165,7 +185,7 @@ class _Rows:
 
     def _begin(self, line: int, text: str, cells: Sequence[str]) -> None:
         """Determine the format from the header line and the first row."""
-        has_commas = split(text) != text.split()
+        has_commas = not is_separated_by_spaces(text)
         self._cells = len(cells)
         if self._named is not None and self._cells > max(self._named.stamp, *self._named.pose):
             self._columns = self._named
@@ -174,9 +194,11 @@ class _Rows:
         kind = _layout(self._file, self._kind, self._cells, has_commas)
         if not kind:
             separator = "commas" if has_commas else "spaces"
+            other = _OTHER_LAYOUTS.get(self._cells, "")
             expected = f"is not in the format {self._kind}" if self._kind else "is not a trajectory"
             raise TrajectoryError(
-                f"{self._file} {expected}: line {line} has {self._cells} columns separated by {separator}",
+                f"{self._file} {expected}: line {line} has {self._cells} columns separated by {separator}"
+                + (f", like {other}" if other else ""),
                 hint=_LAYOUTS,
             )
         self._columns = {"kitti": None, "euroc": _W_FIRST}.get(kind, _W_LAST)
@@ -188,7 +210,7 @@ class _Rows:
             raise TrajectoryError(f"{self._file} contains no poses", hint=_LAYOUTS)
         numbers = np.frombuffer(self._numbers)
         if self._columns is None:
-            return _matrices(self._file, numbers), []
+            return _matrices(self._file, numbers)
         return _checked(self._file, numbers.reshape(-1, 7), self._times.nanoseconds(self._file))
 
 
@@ -255,14 +277,51 @@ def _checked(
     return Transform(rows[:, :3], rows[:, 3:], target=target, source=source, stamp=stamps), sentences
 
 
-def _matrices(file: Path, numbers: NDArray[np.float64]) -> Transform:
-    matrices = np.zeros((len(numbers) // 12, 4, 4))
-    matrices[:, :3] = numbers.reshape(-1, 3, 4)
+def _matrices(file: Path, numbers: NDArray[np.float64]) -> _Poses:
+    """Return the poses of rows with 3x4 matrices, and what is suspicious about them."""
+    rows = numbers.reshape(-1, 3, 4)
+    if (bad := np.flatnonzero(~np.isfinite(rows).all(axis=(1, 2)))).size:
+        raise TrajectoryError(
+            f"{file} has {count(len(bad), 'row')} with NaN or infinite numbers; the first one is pose {bad[0] + 1}",
+            hint="The poses of KITTI files are paired by their order, so that none can be left out.",
+        )
+    matrices = np.zeros((len(rows), 4, 4))
+    matrices[:, :3] = rows
     matrices[:, 3, 3] = 1.0
+    sentences = []
+    errors = _orthogonality_errors(rows[:, :, :3])
+    if MIN_MATRIX_ERROR < errors.max() <= MAX_MATRIX_ERROR:
+        left, _, right = np.linalg.svd(rows[:, :, :3])
+        matrices[:, :3, :3] = left @ right
+        sentences.append(
+            f"{count(int((errors > MIN_MATRIX_ERROR).sum()), 'rotation')} differ from orthogonal matrices by up to "
+            f"{errors.max():.2g}; the nearest rotations are used"
+        )
     try:
-        return Transform.from_matrix(matrices)
+        poses = Transform.from_matrix(matrices)
     except ValueError as error:
-        raise TrajectoryError(f"{file}: {error}") from None
+        raise TrajectoryError(f"{file}, pose {int(errors.argmax()) + 1}: {error}", hint=_other_order(rows)) from None
+    return poses, [*sentences, *findings(None, poses.translation, poses.quaternion)]
+
+
+def _orthogonality_errors(rotations: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return how far matrices (N, 3, 3) are from orthogonal ones: the largest element of R R^T - I of each."""
+    products = rotations @ rotations.transpose(0, 2, 1)
+    errors: NDArray[np.float64] = np.abs(products - np.eye(3)).max(axis=(1, 2))
+    return errors
+
+
+def _other_order(rows: NDArray[np.float64]) -> str:
+    """Return a hint if the numbers are rotation matrices in another order; "" otherwise."""
+    flat = rows.reshape(-1, 12)
+    orders = {
+        "with the nine numbers of the rotation first, and then x, y, z": flat[:, :9].reshape(-1, 3, 3),
+        "with x, y, z first": flat[:, 3:].reshape(-1, 3, 3),
+    }
+    for order, matrices in orders.items():
+        if _orthogonality_errors(matrices).max() < MAX_MATRIX_ERROR:
+            return f"The numbers are rotations if they are read {order}; KITTI has r11 r12 r13 x r21 r22 r23 y ..."
+    return ""
 
 
 def _nanoseconds(text: str, unit: int) -> int:

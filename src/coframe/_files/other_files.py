@@ -1,0 +1,43 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What a file is that was expected to be something else, by its first bytes."""
+
+from __future__ import annotations
+
+__all__ = ["BEGINNING", "what_else"]
+
+BEGINNING = 16
+"""Bytes from the beginning of a file that are enough."""
+
+_KINDS = {
+    b"version https://": "it is a pointer of Git LFS, not the file itself; `git lfs pull` downloads that",
+    b"\x1f\x8b": "it is compressed with gzip; unpack it with gunzip",
+    b"\x28\xb5\x2f\xfd": "it is compressed with Zstandard; unpack it with unzstd",
+    b"\x04\x22\x4d\x18": "it is compressed with LZ4; unpack it with unlz4",
+    b"BZh": "it is compressed with bzip2; unpack it with bunzip2",
+    b"\xfd7zXZ\0": "it is compressed with xz; unpack it with unxz",
+    b"PK\x03\x04": "it is a zip archive; unpack it with unzip",
+    b"7z\xbc\xaf": "it is a 7z archive; unpack it",
+    b"<!DOCTYPE": "it is a web page, probably from a failed download",
+    b"<!doctype": "it is a web page, probably from a failed download",
+    b"<html": "it is a web page, probably from a failed download",
+    b"PAR1": "it is a Parquet file; pandas.read_parquet reads it",
+    b"\x89HDF": "it is an HDF5 file; h5py reads it",
+    b"\x93NUMPY": "it is an .npy array of NumPy; numpy.load reads it",
+    b"\x89MCAP": "it is a recording (MCAP)",
+    b"SQLite format 3": "it is a database, perhaps a recording (SQLite)",
+    b"#ROSBAG V": "it is a recording (ROS 1 bag)",
+    b"%PDF": "it is a PDF document",
+    b"\x7fELF": "it is a program",
+    bytes(16): "it begins with zeros; its beginning was never written, or is lost",
+}
+
+
+def what_else(beginning: bytes) -> str:
+    """Return what a file is, as a clause with what to do; "" if it is not known.
+
+    Args:
+        beginning: The first `BEGINNING` bytes; fewer if the file is shorter.
+    """
+    if not beginning:
+        return "it is empty (0 bytes)"
+    return next((what for first, what in _KINDS.items() if beginning.startswith(first)), "")
