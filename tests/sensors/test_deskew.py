@@ -117,7 +117,13 @@ def test_fields_of_times(buffer, motion, points, random):
         result = deskew(cloud, name, buffer, "odom", unit=unit, **options)
         tolerance = 5e-4 if name == "timestamp" else 1e-5 if unit == "s" else 1e-9
         assert np.abs(xyz(array_of(result)[0]) - expected).max() < tolerance, name
-        assert np.array_equal(array_of(result)[0][name], values), "the field stays as it is"
+        read = array_of(result)[0]
+        marked = f"deskewed_{name}"
+        assert np.array_equal(read[marked], values), "the values stay as they are"
+        assert not {*read.dtype.names} & {"t", "time", "timestamp", name}, "no reader takes them for times again"
+        assert cloud.fields[3].name == "t", "the given message is not changed"
+        with pytest.raises(ValueError, match="no field"):
+            deskew(result, name, buffer, "odom", source="lidar", unit=unit, **options)
         assert (result.header.frame_id, stamp_of(result)) == ("odom", START)
     array = structured(points, **fields)
     result = deskew(array, "t", buffer, "odom", source="lidar", unit="ns", since=START)
@@ -154,7 +160,11 @@ def test_any_layout_in_place_and_as_a_copy(dtype, buffer, motion, points, random
     result = deskew(clouds, times, buffer, "odom", source="lidar")
     assert np.allclose(xyz(result), expected, rtol=0, atol=1e-6 if "4" in dtype else 1e-12)
     assert deskew(clouds, times, buffer, "odom", source="lidar", in_place=True) is clouds
-    assert np.array_equal(clouds, result)
+    assert result.dtype.names == ("deskewed_t", "z", "y", "x")
+    assert np.array_equal(clouds, result.view(clouds.dtype))
+    out = np.zeros_like(clouds)
+    assert deskew(clouds, times, buffer, "odom", source="lidar", out=out) is out
+    assert clouds.dtype.names == out.dtype.names == ("t", "z", "y", "x"), "the caller's arrays keep their fields"
 
 
 @pytest.mark.parametrize("kind", KINDS)
@@ -229,6 +239,39 @@ def test_points_are_not_changed_if_none_has_a_transform(buffer, motion, points):
         with pytest.raises(coframe.ExtrapolationException, match=r"^point 0 of 3001"):
             deskew(points, times, buffer, "odom", source="lidar", on_error=on_error, in_place=True)
     assert np.array_equal(points, before)
+
+
+@pytest.mark.parametrize("localized", [False, True])
+def test_a_joint_between_robot_and_sensor_does_not_hide_that_the_robot_moves(motion, points, random, localized):
+    """A spinning lidar on a robot, whose map is corrected a little by a localization."""
+    buffer = coframe.Buffer(None)
+    motion.fill(buffer, "odom", "base_link")
+    for i in range(200):
+        turned = coframe.Transform.from_rpy([0.0, 0.0, 0.5], [0.0, 0.0, 1.3 * i])
+        buffer.set("base_link", "lidar", turned, START + i * PERIOD)
+        if localized:
+            buffer.set("map", "odom", coframe.Transform([1000.0 * (i // 50), 0.0, 0.0]), START + i * PERIOD)
+    buffer.set("base_link", "camera", coframe.Transform([0.3, 0.0, 0.0]), static=True)
+    times = START + np.sort(random.integers(0, 40 * PERIOD, len(points)))
+    for target in ("base_link", "camera"):
+        with pytest.raises(ValueError, match=f"'{target}', which moves with the sensor: for example fixed='odom'"):
+            deskew(points, times, buffer, target, source="lidar")
+        moved = deskew(points, times, buffer, target, source="lidar", fixed="odom", at=int(times[-1]))
+        still = deskew(points, times, buffer, target, source="lidar", fixed=target)
+        assert np.abs(moved - still).max() > 1e-3
+    deskew(points, times, buffer, "odom", source="lidar")
+    if localized:
+        deskew(points, times, buffer, "map", source="lidar")
+
+
+def test_a_joint_of_a_robot_that_stands_still_needs_no_other_frame(points, random):
+    buffer = coframe.Buffer(None)
+    for i in range(200):
+        turned = coframe.Transform.from_rpy([0.0, 0.0, 0.5], [0.0, 0.0, 0.1 * i])
+        buffer.set("base_link", "lidar", turned, START + i * PERIOD)
+        buffer.set("world", "base_link", coframe.Transform([3.0, 0.0, 0.0]), START + i * PERIOD)
+    times = START + np.sort(random.integers(0, 40 * PERIOD, len(points)))
+    assert np.isfinite(deskew(points, times, buffer, "base_link", source="lidar")).all()
 
 
 @pytest.mark.parametrize("mount", ["static", "published"])

@@ -16,6 +16,7 @@ from coframe.bags._mcap_writer import McapWriter
 from coframe.errors import RecordingError
 from coframe.messages import find, serialize
 from coframe.messages.definition_texts import definition_of
+from coframe.sensors.point_times import DESKEWED
 from coframe.sensors.rounding import farthest, warn_of_rounding
 from coframe.sensors.thinning import thinned
 from coframe.type_names import POINT_CLOUD
@@ -121,7 +122,7 @@ def _with_marked_times(cloud: Cloud) -> Cloud:
     names = cloud.points.dtype.names or ()
     if cloud.used_times not in names:
         return cloud
-    renamed = {cloud.used_times: f"deskewed_{cloud.used_times}"}
+    renamed = {cloud.used_times: f"{DESKEWED}{cloud.used_times}"}
     points = cloud.points.view()
     points.dtype.names = tuple(renamed.get(name, name) for name in names)
     return cloud._replace(points=points)

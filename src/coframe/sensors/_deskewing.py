@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import copy
 import math
 from typing import TYPE_CHECKING, Any, Literal, TypeVar
 
@@ -22,7 +23,8 @@ from coframe.sensors.clouds import (
     stamp_of,
     thread_count,
 )
-from coframe.sensors.motion import moves, still_frame
+from coframe.sensors.motion import still_frame
+from coframe.sensors.point_times import DESKEWED, TIME_FIELDS
 from coframe.sensors.rounding import farthest, warn_of_rounding
 from coframe.time import MICROSECOND, MILLISECOND, SECOND, stamp_ns
 from coframe.transform.values import stamps_of
@@ -89,8 +91,9 @@ def deskew(
         threads: Number of threads; more than one helps from about 200 000 points.
 
     Returns:
-        A new message or array, or ``out``, or ``points``. A message gets the frame ``target`` and the stamp ``at``; a
-        field of times is not changed.
+        A new message or array, or ``out``, or ``points``. A message gets the frame ``target`` and the stamp ``at``. In
+        messages and new arrays, fields of times such as ``t`` are renamed to ``deskewed_t``, so that no program deskews
+        the points again.
 
     Raises:
         TransformException: As :meth:`coframe.Buffer.lookup`, and the message names the point; with ``"nan"`` only if no
@@ -133,11 +136,38 @@ def deskew(
         arguments = (stamps, from_fixed, fields, on_error == "nan", thread_count(threads))
         _deskew_fields(core, fixed, source, arguments)
         warn_of_rounding(farthest(fields[0]), fields[0], FLOAT64_ADVICE)
+    used = {*TIME_FIELDS, times} if isinstance(times, str) else {*TIME_FIELDS}
     if layout.is_message(result):
         result.header.frame_id = target
         if stamp is not None:
             set_stamp(result, stamp)
+        result.fields = [_marked_field(field, used) for field in result.fields]
+    elif out is None and not in_place:
+        result = _marked_array(result, used)
     return result  # type: ignore[no-any-return]
+
+
+def _marked_field(field: Any, used: set[str]) -> Any:
+    if field.name not in used:
+        return field
+    field = copy.copy(field)
+    field.name = f"{DESKEWED}{field.name}"
+    return field
+
+
+def _marked_array(points: NDArray[Any], used: set[str]) -> NDArray[Any]:
+    if points.dtype.names is None or points.dtype.fields is None or not used & {*points.dtype.names}:
+        return points
+    kinds = [points.dtype.fields[name] for name in points.dtype.names]
+    dtype = np.dtype(
+        {
+            "names": [f"{DESKEWED}{name}" if name in used else name for name in points.dtype.names],
+            "formats": [kind[0] for kind in kinds],
+            "offsets": [kind[1] for kind in kinds],
+            "itemsize": points.dtype.itemsize,
+        }
+    )
+    return points.view(dtype)
 
 
 def _check_target_is_still(buffer: _core.Buffer, target: str, source: str, stamps: NDArray[np.int64]) -> None:
@@ -147,7 +177,7 @@ def _check_target_is_still(buffer: _core.Buffer, target: str, source: str, stamp
         return
     first, last = int(known.min()), int(known.max())
     sweep = np.array([first, first + (last - first) // 2, last])
-    if first == last or moves(buffer, target, source, sweep):
+    if first == last:
         return
     still = still_frame(buffer, target, source, sweep)
     if still not in {None, target}:

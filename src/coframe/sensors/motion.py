@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -10,19 +11,26 @@ import numpy as np
 from coframe.errors import TransformException
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from numpy.typing import NDArray
 
     from coframe import _core
 
-__all__ = ["moves", "still_frame"]
+__all__ = ["still_frame"]
 
 _MIN_MOTION = 1e-7  # meters, and parts of a quaternion: more than rounding, less than any motion
 _MAX_ABOVE = 100  # frames above the target
+_FIXED = ("odom", "map", "world", "earth", "utm", "camera_init")
 _TRIED = 33  # times over all samples
 
 
 def still_frame(buffer: _core.Buffer, target: str, source: str, stamps: NDArray[np.int64]) -> str | None:
-    """Return the target if the source moves relative to it, or else the nearest frame above for which this is so.
+    """Return the frame in which points can be deskewed: one that does not move with the robot that carries the sensor.
+
+    This is the target, unless it moves together with the sensor relative to a frame above both: then it is that frame,
+    also if a joint between the two moves. Frames that are fixed by convention, such as ``odom`` and ``map``,
+    are not taken for parts of the robot, although a localization may move them a little.
 
     Args:
         buffer: The buffer.
@@ -33,32 +41,70 @@ def still_frame(buffer: _core.Buffer, target: str, source: str, stamps: NDArray[
     Returns:
         None if the source moves relative to none of these frames; the target if it has no transform to the source.
     """
-    frame = target
-    for above in range(_MAX_ABOVE):
-        if above == 0 and frame != source and not buffer.can_transform(frame, source):
-            return target
-        if moves(buffer, frame, source, stamps):
-            return frame
+    if target != source and not buffer.can_transform(target, source):
+        return target
+    if not _is_fixed(target) and (carrier := _moved_in(buffer, _joint_parent(buffer, target, source), stamps)):
+        return carrier
+    return target if _motion(buffer, target, source, stamps) > _MIN_MOTION else _above(buffer, target, source, stamps)
+
+
+def _above(buffer: _core.Buffer, target: str, source: str, stamps: NDArray[np.int64]) -> str | None:
+    """Return the nearest frame above the target relative to which the source moves."""
+    above = (parent for _, parent in _edges_above(buffer, target))
+    return next((frame for frame in above if _motion(buffer, frame, source, stamps) > _MIN_MOTION), None)
+
+
+def _joint_parent(buffer: _core.Buffer, target: str, source: str) -> str:
+    """Return the lowest frame above both frames, or one of them if it is above the other."""
+    above_source = {source, *(parent for _, parent in _edges_above(buffer, source))}
+    above_target = [target, *(parent for _, parent in _edges_above(buffer, target))]
+    return next((frame for frame in above_target if frame in above_source), target)
+
+
+def _moved_in(buffer: _core.Buffer, robot: str, stamps: NDArray[np.int64]) -> str | None:
+    """Return the frame above a frame of a robot in which the robot moves; None if it does not move.
+
+    Of several edges that move, the upper ones are corrections of a localization: the frame is the one with the usual
+    name, or else the parent of the edge that moves most.
+    """
+    motions = {parent: _motion(buffer, parent, child, stamps) for child, parent in _edges_above(buffer, robot)}
+    moving = {frame: motion for frame, motion in motions.items() if motion > _MIN_MOTION}
+    usual = next((frame for frame in moving if "odom" in frame.rpartition("/")[2]), None)
+    return usual or max(moving, key=lambda frame: moving[frame], default=None)
+
+
+def _edges_above(buffer: _core.Buffer, frame: str) -> Iterator[tuple[str, str]]:
+    """Yield child and parent of the edges from a frame up to its root."""
+    for _ in range(_MAX_ABOVE):
         state = buffer._edge_at(frame, 0)
         if state is None or not state[1]:
-            return None
+            return
+        yield frame, state[1]
         frame = state[1]
-    return None
 
 
-def moves(buffer: _core.Buffer, target: str, source: str, stamps: NDArray[np.int64]) -> bool:
-    """Return whether one frame moves relative to another, at these times or at any other; False if unconnected."""
+def _is_fixed(frame: str) -> bool:
+    """Return whether a frame does not move with a robot by convention (REP 105)."""
+    name = frame.rpartition("/")[2].lower()
+    return any(usual in name for usual in _FIXED)
+
+
+def _motion(buffer: _core.Buffer, target: str, source: str, stamps: NDArray[np.int64]) -> float:
+    """Return how far one frame moves relative to another, in metres and parts of a quaternion; 0.0 if unconnected.
+
+    Tried are these times and some between the first and the last sample.
+    """
     if target == source or not buffer.can_transform(target, source):
-        return False
-    if _differ(_poses(buffer, target, source, stamps)):
-        return True
+        return 0.0
     if buffer.latest_common_time(target, source) == 0:
-        return False
+        return 0.0
     ends = np.array([np.iinfo(np.int64).min + 1, np.iinfo(np.int64).max])
-    buffer._lookup_rows(target, source, ends, np.empty((2, 7)), None, None, "clip", 1)  # noqa: SLF001
-    first, last = int(ends[0]), int(ends[1])
-    stamps = np.array([first + (last - first) * i // (_TRIED - 1) for i in range(_TRIED)], dtype=np.int64)
-    return _differ(_poses(buffer, target, source, stamps))
+    tried = [stamps]
+    with suppress(TransformException):  # The edges have no common time if a frame changes its parent.
+        buffer._lookup_rows(target, source, ends, np.empty((2, 7)), None, None, "clip", 1)  # noqa: SLF001
+        first, last = int(ends[0]), int(ends[1])
+        tried.append(np.array([first + (last - first) * i // (_TRIED - 1) for i in range(_TRIED)], dtype=np.int64))
+    return max(_extent(_poses(buffer, target, source, times)) for times in tried)
 
 
 def _poses(buffer: _core.Buffer, target: str, source: str, stamps: NDArray[np.int64]) -> NDArray[np.float64]:
@@ -72,10 +118,10 @@ def _poses(buffer: _core.Buffer, target: str, source: str, stamps: NDArray[np.in
     return found
 
 
-def _differ(poses: NDArray[np.float64]) -> bool:
+def _extent(poses: NDArray[np.float64]) -> float:
+    """Return the largest difference from the first pose."""
     if len(poses) < 2:
-        return False
+        return 0.0
     # A quaternion and its negative are the same rotation.
     rotations = poses[:, 3:] * np.where(poses[:, 3:] @ poses[0, 3:] < 0, -1.0, 1.0)[:, None]
-    step = np.hypot(np.abs(poses[:, :3] - poses[0, :3]).max(), np.abs(rotations - rotations[0]).max())
-    return bool(step > _MIN_MOTION)
+    return float(np.hypot(np.abs(poses[:, :3] - poses[0, :3]).max(), np.abs(rotations - rotations[0]).max()))

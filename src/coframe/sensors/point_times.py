@@ -23,10 +23,21 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-__all__ = ["TIME_FIELDS", "UNITS", "PointTimes", "UnknownTimesError", "implausible", "likely_times", "times_in"]
+__all__ = [
+    "DESKEWED",
+    "TIME_FIELDS",
+    "UNITS",
+    "PointTimes",
+    "UnknownTimesError",
+    "implausible",
+    "likely_times",
+    "times_in",
+]
 
 # The fields of Ouster; of Velodyne; of Hesai, RoboSense and Livox; of Livox; of Aeva, Innovusion and others.
 TIME_FIELDS = ("t", "time", "timestamp", "offset_time", "time_offset", "timeOffset", "time_stamp", "ts")
+DESKEWED = "deskewed_"
+"""Begins the name of a field with the times of points that were deskewed, so that no reader deskews them again."""
 UNITS = {"s": SECOND, "ms": MILLISECOND, "us": MICROSECOND, "ns": 1}
 
 NO_TIME = np.iinfo(np.int64).min  # The integer of NumPy's NaT.
