@@ -248,7 +248,7 @@ def test_large_clouds_are_thinned_and_contain_the_step(decoded):
     field = find("sensor_msgs/msg/PointField")
     cloud = find("sensor_msgs/msg/PointCloud2")(height=1, width=count, point_step=12, row_step=12 * count)
     cloud.fields = [field(name=name, offset=4 * i, datatype=7, count=1) for i, name in enumerate("xyz")]
-    cloud.data = array("B", np.arange(3 * count, dtype="<f4").tobytes())
+    cloud.data = array("B", (np.arange(3 * count, dtype="<f4") / 100).tobytes())
     cloud.header.frame_id, cloud.header.stamp.sec = "map", BEGIN // SECOND
     buffer = coframe.Buffer(None)
     buffer.set("map", "base", coframe.Transform(), BEGIN)
@@ -259,7 +259,8 @@ def test_large_clouds_are_thinned_and_contain_the_step(decoded):
     assert replayed.at(0) == []
     ((drawing, _, _),) = replayed.at(2)
     assert drawing.step == 3
-    np.testing.assert_array_equal(drawing.points, np.arange(3 * count).reshape(-1, 3)[::3])
+    expected = (np.arange(3 * count, dtype="<f4") / 100).reshape(-1, 3)[::3]
+    np.testing.assert_array_equal(drawing.points, expected)
     assert [status[1] for status in block["statuses"]] == ["waiting", "ok"]
 
 

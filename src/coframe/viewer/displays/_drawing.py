@@ -23,12 +23,15 @@ if TYPE_CHECKING:
     from coframe.viewer.protocol.common import ColorBy
 
 __all__ = [
+    "MAX_NEAR",
     "NO_NUMBERS",
     "CannotDrawError",
     "Drawing",
     "Options",
     "PoseRow",
+    "Vector",
     "drawing_of_shapes",
+    "far_offset",
     "finite",
     "finite_all",
     "header_of",
@@ -37,8 +40,12 @@ __all__ = [
     "rgba_of",
 ]
 
+Vector: TypeAlias = tuple[float, float, float]
 PoseRow: TypeAlias = tuple[float, ...]
 """x, y, z, qx, qy, qz, qw."""
+MAX_NEAR = 1000.0
+"""Metres. float32 resolves 0.06 mm up to here."""
+_MAX_FAR = 1e12  # metres; differences of larger numbers are rounded in float64, too
 NO_NUMBERS = np.zeros(0, np.float32)
 
 
@@ -56,6 +63,7 @@ class Drawing:
         data: The binary message to the page, without the display and the sequence number.
         locked: Whether the drawing moves with its frame after its stamp.
         placed: Whether it is part of the scene; images are shown next to it.
+        offset: Position of the drawing in the frame, in metres; see :func:`far_offset`.
     """
 
     frame: str
@@ -63,6 +71,7 @@ class Drawing:
     data: bytearray
     locked: bool = False
     placed: bool = True
+    offset: Vector = (0.0, 0.0, 0.0)
 
     def take_data(self) -> bytearray:
         """Return the binary message and release it, because it is sent only once and may be large."""
@@ -130,10 +139,25 @@ def finite_all(values: Iterable[Any]) -> list[float | None]:
     return [finite(value) for value in values]
 
 
-def pose_rows(rows: Sequence[PoseRow]) -> NDArray[np.float32]:
-    """Return poses as the numbers of a drawing, (N, 7)."""
+def far_offset(positions: NDArray[Any]) -> Vector:
+    """Return the point to which a drawing's coordinates, (N, 3) in metres, are relative: the origin if they are near.
+
+    The page draws float32 numbers, which would round coordinates of a map in UTM to steps of half a metre.
+    """
+    finite_rows = positions[np.isfinite(positions).all(axis=1)]
+    if not finite_rows.size or not MAX_NEAR < float(np.abs(finite_rows).max()) < _MAX_FAR:
+        return 0.0, 0.0, 0.0
+    x, y, z = np.round((finite_rows.min(axis=0) + finite_rows.max(axis=0)) / 2).tolist()
+    return x, y, z
+
+
+def pose_rows(rows: Sequence[PoseRow]) -> tuple[NDArray[np.float32], Vector]:
+    """Return poses as the numbers of a drawing, (N, 7), and the point to which they are relative."""
+    numbers = np.array(rows, np.float64).reshape(-1, 7)
+    offset = far_offset(numbers[:, :3])
+    numbers[:, :3] -= offset
     with np.errstate(over="ignore"):  # Values that are too large for float32 become infinite.
-        return np.array(rows, np.float64).reshape(-1, 7).astype(np.float32)
+        return numbers.astype(np.float32), offset
 
 
 def header_of(message: Any, options: Options) -> tuple[str, float]:
@@ -141,6 +165,9 @@ def header_of(message: Any, options: Options) -> tuple[str, float]:
     return message.header.frame_id, stamp_ns(message.header.stamp) - options.origin
 
 
-def drawing_of_shapes(message: Any, description: Mapping[str, Any], numbers: NDArray[np.float32]) -> Drawing:
+def drawing_of_shapes(
+    message: Any, description: Mapping[str, Any], numbers: NDArray[np.float32], offset: Vector = (0.0, 0.0, 0.0)
+) -> Drawing:
     """Return a drawing in the frame and at the stamp of a message, from its shapes and the numbers they refer to."""
-    return Drawing(message.header.frame_id, stamp_ns(message.header.stamp), encode_shapes(description, numbers))
+    data = encode_shapes(description, numbers)
+    return Drawing(message.header.frame_id, stamp_ns(message.header.stamp), data, offset=offset)

@@ -88,6 +88,8 @@ class _Entry:
             self.error = error
             return False
         self.pose, self.error = np.array(found.values), None
+        if any(drawing.offset):
+            self.pose[:3] = found.transform_point(drawing.offset)
         return True
 
     @property

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from coframe.time import stamp_ns
-from coframe.viewer.displays._drawing import CannotDrawError, Drawing, Options, pose_row
+from coframe.viewer.displays._drawing import CannotDrawError, Drawing, Options, far_offset, pose_row
 from coframe.viewer.displays._renderers import each_message
 from coframe.viewer.displays._row import ChoiceOption, DisplayRow, FlagOption, NumberOption
 from coframe.viewer.protocol.encoding import encode_grid
@@ -27,8 +27,10 @@ def draw_grid(grid: Any, _options: Options) -> Drawing:
     corner = pose_row(info.origin)
     if not all(abs(number) <= _MAX_FLOAT for number in (info.resolution, *corner)):
         raise CannotDrawError("the resolution or the origin of the grid is not a finite 32-bit number")
-    data = encode_grid(float(info.resolution), corner, cells.reshape(info.height, info.width))
-    return Drawing(grid.header.frame_id, stamp_ns(grid.header.stamp), data)
+    offset = far_offset(np.array([corner[:3]]))
+    near = (*np.subtract(corner[:3], offset).tolist(), *corner[3:])
+    data = encode_grid(float(info.resolution), near, cells.reshape(info.height, info.width))
+    return Drawing(grid.header.frame_id, stamp_ns(grid.header.stamp), data, offset=offset)
 
 
 MAP = DisplayRow(

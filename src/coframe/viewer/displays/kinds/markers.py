@@ -8,7 +8,17 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypedDict
 import numpy as np
 
 from coframe.time import SECOND, stamp_ns
-from coframe.viewer.displays._drawing import CannotDrawError, Drawing, Options, finite, pose_row, rgba_of
+from coframe.transform.transform import Transform
+from coframe.viewer.displays._drawing import (
+    CannotDrawError,
+    Drawing,
+    Options,
+    PoseRow,
+    far_offset,
+    finite,
+    pose_row,
+    rgba_of,
+)
 from coframe.viewer.displays._renderers import MeshUrl, NewMessages
 from coframe.viewer.displays._row import DisplayRow
 from coframe.viewer.protocol.common import PayloadRows  # noqa: TC001 - the protocol evaluates annotations
@@ -17,10 +27,13 @@ from coframe.viewer.protocol.encoding import encode_shapes
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from numpy.typing import NDArray
+
     from coframe.viewer.sources.topic_messages import StampedMessage, TopicMessages
 
 __all__ = ["MARKER", "MARKER_ARRAY", "MarkerItem", "MarkerSet", "MarkersShape"]
 
+_WITH_POINTS = {4, 5, 6, 7, 8}  # lines, cubes, spheres and points, whose positions have no scale
 _ADD, _DELETE, _DELETE_ALL = 0, 2, 3
 MAX_MARKERS = 20_000
 MAX_NUMBERS = 10_000_000
@@ -134,23 +147,26 @@ class MarkerSet:
         size = 0
         items = []
         for marker in markers:
-            points = [(point.x, point.y, point.z) for point in marker.points]
+            points, pose = _near(marker)
             colors = [(color.r, color.g, color.b, color.a) for color in marker.colors]
-            item, size = _item(marker, points, colors, size)
+            item, size = _item(marker, pose, points, colors, size)
             if size > MAX_NUMBERS:
                 raise CannotDrawError(
                     f"the points and colors of the markers have more than {MAX_NUMBERS} numbers, "
                     "which is the viewer's limit"
                 )
-            numbers += [np.array(points, np.float64).reshape(-1), np.array(colors, np.float64).reshape(-1)]
+            numbers += [points.reshape(-1), np.array(colors, np.float64).reshape(-1)]
             if marker.mesh_resource:
                 item["mesh"], item["mesh_problem"] = self._mesh_url(marker.mesh_resource)
             items.append(item)
         with np.errstate(over="ignore"):  # Values that are too large for float32 become infinite.
             payload = np.concatenate(numbers).astype(np.float32) if numbers else np.zeros(0, np.float32)
+        offset = far_offset(np.array([item["pose"][:3] for item in items], np.float64).reshape(-1, 3))
+        for item in items:
+            item["pose"][:3] = [None if v is None else v - o for v, o in zip(item["pose"], offset, strict=False)]
         stamp = group.stamp - options.origin
         description = MarkersShape(kind="markers", frame=group.frame, stamp=stamp, items=items)
-        return Drawing(group.frame, group.stamp, encode_shapes(description, payload), group.locked)
+        return Drawing(group.frame, group.stamp, encode_shapes(description, payload), group.locked, offset=offset)
 
 
 class MarkerRenderer:
@@ -184,7 +200,20 @@ def _shown(marker: Any, time: int) -> _Shown:
     return _Shown(marker, group, time + lifetime if lifetime > 0 else None)
 
 
-def _item(marker: Any, points: Sequence[Any], colors: Sequence[Any], offset: int) -> tuple[MarkerItem, int]:
+def _near(marker: Any) -> tuple[NDArray[np.float64], PoseRow]:
+    """Return a marker's points near its pose, (N, 3), and the pose: points far from it move it to their centre."""
+    points = np.array([(point.x, point.y, point.z) for point in marker.points], np.float64).reshape(-1, 3)
+    pose = pose_row(marker.pose)
+    offset = far_offset(points) if marker.type in _WITH_POINTS else (0.0, 0.0, 0.0)
+    if not any(offset) or not np.isfinite(pose).all():
+        return points, pose
+    moved = Transform(pose[:3], pose[3:]).transform_point(offset)
+    return points - offset, (*moved.tolist(), *pose[3:])
+
+
+def _item(
+    marker: Any, pose: PoseRow, points: Sequence[Any] | NDArray[np.float64], colors: Sequence[Any], offset: int
+) -> tuple[MarkerItem, int]:
     """Return the description of a marker whose numbers begin at `offset`, and the end of its numbers."""
     colors_offset = offset + 3 * len(points)
     scale = marker.scale
@@ -192,14 +221,14 @@ def _item(marker: Any, points: Sequence[Any], colors: Sequence[Any], offset: int
         ns=marker.ns,
         id=marker.id,
         type=marker.type,
-        pose=[finite(value) for value in pose_row(marker.pose)],
+        pose=[finite(value) for value in pose],
         scale=[finite(value) for value in (scale.x, scale.y, scale.z)],
         rgba=rgba_of(marker.color),
         text=marker.text,
         use_materials=bool(marker.mesh_use_embedded_materials),
         mesh=None,
         mesh_problem=None,
-        points=(offset, len(points)) if points else None,
+        points=(offset, len(points)) if len(points) else None,
         colors=(colors_offset, len(colors)) if colors else None,
     )
     return item, colors_offset + 4 * len(colors)

@@ -24,10 +24,10 @@ class PathShape(TypedDict):
 
 def draw_path(message: Any, options: Options) -> Drawing:
     """Draw a Path, with all poses expressed in the frame of its own header."""
-    poses = pose_rows([pose_row(stamped.pose) for stamped in message.poses])
+    poses, offset = pose_rows([pose_row(stamped.pose) for stamped in message.poses])
     frame, stamp = header_of(message, options)
     description = PathShape(kind="path", frame=frame, stamp=stamp, poses=(0, len(poses)))
-    return drawing_of_shapes(message, description, poses)
+    return drawing_of_shapes(message, description, poses, offset)
 
 
 PATH = DisplayRow(

@@ -10,7 +10,7 @@ import numpy as np
 from coframe.sensors import project_scan
 from coframe.sensors.layout import field_of, grid_of
 from coframe.time import stamp_ns
-from coframe.viewer.displays._drawing import CannotDrawError, Drawing, Options
+from coframe.viewer.displays._drawing import MAX_NEAR, CannotDrawError, Drawing, Options, Vector, far_offset
 from coframe.viewer.displays._renderers import each_message
 from coframe.viewer.displays._row import ChoiceOption, ColorOption, DisplayRow, FlagOption, NumberOption, Option
 from coframe.viewer.protocol.client_messages import MAX_POINTS
@@ -18,6 +18,8 @@ from coframe.viewer.protocol.encoding import encode_cloud
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
+
+_TRIED = 64  # points that are looked at: those of a cloud are close to each other
 
 __all__ = ["LASER_SCAN", "POINT_CLOUD2", "draw_cloud", "draw_scan"]
 
@@ -39,7 +41,7 @@ def draw_cloud(cloud: Any, options: Options) -> Drawing:
         if count > MAX_POINTS:
             raise CannotDrawError(f"a cloud of {count} points is too large: the viewer draws at most {MAX_POINTS}")
         step = max(1, -(-count // options.max_points))
-        points = _positions(cloud, step)
+        points, offset = _positions(cloud, step)
         names = {field.name for field in cloud.fields}
         valid = np.isfinite(points).all(axis=1)
         dense = bool(valid.all())
@@ -55,20 +57,23 @@ def draw_cloud(cloud: Any, options: Options) -> Drawing:
             if options.color_by in {None, "intensity"}:
                 intensities = _intensities(cloud, names, step)
                 intensities = intensities if dense or intensities is None else intensities[valid]
-            scalars = _scalars(points, options, intensities)
+            scalars = _scalars(points + np.float32(offset), options, intensities)
     except ValueError as error:
         raise CannotDrawError(str(error)) from None
     data = encode_cloud(float(stamp - options.origin), points, scalars, colors, step)
-    return Drawing(cloud.header.frame_id, stamp, data)
+    return Drawing(cloud.header.frame_id, stamp, data, offset=offset)
 
 
-def _positions(cloud: Any, step: int) -> NDArray[np.float32]:
+def _positions(cloud: Any, step: int) -> tuple[NDArray[np.float32], Vector]:
+    """Return the points, (N, 3), and the point to which they are relative."""
     columns = [field_of(cloud, name).reshape(-1)[::step] for name in "xyz"]
     points = np.empty((len(columns[0]), 3), np.float32)
+    is_far = any(float(np.abs(column[:: 1 + len(column) // _TRIED]).max(initial=0)) > MAX_NEAR for column in columns)
+    offset = far_offset(np.stack(columns, axis=1).astype(np.float64)) if is_far else (0.0, 0.0, 0.0)
     for axis, column in enumerate(columns):
         with np.errstate(over="ignore"):
-            points[:, axis] = column
-    return points
+            points[:, axis] = column - offset[axis] if offset[axis] else column
+    return points, offset
 
 
 def _intensities(cloud: Any, names: set[str], step: int) -> NDArray[np.float32] | None:

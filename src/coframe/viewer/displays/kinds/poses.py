@@ -65,7 +65,7 @@ def draw_pose_array(message: Any, options: Options) -> Drawing:
 
 def draw_odometry(message: Any, trail: Sequence[PoseRow], options: Options) -> Drawing:
     """Draw an Odometry message with a trail of the previous poses."""
-    poses = pose_rows(trail)
+    poses, offset = pose_rows(trail)
     frame, stamp = header_of(message, options)
     description = OdometryShape(
         kind="odometry",
@@ -75,7 +75,7 @@ def draw_odometry(message: Any, trail: Sequence[PoseRow], options: Options) -> D
         poses=(0, len(poses)),
         covariance=finite_all(message.pose.covariance),
     )
-    return drawing_of_shapes(message, description, poses)
+    return drawing_of_shapes(message, description, poses, offset)
 
 
 class OdometryRenderer:
@@ -105,10 +105,10 @@ class OdometryRenderer:
 def _draw_poses(
     message: Any, rows: Sequence[PoseRow], covariance: list[float | None] | None, options: Options
 ) -> Drawing:
-    poses = pose_rows(rows)
+    poses, offset = pose_rows(rows)
     frame, stamp = header_of(message, options)
     description = PosesShape(kind="poses", frame=frame, stamp=stamp, poses=(0, len(poses)), covariance=covariance)
-    return drawing_of_shapes(message, description, poses)
+    return drawing_of_shapes(message, description, poses, offset)
 
 
 _SHAPE = (
