@@ -57,7 +57,7 @@ def draw_cloud(cloud: Any, options: Options) -> Drawing:
             if options.color_by in {None, "intensity"}:
                 intensities = _intensities(cloud, names, step)
                 intensities = intensities if dense or intensities is None else intensities[valid]
-            scalars = _scalars(points + np.float32(offset), options, intensities)
+            scalars = _scalars(points + np.array(offset, np.float32), options, intensities)
     except ValueError as error:
         raise CannotDrawError(str(error)) from None
     data = encode_cloud(float(stamp - options.origin), points, scalars, colors, step)
