@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Coordinates far from the origin of their frame, as in UTM, are drawn within a millimetre by a page with float32."""
+"""Coordinates far from the origin of their frame, as in UTM, are drawn within a millimeter by a page with float32."""
 
 from array import array
 
@@ -17,7 +17,7 @@ from coframe.viewer.displays.kinds.points import draw_cloud
 from coframe.viewer.displays.kinds.poses import draw_pose_array
 from coframe.viewer.protocol.encoding import relative_to
 
-UTM = np.array([691_234.5678, 5_334_567.8912, 519.4])  # metres, in Munich
+UTM = np.array([691_234.5678, 5_334_567.8912, 519.4])  # meters, in Munich
 NEAR = np.array([[0.0, 0.0, 0.0], [0.1, -0.2, 0.05], [40.0, 30.0, -2.0]])
 PLACES = UTM + NEAR
 LINES, CUBES = 4, 6
@@ -89,7 +89,7 @@ def grid():
     [cloud, path, poses, grid, lambda: markers(points=True), lambda: markers(points=False)],
     ids=["cloud", "path", "poses", "grid", "points of a marker", "poses of markers"],
 )
-def test_far_coordinates_are_drawn_within_a_millimetre(decoded, make):
+def test_far_coordinates_are_drawn_within_a_millimeter(decoded, make):
     buffer = coframe.Buffer(None)
     turned = coframe.Transform.from_rpy(UTM, [0.1, 0.2, 0.7]).inverse()
     buffer.set("map", "utm", turned, static=True)  # The robot is near the origin of the map.

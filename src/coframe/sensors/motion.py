@@ -90,7 +90,7 @@ def _is_fixed(frame: str) -> bool:
 
 
 def _motion(buffer: _core.Buffer, target: str, source: str, stamps: NDArray[np.int64]) -> float:
-    """Return how far one frame moves relative to another, in metres and parts of a quaternion; 0.0 if unconnected.
+    """Return how far one frame moves relative to another, in meters and parts of a quaternion; 0.0 if unconnected.
 
     Tried are these times and some between the first and the last sample.
     """

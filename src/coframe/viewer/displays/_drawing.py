@@ -44,8 +44,8 @@ Vector: TypeAlias = tuple[float, float, float]
 PoseRow: TypeAlias = tuple[float, ...]
 """x, y, z, qx, qy, qz, qw."""
 MAX_NEAR = 1000.0
-"""Metres. float32 resolves 0.06 mm up to here."""
-_MAX_FAR = 1e12  # metres; differences of larger numbers are rounded in float64, too
+"""Meters. float32 resolves 0.06 mm up to here."""
+_MAX_FAR = 1e12  # meters; differences of larger numbers are rounded in float64, too
 NO_NUMBERS = np.zeros(0, np.float32)
 
 
@@ -63,7 +63,7 @@ class Drawing:
         data: The binary message to the page, without the display and the sequence number.
         locked: Whether the drawing moves with its frame after its stamp.
         placed: Whether it is part of the scene; images are shown next to it.
-        offset: Position of the drawing in the frame, in metres; see :func:`far_offset`.
+        offset: Position of the drawing in the frame, in meters; see :func:`far_offset`.
     """
 
     frame: str
@@ -140,9 +140,9 @@ def finite_all(values: Iterable[Any]) -> list[float | None]:
 
 
 def far_offset(positions: NDArray[Any]) -> Vector:
-    """Return the point to which a drawing's coordinates, (N, 3) in metres, are relative: the origin if they are near.
+    """Return the point to which a drawing's coordinates, (N, 3) in meters, are relative: the origin if they are near.
 
-    The page draws float32 numbers, which would round coordinates of a map in UTM to steps of half a metre.
+    The page draws float32 numbers, which would round coordinates of a map in UTM to steps of half a meter.
     """
     finite_rows = positions[np.isfinite(positions).all(axis=1)]
     if not finite_rows.size or not MAX_NEAR < float(np.abs(finite_rows).max()) < _MAX_FAR:

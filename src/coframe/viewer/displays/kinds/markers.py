@@ -201,7 +201,7 @@ def _shown(marker: Any, time: int) -> _Shown:
 
 
 def _near(marker: Any) -> tuple[NDArray[np.float64], PoseRow]:
-    """Return a marker's points near its pose, (N, 3), and the pose: points far from it move it to their centre."""
+    """Return a marker's points near its pose, (N, 3), and the pose: points far from it move it to their center."""
     points = np.array([(point.x, point.y, point.z) for point in marker.points], np.float64).reshape(-1, 3)
     pose = pose_row(marker.pose)
     offset = far_offset(points) if marker.type in _WITH_POINTS else (0.0, 0.0, 0.0)
