@@ -6,12 +6,16 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import click
+from click.exceptions import Exit
 
+from coframe._output.formatting import did_you_mean
 from coframe.cli.declaration import CommandGroup, argument
-from coframe.cli.options import NonNegativeDuration, topic_name
+from coframe.cli.options import NonNegativeDuration, PositiveDuration, topic_name
 from coframe.cli.output import fail, one_line, print_bounded, printable
-from coframe.cli.ros2.calls import wait_for_server
+from coframe.cli.ros2.calls import Deadline, result_of, timeout_option, wait_for_server
+from coframe.cli.ros2.events import echo_action
 from coframe.cli.ros2.graph import (
+    AT_ONCE,
     DISCOVERY,
     GraphCommand,
     graph_node,
@@ -20,6 +24,7 @@ from coframe.cli.ros2.graph import (
     node_names,
     spin_time_option,
     split_node_name,
+    wait_until,
 )
 from coframe.cli.ros2.values import read_values
 
@@ -30,6 +35,8 @@ if TYPE_CHECKING:
 
 __all__ = ["action"]
 
+_PERIOD = 1.0  # seconds
+
 action_argument = argument(
     "action_name", metavar="ACTION", type=topic_name, help="Name of the action, e.g. /fibonacci."
 )
@@ -38,6 +45,23 @@ action = CommandGroup(
     help="List actions and send goals, like ros2 action.\n\n"
     "Example: coframe action send_goal /fibonacci example_interfaces/action/Fibonacci '{order: 5}'",
 )
+
+
+action.add_command(echo_action)
+
+
+@action.command(cls=GraphCommand, short_help="List the actions of a type.")
+@argument("action_type", metavar="TYPE", help="Type, e.g. example_interfaces/action/Fibonacci.")
+@click.option("--count-actions", "-c", "count", is_flag=True, help="Print only the number of actions.")
+@spin_time_option(DISCOVERY)
+def find(action_type: str, count: bool, spin_time: NonNegativeDuration) -> None:
+    """List the actions of a type.
+
+    Example: coframe action find example_interfaces/action/Fibonacci
+    """
+    with graph_node(spin_time) as node:
+        names = [name for name, types in _actions(node) if action_type in types]
+    print(len(names) if count else "\n".join(map(one_line, names)))
 
 
 @action.command(cls=GraphCommand, short_help="Show the clients and servers of an action.")
@@ -85,10 +109,8 @@ def list_actions(
 
     Example: coframe action list -t
     """
-    from rclpy.action import get_action_names_and_types  # noqa: PLC0415 - slow import
-
     with graph_node(spin_time) as node:
-        actions = sorted(get_action_names_and_types(node))
+        actions = _actions(node)
     if count:
         print(len(actions))
         return
@@ -101,11 +123,13 @@ def list_actions(
 @argument("action_type", metavar="TYPE", help="Type, e.g. example_interfaces/action/Fibonacci.")
 @argument("goal", metavar="GOAL", help="Values of the goal as YAML, e.g. '{order: 5}'.")
 @click.option("--feedback", "-f", is_flag=True, help="Print the feedback.")
+@timeout_option
 def send_goal(
     action_name: str,
     action_type: str,
     goal: str,
     feedback: bool,
+    timeout: PositiveDuration | None,
 ) -> None:
     """Send a goal and print its result. Ctrl-C cancels the goal.
 
@@ -121,34 +145,81 @@ def send_goal(
         client = ActionClient(node, kind, action_name)
         try:
             print("Waiting for an action server to become available...", flush=True)
-            wait_for_server(client, client.wait_for_server)
-            _follow_goal(node, client, message, feedback=feedback)
+            deadline = Deadline(timeout)
+            shown = f"action server {action_name}"
+            wait_for_server(client, client.wait_for_server, shown, deadline, lambda: _similar(node, action_name))
+            _follow_goal(node, client, message, shown, deadline, feedback=feedback)
         finally:
             client.destroy()
 
 
-def _follow_goal(node: Node, client: Any, goal: Any, *, feedback: bool) -> None:
-    """Send the goal, and print its progress until it is finished."""
-    import rclpy  # noqa: PLC0415 - slow import
+def _follow_goal(node: Node, client: Any, goal: Any, shown: str, deadline: Deadline, *, feedback: bool) -> None:
+    """Send the goal, and print its progress until it is finished; cancel it after the deadline."""
+    early: list[Any] = []  # feedback that arrives before the acceptance is printed
+    accepted = False
 
     def print_feedback(message: Any) -> None:
-        _print_indented("Feedback", message.feedback)
+        if accepted:
+            _print_indented("Feedback", message.feedback)
+        else:
+            early.append(message)
 
     _print_indented("Sending goal", goal)
     sent = client.send_goal_async(goal, print_feedback if feedback else None)
-    rclpy.spin_until_future_complete(node, sent)
-    handle = sent.result()
+    handle = result_of(node, sent, shown, deadline)
     if not handle.accepted:
         fail("Goal was rejected.")
     print(f"Goal accepted with ID: {bytes(handle.goal_id.uuid).hex()}\n", flush=True)
+    accepted = True
+    for message in early:
+        print_feedback(message)
     result = handle.get_result_async()
     try:
-        rclpy.spin_until_future_complete(node, result)
+        response = _awaited(node, result, deadline)
     except KeyboardInterrupt:
         _cancel(node, handle)
         raise
-    _print_indented("Result", result.result().result)
-    print(f"Goal finished with status: {_status_name(result.result().status)}")
+    if response is None:
+        _cancel(node, handle)
+        fail(f"The goal was not finished within {deadline.limit}.")
+    _print_indented("Result", response.result)
+    print(f"Goal finished with status: {_status_name(response.status)}")
+
+
+def _awaited(node: Node, result: Any, deadline: Deadline) -> Any:
+    """Return the result of a goal, which may take long; None after the deadline."""
+    import rclpy  # noqa: PLC0415 - slow import
+
+    while not (result.done() or deadline.has_passed):
+        rclpy.spin_until_future_complete(node, result, timeout_sec=deadline.remaining(_PERIOD))
+    return result.result() if result.done() else None
+
+
+@action.command("type", cls=GraphCommand, short_help="Print the type of an action.")
+@action_argument
+@spin_time_option(AT_ONCE)
+def type_(action_name: str, spin_time: NonNegativeDuration) -> None:
+    """Print the type of an action; the exit code is 1 if the action is unknown.
+
+    Example: coframe action type /fibonacci
+    """
+    with graph_node(spin_time) as node:
+        types = wait_until(lambda: dict(_actions(node)).get(action_name))
+    if not types:
+        raise Exit(1)
+    print("\n".join(map(one_line, types)))
+
+
+def _actions(node: Node) -> list[tuple[str, list[str]]]:
+    from rclpy.action import get_action_names_and_types  # noqa: PLC0415 - slow import
+
+    return sorted(get_action_names_and_types(node))
+
+
+def _similar(node: Node, name: str) -> str:
+    """Return similar names of actions in the graph, or how to list all."""
+    names = (each for each, _ in _actions(node) if each != name)  # The client of this command has it.
+    return did_you_mean(name, names, most=2) or "coframe action list shows all actions."
 
 
 def _cancel(node: Node, handle: Any) -> None:

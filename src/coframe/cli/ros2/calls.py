@@ -1,11 +1,15 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Call services of another node, with error messages for the possible failures."""
+"""Call services of another node, with error messages for the possible failures, and a limit for each wait."""
 
 from __future__ import annotations
 
+import time
 from typing import TYPE_CHECKING, Any
 
-from coframe.cli.output import fail
+import click
+
+from coframe.cli.options import PositiveDuration
+from coframe.cli.output import fail, one_line, warn
 from coframe.cli.ros2.graph import PATIENCE, fail_once
 
 if TYPE_CHECKING:
@@ -13,9 +17,52 @@ if TYPE_CHECKING:
 
     from rclpy.node import Node
 
-__all__ = ["call_service", "fail_if_refused", "wait_for_server"]
+__all__ = [
+    "Deadline",
+    "call_service",
+    "fail_if_refused",
+    "response_timeout_option",
+    "result_of",
+    "timeout_option",
+    "wait_for_server",
+]
 
-_RESPONSE = 5.0  # seconds
+_RESPONSE = 5.0  # seconds until a missing response is reported
+
+timeout_option = click.option(
+    "--timeout",
+    metavar="DURATION",
+    type=PositiveDuration,
+    help="Give up after this time, with exit code 1. [default: no limit]",
+)
+response_timeout_option = click.option(
+    "--timeout",
+    metavar="DURATION",
+    type=PositiveDuration,
+    default=f"{_RESPONSE:g}s",
+    help="How long to wait for each response of a node.",
+)
+
+
+class Deadline:
+    """The end of all waits of a command; never if there is no limit.
+
+    Args:
+        limit: The value of ``--timeout``.
+    """
+
+    def __init__(self, limit: PositiveDuration | None) -> None:
+        self.limit = limit
+        self._end = float("inf") if limit is None else time.monotonic() + limit.seconds
+
+    def remaining(self, most: float) -> float:
+        """Return the seconds to wait: at most `most`, and not beyond the end."""
+        return max(0.0, min(most, self._end - time.monotonic()))
+
+    @property
+    def has_passed(self) -> bool:
+        """Whether the end is reached."""
+        return time.monotonic() >= self._end
 
 
 def fail_if_refused(client: Any) -> None:
@@ -29,18 +76,57 @@ def fail_if_refused(client: Any) -> None:
         fail_once(reason)
 
 
-def wait_for_server(client: Any, wait: Callable[[float], bool]) -> None:
-    """Wait for a server without a limit; end the command if all servers would misread requests.
+def wait_for_server(
+    client: Any, wait: Callable[[float], bool], name: str, deadline: Deadline, hint: Callable[[], str]
+) -> None:
+    """Wait for a server; print once that there is none yet.
+
+    End the command after the deadline, and if the middleware of all servers would misread requests.
 
     Args:
         client: A service client or an action client.
         wait: Its method that waits for a server with a timeout.
+        name: What is waited for, such as "service /reset".
+        deadline: The end of the wait.
+        hint: Returns what to do, such as similar names in the graph.
     """
-    while not wait(PATIENCE):
+    reported = False
+    while not wait(deadline.remaining(PATIENCE)):
         fail_if_refused(client)
+        if deadline.has_passed:
+            fail(f"There was no {one_line(name)} within {deadline.limit}.", hint())
+        if not reported:
+            reported = True
+            warn(f"There is no {one_line(name)} yet: waiting for it. {hint()}".rstrip())
 
 
-def call_service(node: Node, service_class: Any, name: str, request: Any) -> Any:
+def result_of(node: Node, future: Any, name: str, deadline: Deadline) -> Any:
+    """Return the response of a server; print once that there is none yet, and end the command after the deadline.
+
+    Args:
+        node: Node of the command.
+        future: The future of the response.
+        name: Who responds, such as "service /reset".
+        deadline: The end of the wait.
+    """
+    import rclpy  # noqa: PLC0415 - slow import
+
+    reported = False
+    while not future.done():
+        rclpy.spin_until_future_complete(node, future, timeout_sec=deadline.remaining(_RESPONSE))
+        if future.done():
+            break
+        if deadline.has_passed:
+            fail(f"The {one_line(name)} did not respond within {deadline.limit}.", "Check that its node is spinning.")
+        if not reported:
+            reported = True
+            warn(f"The {one_line(name)} has not responded for {_RESPONSE:g} s. --timeout limits the wait.")
+    return future.result()
+
+
+def call_service(
+    node: Node, service_class: Any, name: str, request: Any, *, timeout: PositiveDuration | None = None
+) -> Any:
     """Call a service and return its response; end the command if there is none.
 
     Args:
@@ -48,18 +134,20 @@ def call_service(node: Node, service_class: Any, name: str, request: Any) -> Any
         service_class: Class of the service.
         name: Full name of the service, e.g. "/listener/get_parameters".
         request: The request.
+        timeout: How long to wait for the response; 5 s if it is None.
     """
     import rclpy  # noqa: PLC0415 - slow import
 
+    seconds = _RESPONSE if timeout is None else timeout.seconds
     client = node.create_client(service_class, name)
     try:
-        if not client.wait_for_service(PATIENCE):
+        if not client.wait_for_service(PATIENCE if timeout is None else min(PATIENCE, seconds)):
             fail_if_refused(client)
             fail(f"There is no service {name}.", "coframe service list shows all services.")
         future = client.call_async(request)
-        rclpy.spin_until_future_complete(node, future, timeout_sec=_RESPONSE)
+        rclpy.spin_until_future_complete(node, future, timeout_sec=seconds)
         if not future.done():
-            fail(f"Service {name} did not respond within {_RESPONSE:g} s.", "Check that its node is spinning.")
+            fail(f"Service {name} did not respond within {seconds:g} s.", "Check that its node is spinning.")
         return future.result()
     finally:
         node.destroy_client(client)

@@ -9,7 +9,7 @@ import click
 
 from coframe.cli.declaration import CommandGroup, argument
 from coframe.cli.output import fail, one_line
-from coframe.cli.ros2.calls import call_service
+from coframe.cli.ros2.calls import call_service, response_timeout_option
 from coframe.cli.ros2.graph import (
     AT_ONCE,
     DISCOVERY,
@@ -23,7 +23,7 @@ from coframe.cli.ros2.graph import (
 )
 
 if TYPE_CHECKING:
-    from coframe.cli.options import NonNegativeDuration
+    from coframe.cli.options import NonNegativeDuration, PositiveDuration
     from rclpy.node import Node
 
 __all__ = ["lifecycle"]
@@ -39,10 +39,12 @@ lifecycle = CommandGroup(
 @lifecycle.command(cls=GraphCommand, short_help="Print the states of lifecycle nodes.")
 @argument("node_name", metavar="[NODE]", required=False, help="Name of a node. [default: all lifecycle nodes]")
 @all_option
+@response_timeout_option
 @spin_time_option(DISCOVERY)
 def get(
     node_name: str | None,
     include_hidden: bool,
+    timeout: PositiveDuration,
     spin_time: NonNegativeDuration,
 ) -> None:
     """Print the state of a lifecycle node, or of all lifecycle nodes.
@@ -52,17 +54,19 @@ def get(
     with graph_node(AT_ONCE if node_name else spin_time) as node:
         names = [_existing(node, node_name)] if node_name else _lifecycle_nodes(node, include_hidden=include_hidden)
         for name in names:
-            state = _call(node, name, "GetState", "get_state").current_state
+            state = _call(node, name, timeout, "GetState", "get_state").current_state
             print(one_line(f"{'' if node_name else f'{name}: '}{state.label} [{state.id}]"))
 
 
 @lifecycle.command("list", cls=GraphCommand, short_help="List the available transitions of a node.")
 @node_argument
 @click.option("--all", "-a", "show_all", is_flag=True, help="List all transitions of the node.")
+@response_timeout_option
 @spin_time_option(AT_ONCE)
 def list_transitions(
     node_name: str,
     show_all: bool,
+    timeout: PositiveDuration,
     spin_time: NonNegativeDuration,
 ) -> None:
     """List the available transitions of a lifecycle node in its current state.
@@ -71,7 +75,7 @@ def list_transitions(
     """
     service = ("GetAvailableTransitions", "get_transition_graph" if show_all else "get_available_transitions")
     with graph_node(spin_time) as node:
-        for each in _call(node, _existing(node, node_name), *service).available_transitions:
+        for each in _call(node, _existing(node, node_name), timeout, *service).available_transitions:
             print(one_line(f"- {each.transition.label} [{each.transition.id}]"))
             print(f"\tStart: {one_line(each.start_state.label)}\n\tGoal: {one_line(each.goal_state.label)}")
 
@@ -97,10 +101,12 @@ def nodes(
 @lifecycle.command("set", cls=GraphCommand, short_help="Change the state of a lifecycle node.")
 @node_argument
 @argument("transition", metavar="TRANSITION", help="Name or ID of a transition, e.g. configure or activate.")
+@response_timeout_option
 @spin_time_option(AT_ONCE)
 def set_state(
     node_name: str,
     transition: str,
+    timeout: PositiveDuration,
     spin_time: NonNegativeDuration,
 ) -> None:
     """Change the state of a lifecycle node.
@@ -111,13 +117,15 @@ def set_state(
         name = _existing(node, node_name)
         available = [
             each.transition
-            for each in _call(node, name, "GetAvailableTransitions", "get_available_transitions").available_transitions
+            for each in _call(
+                node, name, timeout, "GetAvailableTransitions", "get_available_transitions"
+            ).available_transitions
         ]
         chosen = next((each for each in available if transition in {each.label, str(each.id)}), None)
         if chosen is None:
             labels = "\n".join(f"- {one_line(each.label)} [{each.id}]" for each in available)
             fail("Unknown transition requested, available ones are:", details=labels)
-        if not _call(node, name, "ChangeState", "change_state", transition=chosen).success:
+        if not _call(node, name, timeout, "ChangeState", "change_state", transition=chosen).success:
             fail("Transitioning failed")
     print("Transitioning successful")
 
@@ -138,8 +146,8 @@ def _existing(node: Node, name: str) -> str:
     return name
 
 
-def _call(node: Node, target: str, kind: str, service: str, **fields: Any) -> Any:
+def _call(node: Node, target: str, timeout: PositiveDuration, kind: str, service: str, **fields: Any) -> Any:
     from lifecycle_msgs import srv  # noqa: PLC0415 - slow import
 
     service_class = getattr(srv, kind)
-    return call_service(node, service_class, f"{target}/{service}", service_class.Request(**fields))
+    return call_service(node, service_class, f"{target}/{service}", service_class.Request(**fields), timeout=timeout)

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import functools
+import re
 import time
 from collections import deque
 from typing import TYPE_CHECKING, Any
@@ -18,16 +19,17 @@ if TYPE_CHECKING:
 
 __all__ = ["MessageStream", "field_of", "message_filter"]
 
+_ELEMENT = re.compile(r"(.+)\[(-?\d{1,9})\]")
 _MAX_WAIT = 1.0  # seconds; short, so that Ctrl-C is handled promptly on every system
 
 
 class MessageStream:
-    """The messages of a subscription, in the order of arrival.
+    """The messages of one or more subscriptions, in the order of arrival.
 
     Args:
         node: Node of the command.
-        topic: Full name of the topic.
-        message_class: Class of the messages.
+        topic: Full name of the first topic. None if all are added by `subscribe`.
+        message_class: Class of its messages.
         qos: QoS of the subscription.
         raw: Whether to return serialized messages.
         report_lost: Whether to print a warning when messages were lost.
@@ -36,9 +38,9 @@ class MessageStream:
     def __init__(
         self,
         node: Node,
-        topic: str,
-        message_class: Any,
-        qos: QoSProfile | int,
+        topic: str | None = None,
+        message_class: Any = None,
+        qos: QoSProfile | int = 10,
         *,
         raw: bool = False,
         report_lost: bool = False,
@@ -46,14 +48,36 @@ class MessageStream:
 
         from rclpy.executors import SingleThreadedExecutor  # noqa: PLC0415 - slow import
 
-        self._arrived: deque[Any] = deque()
+        self._node = node
+        self._arrived: deque[tuple[str, Any]] = deque()
         self._executor = SingleThreadedExecutor(context=node.context)
         self._executor.add_node(node)
-        events = _lost_events() if report_lost else None
-        node.create_subscription(message_class, topic, self._arrived.append, qos, raw=raw, event_callbacks=events)
+        if topic is not None:
+            self.subscribe(topic, message_class, qos, raw=raw, report_lost=report_lost)
 
-    def take(self, seconds: float) -> Any:
-        """Return the next message; None after the timeout."""
+    def subscribe(
+        self,
+        topic: str,
+        message_class: Any,
+        qos: QoSProfile | int,
+        *,
+        raw: bool = False,
+        report_lost: bool = False,
+        label: str | None = None,
+    ) -> None:
+        """Add a subscription; its messages have a label, the name of the topic by default."""
+        name = label or topic
+        self._node.create_subscription(
+            message_class,
+            topic,
+            lambda message: self._arrived.append((name, message)),
+            qos,
+            raw=raw,
+            event_callbacks=_lost_events() if report_lost else None,
+        )
+
+    def take_labelled(self, seconds: float) -> tuple[str, Any] | None:
+        """Return the label of the next message and the message; None after the timeout."""
         deadline = time.monotonic() + seconds
         while not self._arrived:
             left = deadline - time.monotonic()
@@ -62,12 +86,19 @@ class MessageStream:
             self._executor.spin_once(timeout_sec=min(left, _MAX_WAIT))
         return self._arrived.popleft()
 
+    def labelled(self) -> Iterator[tuple[str, Any]]:
+        """Yield messages with their labels, forever."""
+        while True:
+            pair = self.take_labelled(_MAX_WAIT)
+            if pair is not None:
+                yield pair
+
     def messages(self, timeout: float | None = None) -> Iterator[Any]:
         """Yield messages until none arrives within `timeout` seconds; forever if it is None."""
         while True:
-            message = self.take(_MAX_WAIT if timeout is None else timeout)
-            if message is not None:
-                yield message
+            pair = self.take_labelled(_MAX_WAIT if timeout is None else timeout)
+            if pair is not None:
+                yield pair[1]
             elif timeout is not None:
                 return
 
@@ -94,11 +125,17 @@ def message_filter(expression: str | None) -> Callable[[Any], bool]:
 
 
 def field_of(message: Any, path: str) -> Any:
-    """Return the field of a message with a path such as "pose.position.x"; end the command if there is none."""
+    """Return the field of a message with a path such as "pose.position.x" or "ranges[0]"; end the command if none."""
     try:
-        return functools.reduce(getattr, path.split("."), message)
-    except AttributeError as error:
+        return functools.reduce(_part, path.split("."), message)
+    except (AttributeError, IndexError, TypeError) as error:
         fail(f"Invalid field '{path}': {error}", f"Fields: {', '.join(message.get_fields_and_field_types())}.", code=2)
+
+
+def _part(value: Any, step: str) -> Any:
+    """Return a field of a message, or an element of one: "ranges[0]"."""
+    match = _ELEMENT.fullmatch(step)
+    return getattr(value, step) if match is None else _part(value, match[1])[int(match[2])]
 
 
 def _lost_events() -> Any:

@@ -10,8 +10,11 @@ from typing import TYPE_CHECKING
 import click
 from click.exceptions import Exit
 
+from coframe._files.complete_files import write_complete
 from coframe.cli.declaration import PATH, CommandGroup, argument
-from coframe.cli.output import fail, one_line, printable
+from coframe.cli.options import topic_name
+from coframe.cli.output import fail, fail_to_write, one_line, printable, warn
+from coframe.cli.ros2.calls import response_timeout_option
 from coframe.cli.ros2.graph import (
     AT_ONCE,
     DISCOVERY,
@@ -34,7 +37,7 @@ from coframe.cli.ros2.parameter_text import (
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from coframe.cli.options import NonNegativeDuration
+    from coframe.cli.options import NonNegativeDuration, PositiveDuration
 
 __all__ = ["param"]
 
@@ -52,10 +55,12 @@ param = CommandGroup(
 @param.command(cls=GraphCommand, short_help="Delete a parameter of a node.")
 @node_argument
 @parameter_argument
+@response_timeout_option
 @spin_time_option(AT_ONCE)
 def delete(
     node_name: str,
     name: str,
+    timeout: PositiveDuration,
     spin_time: NonNegativeDuration,
 ) -> None:
     """Delete a parameter of a node.
@@ -63,7 +68,7 @@ def delete(
     Example: coframe param delete /listener speed
     """
     with graph_node(spin_time) as node:
-        result = ParameterClient(node, node_name).set({name: None})[0]
+        result = ParameterClient(node, node_name, timeout=timeout).set({name: None})[0]
     if not result.successful:
         fail("Deleting parameter failed" + (f": {result.reason}" if result.reason else ""))
     print("Deleted parameter successfully")
@@ -72,10 +77,12 @@ def delete(
 @param.command(cls=GraphCommand, short_help="Show the type, description and limits of parameters.")
 @node_argument
 @argument("names", metavar="NAME...", nargs=-1, required=True, help="Names of parameters.")
+@response_timeout_option
 @spin_time_option(AT_ONCE)
 def describe(
     node_name: str,
     names: tuple[str, ...],
+    timeout: PositiveDuration,
     spin_time: NonNegativeDuration,
 ) -> None:
     """Show the type, the description and the limits of parameters of a node.
@@ -83,7 +90,7 @@ def describe(
     Example: coframe param describe /listener use_sim_time
     """
     with graph_node(spin_time) as node:
-        descriptors = ParameterClient(node, node_name).describe(names)
+        descriptors = ParameterClient(node, node_name, timeout=timeout).describe(names)
     if len(descriptors) < len(names):
         fail("Failed to get parameter descriptions", f"coframe param list {node_name} shows all parameters.")
     for descriptor in descriptors:
@@ -92,40 +99,100 @@ def describe(
 
 @param.command(cls=GraphCommand, short_help="Print all parameters of a node as a YAML file.")
 @node_argument
+@click.option(
+    "--output-dir",
+    metavar="FOLDER",
+    type=PATH,
+    help="Write them to a file in this folder, which is named after the node, instead of printing them.",
+)
+@click.option("--print", "prints", is_flag=True, hidden=True, help="Accepted for compatibility: it is the default.")
+@response_timeout_option
 @spin_time_option(AT_ONCE)
-def dump(node_name: str, spin_time: NonNegativeDuration) -> None:
+def dump(
+    node_name: str, output_dir: Path | None, prints: bool, timeout: PositiveDuration, spin_time: NonNegativeDuration
+) -> None:
     """Print all parameters of a node in the format of --params-file.
 
     Example: coframe param dump /listener > listener.yaml
     """
+    del prints
     with graph_node(spin_time) as node:
-        client = ParameterClient(node, node_name)
+        client = ParameterClient(node, node_name, timeout=timeout)
         names = client.names()
         values = dict(zip(names, client.get(names), strict=False))
-    print(as_yaml_file(node_name, {name: python_value(value) for name, value in values.items()}), end="")
+    text = as_yaml_file(node_name, {name: python_value(value) for name, value in values.items()})
+    if output_dir is None:
+        print(text, end="")
+        return
+    path = output_dir / f"{node_name.strip('/').replace('/', '__')}.yaml"
+    try:
+        write_complete(path, text.encode())
+    except OSError as error:
+        fail_to_write(path, error)
+    print(f"Saving to:  {printable(str(path))}")
 
 
-@param.command(cls=GraphCommand, short_help="Print a parameter of a node.")
-@node_argument
-@parameter_argument
-@click.option("--hide-type", is_flag=True, help="Print only the value.")
-@spin_time_option(AT_ONCE)
+@param.command(cls=GraphCommand, short_help="Print parameters of a node, or a parameter of all nodes.")
+@argument(
+    "words",
+    metavar="[NODE] NAME...",
+    nargs=-1,
+    required=True,
+    help="Name of the node and names of its parameters; or only the name of a parameter, for all nodes.",
+)
+@click.option("--hide-type", is_flag=True, help="Print only the values.")
+@hidden_nodes_option
+@response_timeout_option
+@spin_time_option(DISCOVERY)
 def get(
-    node_name: str,
-    name: str,
+    words: tuple[str, ...],
     hide_type: bool,
+    include_hidden: bool,
+    timeout: PositiveDuration,
     spin_time: NonNegativeDuration,
 ) -> None:
-    """Print a parameter of a node.
+    """Print parameters of a node, or one parameter of all nodes that have it.
 
     Example: coframe param get /listener use_sim_time
     """
+    if len(words) == 1:
+        if words[0].startswith("/"):
+            fail(f"give the name of a parameter of {words[0]}", f"coframe param list {words[0]} shows them.", code=2)
+        _get_of_all_nodes(words[0], timeout, spin_time, hide_type=hide_type, include_hidden=include_hidden)
+        return
+    node_name, names = topic_name(words[0]), words[1:]
+    with graph_node() as node:
+        client = ParameterClient(node, node_name, timeout=timeout)
+        # One request for each name, because a node may omit unknown ones from a response to several.
+        lines = [_value(client, name, hide_type=hide_type) for name in names]
+    for name, line in zip(names, lines, strict=True):
+        if line is not None:
+            print(printable(line if len(names) == 1 else f"{name}:\n  {line}"))
+    missing = [name for name, line in zip(names, lines, strict=True) if line is None]
+    if missing:
+        which = "" if len(names) == 1 else f": {', '.join(missing)}"
+        fail(f"Parameter not set{which}", f"coframe param list {node_name} shows all parameters.")
+
+
+def _get_of_all_nodes(
+    name: str, timeout: PositiveDuration, spin_time: NonNegativeDuration, *, hide_type: bool, include_hidden: bool
+) -> None:
+    """Print a parameter of each node that has it."""
+    found = False
     with graph_node(spin_time) as node:
-        values = ParameterClient(node, node_name).get([name])
-    line = value_line(values[0], hide_type=hide_type) if values else None
-    if line is None:
-        fail("Parameter not set", f"coframe param list {node_name} shows all parameters.")
-    print(printable(line))
+        for each in node_names(node, include_hidden=include_hidden):
+            client = ParameterClient(node, each, required=False, timeout=timeout)
+            line = _value(client, name, hide_type=hide_type) if client.is_available else None
+            if line is not None:
+                found = True
+                print(printable(f"{each}: {line}"))
+    if not found:
+        fail(f"No node has a parameter {name!r}.", "coframe param list shows the parameters of all nodes.")
+
+
+def _value(client: ParameterClient, name: str, *, hide_type: bool) -> str | None:
+    values = client.get([name])
+    return value_line(values[0], hide_type=hide_type) if values else None
 
 
 @param.command("list", cls=GraphCommand, short_help="List the parameters of nodes.")
@@ -142,6 +209,7 @@ def get(
     "--filter", "expression", metavar="REGEX", help="List only parameters that match this regular expression."
 )
 @hidden_nodes_option
+@response_timeout_option
 @spin_time_option(DISCOVERY)
 def list_parameters(
     node_name: str | None,
@@ -149,6 +217,7 @@ def list_parameters(
     param_type: bool,
     expression: str | None,
     include_hidden: bool,
+    timeout: PositiveDuration,
     spin_time: NonNegativeDuration,
 ) -> None:
     """List the parameters of one node or of all nodes.
@@ -161,7 +230,7 @@ def list_parameters(
         fail(f"--filter: {expression!r} is not a regular expression: {error}", code=2)
     with graph_node(AT_ONCE if node_name else spin_time) as node:
         for each in [node_name] if node_name else node_names(node, include_hidden=include_hidden):
-            client = ParameterClient(node, each, required=node_name is not None)
+            client = ParameterClient(node, each, required=node_name is not None, timeout=timeout)
             if not client.is_available:
                 continue
             names = sorted(name for name in client.names(prefixes) if pattern.search(name))
@@ -177,11 +246,13 @@ def list_parameters(
 @node_argument
 @argument("file", metavar="FILE", type=PATH, help="A YAML file in the format of --params-file.")
 @click.option("--no-use-wildcard", is_flag=True, help="Do not use the parameters under /**.")
+@response_timeout_option
 @spin_time_option(AT_ONCE)
 def load(
     node_name: str,
     file: Path,
     no_use_wildcard: bool,
+    timeout: PositiveDuration,
     spin_time: NonNegativeDuration,
 ) -> None:
     """Set the parameters of a node from a YAML file.
@@ -190,7 +261,7 @@ def load(
     """
     values = parameters_of_file(file, node_name, use_wildcard=not no_use_wildcard)
     with graph_node(spin_time) as node:
-        results = ParameterClient(node, node_name).set(values)
+        results = ParameterClient(node, node_name, timeout=timeout).set(values)
     failed = False
     for name, result in zip(values, results, strict=True):
         reason = f": {result.reason}" if result.reason else ""
@@ -201,26 +272,44 @@ def load(
         raise Exit(1)
 
 
-@param.command("set", cls=GraphCommand, short_help="Set a parameter of a node.")
+@param.command("set", cls=GraphCommand, short_help="Set parameters of a node.")
 @node_argument
-@parameter_argument
-@argument("value", metavar="VALUE", help="Value as YAML, e.g. 1.5, true or '[1, 2]'.")
+@argument(
+    "words",
+    metavar="NAME VALUE...",
+    nargs=-1,
+    required=True,
+    help="Names and values of parameters; values are YAML, e.g. 1.5, true or '[1, 2]'.",
+)
+@response_timeout_option
 @spin_time_option(AT_ONCE)
-def set_parameter(
+def set_parameters(
     node_name: str,
-    name: str,
-    value: str,
+    words: tuple[str, ...],
+    timeout: PositiveDuration,
     spin_time: NonNegativeDuration,
 ) -> None:
-    """Set a parameter of a node.
+    """Set parameters of a node.
 
     Example: coframe param set /dynamic_tf_broadcaster rate 100.0
     """
     from rclpy.parameter import get_parameter_value  # noqa: PLC0415 - slow import
 
+    if len(words) % 2:
+        example = f"coframe param set {node_name} {' '.join(words)} VALUE"
+        fail(f"there is no value for the parameter {words[-1]!r}", f"Example: {example}", code=2)
+    values = dict(zip(words[::2], words[1::2], strict=True))
     with graph_node(spin_time) as node:
-        result = ParameterClient(node, node_name).set({name: get_parameter_value(value)})[0]
-    reason = f": {result.reason}" if result.reason else ""
-    if not result.successful:
-        fail(f"Setting parameter failed{reason}")
-    print(one_line(f"Set parameter successful{reason}"))
+        client = ParameterClient(node, node_name, timeout=timeout)
+        results = client.set({name: get_parameter_value(value) for name, value in values.items()})
+    failed = False
+    for name, result in zip(values, results, strict=True):
+        prefix = "" if len(values) == 1 else f"{name}: "
+        reason = f": {result.reason}" if result.reason else ""
+        failed |= not result.successful
+        if not result.successful:
+            warn(f"{prefix}Setting parameter failed{reason}")
+        else:
+            print(one_line(f"{prefix}Set parameter successful{reason}"))
+    if failed:
+        raise Exit(1)

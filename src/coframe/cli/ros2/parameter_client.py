@@ -12,6 +12,7 @@ from coframe.cli.ros2.graph import PATIENCE, fail_without_node, node_names, wait
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
 
+    from coframe.cli.options import PositiveDuration
     from rclpy.node import Node
 
 __all__ = ["ParameterClient"]
@@ -27,11 +28,15 @@ class ParameterClient:
         node: Node of the command.
         target: Full name of the other node.
         required: Whether to end the command if the node does not exist or has no parameter services.
+        timeout: How long to wait for each response; 5 s if it is None.
     """
 
-    def __init__(self, node: Node, target: str, *, required: bool = True) -> None:
+    def __init__(
+        self, node: Node, target: str, *, required: bool = True, timeout: PositiveDuration | None = None
+    ) -> None:
         self._node = node
         self._target = target
+        self._timeout = timeout
         if required and not wait_until(lambda: target in node_names(node, include_hidden=True)):
             fail_without_node(node, f"Node not found: {target}", target)
         self.is_available = self._has_services(required=required)
@@ -101,4 +106,4 @@ class ParameterClient:
         return list(self._call(SetParameters, "set_parameters", request).results)
 
     def _call(self, kind: Any, service: str, request: Any) -> Any:
-        return call_service(self._node, kind, f"{self._target}/{service}", request)
+        return call_service(self._node, kind, f"{self._target}/{service}", request, timeout=self._timeout)

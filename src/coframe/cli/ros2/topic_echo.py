@@ -36,9 +36,36 @@ from coframe.cli.ros2.qos import (
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-__all__ = ["echo"]
+    from coframe.cli.declaration import Declared
+
+__all__ = ["echo", "text_options"]
 
 _TRUNCATE_LENGTH = 128  # ros2cli's default: elements of an array, characters of a string
+
+
+_CLEAR = "\x1b[H\x1b[2J"  # moves the cursor home and clears the terminal
+
+
+def text_options(function: Declared) -> Declared:
+    """Declare the options about the text of a message."""
+    options = (
+        click.option("--csv", is_flag=True, help="Print each message as one line of comma-separated values."),
+        click.option("--full-length", "-f", is_flag=True, help="Do not truncate arrays and strings."),
+        click.option(
+            "--truncate-length",
+            "-l",
+            metavar="N",
+            type=click.IntRange(min=1),
+            default=_TRUNCATE_LENGTH,
+            help="Truncate arrays and strings to N elements.",
+        ),
+        click.option("--no-arr", is_flag=True, help="Print the types of arrays instead of their elements."),
+        click.option("--no-str", is_flag=True, help="Print the lengths of strings instead of the strings."),
+        click.option("--flow-style", is_flag=True, help="Print collections on one line."),
+    )
+    for option in reversed(options):
+        function = option(function)
+    return function
 
 
 @click.command(cls=GraphCommand, short_help="Print the messages of a topic as YAML.")
@@ -46,7 +73,13 @@ _TRUNCATE_LENGTH = 128  # ros2cli's default: elements of an array, characters of
 @argument(
     "message_type", metavar="[TYPE]", required=False, help="Type, e.g. std_msgs/msg/String. [default: the topic's]"
 )
-@click.option("--field", metavar="FIELD", help="Print only this field, e.g. pose.position.x.")
+@click.option(
+    "--field",
+    "fields",
+    metavar="FIELD",
+    multiple=True,
+    help="Print only this field, e.g. pose.position.x or ranges[0]; repeatable.",
+)
 @click.option("--once", is_flag=True, help="Print the first message and exit.")
 @click.option(
     "--timeout",
@@ -54,20 +87,9 @@ _TRUNCATE_LENGTH = 128  # ros2cli's default: elements of an array, characters of
     type=NonNegativeDuration,
     help="Exit with code 1 if no message arrives within this time.",
 )
-@click.option("--csv", is_flag=True, help="Print each message as one line of comma-separated values.")
-@click.option("--full-length", "-f", is_flag=True, help="Do not truncate arrays and strings.")
-@click.option(
-    "--truncate-length",
-    "-l",
-    metavar="N",
-    type=click.IntRange(min=1),
-    default=_TRUNCATE_LENGTH,
-    help="Truncate arrays and strings to N elements.",
-)
-@click.option("--no-arr", is_flag=True, help="Print the types of arrays instead of their elements.")
-@click.option("--no-str", is_flag=True, help="Print the lengths of strings instead of the strings.")
-@click.option("--flow-style", is_flag=True, help="Print collections on one line.")
+@text_options
 @click.option("--raw", is_flag=True, help="Print the serialized bytes.")
+@click.option("--clear", "-c", is_flag=True, help="Clear the terminal before each message.")
 @click.option(
     "--filter",
     "filter_expression",
@@ -89,7 +111,7 @@ _TRUNCATE_LENGTH = 128  # ros2cli's default: elements of an array, characters of
 def echo(
     topic_name: str,
     message_type: str | None,
-    field: str | None,
+    fields: tuple[str, ...],
     once: bool,
     timeout: NonNegativeDuration | None,
     csv: bool,
@@ -99,6 +121,7 @@ def echo(
     no_str: bool,
     flow_style: bool,
     raw: bool,
+    clear: bool,
     filter_expression: str | None,
     lost_messages: bool,
     no_lost_messages: bool,
@@ -117,7 +140,7 @@ def echo(
     """
     del lost_messages
     length = None if full_length else truncate_length
-    write = _writer(field, csv=csv, length=length, no_arr=no_arr, no_str=no_str, flow_style=flow_style, raw=raw)
+    write = _writer(fields, csv=csv, length=length, no_arr=no_arr, no_str=no_str, flow_style=flow_style, raw=raw)
     accepts = message_filter(filter_expression)
     words = QoSWords(qos_profile, qos_depth, qos_history, qos_reliability, qos_durability)
     with graph_node(spin_time, use_sim_time=use_sim_time) as node:
@@ -135,16 +158,16 @@ def echo(
         )
         for message in stream.messages(None if timeout is None else timeout.seconds):
             if raw or accepts(message):
-                print_bounded(write(message))
+                print_bounded(f"{_CLEAR}{write(message)}" if clear else write(message))
                 if once:
                     return
         fail(f"No message arrived on {topic_name} within {timeout}.", "coframe topic info shows its publishers.")
 
 
 def _writer(
-    field: str | None, *, csv: bool, length: int | None, no_arr: bool, no_str: bool, flow_style: bool, raw: bool
+    fields: tuple[str, ...], *, csv: bool, length: int | None, no_arr: bool, no_str: bool, flow_style: bool, raw: bool
 ) -> Callable[[Any], str]:
-    """Return the function that formats a message, or one of its fields."""
+    """Return the function that formats a message, or some of its fields."""
     if raw:
         return lambda data: f"{data}\n---"
     from rosidl_runtime_py import message_to_csv, message_to_yaml  # noqa: PLC0415 - slow import
@@ -152,15 +175,17 @@ def _writer(
     def has_fields(value: Any) -> bool:
         return hasattr(value, "get_fields_and_field_types")
 
+    to_csv = functools.partial(message_to_csv, truncate_length=length, no_arr=no_arr, no_str=no_str)
+    to_yaml = functools.partial(
+        message_to_yaml, truncate_length=length, no_arr=no_arr, no_str=no_str, flow_style=flow_style
+    )
+
     def write(message: Any) -> str:
-        value = message if field is None else field_of(message, field)
+        values = [field_of(message, field) for field in fields] or [message]
         if csv:
-            to_csv = functools.partial(message_to_csv, truncate_length=length, no_arr=no_arr, no_str=no_str)
-            text = to_csv(value) if has_fields(value) else str(value)
+            text = ",".join(to_csv(value) if has_fields(value) else str(value) for value in values)
             return printable(text.replace("\n", r"\n"))  # one line for each message, unlike in ROS
-        if not has_fields(value):
-            return printable(f"{value}\n---")
-        text = message_to_yaml(value, truncate_length=length, no_arr=no_arr, no_str=no_str, flow_style=flow_style)
+        text = "".join(to_yaml(value) if has_fields(value) else f"{value}\n" for value in values)
         return printable(f"{text}---")
 
     return write

@@ -5,11 +5,11 @@ from __future__ import annotations
 
 import os
 import time
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import click
 
-from coframe.cli.declaration import argument
+from coframe.cli.declaration import PATH, argument
 from coframe.cli.options import NonNegativeDuration, topic_name
 from coframe.cli.output import fail
 from coframe.cli.ros2.graph import AT_ONCE, GraphCommand, graph_node, load_type, sim_time_option, spin_time_option
@@ -21,9 +21,11 @@ from coframe.cli.ros2.qos import (
     profile_option,
     reliability_option,
 )
-from coframe.cli.ros2.values import read_values
+from coframe.cli.ros2.values import documents_of, read_values
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from rclpy.node import Node
     from rclpy.publisher import Publisher
 
@@ -36,7 +38,13 @@ _POLL = 0.1  # seconds between two looks for matching subscriptions, as in ros2c
 @click.command(cls=GraphCommand, short_help="Publish messages on a topic.")
 @argument("topic_name", metavar="TOPIC", type=topic_name, help="Name of the topic, e.g. /chatter.")
 @argument("message_type", metavar="TYPE", help="Type, e.g. std_msgs/msg/String.")
-@argument("values", metavar="[VALUES]", default="{}", help="Values of fields as YAML, e.g. '{data: hello}'.")
+@argument("values", metavar="[VALUES]", required=False, help="Values of fields as YAML, e.g. '{data: hello}'.")
+@click.option(
+    "--yaml-file",
+    metavar="FILE",
+    type=PATH,
+    help="Publish the messages of a YAML file once, such as the output of topic echo, instead of VALUES.",
+)
 @click.option("--rate", "-r", metavar="HZ", type=float, default=1.0, help="Messages per second.")
 @click.option(
     "--print",
@@ -83,7 +91,8 @@ _POLL = 0.1  # seconds between two looks for matching subscriptions, as in ros2c
 def pub(
     topic_name: str,
     message_type: str,
-    values: str,
+    values: str | None,
+    yaml_file: Path | None,
     rate: float,
     print_every: int,
     once: bool,
@@ -105,17 +114,35 @@ def pub(
     """
     if not rate > 0:
         fail("rate must be greater than zero", code=2)
+    if values is not None and yaml_file is not None:
+        fail("VALUES and --yaml-file cannot be combined", code=2)
     count = 1 if once else times
     with graph_node(spin_time, use_sim_time=use_sim_time, name=node_name or f"_coframe_pub_{os.getpid()}") as node:
         from rosidl_runtime_py.utilities import get_message  # noqa: PLC0415 - slow import
 
-        message = load_type(message_type, get_message)()
-        fill_stamps = read_values(message, values)
+        kind = load_type(message_type, get_message)
+        texts = [values or "{}"] if yaml_file is None else documents_of(yaml_file)
+        messages = [_Message.read(kind, text) for text in texts]
         qos = QoSWords(qos_profile, qos_depth, qos_history, qos_reliability, qos_durability).to_profile()
-        publisher = node.create_publisher(type(message), topic_name, qos)
+        if yaml_file is not None:
+            count = min(count or len(messages), len(messages))
+        publisher = node.create_publisher(kind, topic_name, qos)
         _wait_for_subscriptions(publisher, (1 if count else 0) if wait_matching is None else wait_matching)
-        _publish(node, publisher, message, fill_stamps, min(1.0 / rate, _MAX_PERIOD), print_every, count)
+        _publish(node, publisher, messages, min(1.0 / rate, _MAX_PERIOD), print_every, count)
         time.sleep(keep_alive.seconds)
+
+
+class _Message(NamedTuple):
+    """A message to publish, and the function that sets its stamps."""
+
+    message: Any
+    fill_stamps: Any
+
+    @classmethod
+    def read(cls, kind: Any, text: str) -> _Message:
+        """Return the message with the values of a YAML text."""
+        message = kind()
+        return cls(message, read_values(message, text))
 
 
 def _wait_for_subscriptions(publisher: Publisher, number: int) -> None:
@@ -127,12 +154,13 @@ def _wait_for_subscriptions(publisher: Publisher, number: int) -> None:
 
 
 def _publish(
-    node: Node, publisher: Publisher, message: Any, fill_stamps: Any, period: float, print_every: int, count: int
+    node: Node, publisher: Publisher, messages: list[_Message], period: float, print_every: int, count: int
 ) -> None:
     print("publisher: beginning loop", flush=True)
     due = time.monotonic()
     number = 0
     while not count or number < count:
+        message, fill_stamps = messages[number % len(messages)]
         number += 1
         fill_stamps(node.get_clock().now().to_msg())
         if print_every and number % print_every == 0:

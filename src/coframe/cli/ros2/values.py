@@ -3,16 +3,20 @@
 
 from __future__ import annotations
 
+import re
 from typing import TYPE_CHECKING, Any
 
 from coframe._files.bounded_yaml import error_position, read_yaml
+from coframe._files.regular_files import read_regular, reading_hint
 from coframe.cli.output import fail
 
 if TYPE_CHECKING:
     from collections.abc import Callable
+    from pathlib import Path
 
-__all__ = ["read_values", "yaml_value"]
+__all__ = ["documents_of", "read_values", "yaml_value"]
 
+MAX_FILE = 16 << 20  # bytes of a file with messages
 _WIDTH = 60  # number of characters of an invalid text to show
 _MAX_EXAMPLE_LENGTH = 150
 # Error messages of the YAML parsers (C and Python), and what they mean for the user.
@@ -53,6 +57,20 @@ def yaml_value(text: str, what: str, hint: str = "") -> Any:
         shown = lines[row][start : start + _WIDTH]
         pointer = f"    {shown}\n    {' ' * (column - start)}^"
         fail(f"{what} is not valid YAML at {where}: {reason}", hint, code=2, details=pointer)
+
+
+def documents_of(path: Path) -> list[str]:
+    """Return the YAML documents of a file, which lines of three hyphens separate; end the command if there are none."""
+    try:
+        text = read_regular(path, MAX_FILE).decode()
+    except UnicodeDecodeError:
+        fail(f"{path} is not a text file in UTF-8.")
+    except OSError as error:
+        fail(f"{path} cannot be read: {error.strerror or error}", reading_hint(error))
+    documents = [each for each in re.split(r"^---[ \t]*$", text, flags=re.MULTILINE) if each.strip()]
+    if not documents:
+        fail(f"{path} contains no message.", "It has the format of the output of coframe topic echo.")
+    return documents
 
 
 def read_values(message: Any, text: str) -> Callable[[Any], None]:
