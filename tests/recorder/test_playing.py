@@ -315,3 +315,56 @@ def test_the_playback_clock_pauses_resumes_and_jumps():
     clock.stop()
     assert not clock.wait_until(held + 2 * SECOND)
     assert not clock.sleep(100)
+
+
+def test_several_recordings_are_replayed_as_one(listen, tmp_path):
+    """Their messages are merged by receive time, and the replay ends at a time or after a duration."""
+    for name, first in (("even", 0), ("odd", 1)):
+        with Writer(tmp_path / name) as writer:
+            topic = writer.add_topic(f"/{name}", STRING)
+            for i in range(first, 10, 2):
+                writer.write(topic, text(f"{i}"), START + i * SECOND // 20)
+    even, odd = listen("/even"), listen("/odd")
+    paths = [tmp_path / "even", tmp_path / "odd"]
+    with coframe.play(paths, delay=SETTLED) as player:
+        assert player.wait("20s")
+        assert player.recording.duration == 9 * SECOND // 20
+    assert (words(even()), words(odd())) == (["0", "2", "4", "6", "8"], ["1", "3", "5", "7", "9"])
+    sent = [sample.source_timestamp for pair in zip(even(), odd(), strict=True) for sample in pair]
+    assert sent == sorted(sent)
+    for limit in ({"duration": "150ms"}, {"end": START + 3 * SECOND // 20}):
+        with coframe.play(paths, delay=0, **limit) as player:
+            assert player.wait("20s")
+            assert player.played == 4
+    with coframe.play(paths, delay=0, regex="/e.*", exclude_topics=["odd"]) as player:
+        assert player.wait("20s")
+        assert player.played == 5
+
+
+def test_a_replay_can_be_moved(listen, tmp_path, eventually):
+    with Writer(tmp_path / "run") as writer:
+        topic = writer.add_topic("/words", STRING)
+        for i in range(10):
+            writer.write(topic, text(f"{i}"), START + i * SECOND // 100)
+    received = listen("/words")
+    with coframe.play(tmp_path / "run", delay=SETTLED, paused=True) as player:
+        assert player.wait_for_start("20s")
+        player.step(2)
+        eventually(lambda: len(received()) == 2)
+        player.seek(START + 7 * SECOND // 100)
+        player.resume()
+        assert player.wait("20s")
+    assert words(received()) == ["0", "1", "7", "8", "9"]
+
+
+def test_a_burst_has_no_pauses(listen, tmp_path):
+    with Writer(tmp_path / "run") as writer:
+        topic = writer.add_topic("/words", STRING)
+        for i in range(6):
+            writer.write(topic, text(f"{i}"), START + i * 100 * SECOND)
+    received = listen("/words")
+    begin = time.monotonic()
+    result = CliRunner().invoke(app, ["bag", "burst", str(tmp_path / "run"), "-n", "4", "--delay", SETTLED])
+    assert (result.exit_code, result.output) == (0, "published 4 messages\n")
+    assert time.monotonic() - begin < 60
+    assert words(received()) == ["0", "1", "2", "3"]

@@ -15,7 +15,7 @@ from coframe.recorder import Recorder
 from coframe.recorder import _topic_subscriptions as topic_subscriptions
 from coframe.recorder._frame_renaming import FrameRenamer
 from coframe.recorder._message_queue import MessageSource
-from coframe.recorder._topic_subscriptions import TopicFilter
+from coframe.recorder._topic_filter import TopicFilter
 from coframe.wire import QoS
 
 STRING, TF_MESSAGE = find("std_msgs/msg/String"), find("tf2_msgs/msg/TFMessage")
@@ -121,6 +121,29 @@ def test_topics_without_a_ros_type_are_refused(participant, node, eventually, tm
 def test_topic_filter(choice, chosen):
     topic_filter = TopicFilter(*choice)
     assert {topic for topic in ("/tf", "/tf_static", "/scan", "/a/_action/feedback") if topic_filter(topic)} == chosen
+
+
+@pytest.mark.parametrize(
+    ("choice", "chosen"),
+    [
+        ({"types": ["sensor_msgs/msg/LaserScan"]}, {"/scan"}),
+        ({"services": ["reset"]}, {"/reset/_service_event"}),
+        ({"services": True, "exclude_services": ["/reset"]}, {"/stop/_service_event"}),
+        ({"topics": ["/tf"], "services": True}, {"/tf", "/reset/_service_event", "/stop/_service_event"}),
+        ({"exclude_topics": ["tf"]}, {"/scan"}),
+        ({"exclude_types": ["sensor_msgs/msg/LaserScan"]}, {"/tf"}),
+        ({"hidden": True, "exclude": "/tf|/.*_service_event"}, {"/scan"}),
+    ],
+)
+def test_topic_filter_by_types_and_services(choice, chosen):
+    graph = {
+        "/tf": "tf2_msgs/msg/TFMessage",
+        "/scan": "sensor_msgs/msg/LaserScan",
+        "/reset/_service_event": "std_srvs/srv/Empty_Event",
+        "/stop/_service_event": "std_srvs/srv/Empty_Event",
+    }
+    topic_filter = TopicFilter(**choice)
+    assert {topic for topic, ros_type in graph.items() if topic_filter(topic, ros_type)} == chosen
 
 
 def test_requested_topics_without_a_publisher_are_missing():

@@ -24,6 +24,7 @@ from coframe.errors import RecordingError
 if TYPE_CHECKING:
     import os
     from collections.abc import Callable, Iterable, Iterator, Sequence
+    from datetime import timedelta
 
     from coframe.bags.recording import Recording
     from coframe.bags.storage import Channel
@@ -58,10 +59,13 @@ def copy_recordings(
     span: Callable[[Recording], tuple[int | None, int | None]] = lambda _recording: (None, None),
     prefixes: Sequence[str] | None = None,
     keep: Iterable[str] = (),
+    storage: str = "mcap",
     compression: str = "zstd",
+    max_size: int | None = None,
+    max_duration: str | int | timedelta | None = None,
     progress: Callable[[str, int, int], object] = lambda _what, _done, _total: None,
 ) -> CopyReport:
-    """Copy the messages of recordings in receive order to a new recording in rosbag2's layout with MCAP.
+    """Copy the messages of recordings in receive order to a new recording in rosbag2's layout.
 
     Messages are read and written one by one; ROS 1 messages are converted to ROS 2. Static transforms received before
     the start of the span are copied as well, at its start.
@@ -78,7 +82,10 @@ def copy_recordings(
         prefixes: A prefix for the frames and topics of each recording: ``["robot1/", "robot2/"]`` gives
             ``robot1/base_link`` and ``/robot1/scan``.
         keep: Frames without the prefix because they are shared: ``["map"]``.
-        compression: ``zstd``, ``lz4`` or ``none``.
+        storage: The format of the files, ``mcap`` or ``sqlite3``.
+        compression: ``zstd``, ``lz4`` or ``none``; SQLite files are not compressed.
+        max_size: The size in bytes after which a new file begins; None for no limit.
+        max_duration: The duration after which a new file begins, such as "10min"; None for no limit.
         progress: Called regularly with the step (``reading`` or ``writing``) and the completed and total amount.
 
     Raises:
@@ -106,7 +113,7 @@ def copy_recordings(
         if found and not any(topic.messages for recording in recordings for topic in recording.topics.values()):
             raise RecordingError(f"nothing can be copied, because no message can be read: {found[0]}")
         skipped: Counter[str] = Counter()
-        writer = Writer(target, compression=compression)
+        writer = Writer(target, storage=storage, compression=compression, max_size=max_size, max_duration=max_duration)
         try:
             with writer:
                 copy = _Copy(writer, merged, skipped)

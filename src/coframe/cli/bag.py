@@ -17,6 +17,7 @@ from coframe._output.escaping import shown
 from coframe._output.formatting import count, listed, seconds
 from coframe.bags import COMPRESSIONS, parse_time_point, repair, summarize
 from coframe.bags.copying import copy_recordings
+from coframe.bags.formats import METADATA, storage_formats
 from coframe.bags.namespaces import TransformChoice
 from coframe.cli.declaration import PATH, CommandGroup, argument
 from coframe.cli.lifecycle import run_to_completion
@@ -30,10 +31,11 @@ from coframe.cli.options import (
     recorded_listener_options,
 )
 from coframe.cli.output import fail, one_line, printable, report_console, warn
-from coframe.cli.play import play
+from coframe.cli.play import burst, play
 from coframe.cli.progress import task_progress
 from coframe.cli.record import record
 from coframe.cli.recordings import EARLIEST_WALL_TIME, grouped_by_topic, open_recording
+from coframe.cli.rosbag2_words import BAG_WORDS, Rosbag2Command, without_formats
 from coframe.doctor import Severity, diagnose, observe_recording
 from coframe.doctor.rendering.text import headline
 from coframe.time import MILLISECOND, SECOND
@@ -50,6 +52,9 @@ if TYPE_CHECKING:
 
 __all__ = ["bag"]
 
+_SERVICE_EVENT = "/_service_event"  # the end of the topic with the requests and responses of a service
+_EVENTS = ("requests sent", "requests received", "responses sent", "responses received")
+_CDR_HEADER = 4  # bytes before the first field of a message
 _NUMBER = re.compile(r"\d+(\.\d+)?")
 _MAX_ROWS = 500  # maximum number of rows of `bag info`; a table of 100 000 rows takes gigabytes
 
@@ -75,13 +80,30 @@ def _add(command: click.Command, line: str) -> None:
 
 _add(record, "Record topics, like coframe record.")
 _add(play, "Replay a recording, like coframe play.")
+bag.add_command(burst)
 
 
-@bag.command(short_help="Show topics, transform trees and gaps of a recording.")
+class BagCommand(Rosbag2Command):
+    """A command with the options of ``ros2 bag`` that only concern the format of a recording."""
+
+    rosbag2 = BAG_WORDS
+
+
+class ConvertCommand(BagCommand):
+    """The command ``convert``: as in ros2, a format may follow each ``--input``."""
+
+    def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
+        """Remove the formats, then parse as usual."""
+        return super().parse_args(ctx, without_formats(args))
+
+
+@bag.command(cls=BagCommand, short_help="Show topics, transform trees and gaps of a recording.")
 @bag_argument
 @namespace_option
 @recorded_listener_options
 @click.option("--json", "as_json", is_flag=True, help="Print JSON in full precision; times are in nanoseconds.")
+@click.option("--topic-name", "-t", "only_names", is_flag=True, help="Print only the names of the topics.")
+@click.option("--verbose", "-v", is_flag=True, help="Also show the numbers of requests and responses of services.")
 def info(
     bag: Path,
     namespace: str | None,
@@ -90,6 +112,8 @@ def info(
     prefix: str,
     keep: str,
     as_json: bool,
+    only_names: bool,
+    verbose: bool,
 ) -> None:
     """Show the contents of the recording BAG: topics, transform trees, gaps, and which sensor data can be transformed.
 
@@ -97,11 +121,16 @@ def info(
     """
     choice = TransformChoice(namespace, tf_topic, tf_static_topic, prefix, keep)
     with run_to_completion(), open_recording(bag, choice) as recording:
+        if only_names:
+            print("\n".join(map(one_line, sorted(recording.topics))))
+            return
         summary = summarize(recording)
         if as_json:
             print(json.dumps(_plain(summary), indent=2))
         else:
             _print(summary)
+            if verbose:
+                _print_services(recording)
 
 
 @bag.command(short_help="Write a repaired copy of a recording.")
@@ -173,20 +202,88 @@ def _findings(path: Path) -> list[Finding]:
     return [one for report in reports for one in report.findings if one.severity >= Severity.WARNING]
 
 
-@bag.command(short_help="Convert a recording to rosbag2's MCAP, or change its compression.")
-@bag_argument
-@output_argument
+@bag.command(cls=ConvertCommand, short_help="Convert a recording to rosbag2's MCAP, or change its compression.")
+@argument("bag", metavar="[BAG]", type=PATH, required=False, help="Recording to convert.")
+@argument("output", metavar="[OUT]", type=PATH, required=False, help="Folder to create for the copy.")
+@click.option("--input", "-i", "inputs", metavar="BAG", type=PATH, multiple=True, help="Recording to read; repeatable.")
+@click.option(
+    "--output-options",
+    "-o",
+    metavar="FILE",
+    type=PATH,
+    help="YAML file that describes the recordings to write, as for ros2 bag convert.",
+)
 @compression_option
 def convert(
-    bag: Path,
-    output: Path,
+    bag: Path | None,
+    output: Path | None,
+    inputs: tuple[Path, ...],
+    output_options: Path | None,
     compression: str,
 ) -> None:
     """Convert the recording BAG (ROS 1 or SQLite) to MCAP in rosbag2's layout, or change its compression.
 
+    With --input and --output-options, recordings are merged, filtered and split as by ros2 bag convert.
+
     Example: coframe bag convert run.bag run --compression lz4
     """
-    _copy([bag], output, compression)
+    if bag is not None and output is not None and not inputs and output_options is None:
+        _copy([bag], output, compression)
+        return
+    if bag is not None or output is not None or not inputs or output_options is None:
+        fail("give either BAG and OUT, or --input and --output-options", code=2)
+    with run_to_completion():
+        import rosbag2_py  # noqa: PLC0415 - only for this form
+
+        try:
+            rosbag2_py.bag_rewrite([rosbag2_py.StorageOptions(str(path)) for path in inputs], str(output_options))
+        except RuntimeError as error:
+            fail(str(error))
+
+
+@bag.command(cls=BagCommand, short_help="Write the metadata.yaml of a recording again.")
+@bag_argument
+@argument("storage", metavar="[FORMAT]", required=False, help="Has no effect: the format is detected.")
+def reindex(bag: Path, storage: str | None) -> None:
+    """Write the metadata.yaml of the recording BAG, a folder of rosbag2, from its files.
+
+    Example: coframe bag reindex run
+    """
+    del storage
+    if not bag.is_dir():
+        fail(f"{printable(str(bag))} is not a folder", "Only folders of rosbag2 have a metadata.yaml.")
+    with run_to_completion():
+        import rosbag2_py  # noqa: PLC0415 - only for this command
+
+        try:
+            rosbag2_py.Reindexer().reindex(rosbag2_py.StorageOptions(str(bag)))
+        except (OSError, RuntimeError) as error:
+            fail(str(error))
+        print(printable(f"{bag / METADATA} was written"))
+
+
+@bag.command("list", short_help="List the formats of recordings that can be read and written.")
+@argument("kind", metavar="[KIND]", required=False, help="readers, writers, compressors or converters.")
+@click.option("--verbose", "-v", is_flag=True, help="Also show the suffixes of the files.")
+def list_formats(kind: str | None, verbose: bool) -> None:
+    """List the formats of recordings that can be read and written, including those of plug-ins.
+
+    Example: coframe bag list readers
+    """
+    kinds: dict[str, dict[str, Any]] = {
+        "readers": dict(storage_formats()),
+        "writers": dict(storage_formats(written=True)),
+        "compressors": dict.fromkeys(COMPRESSIONS),
+        "converters": {"cdr": None},
+    }
+    if kind is not None and kind not in kinds:
+        fail(f"unknown kind {kind!r}", f"Kinds: {', '.join(kinds)}.", code=2)
+    for title, formats in kinds.items() if kind is None else [(kind, kinds[kind])]:
+        if kind is None:
+            print(f"{title}:")
+        for name, one in formats.items():
+            suffixes = f" ({', '.join(one.suffixes)})" if verbose and one is not None else ""
+            print(one_line(f"{'  ' if kind is None else ''}{name}{suffixes}"))
 
 
 @bag.command(short_help="Merge several recordings into one.")
@@ -335,6 +432,26 @@ def _print_sensors(summaries: list[SensorSummary], console: Console) -> None:
     _print_omitted(console, len(summaries), "sensor")
     for group in reasons.values():
         console.print(_text(f"{listed(topic for topic, _ in group)}: {group[0][1]}"), soft_wrap=True)
+
+
+def _print_services(recording: Recording) -> None:
+    """Print how many requests and responses of each service were recorded."""
+    rows: dict[str, list[int]] = {}
+    events = [name for name in recording.topics if name.endswith(_SERVICE_EVENT)]
+    for channel, _, data in recording.in_order(events) if events else ():
+        # The first field of an event is its type: request sent, request received, response sent, response received.
+        kind = data[_CDR_HEADER] if len(data) > _CDR_HEADER else len(_EVENTS)
+        counts = rows.setdefault(channel.topic, [0] * len(_EVENTS))
+        if kind < len(_EVENTS):
+            counts[kind] += 1
+    services = _table("service", "type", *_EVENTS)
+    for name in sorted(events)[:_MAX_ROWS]:
+        ros_type = recording.topics[name].type.removesuffix("_Event")
+        counts = rows.get(name, [0] * len(_EVENTS))
+        services.add_row(_text(name.removesuffix(_SERVICE_EVENT)), _text(ros_type), *map(str, counts))
+    console = report_console()
+    console.print(services if events else "The recording contains no events of services.")
+    _print_omitted(console, len(events), "service")
 
 
 def _size(size: int) -> str:

@@ -33,7 +33,7 @@ class CommandRow(NamedTuple):
     ros: bool
 
 
-_BAG_GRAPH = frozenset({"record", "play"})
+_BAG_GRAPH = frozenset({"record", "play", "burst"})
 # name: line in the help, module, extras, joins the graph, uses ROS packages
 COMMANDS: dict[str, CommandRow] = {
     "demo": CommandRow(
@@ -109,7 +109,7 @@ COMMANDS: dict[str, CommandRow] = {
         "bag",
         ("bags", "dds"),
         graph=_BAG_GRAPH,
-        ros=False,
+        ros=True,
     ),
     "lookup": CommandRow(
         "Print a transform once, live or from a recording.", "lookup", ("dds", "bags"), graph=True, ros=False

@@ -14,7 +14,9 @@ from rich.text import Text
 
 from coframe._output.formatting import count
 from coframe._process.keys import keys
-from coframe.cli.declaration import Command
+from coframe.bags.formats import file_kinds
+from coframe.cli.completion import complete_recordings
+from coframe.cli.declaration import PATH, argument
 from coframe.cli.lifecycle import run_until_interrupted
 from coframe.cli.options import (
     TF_STATIC_TOPIC,
@@ -25,6 +27,7 @@ from coframe.cli.options import (
     listener_options,
 )
 from coframe.cli.output import fail, warn
+from coframe.cli.rosbag2_words import PLAY_WORDS, Rosbag2Command, without_formats
 from coframe.errors import RecordingError
 from coframe.recorder import MAX_RATE
 from coframe.recorder import play as start_playing
@@ -35,23 +38,26 @@ if TYPE_CHECKING:
 
     from coframe.recorder import Player
 
-__all__ = ["play"]
+__all__ = ["burst", "play"]
 
 _REFRESH = 0.1  # seconds
+_REFRESH_TIME = f"{_REFRESH:g}s"
 _CLOCK_RATE = "40"  # Hz, as in rosbag2
 _HELP = "space: pause, right: next message, up/down: faster/slower, Ctrl-C: stop"
 
 
-class PlayCommand(Command):
-    """The command ``play``, whose option ``--clock`` may have no value, as in rosbag2."""
+class PlayCommand(Rosbag2Command):
+    """The command ``play`` with the options of ``ros2 bag play``; ``--clock`` may have no value, as there."""
+
+    rosbag2 = PLAY_WORDS
 
     def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
         """Insert the default rate after ``--clock`` without a value, then parse as usual."""
-        for i, argument in enumerate(args):
-            if argument == "--clock" and not _is_number(args[i + 1 : i + 2]):
+        for i, word in enumerate(args):
+            if word == "--clock" and not _is_number(args[i + 1 : i + 2]):
                 args = [*args[: i + 1], _CLOCK_RATE, *args[i + 1 :]]
                 break
-        return super().parse_args(ctx, args)
+        return super().parse_args(ctx, without_formats(args))
 
 
 def _is_number(following: list[str]) -> bool:
@@ -62,8 +68,29 @@ def _is_number(following: list[str]) -> bool:
 
 
 @click.command(cls=PlayCommand)
-@bag_argument
+@argument(
+    "bag",
+    metavar="[BAG]",
+    type=PATH,
+    required=False,
+    shell_complete=complete_recordings,
+    help=lambda: f"Recording: a {file_kinds()}, or a rosbag2 folder.",
+)
+@click.option(
+    "--input",
+    "-i",
+    "inputs",
+    metavar="BAG",
+    type=PATH,
+    multiple=True,
+    help="Recording to replay together with others; repeatable.",
+)
 @click.option("--topics", metavar="TOPIC", multiple=True, help="Replay only this topic; repeatable.")
+@click.option("--regex", "-e", metavar="REGEX", help="Replay topics whose full name matches this expression.")
+@click.option(
+    "--exclude", metavar="REGEX", help="Do not replay topics whose full name matches this regular expression."
+)
+@click.option("--exclude-topics", metavar="TOPIC", multiple=True, help="Do not replay this topic; repeatable.")
 @click.option("--remap", "-m", metavar="OLD:=NEW", multiple=True, help="Publish the topic OLD as NEW; repeatable.")
 @click.option("--rate", "-r", metavar="FACTOR", type=float, default=1.0, help="Playback speed; 2 is twice as fast.")
 @click.option("--loop", is_flag=True, help="Restart at the end.")
@@ -75,6 +102,19 @@ def _is_number(following: list[str]) -> bool:
     default="0s",
     help="Start this far into the recording, e.g. 10s or 2min.",
 )
+@click.option(
+    "--playback-duration",
+    metavar="DURATION",
+    type=Duration,
+    default="-1s",
+    show_default=False,
+    help="Stop after this much of the recording. [default: at its end]",
+)
+@click.option(
+    "--playback-until-sec", metavar="SECONDS", type=float, help="Stop at this receive time, in seconds since 1970."
+)
+@click.option("--playback-until-nsec", metavar="NANOSECONDS", type=int, hidden=True)
+@click.option("--disable-keyboard-controls", "no_keys", is_flag=True, help="Do not read keys from the terminal.")
 @click.option("--start-paused", is_flag=True, help="Start paused.")
 @click.option("-p", "upstream_paused", is_flag=True, hidden=True)
 @click.option(
@@ -93,13 +133,21 @@ def _is_number(following: list[str]) -> bool:
 @domain_option
 @listener_options
 def play(
-    bag: Path,
+    bag: Path | None,
+    inputs: tuple[Path, ...],
     topics: tuple[str, ...],
+    regex: str | None,
+    exclude: str | None,
+    exclude_topics: tuple[str, ...],
     remap: tuple[str, ...],
     rate: float,
     loop: bool,
     upstream_loop: bool,
     start_offset: Duration,
+    playback_duration: Duration,
+    playback_until_sec: float | None,
+    playback_until_nsec: int | None,
+    no_keys: bool,
     start_paused: bool,
     upstream_paused: bool,
     clock: float | None,
@@ -118,11 +166,19 @@ def play(
 
     Example: coframe play run --rate 2 --clock
     """
+    bags = [*([] if bag is None else [bag]), *inputs]
+    if not bags:
+        fail("Missing argument BAG.", "Example: coframe play run", code=2)
+    if playback_until_sec is not None and playback_until_sec >= 0:
+        playback_until_nsec = int(playback_until_sec * SECOND)
     with run_until_interrupted():
         try:
             player = start_playing(
-                bag,
+                bags,
                 topics=topics or None,
+                regex=regex,
+                exclude=exclude,
+                exclude_topics=exclude_topics,
                 remap={
                     TF_TOPIC: tf_topic,
                     TF_STATIC_TOPIC: tf_static_topic,
@@ -132,6 +188,9 @@ def play(
                 # The short options of `ros2 bag play` are accepted here; in other commands they have other meanings.
                 loop=loop or upstream_loop,
                 start_offset=start_offset,
+                # A negative limit means none, as in rosbag2.
+                duration=playback_duration if playback_duration >= 0 else None,
+                end=playback_until_nsec if (playback_until_nsec or 0) > 0 else None,
                 paused=start_paused or upstream_paused,
                 clock=clock,
                 delay=delay,
@@ -144,7 +203,64 @@ def play(
         except ValueError as error:
             fail(str(error), code=2)
         with player:
-            _watch(player)
+            _watch(player, reads_keys=not no_keys)
+
+
+@click.command(cls=PlayCommand, short_help="Publish messages of a recording without pauses.")
+@bag_argument
+@click.option(
+    "--num-messages", "-n", metavar="N", type=click.IntRange(min=0), default=0, help="Number of messages; 0 for all."
+)
+@click.option("--topics", metavar="TOPIC", multiple=True, help="Publish only this topic; repeatable.")
+@click.option("--remap", "-m", metavar="OLD:=NEW", multiple=True, help="Publish the topic OLD as NEW; repeatable.")
+@click.option(
+    "--start-offset",
+    metavar="DURATION",
+    type=Duration,
+    default="0s",
+    help="Start this far into the recording, e.g. 10s or 2min.",
+)
+@click.option(
+    "--delay",
+    metavar="DURATION",
+    type=Duration,
+    default="1s",
+    help="Time to wait for subscribers before playback starts.",
+)
+@domain_option
+def burst(
+    bag: Path,
+    num_messages: int,
+    topics: tuple[str, ...],
+    remap: tuple[str, ...],
+    start_offset: Duration,
+    delay: Duration,
+    domain: int | None,
+) -> None:
+    """Publish the first messages of the recording BAG without pauses, static transforms first.
+
+    Example: coframe bag burst run --num-messages 100
+    """
+    with run_until_interrupted():
+        try:
+            player = start_playing(
+                bag,
+                topics=topics or None,
+                remap=dict(map(_parsed_remapping, remap)),
+                start_offset=start_offset,
+                paused=True,
+                delay=delay,
+                domain=domain,
+            )
+        except RecordingError:
+            raise
+        except ValueError as error:
+            fail(str(error), code=2)
+        with player:
+            player.step(num_messages or sum(topic.messages for topic in player.recording.topics.values()))
+            while player.clock.steps and not player.wait(_REFRESH_TIME):
+                pass
+        print(f"published {count(player.played, 'message')}")
 
 
 def _parsed_remapping(text: str) -> tuple[str, str]:
@@ -154,20 +270,26 @@ def _parsed_remapping(text: str) -> tuple[str, str]:
     return old, new
 
 
-def _watch(player: Player) -> None:
+def _watch(player: Player, *, reads_keys: bool) -> None:
     printed: set[str] = set()
     console = Console(stderr=True)
     print(
-        f"playing {player.recording.path}" + (f"; {_HELP}" if sys.stdin.isatty() else ""), file=sys.stderr, flush=True
+        f"playing {player.recording.path}" + (f"; {_HELP}" if reads_keys and sys.stdin.isatty() else ""),
+        file=sys.stderr,
+        flush=True,
     )
 
     def screen() -> Text:
         return _line(player)
 
     live = Live(get_renderable=screen, console=console, refresh_per_second=1 / _REFRESH, transient=True)
-    with keys() as pressed, live if console.is_terminal else contextlib.nullcontext():
-        while not player.wait(0):
-            _handle_key(player, pressed.read(_REFRESH))
+    with (
+        keys() if reads_keys else contextlib.nullcontext() as pressed,
+        live if console.is_terminal else contextlib.nullcontext(),
+    ):
+        while not player.wait(0 if pressed else _REFRESH_TIME):
+            if pressed:
+                _handle_key(player, pressed.read(_REFRESH))
             for problem in [problem for problem in player.problems if problem not in printed]:
                 printed.add(problem)
                 warn(problem)

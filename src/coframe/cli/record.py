@@ -17,7 +17,7 @@ from rich.text import Text
 from coframe._output.formatting import count
 from coframe._process.freed_memory import return_freed_arrays
 from coframe.cli.completion import complete_live_topics
-from coframe.cli.declaration import PATH, Command, argument
+from coframe.cli.declaration import PATH, argument
 from coframe.cli.lifecycle import run_until_interrupted
 from coframe.cli.options import (
     TF_STATIC_TOPIC,
@@ -29,6 +29,7 @@ from coframe.cli.options import (
     listener_options,
 )
 from coframe.cli.output import fail, one_line, print_bounded, warn
+from coframe.cli.rosbag2_words import RECORD_WORDS, Rosbag2Command
 from coframe.errors import RecordingError
 from coframe.recorder import record as start_recording
 
@@ -40,12 +41,19 @@ if TYPE_CHECKING:
 __all__ = ["record"]
 
 _REFRESH = 0.2  # seconds
+_ALL, _NOT_HIDDEN = ".*", r"(?!.*/_).*"  # regular expressions of topics
 _SIZE = re.compile(r"(\d+(?:\.\d+)?)\s*([kMG]?)B?", re.IGNORECASE)
 _UNITS = {"": 1, "k": 1000, "m": 1000**2, "g": 1000**3}
 _MAX_BYTES = 1 << 63  # bytes
 
 
-@click.command(cls=Command)
+class RecordCommand(Rosbag2Command):
+    """The command ``record`` with the options of ``ros2 bag record``."""
+
+    rosbag2 = RECORD_WORDS
+
+
+@click.command(cls=RecordCommand)
 @argument(
     "topics",
     metavar="[TOPIC]...",
@@ -60,12 +68,28 @@ _MAX_BYTES = 1 << 63  # bytes
     type=PATH,
     help="Folder to create. [default: rosbag2_DATE-TIME]",
 )
-@click.option("--all", "-a", "everything", is_flag=True, help="Record all topics that are not hidden.")
+@click.option(
+    "--all", "-a", "everything", is_flag=True, help="Record all topics that are not hidden, and all services."
+)
+@click.option("--all-topics", is_flag=True, help="Record all topics that are not hidden.")
+@click.option("--topics", "more_topics", metavar="TOPIC", multiple=True, help="Record this topic; repeatable.")
+@click.option("--topic-types", "types", metavar="TYPE", multiple=True, help="Record topics of this type; repeatable.")
+@click.option("--services", metavar="SERVICE", multiple=True, help="Record the events of this service; repeatable.")
+@click.option("--all-services", is_flag=True, help="Record the events of all services.")
+@click.option(
+    "--include-hidden-topics", "hidden", is_flag=True, help="Include hidden topics, such as those of actions."
+)
 @click.option("--regex", "-e", metavar="REGEX", help="Record topics whose full name matches this regular expression.")
 @click.option(
     "--exclude", "-x", metavar="REGEX", help="Do not record topics whose full name matches this regular expression."
 )
+@click.option("--exclude-topics", metavar="TOPIC", multiple=True, help="Do not record this topic; repeatable.")
+@click.option("--exclude-topic-types", metavar="TYPE", multiple=True, help="Do not record this type; repeatable.")
+@click.option("--exclude-services", metavar="SERVICE", multiple=True, help="Do not record this service; repeatable.")
+@click.option("--storage", metavar="FORMAT", default="mcap", help="Format of the files: mcap or sqlite3.")
 @click.option("--compression", metavar="METHOD", default="zstd", help="Compression: none, zstd or lz4.")
+@click.option("--compression-format", metavar="METHOD", hidden=True)
+@click.option("--compression-mode", type=click.Choice(("none", "file", "message")), hidden=True)
 @click.option("--max-size", metavar="SIZE", help="Start a new file after this size, e.g. 500MB or 2GB.")
 @click.option(
     "--max-duration",
@@ -86,9 +110,21 @@ def record(
     topics: tuple[str, ...],
     output: Path | None,
     everything: bool,
+    all_topics: bool,
+    more_topics: tuple[str, ...],
+    types: tuple[str, ...],
+    services: tuple[str, ...],
+    all_services: bool,
+    hidden: bool,
     regex: str | None,
     exclude: str | None,
+    exclude_topics: tuple[str, ...],
+    exclude_topic_types: tuple[str, ...],
+    exclude_services: tuple[str, ...],
+    storage: str,
     compression: str,
+    compression_format: str | None,
+    compression_mode: str | None,
     max_size: str | None,
     max_duration: PositiveDuration | None,
     duration: NonNegativeDuration | None,
@@ -114,8 +150,11 @@ def record(
             "They select the topics whose frames get the prefix. To select topics to record, list them as TOPIC.",
             code=2,
         )
-    if everything and (topics or regex):
-        fail("--all cannot be combined with TOPIC or --regex", code=2)
+    topics += more_topics
+    if (everything or all_topics) and (topics or regex or types):
+        fail("--all cannot be combined with TOPIC, --regex or --topic-types", code=2)
+    if everything or all_topics:
+        regex = _ALL if hidden else _NOT_HIDDEN
     return_freed_arrays()
     with run_until_interrupted():
         try:
@@ -124,8 +163,15 @@ def record(
                 topics=topics or None,
                 regex=regex,
                 exclude=exclude,
+                types=types,
+                services=True if all_services or everything else services,
+                hidden=hidden,
+                exclude_topics=exclude_topics,
+                exclude_types=exclude_topic_types,
+                exclude_services=exclude_services,
                 domain=domain,
-                compression=compression,
+                storage=storage,
+                compression=_compression(compression, compression_mode, compression_format),
                 max_size=None if max_size is None else _bytes("--max-size", max_size),
                 max_duration=max_duration,
                 backlog=_bytes("--backlog", backlog),
@@ -150,6 +196,15 @@ def record(
                 "no messages were recorded",
                 "Run `coframe monitor` to check that the topics are published in the same ROS domain.",
             )
+
+
+def _compression(method: str, mode: str | None, name: str | None) -> str:
+    """Return the compression of coframe for the options of rosbag2: mode and format."""
+    if mode == "none":
+        return "none"
+    if mode is not None and name is None:
+        fail("--compression-mode requires --compression-format", "Example: --compression-format zstd", code=2)
+    return name or method
 
 
 def _print_topic(topic: str, ros_type: str) -> None:

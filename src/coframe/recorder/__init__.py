@@ -5,9 +5,10 @@ It connects `bags`, which reads and writes files, with `wire`, which communicate
 """
 
 from coframe.recorder._player import MAX_RATE, Player, play
+from coframe.recorder._topic_filter import TopicFilter
 from coframe.recorder.recorder import Recorder, RecorderStatistics, record
 
-__all__ = ["MAX_RATE", "Player", "Recorder", "RecorderStatistics", "play", "record"]
+__all__ = ["MAX_RATE", "Player", "Recorder", "RecorderStatistics", "TopicFilter", "play", "record"]
 
 
 def __dir__() -> list[str]:

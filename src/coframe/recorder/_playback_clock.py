@@ -32,6 +32,7 @@ class PlaybackClock:
         self._paused = paused
         self._steps = 0
         self._stopped = False
+        self._interrupted = False
 
     @property
     def now(self) -> int:
@@ -48,6 +49,11 @@ class PlaybackClock:
     def paused(self) -> bool:
         """Whether the clock is paused."""
         return self._paused
+
+    @property
+    def steps(self) -> int:
+        """The number of steps that have not been taken."""
+        return self._steps
 
     @property
     def stopped(self) -> bool:
@@ -75,12 +81,18 @@ class PlaybackClock:
             self._steps = 0
             self._changed.notify_all()
 
-    def step(self) -> None:
-        """Let one call of `wait_until` return while the clock is paused."""
+    def step(self, number: int = 1) -> None:
+        """Let some calls of `wait_until` return while the clock is paused."""
         with self._changed:
             if self._paused:
-                self._steps += 1
+                self._steps += number
                 self._changed.notify_all()
+
+    def interrupt(self) -> None:
+        """Let the current or the next call of `wait_until` return False, once."""
+        with self._changed:
+            self._interrupted = True
+            self._changed.notify_all()
 
     def stop(self) -> None:
         """Stop the clock. All current and future waits return immediately."""
@@ -89,9 +101,12 @@ class PlaybackClock:
             self._changed.notify_all()
 
     def wait_until(self, moment: int) -> bool:
-        """Wait for a recorded time or a step. Return False if the clock is stopped."""
+        """Wait for a recorded time or a step. Return False if the clock is stopped or interrupted."""
         with self._changed:
             while not self._stopped:
+                if self._interrupted:
+                    self._interrupted = False
+                    return False
                 if self._paused:
                     if self._steps:
                         self._steps -= 1

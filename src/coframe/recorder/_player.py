@@ -3,23 +3,25 @@
 
 from __future__ import annotations
 
+import os
 import threading
 import time
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from coframe.bags import RecordingError, open_bag
+from coframe.bags import RecordingError
 from coframe.frame_names import absolute, renaming
 from coframe.messages import find, serialize
+from coframe.recorder._merged_recordings import MergedRecordings, open_merged
 from coframe.recorder._playback_clock import PlaybackClock
+from coframe.recorder._topic_filter import TopicFilter
 from coframe.recorder._topic_publishers import TopicPublishers
 from coframe.time import SECOND, duration_ns, duration_seconds
 from coframe.wire.participant import Participant
 from coframe.wire.qos import QoS
 
 if TYPE_CHECKING:
-    import os
-    from collections.abc import Iterable, Mapping
+    from collections.abc import Iterable, Mapping, Sequence
     from datetime import timedelta
 
     from typing_extensions import Self
@@ -41,20 +43,21 @@ class Player:
     """A running replay. Created by :func:`play`; can be used as a context manager. All methods are thread-safe.
 
     Attributes:
-        recording: The recording.
+        recording: The recording, or several that are merged.
         clock: The clock of the recorded time.
         played: The number of messages published so far.
     """
 
     def __init__(
         self,
-        recording: Recording,
+        recording: Recording | MergedRecordings,
         *,
         topics: set[str],
         remap: Mapping[str, str],
         rate: float,
         loop: bool,
         start: int,
+        end: int | None,
         paused: bool,
         clock: float | None,
         delay: float,
@@ -67,6 +70,9 @@ class Player:
         self.clock = PlaybackClock(start, rate, paused=paused)
         self._loop = loop
         self._start = start
+        self._end = recording.received_end if end is None else min(end, recording.received_end)
+        self._sought: int | None = None  # where `seek` continues
+        self._started = threading.Event()
         self._clock_rate = clock
         self._delay = delay
         self._error: Exception | None = None
@@ -91,7 +97,7 @@ class Player:
     @property
     def position(self) -> int:
         """The recorded time of the replay, in nanoseconds."""
-        return min(max(self.clock.now, self._start), self.recording.received_end)
+        return min(max(self.clock.now, self._start), self._end)
 
     @property
     def problems(self) -> list[str]:
@@ -122,6 +128,10 @@ class Player:
             raise self._error
         return True
 
+    def wait_for_start(self, timeout: DurationLike | None = None) -> bool:
+        """Wait until the first message is published; return False after the timeout."""
+        return self._started.wait(duration_seconds(timeout))
+
     def pause(self) -> None:
         """Pause the replay."""
         self.clock.set_paused(True)
@@ -130,9 +140,14 @@ class Player:
         """Resume the replay."""
         self.clock.set_paused(False)
 
-    def step(self) -> None:
-        """Publish the next message while the replay is paused."""
-        self.clock.step()
+    def seek(self, moment: int) -> None:
+        """Continue at a receive time in nanoseconds; times outside the recording are limited to it."""
+        self._sought = min(max(moment, self.recording.received_start), self._end)
+        self.clock.interrupt()
+
+    def step(self, number: int = 1) -> None:
+        """Publish the next messages while the replay is paused."""
+        self.clock.step(number)
 
     def set_rate(self, rate: float) -> None:
         """Set the rate of the replay: recorded seconds per real second.
@@ -175,19 +190,27 @@ class Player:
         # Discovery takes time: messages published before subscriptions match would be lost.
         if not self.clock.sleep(self._delay):
             return
-        self.clock.jump(self._start)
-        while self._play_once() and self._loop:
-            self.clock.jump(self._start)
-            self._publishers.publish_latched(self._start)
+        self._started.set()
+        start = self._start
+        while True:
+            self.clock.jump(start)
+            complete = self._play_from(start)
+            if self.clock.stopped:
+                return
+            sought, self._sought = self._sought, None
+            if sought is None and complete and not self._loop:
+                return
+            start = self._start if sought is None else sought
+            self._publishers.publish_latched(start)
 
-    def _play_once(self) -> bool:
-        """Publish the recording once. Return False if the replay was stopped."""
-        for channel, received, data in self.recording.in_order(self._publishers.topics, self._start):
+    def _play_from(self, start: int) -> bool:
+        """Publish the recording once, from a receive time on. Return False if the replay was stopped or moved."""
+        for channel, received, data in self.recording.in_order(self._publishers.topics, start, self._end + 1):
             if not self.clock.wait_until(received):
                 return False
             if self._publishers.publish(channel, data):
                 self.played += 1
-        return self.clock.wait_until(self.recording.received_end)
+        return self.clock.wait_until(self._end)
 
     def _publish_clock(self, publisher: Publisher) -> None:
         kind, stamp = find(_CLOCK_TYPE), find("builtin_interfaces/msg/Time")
@@ -207,13 +230,18 @@ def _checked_rate(rate: float) -> float:
 
 
 def play(
-    path: str | os.PathLike[str],
+    path: str | os.PathLike[str] | Sequence[str | os.PathLike[str]],
     *,
     topics: Iterable[str] | None = None,
+    regex: str | None = None,
+    exclude: str | None = None,
+    exclude_topics: Iterable[str] = (),
     remap: Mapping[str, str] | None = None,
     rate: float = 1.0,
     loop: bool = False,
     start_offset: str | int | timedelta = 0,
+    duration: str | int | timedelta | None = None,
+    end: int | None = None,
     paused: bool = False,
     clock: float | None = None,
     delay: str | int | timedelta = "1s",
@@ -228,12 +256,18 @@ def play(
     last message before the start on other latched topics. Late-joining subscriptions also receive them.
 
     Args:
-        path: A file or a rosbag2 folder. From ROS 1 bags, the topics whose types exist in ROS 2 are replayed.
-        topics: The topics to replay. If None, all topics are replayed.
+        path: A file or a rosbag2 folder, or a list of them, which are merged by receive time. From ROS 1 bags, the
+            topics whose types exist in ROS 2 are replayed.
+        topics: The topics to replay. If None and there is no `regex`, all topics are replayed.
+        regex: A regular expression. Topics whose full name matches it are replayed as well.
+        exclude: A regular expression. Topics whose full name matches it are not replayed.
+        exclude_topics: Topics that are not replayed.
         remap: A mapping from recorded topic names to published topic names: {"/tf": "/robot1/tf"}.
         rate: The rate in recorded seconds per real second, above 0 and at most 1000.
         loop: Whether to start again at the end. Stamps and /clock then jump back.
         start_offset: The start of the replay, relative to the start of the recording, such as "10s".
+        duration: The recorded time to replay, such as "30s". If None, the replay ends with the recording.
+        end: The receive time at which the replay ends, in nanoseconds. If None, it ends with the recording.
         paused: Whether the replay is paused at first.
         clock: The rate at which /clock is published, in Hz, up to 1000. Recorded messages on /clock are then skipped.
             If None, /clock is replayed like any other topic.
@@ -257,16 +291,23 @@ def play(
     if clock is not None and not 0.0 < clock <= _MAX_CLOCK_RATE:
         raise ValueError(f"the rate of /clock must be above 0 Hz and at most {_MAX_CLOCK_RATE:g} Hz, not {clock:g}")
     names = renaming(prefix, keep)
-    recording = open_bag(Path(path))
+    chooses = TopicFilter(
+        topics if topics is None else list(topics), regex, exclude, hidden=True, exclude_topics=exclude_topics
+    )
+    recording = open_merged([Path(each) for each in ([path] if isinstance(path, str | os.PathLike) else path)])
     try:
-        chosen = _chosen(recording, topics)
+        chosen = _chosen(recording, chooses)
+        start = _start(recording, duration_ns(start_offset))
+        if duration is not None:
+            end = start + duration_ns(duration) if end is None else min(end, start + duration_ns(duration))
         return Player(
             recording,
             topics=chosen - {_CLOCK} if clock is not None else chosen,
             remap={absolute(old): absolute(new) for old, new in (remap or {}).items()},
             rate=rate,
             loop=loop,
-            start=_start(recording, duration_ns(start_offset)),
+            start=start,
+            end=end,
             paused=paused,
             clock=clock,
             delay=duration_ns(delay) / SECOND,
@@ -279,20 +320,17 @@ def play(
         raise
 
 
-def _chosen(recording: Recording, topics: Iterable[str] | None) -> set[str]:
+def _chosen(recording: Recording | MergedRecordings, chooses: TopicFilter) -> set[str]:
     available = set(recording.topics)
-    if topics is None:
-        return available
-    requested = set(map(absolute, topics))
-    if missing := requested - set(map(absolute, available)):
+    if missing := chooses.missing(map(absolute, available)):
         raise RecordingError(
-            f"{recording.path} has no topic {', '.join(sorted(missing))}",
+            f"{recording.path} has no topic {', '.join(missing)}",
             hint=f"Its topics: {', '.join(sorted(available)) or 'none'}.",
         )
-    return {topic for topic in available if absolute(topic) in requested}
+    return {topic for topic in available if chooses(absolute(topic))}
 
 
-def _start(recording: Recording, offset: int) -> int:
+def _start(recording: Recording | MergedRecordings, offset: int) -> int:
     if not 0 <= offset <= recording.duration:
         duration = f"{recording.duration / SECOND:.3f} s"
         raise RecordingError(

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from coframe import _core
     from coframe.bags import Recording
     from coframe.bags.storage import Channel
+    from coframe.recorder._merged_recordings import MergedRecordings
     from coframe.wire.endpoints import GraphNode, Publisher
     from coframe.wire.participant import Participant
     from coframe.wire.static_broadcaster import StaticBroadcaster
@@ -62,7 +63,7 @@ class TopicPublishers:
         self,
         participant: Participant,
         node: GraphNode,
-        recording: Recording,
+        recording: Recording | MergedRecordings,
         topics: set[str],
         remap: Mapping[str, str],
         names: _core.Renaming | None,

@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import re
 import time
 from contextlib import suppress
 from typing import TYPE_CHECKING, NamedTuple
@@ -13,49 +12,20 @@ from coframe.recorder._message_queue import MessageSource, ReceivedMessage
 from coframe.wire.qos import QoS
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
+    from collections.abc import Iterator
 
     from coframe import _core
+    from coframe.recorder._topic_filter import TopicFilter
     from coframe.wire.endpoints import GraphNode, Subscription
     from coframe.wire.graph import EndpointInfo
     from coframe.wire.participant import Participant
 
-__all__ = ["TopicFilter", "TopicSubscriptions"]
+__all__ = ["TopicSubscriptions"]
 
 _DEPTH = 1000  # messages that the middleware queues while Python is busy
 _BATCH = 256  # messages
 _MAX_SUBSCRIPTIONS = 4000  # a typical graph has hundreds of topics
 MAX_PUBLISHERS = 100_000  # limit of the publishers whose QoS is stored, and of topics that cannot be recorded
-_HIDDEN = "/_"  # a name with a part that begins with an underscore is hidden, such as the topics of actions
-
-
-class TopicFilter:
-    """The selection of the topics to record.
-
-    Args:
-        topics: The names of topics. If None and there is no `regex`, all topics are selected that are not hidden.
-        regex: A regular expression. Also select topics whose full name matches it.
-        exclude: A regular expression. Topics whose full name matches it are not selected.
-
-    Raises:
-        ValueError: `regex` or `exclude` is not a valid regular expression.
-    """
-
-    def __init__(self, topics: Iterable[str] | None, regex: str | None, exclude: str | None) -> None:
-        self._names = None if topics is None else {name if name.startswith("/") else f"/{name}" for name in topics}
-        self._regex, self._exclude = _compiled(regex), _compiled(exclude)
-
-    def __call__(self, topic: str) -> bool:
-        """Return whether a topic is selected."""
-        if self._exclude is not None and self._exclude.fullmatch(topic):
-            return False
-        if self._names is None and self._regex is None:
-            return _HIDDEN not in topic
-        return topic in (self._names or ()) or bool(self._regex and self._regex.fullmatch(topic))
-
-    def missing(self, available: Iterable[str]) -> list[str]:
-        """Return the requested names that are not among the available topics."""
-        return sorted((self._names or set()) - set(available))
 
 
 class _Offer(NamedTuple):
@@ -98,8 +68,8 @@ class TopicSubscriptions:
         """Subscribe to new topics. Return the name, the type and the offered QoS profiles of each new topic."""
         new: dict[tuple[str, str], list[QoS]] = {}
         for topic, publishers in self._participant.published().items():
-            if self._filter(topic):
-                for handle, publisher in publishers.items():
+            for handle, publisher in publishers.items():
+                if self._filter(topic, publisher.ros_type):
                     self._add_publisher(topic, handle, publisher, new)
         return [(topic, ros_type, offered) for (topic, ros_type), offered in new.items()]
 
@@ -163,10 +133,3 @@ class TopicSubscriptions:
             self.refresh()
         # The publisher is not discovered yet. The subscription with the weakest request receives all its messages.
         return self._offers.get(publisher, min(offers)) == offer
-
-
-def _compiled(regex: str | None) -> re.Pattern[str] | None:
-    try:
-        return None if regex is None else re.compile(regex)
-    except re.error as error:
-        raise ValueError(f"{regex!r} is not a valid regular expression: {error}") from None

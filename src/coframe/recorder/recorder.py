@@ -13,7 +13,8 @@ from coframe.bags import OfferedQos, RecordingError, Writer
 from coframe.frame_names import renaming
 from coframe.recorder._frame_renaming import FrameRenamer
 from coframe.recorder._message_queue import MessageQueue, ReceivedMessage
-from coframe.recorder._topic_subscriptions import TopicFilter, TopicSubscriptions
+from coframe.recorder._topic_filter import TopicFilter
+from coframe.recorder._topic_subscriptions import TopicSubscriptions
 from coframe.time import MILLISECOND, duration_seconds
 from coframe.wire.participant import Participant
 
@@ -84,6 +85,7 @@ class Recorder:
         self._error: Exception | None = None
         self._ended = threading.Event()
         self._stopping = False
+        self._paused = False
         self._closing = threading.Lock()
         self._qos: dict[tuple[str, str], tuple[OfferedQos, ...]] = {}
         self._participant = Participant.get(domain, wire)
@@ -117,6 +119,19 @@ class Recorder:
             refused=sorted(self._subscriptions.refused()),
             not_renamed=[] if self._frames is None else list(self._frames.not_renamed),
         )
+
+    @property
+    def paused(self) -> bool:
+        """Whether messages that arrive are not recorded."""
+        return self._paused
+
+    def pause(self) -> None:
+        """Record no messages until `resume` is called; subscriptions are kept."""
+        self._paused = True
+
+    def resume(self) -> None:
+        """Record messages again."""
+        self._paused = False
 
     def wait(self, timeout: DurationLike | None = None) -> bool:
         """Wait until the recording is closed or fails.
@@ -191,7 +206,8 @@ class Recorder:
                 self._qos[topic, ros_type] = tuple(dict.fromkeys(profiles))
                 self._on_topic(topic, ros_type)
         for message in self._subscriptions.take():
-            self._queue.put(message)
+            if not self._paused:
+                self._queue.put(message)
 
     def _write(self) -> None:
         due = time.monotonic() + _FLUSH_PERIOD
@@ -215,8 +231,15 @@ def record(
     topics: Iterable[str] | None = None,
     regex: str | None = None,
     exclude: str | None = None,
+    types: Iterable[str] = (),
+    services: Iterable[str] | bool = (),
+    hidden: bool = False,
+    exclude_topics: Iterable[str] = (),
+    exclude_types: Iterable[str] = (),
+    exclude_services: Iterable[str] = (),
     domain: int | None = None,
     wire: str | None = None,
+    storage: str = "mcap",
     compression: str = "zstd",
     max_size: int | None = None,
     max_duration: str | int | timedelta | None = None,
@@ -237,9 +260,17 @@ def record(
         topics: The topics to record. If None, all topics are recorded that are not hidden, or those that match `regex`.
         regex: A regular expression. Also record topics whose full name matches it.
         exclude: A regular expression. Topics whose full name matches it are not recorded.
+        types: Types whose topics are recorded as well: ["sensor_msgs/msg/LaserScan"].
+        services: Services whose requests and responses are recorded as well; True for all. Their client or server
+            publishes them if its introspection is enabled.
+        hidden: Whether hidden topics are recorded if no topics are selected.
+        exclude_topics: Topics that are not recorded.
+        exclude_types: Types whose topics are not recorded.
+        exclude_services: Services whose requests and responses are not recorded.
         domain: The ROS domain, 0 to 232. If None, it is ROS_DOMAIN_ID, or 0 if that is not set.
         wire: The middleware, "dds" or "zenoh"; see :func:`coframe.connect`.
-        compression: ``zstd``, ``lz4`` or ``none``.
+        storage: The format of the files, ``mcap`` or ``sqlite3``.
+        compression: ``zstd``, ``lz4`` or ``none``; SQLite files are not compressed.
         max_size: The size in bytes after which a new file is started. If None, there is no limit.
         max_duration: The duration after which a new file is started, such as "10min". If None, there is no limit.
         backlog: The size in bytes of the queue for a slow disk. If it is full, the oldest messages are dropped and
@@ -261,13 +292,23 @@ def record(
         >>> with coframe.record("run", topics=["/tf", "/tf_static"]) as recorder:     # doctest: +SKIP
         ...     recorder.wait("10s")
     """
-    topic_filter = TopicFilter(topics, regex, exclude)
+    topic_filter = TopicFilter(
+        topics,
+        regex,
+        exclude,
+        types=types,
+        services=services,
+        hidden=hidden,
+        exclude_topics=exclude_topics,
+        exclude_types=exclude_types,
+        exclude_services=exclude_services,
+    )
     names = renaming(prefix, keep)
     frames = None if names is None else FrameRenamer(names, tf_topic, tf_static_topic)
     folder = datetime.now().astimezone().strftime("rosbag2_%Y_%m_%d-%H_%M_%S") if path is None else path
     participant = Participant.get(domain, wire)  # before the folder is created, because it can fail
     try:
-        writer = Writer(folder, compression=compression, max_size=max_size, max_duration=max_duration)
+        writer = Writer(folder, storage=storage, compression=compression, max_size=max_size, max_duration=max_duration)
         callback = on_topic or (lambda _topic, _type: None)
         return Recorder(
             writer, topic_filter, domain=domain, wire=wire, backlog=backlog, on_topic=callback, frames=frames

@@ -12,6 +12,8 @@ from rosbag2_py._compression import (
     compression_mode_from_string,
     compression_mode_to_string,
 )
+from rosbag2_py._defaults import get_default_storage_id
+from rosbag2_py._definitions import LocalMessageDefinitionSource, MessageDefinition
 from rosbag2_py._info import BagMetadata, FileInformation, Info, MetadataIo, TopicInformation
 from rosbag2_py._options import (
     ConverterOptions,
@@ -21,8 +23,12 @@ from rosbag2_py._options import (
     StorageOptions,
     TopicMetadata,
 )
+from rosbag2_py._player import Player
 from rosbag2_py._reader import SequentialCompressionReader, SequentialReader
+from rosbag2_py._recorder import Recorder
 from rosbag2_py._reindexer import Reindexer
+from rosbag2_py._rewrite import bag_rewrite
+from rosbag2_py._transport_options import PlayOptions, RecordOptions, ServiceRequestsSource
 from rosbag2_py._writer import SequentialCompressionWriter, SequentialWriter
 
 __all__ = [
@@ -32,20 +38,29 @@ __all__ = [
     "ConverterOptions",
     "FileInformation",
     "Info",
+    "LocalMessageDefinitionSource",
+    "MessageDefinition",
     "MetadataIo",
+    "PlayOptions",
+    "Player",
     "ReadOrder",
     "ReadOrderSortBy",
+    "RecordOptions",
+    "Recorder",
     "Reindexer",
     "SequentialCompressionReader",
     "SequentialCompressionWriter",
     "SequentialReader",
     "SequentialWriter",
+    "ServiceRequestsSource",
     "StorageFilter",
     "StorageOptions",
     "TopicInformation",
     "TopicMetadata",
+    "bag_rewrite",
     "compression_mode_from_string",
     "compression_mode_to_string",
+    "get_default_storage_id",
     "get_registered_compressors",
     "get_registered_readers",
     "get_registered_serializers",

@@ -83,6 +83,8 @@ class BagMetadata:
     topics_with_message_count: list[TopicInformation] = field(default_factory=list)
     compression_format: str = ""
     compression_mode: str = ""
+    custom_data: dict[str, str] = field(default_factory=dict)
+    ros_distro: str = ""
 
     def __str__(self) -> str:
         start = self.starting_time.nanoseconds
@@ -190,6 +192,8 @@ def _to_yaml(metadata: BagMetadata) -> dict[str, Any]:
             }
             for file in metadata.files
         ],
+        **({"custom_data": metadata.custom_data} if metadata.custom_data else {}),
+        **({"ros_distro": metadata.ros_distro} if metadata.ros_distro else {}),
     }
 
 
@@ -227,6 +231,8 @@ def _from_yaml(content: dict[str, Any], folder: Path) -> BagMetadata:
         ],
         compression_format=content.get("compression_format", ""),
         compression_mode=content.get("compression_mode", ""),
+        custom_data={str(name): str(value) for name, value in (content.get("custom_data") or {}).items()},
+        ros_distro=content.get("ros_distro", ""),
     )
 
 

@@ -6,14 +6,12 @@ from __future__ import annotations
 from typing import NoReturn
 
 from coframe.bags import RecordingError, Writer, from_yaml
-from coframe.bags.formats import SQLITE
 from rosbag2_py._compression import CompressionMode, CompressionOptions
+from rosbag2_py._defaults import get_default_storage_id
 from rosbag2_py._options import ConverterOptions, StorageOptions, TopicMetadata
 from rosbag2_py._reader import check_formats
 
 __all__ = ["SequentialCompressionWriter", "SequentialWriter"]
-
-_DEFAULT_STORAGE = SQLITE.storage_id  # Humble's
 
 
 class SequentialWriter:
@@ -36,7 +34,7 @@ class SequentialWriter:
         try:
             self.__writer = Writer(
                 options.uri,
-                storage=options.storage_id or _DEFAULT_STORAGE,
+                storage=options.storage_id or get_default_storage_id(),
                 compression=compression,
                 max_size=options.max_bagfile_size or None,
                 max_duration=options.max_bagfile_duration * 1_000_000_000 or None,

@@ -31,6 +31,9 @@ _ALIASES = {"wtf": "doctor"}
 _EXTENSIONS = "Packages extend coframe by entry points, such as those of the group coframe.commands."
 # Commands of ros2 that coframe does not have, and what to do instead.
 _ABSENT = {
+    "control": "The controllers of ros2_control are C++ programs: they run where ROS is installed.",
+    "trace": "Record the graph with ros2 bag record; coframe monitor shows rates, delays and ages of transforms.",
+    "plugin": _EXTENSIONS,
     "component": "C++ components cannot be loaded. Start the node as a process: ros2 run PACKAGE EXECUTABLE.",
     "multicast": "coframe doctor shows whether nodes are discovered.",
     "security": "SECURITY.md of coframe describes what protects the ROS graph.",
@@ -38,9 +41,6 @@ _ABSENT = {
     "extension_points": _EXTENSIONS,
     "extensions": _EXTENSIONS,
 }
-# Options of `ros2 bag play` with another form in coframe.
-_PLAY_OPTIONS = {"-l": "--loop", "-p": "--start-paused", "-d": "--delay"}
-_STORAGE_OPTIONS = {"-s", "--storage"}  # coframe detects the storage of a recording, and records MCAP
 _OWN_SCRIPT = b"coframe.cli.ros2.executable"  # in the executables that `coframe ros2 install` writes
 _SCRIPT_SIZE = 10_000  # bytes of an executable to read: those of coframe contain two paths
 
@@ -57,8 +57,7 @@ def ros2() -> None:
         sys.exit(f"ros2: The command {name} does not exist in coframe. {_ABSENT[name]}")
     from coframe.cli import run  # noqa: PLC0415 - not needed where ROS is installed
 
-    rest = _bag_words(words[1:]) if name == "bag" else words[1:]
-    run([name, *rest] if words else [], program="ros2", shown=_COMMANDS)
+    run([name, *words[1:]] if words else [], program="ros2", shown=_COMMANDS)
 
 
 def rviz2() -> None:
@@ -78,15 +77,6 @@ def rviz2() -> None:
     from coframe.cli import run  # noqa: PLC0415 - not needed where ROS is installed
 
     run(words)
-
-
-def _bag_words(words: list[str]) -> list[str]:
-    """Return the arguments of `ros2 bag` as arguments of `coframe bag`."""
-    if words[:1] == ["play"]:
-        words = [_PLAY_OPTIONS.get(word, word) for word in words]
-    stores = [index for index, word in enumerate(words) if word in _STORAGE_OPTIONS]
-    dropped = {index + offset for index in stores for offset in (0, 1)}
-    return [word for index, word in enumerate(words) if index not in dropped]
 
 
 def _run_real(name: str) -> None:
