@@ -54,7 +54,7 @@ COMMANDS: dict[str, CommandRow] = {
         ros=False,
     ),
     "doctor": CommandRow(
-        "Find problems with transforms, live or in a recording.", "doctor", ("dds", "bags"), graph=True, ros=False
+        "Find problems with transforms, live or in a recording.", "doctor", ("dds", "bags"), graph=True, ros=True
     ),
     "why": CommandRow("Explain why a transform is or is not available.", "why", ("dds", "bags"), graph=True, ros=False),
     "frames": CommandRow(

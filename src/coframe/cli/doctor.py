@@ -58,6 +58,15 @@ _CPU_SHARE = 0.006
 @click.option(
     "--system", is_flag=True, help="Check this machine instead: DDS library, network, environment variables and nodes."
 )
+@click.option(
+    "--report",
+    "-r",
+    is_flag=True,
+    help="Print this machine and the ROS graph instead: nodes, topics, services, actions and QoS, like ros2 doctor.",
+)
+@click.option("--include-warnings", "-iw", is_flag=True, hidden=True)
+@click.option("--report-failed", "-rf", is_flag=True, hidden=True)
+@click.option("--exclude-packages", "-ep", is_flag=True, hidden=True)
 @click.option("--ignore", metavar="CODE", multiple=True, help="Skip the check with this code; repeatable.")
 @click.option("--explain", metavar="CODE", help="Print the page about this code and exit.")
 @click.option(
@@ -86,6 +95,10 @@ def doctor(
     as_json: bool,
     sarif: bool,
     system: bool,
+    report: bool,
+    include_warnings: bool,
+    report_failed: bool,
+    exclude_packages: bool,
     ignore: tuple[str, ...],
     explain: str | None,
     list_codes: bool,
@@ -112,7 +125,12 @@ def doctor(
     if explain is not None:
         _explain(explain)
         return
-    if system:
+    del include_warnings, exclude_packages  # Warnings are always shown, and packages never.
+    if report or report_failed:
+        from coframe.cli.ros2.graph_report import print_graph  # noqa: PLC0415 - needs the ROS packages
+
+        print_graph()
+    if system or report or report_failed:
         _check_system(bag, domain, duration, as_json=as_json, watch=watch, sarif=sarif)
         return
     ignored = _known_codes(ignore)

@@ -111,7 +111,7 @@ def _is_number(following: list[str]) -> bool:
     help="Stop after this much of the recording. [default: at its end]",
 )
 @click.option(
-    "--playback-until-sec", metavar="SECONDS", type=float, help="Stop at this receive time, in seconds since 1970."
+    "--playback-until-sec", metavar="TIME", type=float, help="Stop at this receive time, in seconds since 1970."
 )
 @click.option("--playback-until-nsec", metavar="NANOSECONDS", type=int, hidden=True)
 @click.option("--disable-keyboard-controls", "no_keys", is_flag=True, help="Do not read keys from the terminal.")

@@ -66,7 +66,7 @@ def get_package_share_path(package_name: str, print_warning: bool = True) -> Pat
 def get_packages_with_prefixes() -> dict[str, str]:
     """Return the names of all packages with their prefixes. The first prefix that contains a package applies."""
     found = [find_package(name) for name in package_names()]
-    return {package.name: str(package.prefix) for package in found if package.origin != "builtin"}
+    return {package.name: str(package.prefix) for package in found}
 
 
 def _find(package_name: str) -> tuple[Path, Path]:

@@ -28,6 +28,7 @@ _COMMANDS = (
     "topic",
 )
 _ALIASES = {"wtf": "doctor"}
+_DOCTOR_OPTIONS = {"--report", "-r", "--report-failed", "-rf", "--include-warnings", "-iw", "--exclude-packages", "-ep"}
 _EXTENSIONS = "Packages extend coframe by entry points, such as those of the group coframe.commands."
 # Commands of ros2 that coframe does not have, and what to do instead.
 _ABSENT = {
@@ -57,6 +58,9 @@ def ros2() -> None:
         sys.exit(f"ros2: The command {name} does not exist in coframe. {_ABSENT[name]}")
     from coframe.cli import run  # noqa: PLC0415 - not needed where ROS is installed
 
+    if name == "doctor" and not set(words[1:]) - _DOCTOR_OPTIONS:
+        # ros2 doctor checks the system and the graph, coframe doctor the transforms.
+        words = ["doctor", "--report"]
     run([name, *words[1:]] if words else [], program="ros2", shown=_COMMANDS)
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Create a new Python package, which pip can install and colcon builds as ament_python."""
+"""Create a new package: of Python nodes, which pip can install, or of types; colcon builds both."""
 
 from __future__ import annotations
 
@@ -14,8 +14,9 @@ from coframe.cli.output import fail
 if TYPE_CHECKING:
     from pathlib import Path
 
-__all__ = ["NewPackage", "write_package"]
+__all__ = ["BUILD_TYPES", "NewPackage", "write_package"]
 
+BUILD_TYPES = ("ament_python", "ament_cmake")
 _NAME = re.compile(r"[a-z][a-z0-9_]*", re.ASCII)
 
 
@@ -29,6 +30,7 @@ class NewPackage(NamedTuple):
     license: str
     maintainer_name: str | None
     maintainer_email: str | None
+    build_type: str = "ament_python"
 
 
 def write_package(package: NewPackage, destination: Path) -> list[Path]:
@@ -49,6 +51,9 @@ def write_package(package: NewPackage, destination: Path) -> list[Path]:
     try:
         for name, text in _files(package).items():
             path = folder / name
+            if not name.rpartition("/")[2]:
+                path.mkdir(parents=True)
+                continue
             path.parent.mkdir(parents=True, exist_ok=True)
             path.write_text(text, encoding="utf-8")
             written.append(path)
@@ -58,7 +63,18 @@ def write_package(package: NewPackage, destination: Path) -> list[Path]:
 
 
 def _files(package: NewPackage) -> dict[str, str]:
+    """Return the texts of the files by name; a name that ends with a slash is an empty folder."""
     name = package.name
+    if package.build_type == "ament_cmake":
+        return {
+            "package.xml": _manifest(package),
+            "CMakeLists.txt": _CMAKE.format(
+                name=name, find="".join(f"find_package({each} REQUIRED)\n" for each in package.dependencies)
+            ),
+            "msg/": "",
+            "srv/": "",
+            "action/": "",
+        }
     files = {
         "package.xml": _manifest(package),
         "setup.py": _setup(package),
@@ -90,9 +106,10 @@ def _manifest(package: NewPackage) -> str:
         f"  <description>{escape(package.description)}</description>\n"
         f"  <maintainer email={quoteattr(email)}>{escape(name)}</maintainer>\n"
         f"  <license>{escape(package.license)}</license>\n\n"
+        f"{_TYPES_MANIFEST if package.build_type == 'ament_cmake' else ''}"
         f"{dependencies}"
         "  <export>\n"
-        "    <build_type>ament_python</build_type>\n"
+        f"    <build_type>{package.build_type}</build_type>\n"
         "  </export>\n"
         "</package>\n"
     )
@@ -129,6 +146,27 @@ def _setup(package: NewPackage) -> str:
     )
 
 
+_TYPES_MANIFEST = (
+    "  <buildtool_depend>ament_cmake</buildtool_depend>\n"
+    "  <buildtool_depend>rosidl_default_generators</buildtool_depend>\n"
+    "  <exec_depend>rosidl_default_runtime</exec_depend>\n"
+    "  <member_of_group>rosidl_interface_packages</member_of_group>\n\n"
+)
+# colcon needs the list of the files; coframe uses all files in the folders.
+_CMAKE = """\
+cmake_minimum_required(VERSION 3.8)
+project({name})
+
+find_package(ament_cmake REQUIRED)
+find_package(rosidl_default_generators REQUIRED)
+{find}
+file(GLOB INTERFACES RELATIVE ${{CMAKE_CURRENT_SOURCE_DIR}} msg/*.msg srv/*.srv action/*.action)
+if(INTERFACES)
+  rosidl_generate_interfaces(${{PROJECT_NAME}} ${{INTERFACES}})
+endif()
+
+ament_package()
+"""
 _NODE = '''\
 import rclpy
 from rclpy.node import Node

@@ -9,12 +9,13 @@ from typing import Any
 
 import click
 
+import coframe
 from coframe._files.bounded_xml import MAX_BYTES, read_xml
 from coframe._files.regular_files import read_regular, reading_hint
 from coframe.cli.declaration import PATH, Command, CommandGroup, argument
 from coframe.cli.lifecycle import run_to_completion
 from coframe.cli.output import fail, printable
-from coframe.cli.ros2.new_package import NewPackage, write_package
+from coframe.cli.ros2.new_package import BUILD_TYPES, NewPackage, write_package
 
 __all__ = ["pkg"]
 
@@ -41,7 +42,7 @@ class CreateCommand(Command):
         return super().parse_args(ctx, words)
 
 
-@pkg.command(cls=CreateCommand, short_help="Create a Python package.")
+@pkg.command(cls=CreateCommand, short_help="Create a package.")
 @argument("package_name", metavar="NAME", help="Name of the new package.")
 @click.option("--node-name", metavar="NAME", help="Also create an executable of this name that runs a node.")
 @click.option(
@@ -59,7 +60,14 @@ class CreateCommand(Command):
 )
 @click.option("--maintainer-name", metavar="NAME", help="Name of the maintainer.")
 @click.option("--maintainer-email", metavar="EMAIL", help="E-mail address of the maintainer.")
-@click.option("--build-type", metavar="TYPE", default="ament_python", help="Only ament_python is supported.")
+@click.option("--package-format", "--package_format", default="3", hidden=True)
+@click.option("--library-name", metavar="NAME", hidden=True)
+@click.option(
+    "--build-type",
+    metavar="TYPE",
+    default="ament_python",
+    help="ament_python for a Python package, or ament_cmake for a package of message, service and action types.",
+)
 def create(
     package_name: str,
     node_name: str | None,
@@ -69,16 +77,23 @@ def create(
     license_name: str,
     maintainer_name: str | None,
     maintainer_email: str | None,
+    package_format: str,
+    library_name: str | None,
     build_type: str,
 ) -> None:
-    """Create a Python package that coframe, pip and colcon can use.
+    """Create a package that coframe and colcon can use: of Python nodes, or of types.
+
+    A package of types has the folders msg, srv and action, whose files coframe uses without a build.
 
     Example: coframe pkg create arm --node-name wave --dependencies rclpy
     """
-    if build_type != "ament_python":
+    del package_format
+    if build_type not in BUILD_TYPES:
+        fail(f"--build-type: {build_type!r} is not supported", f"Types: {', '.join(BUILD_TYPES)}.", code=2)
+    if library_name is not None or (build_type == "ament_cmake" and node_name is not None):
         fail(
-            f"--build-type: {build_type!r} is not supported",
-            "coframe runs Python nodes: use ament_python.",
+            "coframe creates no C++ programs and libraries",
+            "Use --build-type ament_python with --node-name for a Python node.",
             code=2,
         )
     package = NewPackage(
@@ -89,6 +104,7 @@ def create(
         license_name,
         maintainer_name,
         maintainer_email,
+        build_type,
     )
     with run_to_completion():
         for path in write_package(package, destination):
@@ -154,11 +170,12 @@ def xml(package_name: str, tag: str | None) -> None:
     with run_to_completion():
         from coframe.workspace.packages import finding  # noqa: PLC0415 - slow import
 
-        manifest = finding.find_package(package_name).share / "package.xml"
+        package = finding.find_package(package_name)
+        manifest = package.share / "package.xml"
         try:
-            content = read_regular(manifest, MAX_BYTES)
+            content = _built_in(package_name) if package.origin == "builtin" else read_regular(manifest, MAX_BYTES)
         except FileNotFoundError:
-            fail(f"Package {package_name} has no package.xml.", "It is a package of coframe itself.")
+            fail(f"Package {package_name} has no package.xml.", f"Its folder is {package.share}.")
         except OSError as error:
             fail(f"{manifest} cannot be read: {error.strerror}", reading_hint(error))
         if tag is None:
@@ -172,3 +189,16 @@ def xml(package_name: str, tag: str | None) -> None:
         if not values:
             fail(f"The manifest of {package_name} has no element <{tag}>.")
         print(printable("\n".join(values)))
+
+
+def _built_in(name: str) -> bytes:
+    """Return a manifest for a ROS package that coframe provides; those have no file."""
+    return (
+        '<?xml version="1.0"?>\n'
+        '<package format="3">\n'
+        f"  <name>{name}</name>\n"
+        f"  <version>{coframe.__version__}</version>\n"
+        f"  <description>The package {name} as coframe provides it.</description>\n"
+        "  <license>Apache-2.0</license>\n"
+        "</package>\n"
+    ).encode()

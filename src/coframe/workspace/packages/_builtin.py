@@ -3,13 +3,14 @@
 
 from __future__ import annotations
 
+import functools
 import importlib.util
 from pathlib import Path
 from typing import Final
 
 from coframe.workspace.ros_folders import ros_folder
 
-__all__ = ["EXECUTABLES", "share"]
+__all__ = ["EXECUTABLES", "names", "share"]
 
 _COMMAND: Final = "coframe.cli:main"
 # Package -> executable -> its function, and arguments. A module that is not installed has no executable.
@@ -44,10 +45,17 @@ EXECUTABLES: Final[dict[str, dict[str, tuple[str, ...]]]] = {
 }
 
 
+@functools.cache
+def names() -> frozenset[str]:
+    """Return the names of the ROS packages that coframe provides."""
+    folder = ros_folder()
+    modules = (each.name for each in folder.iterdir() if each.is_dir()) if folder.is_dir() else ()
+    return frozenset(EXECUTABLES) | {name for name in modules if not name.startswith((".", "_"))}
+
+
 def share(package: str) -> Path:
-    """Return the folder of a built-in package."""
-    folder = ros_folder() / package
-    return folder if folder.is_dir() else Path(__file__).resolve().parents[2]
+    """Return the folder of a built-in package; it does not exist if the package has only executables."""
+    return Path(__file__).resolve().parents[2] if package == "coframe" else ros_folder() / package
 
 
 def executables(package: str) -> dict[str, tuple[str, ...]]:

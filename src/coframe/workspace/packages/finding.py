@@ -60,7 +60,7 @@ def find_package(name: str) -> Package:
         return package
     known = package_names()
     guess = did_you_mean(name, known, most=3)
-    own = [each for each in known if each not in builtin.EXECUTABLES]
+    own = [each for each in known if each not in builtin.names()]
     there = f"Packages: {', '.join(own[:_MAX_NAMES])}{', ...' if len(own) > _MAX_NAMES else ''}. " if own else ""
     raise PackageError(f"No package named {name!r}.", hint=f"{guess} {there}{_SEARCHED}".lstrip())
 
@@ -76,13 +76,13 @@ def candidates(name: str) -> Iterator[Package]:
             source = folder / name  # A folder specified by the user may contain packages without a manifest.
         if source is not None:
             yield Package(name, source, source.parent, "source")
-    if name in builtin.EXECUTABLES:
+    if name in builtin.names():
         yield Package(name, builtin.share(name), builtin.share(name).parent, "builtin")
 
 
 def package_names() -> list[str]:
     """Return the names of all packages that can be found, sorted."""
-    found = set(builtin.EXECUTABLES)
+    found = set(builtin.names())
     for prefix in listed("AMENT_PREFIX_PATH"):
         index = prefix / _INDEX
         found |= {marker.name for marker in index.iterdir()} if is_dir(index) else set()
