@@ -28,7 +28,7 @@ def node(domain_id):
 
 
 @pytest.fixture
-def heard(node):
+def received(node):
     """The texts that arrive on /chatter, spun in a thread."""
     texts: list[str] = []
     node.create_subscription(String, "/chatter", lambda message: texts.append(message.data), 100)
@@ -56,15 +56,15 @@ def bag(tmp_path: Path) -> rosbag2_py.StorageOptions:
     return options
 
 
-def test_a_player_returns_at_the_end(bag, heard, eventually):
+def test_a_player_returns_at_the_end(bag, received, eventually):
     options = rosbag2_py.PlayOptions()
     options.rate = 2.0
     options.playback_duration = 3 * STEP / 1e9
     rosbag2_py.Player().play(bag, options)
-    eventually(lambda: heard == ["0", "1", "2", "3"])
+    eventually(lambda: received == ["0", "1", "2", "3"])
 
 
-def test_a_player_of_its_own_recording_is_controlled_by_methods(bag, heard, eventually):
+def test_a_player_of_its_own_recording_is_controlled_by_methods(bag, received, eventually):
     options = rosbag2_py.PlayOptions()
     options.start_paused = True
     player = rosbag2_py.Player(bag, options)
@@ -76,12 +76,12 @@ def test_a_player_of_its_own_recording_is_controlled_by_methods(bag, heard, even
     assert player.wait_for_playback_to_start(10.0)
     assert not player.wait_for_playback_to_finish(0.01)
     assert player.play_next()
-    eventually(lambda: heard == ["0"])
+    eventually(lambda: received == ["0"])
     player.seek(START + 3 * STEP)
     player.resume()
     assert player.wait_for_playback_to_finish()
     player.stop()
-    eventually(lambda: heard == ["0", "3", "4"])
+    eventually(lambda: received == ["0", "3", "4"])
 
 
 def test_a_replay_is_cancelled(bag):

@@ -61,6 +61,7 @@ _CPU_SHARE = 0.006
 @click.option(
     "--report",
     "-r",
+    "shows_graph",
     is_flag=True,
     help="Print this machine and the ROS graph instead: nodes, topics, services, actions and QoS, like ros2 doctor.",
 )
@@ -95,7 +96,7 @@ def doctor(
     as_json: bool,
     sarif: bool,
     system: bool,
-    report: bool,
+    shows_graph: bool,
     include_warnings: bool,
     report_failed: bool,
     exclude_packages: bool,
@@ -126,11 +127,11 @@ def doctor(
         _explain(explain)
         return
     del include_warnings, exclude_packages  # Warnings are always shown, and packages never.
-    if report or report_failed:
+    if shows_graph or report_failed:
         from coframe.cli.ros2.graph_report import print_graph  # noqa: PLC0415 - needs the ROS packages
 
         print_graph()
-    if system or report or report_failed:
+    if system or shows_graph or report_failed:
         _check_system(bag, domain, duration, as_json=as_json, watch=watch, sarif=sarif)
         return
     ignored = _known_codes(ignore)

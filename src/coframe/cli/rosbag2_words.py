@@ -140,7 +140,7 @@ RECORD_WORDS = Rosbag2Words(
     refused={
         **_COMMON_REFUSED,
         "--snapshot-mode": "Record with --max-duration and keep the newest files.",
-        "--start-paused": "Start the command when the recording shall begin.",
+        "--start-paused": "Start the command when the recording is to begin.",
         "--no-discovery": "Select topics, or exclude topics with --exclude.",
         "--use-sim-time": "Messages are recorded with the system time at which they arrive; record /clock as well.",
         "--ignore-leaf-topics": "A subscription does not start a lazy publisher's work unless its topic is selected: "

@@ -122,12 +122,12 @@ class LaunchContext:
     def _pop_environment(self) -> None:
         if not self.__environment_stack:
             raise RuntimeError("environment stack unexpectedly empty")
-        self.__replace_environment(self.__environment_stack.pop())
+        self._replace_environment(self.__environment_stack.pop())
 
     def _reset_environment(self) -> None:
-        self.__replace_environment(self.__initial_environment)
+        self._replace_environment(self.__initial_environment)
 
-    def __replace_environment(self, environment: dict[str, str]) -> None:
+    def _replace_environment(self, environment: dict[str, str]) -> None:
         os.environ.clear()
         os.environ.update(environment)
 

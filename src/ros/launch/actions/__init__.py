@@ -2,11 +2,12 @@
 """The actions of launch descriptions."""
 
 from launch.actions.append_environment_variable import AppendEnvironmentVariable
-from launch.actions.declare_launch_argument import DeclareLaunchArgument
+from launch.actions.declare_launch_argument import DeclareBooleanLaunchArgument, DeclareLaunchArgument
 from launch.actions.emit_event import EmitEvent
 from launch.actions.environment import (
     PopEnvironment,
     PushEnvironment,
+    ReplaceEnvironmentVariables,
     ResetEnvironment,
     SetEnvironmentVariable,
     UnsetEnvironmentVariable,
@@ -23,7 +24,7 @@ from launch.actions.launch_configurations import (
     SetLaunchConfiguration,
     UnsetLaunchConfiguration,
 )
-from launch.actions.log_info import LogInfo
+from launch.actions.log import Log, LogDebug, LogError, LogInfo, LogWarning
 from launch.actions.opaque_coroutine import OpaqueCoroutine
 from launch.actions.opaque_function import OpaqueFunction
 from launch.actions.register_event_handler import RegisterEventHandler
@@ -33,6 +34,7 @@ from launch.actions.unregister_event_handler import UnregisterEventHandler
 
 __all__ = [
     "AppendEnvironmentVariable",
+    "DeclareBooleanLaunchArgument",
     "DeclareLaunchArgument",
     "EmitEvent",
     "ExecuteLocal",
@@ -41,7 +43,11 @@ __all__ = [
     "ForLoop",
     "GroupAction",
     "IncludeLaunchDescription",
+    "Log",
+    "LogDebug",
+    "LogError",
     "LogInfo",
+    "LogWarning",
     "OpaqueCoroutine",
     "OpaqueFunction",
     "PopEnvironment",
@@ -49,6 +55,7 @@ __all__ = [
     "PushEnvironment",
     "PushLaunchConfigurations",
     "RegisterEventHandler",
+    "ReplaceEnvironmentVariables",
     "ResetEnvironment",
     "ResetLaunchConfigurations",
     "SetEnvironmentVariable",

@@ -17,7 +17,9 @@ if TYPE_CHECKING:
     from launch.some_substitutions_type import SomeSubstitutionsType
     from launch.substitution import Substitution
 
-__all__ = ["DeclareLaunchArgument"]
+__all__ = ["DeclareBooleanLaunchArgument", "DeclareLaunchArgument"]
+
+_BOOLEANS = ("true", "false", "True", "False", "TRUE", "FALSE")
 
 
 @expose_action("arg")
@@ -113,3 +115,26 @@ class DeclareLaunchArgument(Action):
                     f'Argument "{self.name}" provided value "{value}" is not valid. Valid options are: [\'{listed}\']'
                 )
         return None
+
+
+@expose_action("bool_arg")
+class DeclareBooleanLaunchArgument(DeclareLaunchArgument):
+    """Declare an argument that is true or false.
+
+    Args:
+        name: Name of the argument.
+        default_value: Its value if it is not given; without one, the argument is required.
+        description: Text for ``--show-args``.
+        condition: Declare it only if this condition holds.
+
+    Raises:
+        ValueError: The default value is not true or false, or `choices` is given.
+    """
+
+    def __init__(self, name: str, **options: Any) -> None:
+        if options.pop("choices", None) is not None:
+            raise ValueError("Cannot specify choices for bool_arg")
+        default_value = options.get("default_value")
+        if isinstance(default_value, bool):
+            options["default_value"] = str(default_value).lower()
+        super().__init__(name, choices=_BOOLEANS, **options)

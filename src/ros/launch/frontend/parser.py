@@ -75,6 +75,8 @@ class Parser:
         for package in [_PARSERS[extension]] if extension in _PARSERS else dict.fromkeys(_PARSERS.values()):
             parser: type[Parser] = importlib.import_module(package).Parser
             try:
+                if hasattr(file, "seek") and file.seekable():
+                    file.seek(0)  # The parser before may have read it.
                 return parser.load(file)
             except (ValueError, TypeError, OSError, RuntimeError) as error:
                 errors.append(error)

@@ -41,7 +41,8 @@ class LaunchConfig:
         self._log_dir: Path | None = None
         self._root = logging.RootLogger(logging.INFO)
         self._manager = logging.Manager(self._root)
-        self._root.addHandler(_ScreenHandler())
+        self._screen = _ScreenHandler()
+        self._root.addHandler(self._screen)
 
     @property
     def level(self) -> int:
@@ -75,6 +76,34 @@ class LaunchConfig:
             self._root.removeHandler(handler)
             handler.close()
 
+    def reset(self) -> None:
+        """Forget the folder of the log files, and restore the level and the formats."""
+        self.reset_log_dir()
+        self.level = logging.INFO
+        self._screen.format_name = None
+
+    def get_screen_handler(self) -> logging.Handler:
+        """Return the handler that prints messages on the screen."""
+        return self._screen
+
+    def get_log_file_handler(self, file_name: str = "launch.log") -> logging.Handler:
+        """Return the handler that writes messages to a file of this run."""
+        path = Path(self.log_dir) / file_name
+        known = (each for each in self._root.handlers if isinstance(each, logging.FileHandler))
+        found = next((each for each in known if Path(each.baseFilename) == path.absolute()), None)
+        return found or logging.FileHandler(path, encoding="utf-8", errors="replace", delay=True)
+
+    def set_screen_format(self, screen_format: str, *, screen_style: str | None = None) -> None:
+        """Set the format of messages on the screen: ``default``, ``verbose``, or a format of ``str.format``."""
+        del screen_style
+        self._screen.format_name = screen_format
+
+    def set_log_format(self, log_format: str, *, log_style: str | None = None) -> None:
+        """Set the format of messages in the log file: ``default``, or a format of ``str.format``."""
+        del log_style
+        text = _FILE_FORMAT if log_format == "default" else log_format
+        self.get_log_file_handler().setFormatter(logging.Formatter(text, style="{"))
+
     def get_log_file_path(self, file_name: str = "launch.log") -> str:
         """Return the path of a log file of this run."""
         return str(Path(self.log_dir) / file_name)
@@ -94,8 +123,10 @@ class LaunchConfig:
 class _ScreenHandler(logging.Handler):
     """Prints messages on the present standard output, which a program may replace."""
 
+    format_name: str | None = None
+
     def emit(self, record: logging.LogRecord) -> None:
-        chosen = os.environ.get("OVERRIDE_LAUNCH_SCREEN_FORMAT", "default")
+        chosen = os.environ.get("OVERRIDE_LAUNCH_SCREEN_FORMAT", self.format_name or "default")
         text = logging.Formatter(_SCREEN_FORMATS.get(chosen, chosen), style="{").format(record)
         _print(text, _LEVEL_COLORS.get(record.levelno, ""))
 
@@ -218,6 +249,5 @@ def get_output_loggers(process_name: str, output_config: str | dict[str, Any]) -
 
 
 def reset() -> None:
-    """Forget the folder of the log files and the level."""
-    launch_config.reset_log_dir()
-    launch_config.level = logging.INFO
+    """Forget the folder of the log files, and restore the level and the formats."""
+    launch_config.reset()

@@ -4,13 +4,14 @@
 from __future__ import annotations
 
 import os
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
+from launch.frontend.expose import expose_substitution
 from launch.substitution import Substitution
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Sequence
 
     from launch.launch_context import LaunchContext
     from launch.some_substitutions_type import SomeSubstitutionsType
@@ -18,11 +19,19 @@ if TYPE_CHECKING:
 __all__ = ["PathJoinSubstitution", "PathSubstitution"]
 
 
+@expose_substitution("path-join")
 class PathJoinSubstitution(Substitution):
     """A path that is joined from parts; ``PathJoinSubstitution(...) / "file"`` appends to it."""
 
     def __init__(self, substitutions: Iterable[SomeSubstitutionsType]) -> None:
         self.__substitutions = [normalize_to_list_of_substitutions(part) for part in substitutions]
+
+    @classmethod
+    def parse(cls, data: Sequence[SomeSubstitutionsType]) -> tuple[type[Substitution], dict[str, Any]]:
+        """Read ``$(path-join PART...)``."""
+        if not data:
+            raise TypeError("path-join substitution expects at least 1 argument")
+        return cls, {"substitutions": data}
 
     @property
     def substitutions(self) -> list[list[Substitution]]:

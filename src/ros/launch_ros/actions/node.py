@@ -101,7 +101,7 @@ class Node(ExecuteLocal):
         self.__executable = normalize_to_list_of_substitutions(executable)
         self.__node_name = None if name is None else normalize_to_list_of_substitutions(name)
         self.__node_namespace = None if namespace is None else normalize_to_list_of_substitutions(namespace)
-        self.__parameters = [] if parameters is None else normalize_parameters(parameters)
+        self.__parameters: tuple[Any, ...] = () if parameters is None else normalize_parameters(parameters)
         self.__remappings = [] if remappings is None else list(normalize_remap_rules(remappings))
         self.__arguments = arguments
         self.__expanded_node_name = self.UNSPECIFIED_NODE_NAME

@@ -7,12 +7,15 @@ from typing import TYPE_CHECKING, Any
 
 from launch.actions.execute_process import ExecuteProcess
 from launch.substitutions import TextSubstitution
-from launch_ros.parameter_descriptions import ParameterFile
+from launch_ros.parameter_descriptions import ParameterFile, ParameterValue
 
 if TYPE_CHECKING:
     from launch.frontend import Entity, Parser
 
 __all__ = ["parse_node", "parse_parameters", "parse_remappings"]
+
+_TYPES: dict[str, type] = {"bool": bool, "int": int, "float": float, "str": str}
+_LIST = "list_of_"
 
 
 def parse_node(entity: Entity, parser: Parser) -> dict[str, Any]:
@@ -49,9 +52,8 @@ def parse_remappings(entity: Entity, parser: Parser) -> list[Any] | None:
 
 
 def parse_parameters(parameters: list[Entity], parser: Parser) -> list[Any]:
-    """Return the parameters of a node: files in their order, then a dictionary of the others."""
+    """Return the parameters of a node in their order: files, and a dictionary for each of the others."""
     found: list[Any] = []
-    without_file = []
     for each in parameters:
         file = each.get_attr("from", optional=True)
         allow_substs = each.get_attr("allow_substs", data_type=bool, optional=True)
@@ -62,25 +64,41 @@ def parse_parameters(parameters: list[Entity], parser: Parser) -> list[Any]:
             each.assert_entity_completely_parsed()
             found.append(ParameterFile(parser.parse_substitution(file), allow_substs=bool(allow_substs)))
         elif name is not None:
-            without_file.append(each)
+            found.append(_nested([each], parser))
         else:
             raise ValueError("param Entity should have name or from attribute")
-    return [*found, _nested(without_file, parser)]
+    return found
 
 
 def _nested(parameters: list[Entity], parser: Parser) -> dict[Any, Any]:
     found: dict[Any, Any] = {}
     for each in parameters:
         name = tuple(parser.parse_substitution(each.get_attr("name")))
-        value = each.get_attr("value", data_type=None, optional=True)
+        kind = _type(each.get_attr("type", optional=True))
+        value = each.get_attr("value", data_type=kind, optional=True)
         inner = each.get_attr("param", data_type=list, optional=True)
         if value is not None and inner:
             raise RuntimeError("nested parameters and value attributes are mutually exclusive")
         if value is None and not inner:
             raise RuntimeError("either a value attribute or nested params are needed")
-        found[name] = _nested(inner, parser) if inner else _value(value, parser)
+        if inner:
+            found[name] = _nested(inner, parser)
+        else:
+            performed = _value(value, parser)
+            found[name] = performed if kind is None else ParameterValue(performed, value_type=kind)
         each.assert_entity_completely_parsed()
     return found
+
+
+def _type(name: str | None) -> Any:
+    """Return the type with a name such as ``str`` or ``list_of_str``; None for that which YAML gives the value."""
+    if name is None:
+        return None
+    scalar = _TYPES.get(name.removeprefix(_LIST))
+    if scalar is None:
+        known = ", ".join([*_TYPES, *(f"{_LIST}{each}" for each in _TYPES)])
+        raise ValueError(f"{name!r} is not a type of a parameter, expected one of: {known}")
+    return list[scalar] if name.startswith(_LIST) else scalar  # type: ignore[valid-type]
 
 
 def _value(value: Any, parser: Parser) -> Any:

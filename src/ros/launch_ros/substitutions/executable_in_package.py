@@ -25,6 +25,7 @@ if TYPE_CHECKING:
 __all__ = ["ExecutableInPackage", "executable_in_package"]
 
 
+@expose_substitution("exec-in-pkg")
 @expose_substitution("exec-in-package")
 class ExecutableInPackage(Substitution):
     """The path of an executable of a package; for a console script that is not installed, the path of a wrapper."""
@@ -35,8 +36,8 @@ class ExecutableInPackage(Substitution):
 
     @classmethod
     def parse(cls, data: Sequence[SomeSubstitutionsType]) -> tuple[type[Substitution], dict[str, Any]]:
-        """Read ``$(exec-in-package EXECUTABLE PACKAGE)``."""
-        check_arguments("exec-in-package", data, 2, 2)
+        """Read ``$(exec-in-pkg EXECUTABLE PACKAGE)``."""
+        check_arguments("exec-in-pkg", data, 2, 2)
         return cls, {"executable": data[0], "package": data[1]}
 
     @property

@@ -15,7 +15,7 @@ from launch_ros.parameter_descriptions import Parameter, ParameterFile, Paramete
 __all__ = ["normalize_parameter_dict", "normalize_parameters"]
 
 
-def normalize_parameters(parameters: Iterable[Any]) -> list[Any]:
+def normalize_parameters(parameters: Iterable[Any]) -> tuple[Any, ...]:
     """Return files, dictionaries and descriptions of parameters in their general form.
 
     Raises:
@@ -35,7 +35,7 @@ def normalize_parameters(parameters: Iterable[Any]) -> list[Any]:
             raise TypeError(
                 f"parameters are files, dictionaries, or launch_ros.descriptions.Parameter; got {type(each).__name__}"
             )
-    return normalized
+    return tuple(normalized)
 
 
 def normalize_parameter_dict(
