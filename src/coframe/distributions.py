@@ -158,6 +158,9 @@ BEHAVIORS: Final[Mapping[str, Behavior]] = {
         "`topics`, `topics_regex`, `topics_regex_to_exclude`",
         "`topics`, `services_events`, `regex`, `exclude_topics`, `exclude_service_events`, `regex_to_exclude`",
     ),
+    "bag_storage": Behavior(
+        "storage of recordings that `rosbag2_py` writes without a `storage_id`", _JAZZY, "`sqlite3`", "`mcap`"
+    ),
     "call_timeout": Behavior(
         "no response to `Client.call(request, timeout_sec=...)` in time", _KILTED, "returns None", "`TimeoutError`"
     ),

@@ -74,7 +74,7 @@ def test_substitutions_that_join():
     assert performed("$(path-join /a $(string-join _ b c) d.yaml)") == str(Path("/a", "b_c", "d.yaml"))
     with pytest.raises(TypeError, match="expects at least 2 arguments: 1 delimiter"):
         parse_substitution("$(string-join ,)")
-    assert performed("$(exec-in-pkg talker demo_nodes_py)").endswith("talker")
+    assert "demo_nodes_py.talker:main" in Path(performed("$(exec-in-pkg talker demo_nodes_py)")).read_text()
 
 
 def test_boolean_arguments():

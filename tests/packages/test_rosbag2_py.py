@@ -47,7 +47,7 @@ def rest(reader: rosbag2_py.SequentialReader) -> list[tuple[str, bytes, int]]:
     return rows
 
 
-@pytest.mark.parametrize(("storage", "suffix"), [("sqlite3", ".db3"), ("mcap", ".mcap"), ("", ".db3")])
+@pytest.mark.parametrize(("storage", "suffix"), [("sqlite3", ".db3"), ("mcap", ".mcap"), ("", ".mcap")])
 def test_what_is_written_is_read_by_rosbags_and_by_the_reader(tmp_path: Path, storage: str, suffix: str) -> None:
     rows = write(tmp_path / "run", storage)
     assert (tmp_path / f"run/run_0{suffix}").is_file()

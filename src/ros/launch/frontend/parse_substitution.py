@@ -15,7 +15,7 @@ __all__ = ["parse_if_substitutions", "parse_substitution"]
 
 
 def parse_substitution(string: str) -> list[Substitution]:
-    """Return the parts of a text such as ``$(find-pkg-share my_robot)/urdf``.
+    """Return the parts of a string such as ``$(find-pkg-share my_robot)/urdf``.
 
     Raises:
         ValueError: A substitution is unknown or not complete.

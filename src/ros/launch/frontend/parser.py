@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import importlib
+from io import IOBase
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -75,7 +76,7 @@ class Parser:
         for package in [_PARSERS[extension]] if extension in _PARSERS else dict.fromkeys(_PARSERS.values()):
             parser: type[Parser] = importlib.import_module(package).Parser
             try:
-                if hasattr(file, "seek") and file.seekable():
+                if isinstance(file, IOBase) and file.seekable():
                     file.seek(0)  # The parser before may have read it.
                 return parser.load(file)
             except (ValueError, TypeError, OSError, RuntimeError) as error:

@@ -52,7 +52,7 @@ def parse_remappings(entity: Entity, parser: Parser) -> list[Any] | None:
 
 
 def parse_parameters(parameters: list[Entity], parser: Parser) -> list[Any]:
-    """Return the parameters of a node in their order: files, and a dictionary for each of the others."""
+    """Return the parameters of a node in their order: files, and a dictionary of those between two files."""
     found: list[Any] = []
     for each in parameters:
         file = each.get_attr("from", optional=True)
@@ -64,7 +64,11 @@ def parse_parameters(parameters: list[Entity], parser: Parser) -> list[Any]:
             each.assert_entity_completely_parsed()
             found.append(ParameterFile(parser.parse_substitution(file), allow_substs=bool(allow_substs)))
         elif name is not None:
-            found.append(_nested([each], parser))
+            parsed = _nested([each], parser)
+            if found and isinstance(found[-1], dict) and not found[-1].keys() & parsed.keys():
+                found[-1].update(parsed)
+            else:
+                found.append(parsed)
         else:
             raise ValueError("param Entity should have name or from attribute")
     return found
