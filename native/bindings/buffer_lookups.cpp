@@ -135,12 +135,22 @@ void check_gap(nb::handle buffer, nb::handle target, nb::handle source, nb::hand
 }
 
 PyObject* lookup_general(PyObject* object, PyObject* const* arguments, Py_ssize_t count, PyObject* keywords) {
-  static const Signature<7> signature("lookup",
-                                      {"target", "source", "stamp", "timeout", "extrapolate", "hold", "max_gap"}, 2, 3);
-  PyObject* values[7];
+  static const Signature<10> signature(
+      "lookup",
+      {"target", "source", "stamp", "timeout", "extrapolate", "hold", "max_gap", "fixed", "source_time", "covariance"},
+      2, 3);
+  PyObject* values[10];
   if (!signature.parse(arguments, count, keywords, values)) return nullptr;
   return guarded([&] {
     BufferObject& self = buffer_of(object);
+    if (values[7] || values[8] || is_true(values[9])) {
+      const auto value = [&](int i) { return handle_or_none(values[i]); };
+      const bool hold = is_true(values[5]), covariance = is_true(values[9]);
+      const nb::object method = nb::handle(object).attr("_lookup_composed");
+      return method(value(0), value(1), value(2), value(3), value(4), hold, value(6), value(7), value(8), covariance)
+          .release()
+          .ptr();
+    }
     // Invalid values are rejected even if the arguments are not needed.
     const std::int64_t timeout = to_duration(handle_or_none(values[3]));
     const ChangeTimeout limit(timeout);
@@ -271,7 +281,7 @@ nb::object py_chain(BufferObject& self, nb::handle target, nb::handle target_sta
 void add_frequent_lookups(nb::handle cls) {
   add_method(cls, "lookup", &py_lookup,
              "lookup($self, /, target, source, stamp=None, *, timeout=None, extrapolate=None, hold=False, "
-             "max_gap=None)\n--\n\n"
+             "max_gap=None, fixed=None, source_time=None, covariance=False)\n--\n\n"
              R"doc(Return the transform at `stamp` that transforms data from `source` into `target`.
 
 Args:
@@ -286,6 +296,11 @@ Args:
     hold: Whether extrapolation holds the last pose instead of continuing with the last twist.
     max_gap: The longest interval between two samples of an edge that the lookup may interpolate over, such as
         ``"200ms"``; None interpolates over any, as tf2.
+    fixed: A frame that does not move between `source_time` and `stamp`: the lookup returns the pose of `source` at
+        `source_time` in `target` at `stamp`, like tf2's lookupTransform with six arguments.
+    source_time: Time of `source`, by default `stamp`; needs `fixed`.
+    covariance: Whether to compose the covariances of the edges. Edges without one count as exact and are listed in
+        the `exact_edges` of the result.
 
 Returns:
     A single transform: translation in meters, unit quaternion x, y, z, w, and the time of the lookup in

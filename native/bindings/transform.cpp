@@ -132,7 +132,7 @@ nb::object make_transform(const Pose& pose, nb::handle target, nb::handle source
 bool read_transform(PyObject* object, GivenTransform& given) {
   if (Py_TYPE(object) != transform_class) return false;
   const TransformObject* self = self_of(object);
-  if (self->batch != Py_None) return false;
+  if (self->batch != Py_None || self->uncertainty != Py_None) return false;
   given = {self->pose, self->stamp, self->has_stamp, self->target, self->source};
   return true;
 }

@@ -26,7 +26,7 @@ struct GivenTransform {
   PyObject *target = nullptr, *source = nullptr;
 };
 
-// Returns false if the object is not a single transform of the registered class.
+// Returns false if the object is not a single transform of the registered class, or has a covariance.
 bool read_transform(PyObject* object, GivenTransform& given);
 
 }  // namespace coframe::bindings

@@ -100,6 +100,9 @@ class Buffer:
         extrapolate: DurationLike | None = None,
         hold: bool = False,
         max_gap: DurationLike | None = None,
+        fixed: str | None = None,
+        source_time: StampLike | None = None,
+        covariance: bool = False,
     ) -> PublicTransform:
         """Return the transform at `stamp` that transforms data from `source` into `target`.
 
@@ -115,6 +118,11 @@ class Buffer:
             hold: Whether extrapolation holds the last pose instead of continuing with the last twist.
             max_gap: The longest interval between two samples of an edge that the lookup may interpolate over, such as
                 ``"200ms"``; None interpolates over any, as tf2.
+            fixed: A frame that does not move between `source_time` and `stamp`: the lookup returns the pose of
+                `source` at `source_time` in `target` at `stamp`, like tf2's lookupTransform with six arguments.
+            source_time: Time of `source`, by default `stamp`; needs `fixed`.
+            covariance: Whether to compose the covariances of the edges. Edges without one count as exact and are
+                listed in the `exact_edges` of the result.
 
         Returns:
             A single transform: translation in meters, unit quaternion x, y, z, w, and the time of the lookup in

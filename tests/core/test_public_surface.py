@@ -80,6 +80,7 @@ BUFFER = {
     "remove_frame",
     "save",
     "set",
+    "set_covariance",
     "set_many",
     "show",
     "snapshot",

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Literal, TypeAlias, overload
 import numpy as np
 
 from coframe import _core, time
+from coframe.buffer import _covariances as covariances
 from coframe.buffer import gaps
 from coframe.errors import ExtrapolationException
 from coframe.transform.resampling import StepLimits
@@ -42,6 +43,7 @@ class Buffer(_core.Buffer):
         hold: bool = False,
         max_gap: DurationLike | None = None,
         on_gap: OnGap = "raise",
+        covariance: bool = False,
     ) -> Transform: ...
     @overload
     def lookup_many(
@@ -74,6 +76,7 @@ class Buffer(_core.Buffer):
         hold: bool = False,
         max_gap: DurationLike | None = None,
         on_gap: OnGap = "raise",
+        covariance: bool = False,
     ) -> tuple[Transform, Array]: ...
     @overload
     def lookup_many(
@@ -106,6 +109,7 @@ class Buffer(_core.Buffer):
         hold: bool = False,
         max_gap: DurationLike | None = None,
         on_gap: OnGap = "raise",
+        covariance: bool = False,
     ) -> Transform | Array | tuple[Transform | Array, Array]:
         """Look up the transform from ``source`` to ``target`` at many times.
 
@@ -127,6 +131,7 @@ class Buffer(_core.Buffer):
                 reports gaps of more than ten periods of an edge and 500 ms.
             on_gap: What to do with a time in a longer gap: ``"raise"`` an ExtrapolationException, fill its row with
                 ``"nan"``, or ``"omit"`` its row. :meth:`validity` returns the gap of each time.
+            covariance: As in :meth:`lookup`; the chain of frames must be the same at all times. Not with ``out``.
 
         Returns:
             A batch of shape (N,) with its ``stamps``, or ``out``. With ``twist``, a tuple of this and an array of
@@ -153,8 +158,8 @@ class Buffer(_core.Buffer):
         twists = np.empty((times.size, 6)) if twist else None
         beyond = np.empty_like(times) if extrapolate is not None else None
         limit = gaps.gap_limit(max_gap, on_gap)
-        if limit is not None and on_gap == "omit" and out is not None:
-            raise ValueError('on_gap="omit" cannot be combined with out, which has one row for each stamp')
+        if out is not None:
+            _check_out_options(limit, on_gap, covariance=covariance)
         missing = self._lookup_rows(target, source, times, rows, twists, beyond, on_error, threads, extrapolate, hold)
         if missing == 0 and times.size and np.isnan(rows[:, 0]).all():
             self.lookup(target, source, int(np.ravel(stamps_of(stamps))[0]), extrapolate=extrapolate, hold=hold)
@@ -175,6 +180,10 @@ class Buffer(_core.Buffer):
         batch = batch_of(rows[:, :3], rows[:, 3:], target, source, times, beyond)
         if out is not None and out is not rows:
             out[...] = batch.matrix
+        if covariance:
+            batch = covariances.with_covariance(
+                self, batch, lambda a, b: self._lookup_quietly(a, b, times, "nan", extrapolate, hold=hold)
+            )
         result = batch if out is None else out
         return result if twists is None else (result, twists)
 
@@ -269,13 +278,23 @@ class Buffer(_core.Buffer):
             gaps.note_gaps(self, target, source, path.stamps)
         return path
 
-    def _lookup_quietly(self, target: str, source: str, stamps: NDArray[np.int64]) -> Transform:
-        """Return a batch without a warning about gaps."""
+    def _lookup_quietly(
+        self,
+        target: str,
+        source: str,
+        stamps: NDArray[np.int64],
+        on_error: OnError = "raise",
+        extrapolate: DurationLike | None = None,
+        *,
+        hold: bool = False,
+    ) -> Transform:
+        """Return a batch without a word about gaps."""
         times = stamps.copy()
         rows = np.empty((times.size, 7))
-        self._lookup_rows(target, source, times, rows, None, None, "raise", 1)
-        _freeze(rows, times, None)
-        return batch_of(rows[:, :3], rows[:, 3:], target, source, times)
+        beyond = np.empty_like(times) if extrapolate is not None else None
+        self._lookup_rows(target, source, times, rows, None, beyond, on_error, 1, extrapolate, hold)
+        _freeze(rows, times, beyond)
+        return batch_of(rows[:, :3], rows[:, 3:], target, source, times, beyond)
 
     def span(self, target: str, source: str) -> tuple[int, int]:
         """Return the time interval in which every edge between two frames has data.
@@ -298,6 +317,14 @@ class Buffer(_core.Buffer):
         if ends[0] == np.iinfo(np.int64).min + 1:  # Both names are the same frame, so there are no edges.
             return 0, 0
         return int(ends[0]), int(ends[1])
+
+
+def _check_out_options(limit: int | None, on_gap: OnGap, *, covariance: bool) -> None:
+    """Raise ValueError for an option that the array of a caller has no place for."""
+    if limit is not None and on_gap == "omit":
+        raise ValueError('on_gap="omit" cannot be combined with out, which has one row for each stamp')
+    if covariance:
+        raise ValueError("covariance=True cannot be combined with out, which has no place for covariances")
 
 
 def _freeze(rows: Array, times: NDArray[np.int64], beyond: NDArray[np.int64] | None) -> None:

@@ -37,7 +37,7 @@ def check_single(parent: str, child: str, transform: Transform, stamp: StampLike
             f"set() takes a single transform, not a batch of shape {transform.shape}",
             hint="Use set_many() for a batch.",
         )
-    _check_frames(parent, child, transform)
+    check_frames(parent, child, transform)
     if stamp is None and transform.stamp is None and not static:
         raise InvalidArgumentException.with_details(
             f"the dynamic transform {parent!r} -> {child!r} has no stamp",
@@ -55,7 +55,7 @@ def rows_of(
         ValueError: The shapes do not match.
     """
     if isinstance(poses, _core.Transform):
-        _check_frames(parent, child, poses)
+        check_frames(parent, child, poses)
         stamps = poses.stamps if stamps is None else stamps
         poses = np.concatenate([poses.translation, poses.quaternion], axis=-1)
     values = np.ascontiguousarray(poses, dtype=np.float64)
@@ -111,7 +111,8 @@ def stamp_of(transform: Transform, stamp: StampLike | None) -> int:
     return (transform.stamp if stamp is None else time.stamp_ns(stamp)) or 0
 
 
-def _check_frames(parent: str, child: str, transform: Transform) -> None:
+def check_frames(parent: str, child: str, transform: Transform) -> None:
+    """Raise an InvalidArgumentException if a transform names other frames than those of its edge."""
     frames = (transform.target or parent, transform.source or child)
     if frames != (parent, child):
         raise InvalidArgumentException.with_details(

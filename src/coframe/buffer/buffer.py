@@ -7,6 +7,7 @@ import sys
 from typing import TYPE_CHECKING, Any
 
 from coframe import _core, errors, time
+from coframe.buffer import _covariances as covariances
 from coframe.buffer import _frozen_file as frozen_file
 from coframe.buffer import _many_lookups as many_lookups
 from coframe.buffer._storing import check_not_frozen, check_single, rejected, rejected_row, rows_of, stamp_of
@@ -14,6 +15,7 @@ from coframe.buffer._waiting import CallbackHandle, timed_out, transform_or_time
 from coframe.buffer.dispatcher import Dispatcher
 from coframe.buffer.edge_info import FrameInfo, edge_infos, edge_table
 from coframe.errors import TransformException
+from coframe.transform.transform import Transform
 
 if TYPE_CHECKING:
     import os
@@ -24,7 +26,6 @@ if TYPE_CHECKING:
     from coframe.buffer.edge_info import EdgeInfo
     from coframe.buffer.explanation import Explanation
     from coframe.time import DurationLike, StampLike
-    from coframe.transform.transform import Transform
     from coframe.viewer import Viewer
 
 _KEEP_EVERYTHING = -1
@@ -73,6 +74,7 @@ class Buffer(many_lookups.Buffer):
         *,
         static: bool = False,
         authority: str = DEFAULT_AUTHORITY,
+        covariance: ArrayLike | None = None,
     ) -> bool:
         """Store the pose of ``child`` relative to ``parent`` at one time.
 
@@ -86,6 +88,8 @@ class Buffer(many_lookups.Buffer):
             static: Whether the transform is valid for all time. A frame that changes between static and dynamic loses
                 its earlier samples.
             authority: Name of the publisher, as shown in reports.
+            covariance: Covariance of the pose as in ROS's PoseWithCovariance, shape (6, 6) or (36,); by default that
+                of the transform. See :attr:`coframe.Transform.covariance`.
 
         Returns:
             True if the sample was stored; False if it was older than the cache.
@@ -95,6 +99,8 @@ class Buffer(many_lookups.Buffer):
                 message; or the transform has other frames or no stamp, or the buffer is frozen.
             TypeError: ``transform`` is not a :class:`coframe.Transform`.
         """
+        if covariance is not None:
+            transform = transform.with_covariance(covariance)
         refusals = self._set_plain(parent, child, transform, stamp, static) if authority is DEFAULT_AUTHORITY else None
         if refusals is None:
             refusals = self._set(parent, child, transform, stamp, static, authority)
@@ -112,7 +118,11 @@ class Buffer(many_lookups.Buffer):
         """Store any valid arguments of `set`, and return the reasons for rejection as bits."""
         check_single(parent, child, transform, stamp, static=static)
         check_not_frozen(self, parent, child)
-        return self._set_values(parent, child, stamp_of(transform, stamp), *transform.values, static, authority)
+        when = stamp_of(transform, stamp)
+        refusals = self._set_values(parent, child, when, *transform.values, static, authority)
+        if refusals == 0 and transform.covariance is not None:
+            covariances.store(self, child, transform, when, static=static)
+        return refusals
 
     def set_many(
         self,
@@ -123,6 +133,7 @@ class Buffer(many_lookups.Buffer):
         *,
         static: bool = False,
         authority: str = DEFAULT_AUTHORITY,
+        covariance: ArrayLike | None = None,
     ) -> int:
         """Store many samples of one edge, like :meth:`set` for each of them in the order of their stamps.
 
@@ -134,6 +145,7 @@ class Buffer(many_lookups.Buffer):
             poses: A batch of shape (N,), or an array of shape (N, 7): x, y, z in meters and qx, qy, qz, qw.
             static: Whether the transform is valid for all time; if so, the last sample is used.
             authority: Name of the publisher, as shown in reports.
+            covariance: Covariances as in :meth:`set`, shape (N, 6, 6) or one for all; by default those of the batch.
 
         Returns:
             The number of stored samples. Samples older than the cache are not stored.
@@ -150,7 +162,74 @@ class Buffer(many_lookups.Buffer):
             x, y, z, qx, qy, qz, qw = values[row].tolist()
             texts = _core.insert_texts(refusals, parent, child, int(times[row]), x, y, z, qx, qy, qz, qw, authority)
             raise rejected_row(parent, child, row, values[row, 3:], "\n".join(line for _, line in texts))
+        if covariance is not None:
+            poses = Transform(values[:, :3], values[:, 3:], covariance=covariance)
+        if isinstance(poses, Transform) and poses.covariance is not None and times.size:
+            covariances.store(self, child, poses, times, static=static)
         return stored
+
+    def set_covariance(self, parent: str, child: str, pose: Transform | Any, *, static: bool = False) -> None:
+        """Store only the covariance of a pose, for an edge whose poses come from elsewhere, such as /tf.
+
+        It is interpolated along the axes of ``child`` between the stamps around a time, and held before the first and
+        after the last one. It changes no pose, so it may be stored in frozen buffers and those of recordings, too; but
+        :meth:`save` does not write it.
+
+        Args:
+            parent: The parent frame, in which the pose is expressed.
+            child: The child frame.
+            pose: A message with a covariance, such as Odometry or PoseWithCovarianceStamped, or a transform or batch
+                with covariances and stamps.
+            static: Whether the covariance is valid for all time.
+
+        Raises:
+            InvalidArgumentException: The pose has no covariance or no stamp, or is between other frames.
+
+        Example:
+            >>> import coframe
+            >>> import numpy as np
+            >>> buffer = coframe.Buffer(None)
+            >>> _ = buffer.set("odom", "base", coframe.Transform([1, 0, 0]), 5, covariance=np.eye(6))
+            >>> _ = buffer.set("base", "lidar", coframe.Transform([0, 0, 1]), static=True)
+            >>> found = buffer.lookup("odom", "lidar", 5, covariance=True)
+            >>> found.covariance[0].tolist(), found.exact_edges
+            ([2.0, 0.0, 0.0, 0.0, 1.0, 0.0], ('lidar',))
+        """
+        covariances.set_covariance(self, parent, child, pose, static=static)
+
+    def _lookup_composed(
+        self,
+        target: str,
+        source: str,
+        stamp: StampLike | None,
+        timeout: DurationLike | None,
+        extrapolate: DurationLike | None,
+        hold: bool,
+        max_gap: DurationLike | None,
+        fixed: str | None,
+        source_time: StampLike | None,
+        covariance: bool,
+    ) -> Transform:
+        """Look up at two times, or with a covariance; the native :meth:`lookup` calls this."""
+
+        def lookup(upper: str, lower: str, at: StampLike | None) -> Transform:
+            return self.lookup(upper, lower, at, timeout=timeout, extrapolate=extrapolate, hold=hold, max_gap=max_gap)
+
+        if fixed is None:
+            if source_time is not None:
+                raise ValueError("source_time needs fixed, a frame that does not move between both times")
+            pose = lookup(target, source, stamp)
+            return covariances.with_covariance(self, pose, lambda a, b: lookup(a, b, pose.stamp))
+        source_stamp = stamp if source_time is None else source_time
+        if not covariance and extrapolate is None and max_gap is None:
+            return self._lookup_full(target, stamp, source, source_stamp, fixed, timeout=timeout)
+        parts = [lookup(target, fixed, stamp), lookup(fixed, source, source_stamp)]
+        if covariance:
+            parts = [
+                covariances.with_covariance(self, part, lambda a, b, at=part.stamp: lookup(a, b, at))  # type: ignore[misc]
+                for part in parts
+            ]
+        return (parts[0] @ parts[1]).replace(stamp=parts[0].stamp)
 
     def wait(
         self, target: str, source: str, stamp: StampLike | None = None, *, timeout: DurationLike | None = None
@@ -246,6 +325,8 @@ class Buffer(many_lookups.Buffer):
         copy = Buffer.__new__(Buffer)
         _core.Buffer.__init__(copy, self.cache_ns)
         copy._become_snapshot(self)
+        for child, edge in covariances.covariances_of(self).items():
+            covariances.covariances_of(copy)[child] = edge.copy()
         copy._dispatcher = Dispatcher()
         return copy
 

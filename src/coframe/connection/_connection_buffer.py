@@ -34,9 +34,10 @@ class ConnectionBuffer(Buffer):
         *,
         static: bool = False,
         authority: str = DEFAULT_AUTHORITY,
+        covariance: ArrayLike | None = None,
     ) -> bool:
         """Store a transform as :meth:`coframe.Buffer.set` does, only in this process: nothing is published."""
-        stored = super().set(parent, child, transform, stamp, static=static, authority=authority)
+        stored = super().set(parent, child, transform, stamp, static=static, authority=authority, covariance=covariance)
         self._explain(parent, child, static=static)
         return stored
 
@@ -49,9 +50,12 @@ class ConnectionBuffer(Buffer):
         *,
         static: bool = False,
         authority: str = DEFAULT_AUTHORITY,
+        covariance: ArrayLike | None = None,
     ) -> int:
         """Store transforms as :meth:`coframe.Buffer.set_many` does, only in this process: nothing is published."""
-        stored = super().set_many(parent, child, stamps, poses, static=static, authority=authority)
+        stored = super().set_many(
+            parent, child, stamps, poses, static=static, authority=authority, covariance=covariance
+        )
         self._explain(parent, child, static=static)
         return stored
 

@@ -296,6 +296,13 @@ def derived(
     return _core.new_transform(x, y, z, qx, qy, qz, qw, target, source, nanoseconds, None, 0, uncertainty)
 
 
+def with_body_covariance(transform: TransformValues, matrices: Array, exact_edges: tuple[str, ...] = ()) -> Transform:
+    """Return a pose with covariances along the axes of its source that need no check."""
+    covariance = covariances.from_body(matrices, transform.rotation)
+    t, q, stamp = transform.translation, transform.quaternion, any_stamp(transform)
+    return derived(t, q, transform.target, transform.source, stamp, covariance, exact_edges)
+
+
 def pose_rows(transform: TransformValues, shape: tuple[int, ...]) -> tuple[Array, Array]:
     """Return translations (n, 3) and quaternions (n, 4) as the native core takes them; n is 1 for a single pose."""
     t, q = transform.translation, transform.quaternion

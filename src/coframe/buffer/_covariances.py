@@ -1,0 +1,200 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Covariances of the edges of a buffer, and their composition along a chain.
+
+They are stored beside the samples, because few edges have any. The covariance of an edge is interpolated between the
+two stamps around a time, along the axes of the child, and held before the first and after the last one.
+"""
+
+from __future__ import annotations
+
+import bisect
+import itertools
+import threading
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from coframe import _core
+from coframe.buffer._storing import check_frames
+from coframe.errors import InvalidArgumentException
+from coframe.transform.transform import Transform
+from coframe.transform.values import derived, stamps_of, with_body_covariance
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+
+    from numpy.typing import ArrayLike, NDArray
+
+    from coframe.time import StampLike
+
+    Array = NDArray[np.float64]
+
+# Covariances of an edge that a buffer with a limited cache keeps; as many samples as the core keeps would need 400 MB.
+MAX_COVARIANCES = 1 << 17
+
+
+class EdgeCovariances:
+    """The covariances of one edge, along the axes of the child frame.
+
+    Args:
+        cache_ns: For how many nanoseconds they are kept; negative keeps everything.
+    """
+
+    def __init__(self, cache_ns: int) -> None:
+        self._cache_ns = cache_ns
+        self._lock = threading.Lock()
+        self._stamps: list[int] = []
+        self._matrices: list[Array] = []
+
+    def add(self, stamps: list[int], matrices: Array) -> None:
+        """Store covariances, shape (N, 6, 6), with their stamps; a stamp that is known is replaced."""
+        with self._lock:
+            for stamp, matrix in zip(stamps, matrices, strict=True):
+                place = bisect.bisect_left(self._stamps, stamp)
+                if place < len(self._stamps) and self._stamps[place] == stamp:
+                    self._matrices[place] = matrix
+                else:
+                    self._stamps.insert(place, stamp)
+                    self._matrices.insert(place, matrix)
+            self._prune()
+
+    def set_static(self, matrix: Array) -> None:
+        """Store one covariance for all time, instead of all others."""
+        with self._lock:
+            self._stamps, self._matrices = [0], [matrix]
+
+    def at(self, times: NDArray[np.int64]) -> Array:
+        """Return the covariances at some times, shape (N, 6, 6)."""
+        with self._lock:
+            stamps, matrices = np.array(self._stamps, dtype=np.int64), list(self._matrices)
+        after = np.searchsorted(stamps, times)
+        last = np.minimum(after, len(stamps) - 1)
+        first = np.maximum(last - (stamps[last] > times), 0)
+        used, places = np.unique(np.concatenate([first, last]), return_inverse=True)
+        known = np.array([matrices[i] for i in used])
+        older, newer = known[places[: len(times)]], known[places[len(times) :]]
+        length = stamps[last] - stamps[first]
+        share = np.where(length > 0, np.clip(times - stamps[first], 0, length) / np.maximum(length, 1), 0.0)
+        result: Array = older + share[:, None, None] * (newer - older)
+        return result
+
+    def copy(self) -> EdgeCovariances:
+        """Return an independent copy."""
+        copied = EdgeCovariances(self._cache_ns)
+        with self._lock:
+            copied._stamps, copied._matrices = list(self._stamps), list(self._matrices)
+        return copied
+
+    def _prune(self) -> None:
+        """Remove covariances older than the cache, except the last of them: it is needed for interpolation."""
+        if self._cache_ns < 0:
+            return
+        old = bisect.bisect_left(self._stamps, self._stamps[-1] - self._cache_ns) - 1
+        old = max(old, len(self._stamps) - MAX_COVARIANCES)
+        if old > 0:
+            del self._stamps[:old], self._matrices[:old]
+
+
+def covariances_of(buffer: _core.Buffer) -> dict[str, EdgeCovariances]:
+    """Return the covariances by child frame."""
+    known: dict[str, EdgeCovariances] = buffer.__dict__.setdefault("_Coframe__covariances", {})
+    return known
+
+
+def store(
+    buffer: _core.Buffer, child: str, pose: Transform, stamps: ArrayLike | StampLike | None, *, static: bool
+) -> None:
+    """Store the covariances of a transform or a batch that has some."""
+    matrices = pose.as_covariance("body").reshape(-1, 6, 6)
+    edge = covariances_of(buffer).setdefault(child, EdgeCovariances(buffer.cache_ns))
+    if static:
+        edge.set_static(matrices[-1])
+    else:
+        edge.add(np.atleast_1d(stamps_of(stamps)).tolist(), matrices)
+
+
+def set_covariance(buffer: _core.Buffer, parent: str, child: str, pose: Any, *, static: bool) -> None:
+    """Store the covariances of a message or transform without its poses; see :meth:`coframe.Buffer.set_covariance`."""
+    given = pose if isinstance(pose, Transform) else Transform(pose)
+    check_frames(parent, child, given)
+    if given.covariance is None:
+        raise InvalidArgumentException.with_details(
+            f"the pose of {child!r} in {parent!r} has no covariance: none is given, or all of its numbers are zero",
+            target=parent,
+            source=child,
+            hint="Edges without a covariance count as exact, so nothing needs to be stored.",
+        )
+    stamps = given.stamps if given.shape else given.stamp
+    if stamps is None and not static:
+        raise InvalidArgumentException.with_details(
+            f"the covariance of {parent!r} -> {child!r} has no stamp",
+            target=parent,
+            source=child,
+            hint="Pass a pose with a stamp, or static=True if the covariance never changes.",
+        )
+    store(buffer, child, given, stamps, static=static)
+
+
+def with_covariance(buffer: _core.Buffer, pose: Transform, edge_pose: Callable[[str, str], Transform]) -> Transform:
+    """Return the result of a lookup with the covariance along its chain.
+
+    Args:
+        buffer: The buffer.
+        pose: The result, a single transform or a batch.
+        edge_pose: Returns the pose of a frame (second) relative to its neighbor (first) at the same times.
+    """
+    times = pose.stamps if pose.stamps is not None else np.array([pose.stamp or 0], dtype=np.int64)
+    known = covariances_of(buffer)
+    total, exact = Transform(covariance=np.zeros((6, 6))), []
+    for upper, lower, child in _edges(buffer, pose, times):
+        step = edge_pose(upper, lower)
+        if child in known:
+            matrices = known[child].at(times)
+            matrices = matrices if pose.shape else matrices[0]
+            own = step if child == lower else step.inverse()  # the pose of the child in its parent
+            valid = np.isfinite(own.translation).all(axis=-1)[..., None, None]
+            own = with_body_covariance(own if valid.all() else _without_nan(own), matrices)
+            step = own if child == lower else own.inverse()
+        else:
+            exact.append(child)
+        total = total @ step.replace(target=None, source=None, stamp=None)
+    matrices = np.broadcast_to(total.covariance, (*pose.shape, 6, 6))  # type: ignore[arg-type]  # it has one
+    matrices = np.where(np.isfinite(pose.translation).all(axis=-1)[..., None, None], matrices, np.nan)
+    return _core.new_transform(
+        *(pose.values if not pose.shape else (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)),
+        pose.target,
+        pose.source,
+        pose.stamp,
+        pose._batch,
+        pose._beyond,
+        (_read_only(matrices), tuple(exact)),
+    )
+
+
+def _edges(buffer: _core.Buffer, pose: Transform, times: NDArray[np.int64]) -> Iterator[tuple[str, str, str]]:
+    """Yield the edges from the target to the source: the nearer frame, the farther one, and which of them is the child.
+
+    The chain is that of the first time; :meth:`coframe.Buffer.lookup_many` composes each row by its own chain, but a
+    change of parents within a batch is rare.
+    """
+    target, source = pose.target or "", pose.source or ""
+    if target == source or not times.size:
+        return
+    time = int(times[0])
+    frames = buffer.chain(target, time, source, time, target)
+    for lower, upper in reversed(list(itertools.pairwise(frames))):
+        state = buffer._edge_at(lower, time)
+        yield upper, lower, lower if state is not None and state[1] == upper else upper
+
+
+def _without_nan(pose: Transform) -> Transform:
+    """Return a batch whose missing rows are the identity; the caller marks them in its result."""
+    missing = ~np.isfinite(pose.translation).all(axis=-1)
+    t, q = pose.translation.copy(), pose.quaternion.copy()
+    t[missing], q[missing] = 0.0, (0.0, 0.0, 0.0, 1.0)
+    return derived(_read_only(t), _read_only(q), None, None, None)
+
+
+def _read_only(array: Array) -> Array:
+    array.setflags(write=False)
+    return array
