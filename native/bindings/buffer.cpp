@@ -29,7 +29,10 @@ void define_buffer(nb::module_& module) {
   nb::class_<BufferObject> cls(module, "Buffer",
                                "The native buffer; coframe.Buffer is the public class derived from it.",
                                nb::is_weak_referenceable());
-  cls.def(nb::init<Stamp>(), arg("cache_ns"))
+  cls.def(nb::init<Stamp, bool>(), arg("cache_ns"), arg("along_screws") = false)
+      .def_prop_ro(
+          "_along_screws", [](const BufferObject& self) { return self.core->along_screws(); },
+          "Whether poses are interpolated along screws.")
       .def_prop_ro(
           "cache_ns", [](const BufferObject& self) { return self.core->cache_length(); },
           R"doc(Length of the cache for dynamic transforms in nanoseconds; negative if the buffer keeps everything.)doc")
@@ -64,8 +67,12 @@ Returns:
           "frozen", [](const BufferObject& self) { return self.core->frozen(); },
           R"doc(Whether the buffer is read-only.)doc")
       .def(
-          "_become_snapshot", [](BufferObject& self, const BufferObject& other) { self.core = other.core->snapshot(); },
-          arg("other"))
+          "_become_snapshot",
+          [](BufferObject& self, const BufferObject& other, bool along_screws) {
+            self.core = other.core->snapshot();
+            self.core->set_along_screws(along_screws);
+          },
+          arg("other"), arg("along_screws"))
       .def("_stop_following", [](BufferObject& self) { self.core->stop_following(); })
       .def(
           "_on_local_change", [](BufferObject& self, nb::object call) { self.on_local_change = std::move(call); },

@@ -22,7 +22,9 @@ namespace nb = nanobind;
 std::string_view text(nb::handle name);
 
 struct BufferObject {
-  explicit BufferObject(Stamp cache_length) : core(std::make_shared<Buffer>(cache_length)) {}
+  explicit BufferObject(Stamp cache_length, bool along_screws = false) : core(std::make_shared<Buffer>(cache_length)) {
+    core->set_along_screws(along_screws);
+  }
 
   std::shared_ptr<Buffer> core;  // shared with DDS readers and failures
   // Returns 0 also for names with a leading slash: lookups reject them, insertions remove the slash.

@@ -151,7 +151,12 @@ void compose_edge(const PathCache::Step& edge, bool first, RowBlock& rows) {
     return;
   }
   Between between;
-  if (rows.with_twists) {
+  if (rows.along_screws) {
+    if (rows.with_twists) std::fill_n(rows.ok, rows.count, false);  // one by one
+    Finder<false>(history, between, rows.ok).find(rows.stamps, rows.count, rows.in_order);
+    pad(rows.count, between);
+    kernels.compose_rows_along_screws(between, edge.down, first, rows.count, rows.poses);
+  } else if (rows.with_twists) {
     Finder<true>(history, between, rows.ok).find(rows.stamps, rows.count, rows.in_order);
     pad(rows.count, between);
     kernels.compose_rows_with_twists(between, edge.down, first, rows.count, rows.poses, rows.twists);
@@ -183,14 +188,29 @@ Twist rate_between(const Sample& a, const Sample& b, double seconds) {
   return rate;
 }
 
-Twist rate_at(const History::View& history, Stamp stamp) {
+// The same along a screw at a pose of it.
+Twist screw_rate_between(const Sample& a, const Sample& b, double seconds, const Pose& pose) {
+  Pose motion = b.pose;
+  compose_inverse(a.pose, motion);
+  double twist[6];
+  kernels().logarithms({motion.p, motion.q, 0, 0}, 1, twist);
+  for (double& number : twist) number /= seconds;
+  Twist rate;
+  rotate(pose.q, twist, rate.linear);
+  rotate(pose.q, twist + 3, rate.angular);
+  return rate;
+}
+
+// `pose` is the pose of the child at that time.
+Twist rate_at(const History::View& history, Stamp stamp, bool along_screws, const Pose& pose) {
   if (history.is_static() || history.size() < 2) return {};
   std::size_t next = history.first_after(stamp);
   next = std::clamp<std::size_t>(next, 1, history.size() - 1);
   while (next > 1 && history.time(next) == history.time(next - 1)) --next;
   const double seconds = static_cast<double>(elapsed(history.time(next - 1), history.time(next))) * 1e-9;
   const Sample a = history.sample(next - 1), b = history.sample(next);
-  return seconds > 0.0 && a.parent == b.parent ? rate_between(a, b, seconds) : Twist{};
+  if (!(seconds > 0.0) || a.parent != b.parent) return {};
+  return along_screws ? screw_rate_between(a, b, seconds, pose) : rate_between(a, b, seconds);
 }
 
 // From the child to the parent of the step, which also observes the motion of the step.
@@ -264,15 +284,15 @@ std::vector<std::uint32_t> order_by_time(const Stamp* stamps, std::size_t count)
   return order;
 }
 
-bool follow_moving(const PathCache::Path& path, Stamp stamp, Pose& pose, Twist& twist) {
+bool follow_moving(const PathCache::Path& path, Stamp stamp, bool along_screws, Pose& pose, Twist& twist) {
   pose = Pose{};
   twist = Twist{};
   for (const PathCache::Step& edge : path.steps) {
     const History::View history = edge.history->view();
     Pose step;
     FrameId parent;
-    if (history.at(stamp, step, parent) != Found::ok || parent != edge.parent) return false;
-    const Twist rate = rate_at(history, stamp);
+    if (history.at(stamp, step, parent, along_screws) != Found::ok || parent != edge.parent) return false;
+    const Twist rate = rate_at(history, stamp, along_screws, step);
     if (edge.down) {
       subtract_rate(step, rate, pose, twist);
     } else {

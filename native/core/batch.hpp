@@ -17,6 +17,7 @@ struct RowBlock {
   std::size_t count = 0;  // at most kRowBlock
   bool in_order = false;  // almost sorted by stamp
   bool with_twists = false;
+  bool along_screws = false;
   Stamp stamps[kRowBlock];
   bool ok[kRowBlock];
   PoseRows poses;
@@ -39,7 +40,7 @@ struct Twist {
 // Computes the pose at one time and its rate of change by interpolation between the samples around it: at a sample the
 // interval after it counts, at the newest sample the interval before it. Returns false for the same reasons as
 // follow_block().
-bool follow_moving(const PathCache::Path& path, Stamp stamp, Pose& pose, Twist& twist);
+bool follow_moving(const PathCache::Path& path, Stamp stamp, bool along_screws, Pose& pose, Twist& twist);
 
 // Computes the time span in which all edges of the path have samples; 0, 0 if all of them are static. Returns false if
 // an edge has no samples, or if the edges have no common time.

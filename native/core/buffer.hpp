@@ -95,6 +95,8 @@ class Buffer {
   Buffer& operator=(const Buffer&) = delete;
 
   Stamp cache_length() const { return tree_.cache_length(); }
+  bool along_screws() const { return tree_.along_screws(); }
+  void set_along_screws(bool along_screws) { tree_.set_along_screws(along_screws); }
 
   // Inserts a transform; returns 0, or why it was rejected (Refusal bits).
   unsigned insert(std::string_view parent, std::string_view child, Stamp stamp, const TransformValues& values,

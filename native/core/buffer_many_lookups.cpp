@@ -78,6 +78,7 @@ std::size_t Buffer::lookup_rows(LookupQuery query, const Extrapolation* extrapol
   RowBlock rows;
   rows.in_order = is_sorted || reorder;
   rows.with_twists = batch.twists != nullptr;
+  rows.along_screws = tree_.along_screws();
   for (std::size_t start = first; start < last; start += kRowBlock) {
     rows.count = std::min(kRowBlock, last - start);
     for (std::size_t i = 0; i < rows.count; ++i) {
@@ -134,7 +135,7 @@ bool Buffer::lookup_row(LookupQuery& query, const Extrapolation* extrapolation, 
         PathCache::Path path;
         Pose pose;
         PathCache::walk_at(tree, query.target_id, query.source_id, one.stamp, path);
-        return path.usable && follow_moving(path, one.stamp, pose, twist);
+        return path.usable && follow_moving(path, one.stamp, tree.along_screws(), pose, twist);
       });
     }
     std::copy_n(twist.linear, 3, batch.twists + 6 * row);

@@ -13,13 +13,11 @@ struct Extrapolation {
   };
 
   Method method = Method::twist;
-  Stamp limit = 0;     // nanoseconds beyond the samples
-  Stamp furthest = 0;  // the largest extrapolation over all edges so far
+  Stamp limit = 0;            // nanoseconds beyond the samples
+  Stamp furthest = 0;         // the largest extrapolation over all edges so far
+  bool along_screws = false;  // how poses between samples are interpolated
 
   Found at(const History::View& samples, Stamp stamp, Pose& pose, FrameId& parent);
 };
-
-// Returns the fraction `share` of a motion such that fractions add up: exp(share * log(motion)). Any share is valid.
-Pose part_of_motion(const Pose& motion, double share);
 
 }  // namespace coframe

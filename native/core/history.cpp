@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "core/interpolation.hpp"
+#include "core/screw.hpp"
 #include "kernels/kernels.hpp"
 
 namespace coframe {
@@ -90,7 +91,7 @@ Found History::View::find(Stamp stamp, Pair& found, std::uint64_t& next) const {
   return Found::ok;
 }
 
-Found History::View::at(Stamp stamp, Pose& pose, FrameId& parent) const {
+Found History::View::at(Stamp stamp, Pose& pose, FrameId& parent, bool along_screw) const {
   Pair pair;
   std::uint64_t next;
   const Found found = find(stamp, pair, next);
@@ -103,7 +104,12 @@ Found History::View::at(Stamp stamp, Pose& pose, FrameId& parent) const {
   Pose from, to;
   pair.older->load(from);
   pair.newer->load(to);
-  interpolate(from, to, pair.part / pair.whole, pose);
+  const double fraction = pair.part / pair.whole;
+  if (along_screw) {
+    pose = along_screw_motion(from, to, fraction);
+  } else {
+    interpolate(from, to, fraction, pose);
+  }
   return found;
 }
 

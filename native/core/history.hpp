@@ -106,8 +106,9 @@ class History {
     // The parent in the newest sample; 0 if there is none.
     FrameId parent() const { return empty() ? 0 : parent_at(size() - 1); }
 
-    // Computes the pose at `stamp` and its parent frame, without extrapolation.
-    Found at(Stamp stamp, Pose& pose, FrameId& parent) const;
+    // Computes the pose at `stamp` and its parent frame, without extrapolation. Between samples the pose is
+    // interpolated like in tf2, or along a screw.
+    Found at(Stamp stamp, Pose& pose, FrameId& parent, bool along_screw = false) const;
     // Finds the samples that at() interpolates between; `next` is the number of the newer one.
     Found find(Stamp stamp, Pair& pair, std::uint64_t& next) const;
     // Returns whether `stamp` lies strictly between the sample `next` and the one before, both in one chunk: the case

@@ -52,8 +52,9 @@ struct Walk {
 
 // Samples without extrapolation.
 struct Exact {
+  bool along_screws = false;
   Found at(const History::View& samples, Stamp stamp, Pose& pose, FrameId& parent) const {
-    return samples.at(stamp, pose, parent);
+    return samples.at(stamp, pose, parent, along_screws);
   }
 };
 
@@ -138,6 +139,22 @@ bool path_pose(std::vector<PathCache::Step>& steps, Stamp stamp, Pose& pose) {
   return true;
 }
 
+// The same along screws.
+bool path_pose_along_screws(const std::vector<PathCache::Step>& steps, Stamp stamp, Pose& pose) {
+  pose = Pose{};
+  for (const PathCache::Step& edge : steps) {
+    Pose step;
+    FrameId parent;
+    if (edge.history->view().at(stamp, step, parent, true) != Found::ok || parent != edge.parent) return false;
+    if (edge.down) {
+      compose_inverse(step, pose);
+    } else {
+      compose(step, pose);
+    }
+  }
+  return true;
+}
+
 // Static edges, and edges whose newest stamp is zero, do not limit the common time.
 void keep_earlier(Stamp stamp, Stamp& common) {
   if (stamp != 0) common = std::min(common, stamp);
@@ -162,7 +179,9 @@ bool lookup_path_in_tree(const Tree& tree, PathCache& paths, FrameId target, Fra
   PathCache::Path* path = paths.find(tree, target, source);
   if (!path) return false;
   const Stamp when = stamp != 0 ? stamp : path_common_time(path->steps);
-  if (!path_pose(path->steps, when, pose)) return false;
+  if (tree.along_screws() ? !path_pose_along_screws(path->steps, when, pose) : !path_pose(path->steps, when, pose)) {
+    return false;
+  }
   stamp = when;
   canonicalise(pose.q);
   return true;
@@ -173,7 +192,7 @@ bool lookup_in_tree(const Tree& tree, PathCache* paths, FrameId target, FrameId 
   if (target == source) return identity(tree, target, stamp, pose);
   if (paths && lookup_path_in_tree(tree, *paths, target, source, stamp, pose)) return true;
   if (stamp == 0 && !latest_common_time(tree, target, source, stamp, failure)) return false;
-  Exact exact;
+  Exact exact{tree.along_screws()};
   if (!walk_pose(tree, exact, target, source, stamp, pose, failure)) return false;
   canonicalise(pose.q);
   return true;
@@ -182,6 +201,7 @@ bool lookup_in_tree(const Tree& tree, PathCache* paths, FrameId target, FrameId 
 bool extrapolate_in_tree(const Tree& tree, Extrapolation& extrapolation, FrameId target, FrameId source, Stamp& stamp,
                          Pose& pose, Failure& failure) {
   extrapolation.furthest = 0;
+  extrapolation.along_screws = tree.along_screws();
   if (target == source) return identity(tree, target, stamp, pose);
   if (stamp == 0 && !latest_common_time(tree, target, source, stamp, failure)) return false;
   if (!walk_pose(tree, extrapolation, target, source, stamp, pose, failure)) return false;

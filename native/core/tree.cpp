@@ -146,6 +146,7 @@ Tree::Tree(const Tree& other) {
   use(heap_storage(with_samples ? std::make_shared<ChunkPool>() : other.storage().pool, other.cache_length()));
   if (!with_samples) keep(other.storage().mapped);
   copy_from(other, with_samples);
+  along_screws_ = other.along_screws_;
 }
 
 Tree::~Tree() {

@@ -85,6 +85,9 @@ class Tree {
   // Whether the data are those of another writer, which cannot be locked out.
   bool read_only() const { return !storage().memory; }
   bool shared() const { return storage().shared; }
+  // Whether poses are interpolated along screws, with a constant twist of the child, instead of like in tf2.
+  bool along_screws() const { return along_screws_; }
+  void set_along_screws(bool along_screws) { along_screws_ = along_screws; }  // before the first lookup
   bool outdated() const { return data().outdated.load(std::memory_order_acquire) != 0; }
 
   // nullptr for data that are not shared.
@@ -189,6 +192,7 @@ class Tree {
   std::vector<std::unique_ptr<Storage>> storages_;
   std::atomic<Storage*> storage_{nullptr};
   std::atomic<TreeData*> data_{nullptr};
+  bool along_screws_ = false;
 };
 
 // Why the names or values of a transform are rejected, as bits; 0 if they are valid.

@@ -4,6 +4,7 @@
 #include "kernels/arc.hpp"
 #include "kernels/lanes.hpp"
 #include "kernels/level.hpp"
+#include "kernels/lie.hpp"
 #include "kernels/pose_rows.hpp"
 #include "kernels/rotation.hpp"
 
@@ -104,6 +105,16 @@ void follow(const Edge& edge, bool first, std::size_t n, PoseRows& poses, TwistR
   }
 }
 
+template <bool kDown>
+void follow_screws(const Between& edge, bool first, std::size_t n, PoseRows& poses) {
+  for (std::size_t i = 0; i < n; i += kLanes) {
+    const PoseLanes a{load_rotations(edge.older + i), load_translations(edge.older + i)};
+    const PoseLanes b{load_rotations(edge.newer + i), load_translations(edge.newer + i)};
+    const TwistLanes none{};
+    add_step<kDown, false>(along_screw(a, b, load_lanes(edge.fraction + i)), none, first, i, poses, nullptr);
+  }
+}
+
 // Finds the destinations of kLanes rows from `i` on. Rows beyond the last one are written to `discarded`.
 template <std::size_t kWidth>
 COFRAME_INLINE void find_destinations(std::size_t i, std::size_t n, const std::size_t* at, double* out,
@@ -115,6 +126,10 @@ COFRAME_INLINE void find_destinations(std::size_t i, std::size_t n, const std::s
 
 void compose_rows(const Between& edge, bool down, bool first, std::size_t n, PoseRows& poses) {
   (down ? &follow<true, false, Between> : &follow<false, false, Between>)(edge, first, n, poses, nullptr);
+}
+
+void compose_rows_along_screws(const Between& edge, bool down, bool first, std::size_t n, PoseRows& poses) {
+  (down ? &follow_screws<true> : &follow_screws<false>)(edge, first, n, poses);
 }
 
 void compose_constant(const Pose& edge, bool down, bool first, std::size_t n, PoseRows& poses) {

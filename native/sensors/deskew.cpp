@@ -137,7 +137,7 @@ class Worker {
       edge.fractions(kernels_, hint, times_ + begin, i - begin, fractions_ + begin);
     }
     segments[n].begin = count;
-    const bool in_segments = n * kLongRun <= count;
+    const bool in_segments = n * kLongRun <= count && !trajectory_.along_screws();
     for (std::size_t k = 0; k < n; ++k) {
       const auto [begin, interval] = segments[k];
       const std::size_t end = segments[k + 1].begin;
@@ -154,8 +154,23 @@ class Worker {
       }
     }
     if (in_segments) return;
-    kernels_.interpolate_many(older_, newer_, fractions_, count, poses_);
+    if (trajectory_.along_screws()) {
+      interpolate_along_screws(count);
+    } else {
+      kernels_.interpolate_many(older_, newer_, fractions_, count, poses_);
+    }
     kernels_.transform_each(poses_, edge.inverse, count, block_.points());
+  }
+
+  void interpolate_along_screws(std::size_t count) {
+    constexpr std::ptrdiff_t kStep = sizeof(Pose) / sizeof(double);
+    double rows[7 * kPointBlock];
+    const PoseBatch older{older_->p, older_->q, kStep, kStep}, newer{newer_->p, newer_->q, kStep, kStep};
+    kernels_.interpolate_batches(older, newer, {fractions_, 1}, true, count, rows);
+    for (std::size_t i = 0; i < count; ++i) {
+      std::copy_n(rows + 7 * i, 3, poses_[i].p);
+      std::copy_n(rows + 7 * i + 3, 4, poses_[i].q);
+    }
   }
 
   const Kernels& kernels_ = kernels();

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/interpolation.hpp"
+#include "core/screw.hpp"
 
 namespace coframe {
 
@@ -43,7 +44,9 @@ bool Trajectory::record(const Buffer& buffer, FrameId target, FrameId source, St
   PathCache::Path path;
   return buffer.read([&](const Tree& tree) {
     PathCache::update(tree, target, source, path);
-    return path.usable && copy(path, first, last);
+    if (!path.usable || !copy(path, first, last)) return false;
+    along_screws_ = tree.along_screws();
+    return true;
   });
 }
 
@@ -110,7 +113,11 @@ Pose Trajectory::at(const Kernels& kernels, Stamp stamp, Hints& hints) const {
     double fraction;
     edge.fractions(kernels, k, &stamp, 1, &fraction);
     Pose step;
-    interpolate(edge.poses[k], edge.poses[k + 1], fraction, step);
+    if (along_screws_) {
+      step = along_screw_motion(edge.poses[k], edge.poses[k + 1], fraction);
+    } else {
+      interpolate(edge.poses[k], edge.poses[k + 1], fraction, step);
+    }
     if (edge.inverse) {
       compose_inverse(step, pose);
     } else {

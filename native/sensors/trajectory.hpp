@@ -44,6 +44,7 @@ class Trajectory {
   Stamp earliest() const { return earliest_; }
   Stamp latest() const { return latest_; }
   const std::vector<Edge>& edges() const { return edges_; }
+  bool along_screws() const { return along_screws_; }
   Hints hints() const { return Hints(edges_.size()); }
   Pose at(const Kernels& kernels, Stamp stamp, Hints& hints) const;
 
@@ -53,6 +54,7 @@ class Trajectory {
   void append_constant(Pose pose, bool inverse);
 
   std::vector<Edge> edges_;
+  bool along_screws_ = false;
   Stamp earliest_ = std::numeric_limits<Stamp>::min(), latest_ = std::numeric_limits<Stamp>::max();
 };
 

@@ -85,7 +85,11 @@ class Failure:
 class Buffer:
     """The native buffer; coframe.Buffer is the public class derived from it."""
 
-    def __init__(self, cache_ns: int) -> None: ...
+    def __init__(self, cache_ns: int, along_screws: bool = False) -> None: ...
+    @property
+    def _along_screws(self) -> bool:
+        """Whether poses are interpolated along screws."""
+
     @property
     def cache_ns(self) -> int:
         """Length of the cache for dynamic transforms in nanoseconds; negative if the buffer keeps everything."""
@@ -314,7 +318,7 @@ class Buffer:
     def _stop_following(self) -> None: ...
     @property
     def _following(self) -> bool: ...
-    def _become_snapshot(self, other: Buffer) -> None:
+    def _become_snapshot(self, other: Buffer, along_screws: bool) -> None:
         """Become a frozen copy of `other` as it is now; only for a buffer that is not used yet."""
 
     def _frame_tuples(self) -> list[tuple[str, str, bool, int, int, int, float, str]]: ...

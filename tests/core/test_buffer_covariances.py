@@ -3,12 +3,12 @@
 
 import numpy as np
 import pytest
-from geometry_msgs.msg import PoseWithCovarianceStamped
-from nav_msgs.msg import Odometry
 
 import coframe
 from coframe import Transform
 from coframe.errors import ExtrapolationException, InvalidArgumentException
+from geometry_msgs.msg import PoseWithCovarianceStamped
+from nav_msgs.msg import Odometry
 
 SECOND = 1_000_000_000
 SAMPLES = 400_000

@@ -73,6 +73,7 @@ BUFFER = {
     "freeze",
     "frozen",
     "ingest",
+    "interpolation",
     "latest_common_time",
     "lookup",
     "lookup_many",

@@ -152,14 +152,14 @@ def with_covariance(buffer: _core.Buffer, pose: Transform, edge_pose: Callable[[
             matrices = known[child].at(times)
             matrices = matrices if pose.shape else matrices[0]
             own = step if child == lower else step.inverse()  # the pose of the child in its parent
-            valid = np.isfinite(own.translation).all(axis=-1)[..., None, None]
-            own = with_body_covariance(own if valid.all() else _without_nan(own), matrices)
+            own = with_body_covariance(_without_nan(own), matrices)
             step = own if child == lower else own.inverse()
         else:
             exact.append(child)
         total = total @ step.replace(target=None, source=None, stamp=None)
     matrices = np.broadcast_to(total.covariance, (*pose.shape, 6, 6))  # type: ignore[arg-type]  # it has one
-    matrices = np.where(np.isfinite(pose.translation).all(axis=-1)[..., None, None], matrices, np.nan)
+    missing = ~np.isfinite(pose.translation).all(axis=-1, keepdims=True)
+    matrices = np.where(missing[..., None], np.nan, matrices)
     return _core.new_transform(
         *(pose.values if not pose.shape else (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)),
         pose.target,
@@ -188,8 +188,10 @@ def _edges(buffer: _core.Buffer, pose: Transform, times: NDArray[np.int64]) -> I
 
 
 def _without_nan(pose: Transform) -> Transform:
-    """Return a batch whose missing rows are the identity; the caller marks them in its result."""
+    """Return poses whose missing rows are the identity; the caller marks them in its result."""
     missing = ~np.isfinite(pose.translation).all(axis=-1)
+    if not np.any(missing):
+        return pose
     t, q = pose.translation.copy(), pose.quaternion.copy()
     t[missing], q[missing] = 0.0, (0.0, 0.0, 0.0, 1.0)
     return derived(_read_only(t), _read_only(q), None, None, None)

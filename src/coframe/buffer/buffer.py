@@ -15,6 +15,7 @@ from coframe.buffer._waiting import CallbackHandle, timed_out, transform_or_time
 from coframe.buffer.dispatcher import Dispatcher
 from coframe.buffer.edge_info import FrameInfo, edge_infos, edge_table
 from coframe.errors import TransformException
+from coframe.transform.interpolation import is_screw
 from coframe.transform.transform import Transform
 
 if TYPE_CHECKING:
@@ -26,6 +27,7 @@ if TYPE_CHECKING:
     from coframe.buffer.edge_info import EdgeInfo
     from coframe.buffer.explanation import Explanation
     from coframe.time import DurationLike, StampLike
+    from coframe.transform.interpolation import Interpolation
     from coframe.viewer import Viewer
 
 _KEEP_EVERYTHING = -1
@@ -45,11 +47,14 @@ class Buffer(many_lookups.Buffer):
     Args:
         cache: How long dynamic transforms are kept: a string such as ``"10s"``, int nanoseconds or a timedelta. None
             keeps everything, as needed for recordings.
+        interpolation: How poses between two samples are computed: ``"decoupled"``, the translation on a line and the
+            rotation along an arc, as in tf2; or ``"screw"``, with a constant twist of the child, which is exact for a
+            robot that drives along a circle.
 
     Raises:
         TypeError: ``cache`` is not a duration; a float of seconds is not accepted.
-        ValueError: ``cache`` is negative, is not a number with a unit, or is a positive int below 100 000, which would
-            be shorter than 100 us.
+        ValueError: ``interpolation`` is unknown; or ``cache`` is negative, is not a number with a unit, or is a
+            positive int below 100 000, which would be shorter than 100 us.
 
     Example:
         >>> import coframe
@@ -61,8 +66,8 @@ class Buffer(many_lookups.Buffer):
         [0.1, 0.0, 0.3]
     """
 
-    def __init__(self, cache: DurationLike | None = "10s") -> None:
-        super().__init__(cache_length(cache))
+    def __init__(self, cache: DurationLike | None = "10s", *, interpolation: Interpolation = "decoupled") -> None:
+        super().__init__(cache_length(cache), is_screw(interpolation))
         self._dispatcher = Dispatcher()
 
     def set(
@@ -320,11 +325,24 @@ class Buffer(many_lookups.Buffer):
         start = lambda mailbox, token: _core.watch(self, mailbox, token, child or "")  # noqa: E731 - one expression
         return CallbackHandle(self._dispatcher.watch(start, report, of_user=True))
 
-    def snapshot(self) -> Buffer:
-        """Return a frozen copy of the current buffer; the samples are shared, not copied."""
+    @property
+    def interpolation(self) -> Interpolation:
+        """How poses between two samples are computed: ``"decoupled"``, as in tf2, or ``"screw"``."""
+        return "screw" if self._along_screws else "decoupled"
+
+    def snapshot(self, *, interpolation: Interpolation | None = None) -> Buffer:
+        """Return a frozen copy of the current buffer; the samples are shared, not copied.
+
+        Args:
+            interpolation: How the copy computes poses between two samples, such as ``"screw"`` for the buffer of a
+                recording; None for the same way.
+
+        Raises:
+            ValueError: ``interpolation`` is unknown.
+        """
         copy = Buffer.__new__(Buffer)
         _core.Buffer.__init__(copy, self.cache_ns)
-        copy._become_snapshot(self)
+        copy._become_snapshot(self, is_screw(interpolation or self.interpolation))
         for child, edge in covariances.covariances_of(self).items():
             covariances.covariances_of(copy)[child] = edge.copy()
         copy._dispatcher = Dispatcher()

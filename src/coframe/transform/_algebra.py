@@ -3,13 +3,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Literal, TypeAlias
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from coframe import _core, quaternion
 from coframe.errors import FrameMismatchException, InvalidArgumentException
 from coframe.transform import _covariance as covariances
+from coframe.transform.interpolation import is_screw
 from coframe.transform.values import (
     TransformValues,
     any_stamp,
@@ -26,9 +27,9 @@ if TYPE_CHECKING:
 
     from coframe.quaternion import Array
     from coframe.transform._covariance import Ellipsoid
+    from coframe.transform.interpolation import Interpolation
     from coframe.transform.transform import Transform
 
-Interpolation: TypeAlias = Literal["decoupled", "screw"]
 # Translations and quaternions, as the native core takes them.
 _IDENTITY = (np.zeros((1, 3)), np.array([[0.0, 0.0, 0.0, 1.0]]))
 
@@ -345,17 +346,6 @@ class TransformAlgebra(TransformValues):
             return found
         moved = covariances.compounded(self.covariance, other.covariance, self.rotation, other.translation)
         return _with(found, moved, (*self.exact_edges, *other.exact_edges))
-
-
-def is_screw(interpolation: str) -> bool:
-    """Return whether poses are interpolated along screws.
-
-    Raises:
-        ValueError: The name of the interpolation is unknown.
-    """
-    if interpolation not in {"decoupled", "screw"}:
-        raise ValueError(f"interpolation must be 'decoupled' or 'screw', not {interpolation!r}")
-    return interpolation == "screw"
 
 
 def _of_rows(rows: Array, shape: tuple[int, ...], target: str | None, source: str | None, stamp: Any) -> Transform:
