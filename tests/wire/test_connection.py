@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
+import asyncio
 import threading
 
 import pytest
@@ -131,25 +132,103 @@ def test_a_timeout_without_a_unit_is_refused_everywhere(domain_id, wait):
 
 
 @pytest.mark.parametrize(
-    ("store", "broadcaster"),
+    ("store", "method"),
     [
-        (lambda buffer: buffer.set("odom", "base", coframe.Transform(), 1), "tf2_ros.TransformBroadcaster"),
-        (lambda buffer: buffer.set("odom", "base", coframe.Transform(), static=True), "StaticTransformBroadcaster"),
-        (lambda buffer: buffer.set_many("odom", "base", [1], [[0, 0, 0, 0, 0, 0, 1]]), "tf2_ros.TransformBroadcaster"),
+        (lambda buffer: buffer.set("odom", "base", coframe.Transform(), 1), "connection.send("),
+        (lambda buffer: buffer.set("odom", "base", coframe.Transform(), static=True), "connection.send_static("),
+        (lambda buffer: buffer.set_many("odom", "base", [1], [[0, 0, 0, 0, 0, 0, 1]]), "connection.send("),
     ],
 )
-def test_a_transform_that_the_program_stores_is_not_published_which_is_logged_once(
-    domain_id, caplog, store, broadcaster
-):
+def test_a_transform_that_the_program_stores_is_not_published_which_is_logged_once(domain_id, caplog, store, method):
     with coframe.connect("one", domain=domain_id) as ros:
         store(ros.buffer)
         store(ros.buffer)
         [record] = [record for record in caplog.records if "publishes nothing" in record.getMessage()]
         assert "odom -> base is stored in the buffer of this process only" in record.getMessage()
-        assert broadcaster in record.getMessage()
+        assert method in record.getMessage()
         assert "base" in ros.buffer
 
 
 def test_static_transforms_are_not_complete_before_anything_was_discovered(domain_id):
     with coframe.connect("one", domain=domain_id) as ros:
         assert not ros.wait_for_statics("1500ms")
+
+
+def test_transforms_are_sent_to_other_nodes(domain_id):
+    with coframe.connect("one", domain=domain_id) as one, coframe.connect("two", domain=domain_id) as two:
+        one.send_static("base", "lidar", coframe.Transform([0, 0, 1.0]))
+        one.send_static("base", "camera", coframe.Transform([0, 1.0, 0]))
+        statics = [two.buffer.wait("base", name, timeout="10s") for name in ("lidar", "camera")]
+        assert [pose.translation.tolist() for pose in statics] == [[0, 0, 1], [0, 1, 0]]
+        for second in (1, 2):
+            one.send("odom", "base", coframe.Transform([second, 0, 0]), second * 1_000_000_000)
+        assert two.buffer.wait("odom", "lidar", 1_500_000_000, timeout="10s").x == 1.5
+        one.send("map", "odom", coframe.Transform(target="map", source="odom"))
+        assert two.buffer.wait("map", "odom", timeout="10s").stamp > 1_600_000_000 * 1_000_000_000
+    with coframe.connect("one", domain=domain_id) as one:
+        with pytest.raises(
+            coframe.FrameMismatchException, match=r"cannot send the transform map <- base as odom <- base"
+        ):
+            one.send("odom", "base", coframe.Transform(target="map", source="base"))
+        with pytest.raises(coframe.InvalidArgumentException, match="cannot send a batch"):
+            one.send("odom", "base", coframe.Transform([[0, 0, 0]]))
+        with pytest.raises(TypeError, match=r"expected a coframe.Transform, not list"):
+            one.send_static("odom", "base", [1, 2, 3])
+    with pytest.raises(coframe.WireError, match="is closed"):
+        one.send("odom", "base", coframe.Transform())
+
+
+def test_messages_are_published_without_a_publisher(domain_id):
+    with coframe.connect("one", domain=domain_id) as ros:
+        subscription = ros.subscribe("chatter", STRING)
+        threads = [threading.Thread(target=ros.publish, args=("chatter", STRING(data=str(i)))) for i in range(4)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        assert {subscription.receive("10s").data for _ in threads} == {"0", "1", "2", "3"}
+        with pytest.raises(TypeError, match="expected a message class"):
+            ros.publish("chatter", "text")
+    with pytest.raises(coframe.WireError, match="is closed"):
+        ros.publish("chatter", STRING())
+
+
+def test_messages_are_received_in_asyncio(domain_id):
+    async def received(ros, subscription):
+        ticks = 0
+
+        async def count():
+            nonlocal ticks
+            while True:
+                await asyncio.sleep(0.01)
+                ticks += 1
+
+        counting = asyncio.create_task(count())
+        waiting = asyncio.create_task(subscription.receive_async("10s"))
+        while ticks < 3:  # noqa: ASYNC110 - the loop runs while the subscription waits
+            await asyncio.sleep(0.01)
+        assert not waiting.done()
+        ros.publish("chatter", STRING(data="first"))
+        found = [(await waiting).data]
+        for text in ("second", "end"):
+            ros.publish("chatter", STRING(data=text))
+        async for message in subscription:
+            found.append(message.data)
+            if message.data == "end":
+                break
+        assert await subscription.receive_async("1ms") is None
+        cancelled = asyncio.create_task(subscription.receive_async())
+        await asyncio.sleep(0)
+        cancelled.cancel()
+        ros.publish("chatter", STRING(data="after"))
+        found.append((await subscription.receive_async("10s")).data)
+        closing = asyncio.create_task(subscription.receive_async())
+        await asyncio.sleep(0.05)
+        await asyncio.to_thread(subscription.close)
+        assert await closing is None
+        counting.cancel()
+        return found
+
+    with coframe.connect("one", domain=domain_id) as ros:
+        subscription = ros.subscribe("chatter", STRING)
+        assert asyncio.run(received(ros, subscription)) == ["first", "second", "end", "after"]

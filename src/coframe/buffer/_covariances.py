@@ -158,8 +158,8 @@ def with_covariance(buffer: _core.Buffer, pose: Transform, edge_pose: Callable[[
             exact.append(child)
         total = total @ step.replace(target=None, source=None, stamp=None)
     matrices = np.broadcast_to(total.covariance, (*pose.shape, 6, 6))  # type: ignore[arg-type]  # it has one
-    missing = ~np.isfinite(pose.translation).all(axis=-1, keepdims=True)
-    matrices = np.where(missing[..., None], np.nan, matrices)
+    missing = np.isnan(pose.translation[..., :1, None])
+    matrices = np.where(missing, np.nan, matrices)
     return _core.new_transform(
         *(pose.values if not pose.shape else (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)),
         pose.target,

@@ -63,12 +63,11 @@ class ConnectionBuffer(Buffer):
         if self._explained:
             return
         self._explained = True
-        broadcaster = "StaticTransformBroadcaster" if static else "TransformBroadcaster"
+        sender = "send_static" if static else "send"
         _logger.warning(
-            "The transform %s -> %s is stored only in the buffer of this process; set() publishes nothing. To publish "
-            "transforms, use tf2_ros.%s, or a publisher of tf2_msgs/TFMessage: connection.publisher(%r, TFMessage).",
+            "The transform %s -> %s is stored in the buffer of this process only; set() publishes nothing. To publish "
+            "transforms, use connection.%s(parent, child, transform).",
             shown(parent),
             shown(child),
-            broadcaster,
-            "/tf_static" if static else "/tf",
+            sender,
         )

@@ -6,22 +6,22 @@ from __future__ import annotations
 import logging
 import threading
 import time
-from typing import TYPE_CHECKING, Any, Generic, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from coframe import _core
 from coframe.connection._receivers import Request, SharedReceiver, open_receiver
 from coframe.connection.listener_config import ListenerConfig
+from coframe.connection.message_streams import MessagePublisher, MessageSubscription
 from coframe.connection.tf_publishers import TfPublisher, publishers_of
-from coframe.errors import DecodeError, WireError
-from coframe.time import MILLISECOND, SECOND, duration_ns
-from coframe.wire.counted_warning import CountedWarning
-from coframe.wire.names import any_ros_name
+from coframe.errors import FrameMismatchException, InvalidArgumentException, WireError
+from coframe.time import MILLISECOND, SECOND, duration_ns, stamp_ns
+from coframe.type_names import TF_MESSAGE
 from coframe.wire.participant import Participant
-from coframe.wire.qos import DEFAULT, QoS
+from coframe.wire.qos import DEFAULT, TF, QoS
 from coframe.wire.tf_reader import STATICS_TIMEOUT
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Iterator
+    from collections.abc import Callable, Iterable
     from datetime import timedelta
     from types import TracebackType
 
@@ -30,9 +30,11 @@ if TYPE_CHECKING:
     from coframe.buffer.buffer import Buffer
     from coframe.connection._receivers import Receiver
     from coframe.messages.message import Message
-    from coframe.time import DurationLike
+    from coframe.time import DurationLike, StampLike
+    from coframe.transform.transform import Transform
     from coframe.viewer import Viewer
-    from coframe.wire.endpoints import GraphNode, Publisher, Subscription
+    from coframe.wire.endpoints import GraphNode
+    from coframe.wire.static_broadcaster import StaticBroadcaster
 
 _logger = logging.getLogger("coframe.wire")
 
@@ -41,117 +43,6 @@ _STATICS_CHECK_PERIOD = 50 * MILLISECOND
 _DISCOVERY = 1 * SECOND
 
 M = TypeVar("M", bound="Message")
-
-
-class MessagePublisher(Generic[M]):
-    """A publisher of messages of one class. Created by `Connection.publisher`."""
-
-    def __init__(self, publisher: Publisher, message_type: type[M]) -> None:
-        self._publisher = publisher
-        self._message_type = message_type
-
-    @property
-    def matched(self) -> int:
-        """The number of matched subscriptions."""
-        return self._publisher.matched
-
-    def publish(self, message: M) -> None:
-        """Publish a message.
-
-        Raises:
-            TypeError: The message is not of the publisher's class.
-            WireError: The connection is closed, or a reliable subscription has not kept up for one second.
-        """
-        if not isinstance(message, self._message_type):
-            expected = self._message_type.__name__
-            topic = any_ros_name(self._publisher.topic)
-            raise TypeError(f"cannot publish {type(message).__name__} on {topic}: expected {expected}")
-        from coframe.messages.codec import serialize  # noqa: PLC0415 - `import coframe` must be cheap
-
-        self._publisher.write(serialize(message))
-
-    def close(self) -> None:
-        """Close the publisher."""
-        self._publisher.close()
-
-
-class MessageSubscription(Generic[M]):
-    """A subscription to messages of one class. Created by `Connection.subscribe`.
-
-    If there is a callback, it is called with each message on a thread of this subscription. Otherwise, call `receive`
-    or iterate over the subscription.
-    """
-
-    def __init__(
-        self,
-        subscription: Subscription,
-        message_type: type[M],
-        event: _core.Event,
-        callback: Callable[[M], None] | None,
-    ) -> None:
-        self._subscription = subscription
-        self._message_type = message_type
-        self._event = event
-        self._callback = callback
-        self._warn_of_damage = CountedWarning(_logger.warning)
-        self._thread: threading.Thread | None = None
-        if callback:
-            self._thread = threading.Thread(target=self._call, name=f"coframe{subscription.topic}", daemon=True)
-            self._thread.start()
-
-    @property
-    def matched(self) -> int:
-        """The number of matched publishers."""
-        return self._subscription.matched
-
-    def receive(self, timeout: DurationLike | None = None) -> M | None:
-        """Wait for the next message and return it; return None after the timeout or if the subscription is closed.
-
-        Args:
-            timeout: How long to wait, such as "100ms". If None, wait without a limit.
-
-        Raises:
-            DecodeError: The received bytes are not a message of the announced type.
-        """
-        from coframe.messages.codec import deserialize  # noqa: PLC0415 - `import coframe` must be cheap
-
-        deadline = None if timeout is None else time.monotonic_ns() + duration_ns(timeout)
-        while True:
-            # Messages are taken one by one, so that a message that cannot be decoded does not discard others.
-            for sample in self._subscription.take(1):
-                return deserialize(sample.data, self._message_type)
-            left = None if deadline is None else deadline - time.monotonic_ns()
-            if self._subscription.closed or (left is not None and left <= 0):
-                return None
-            self._event.wait(left)
-
-    def __iter__(self) -> Iterator[M]:
-        while (message := self.receive()) is not None:
-            yield message
-
-    def close(self) -> None:
-        """Close the subscription and stop the thread of the callback."""
-        self._subscription.close()
-        self._event.set()
-        if self._thread and self._thread is not threading.current_thread():
-            self._thread.join()
-
-    def _call(self) -> None:
-        while not self._subscription.closed:
-            self._call_once()
-
-    def _call_once(self) -> None:
-        topic = any_ros_name(self._subscription.topic)
-        try:
-            message = self.receive()
-        except DecodeError as error:
-            self._warn_of_damage(f"A message on {topic} is ignored: {error}.")
-            return
-        if message is not None and self._callback:
-            try:
-                self._callback(message)
-            except Exception:
-                _logger.exception("The callback for messages on %s failed.", topic)
 
 
 class Connection:
@@ -173,6 +64,8 @@ class Connection:
         self._closed = False
         self._opened = time.monotonic_ns()
         self._subscriptions: list[MessageSubscription[Any]] = []
+        self._publishers: dict[tuple[str, type], MessagePublisher[Any]] = {}
+        self._statics: StaticBroadcaster | None = None
         self._receiver: Receiver | None = None
         try:
             self._receiver = open_receiver(self._request(shared=shared))
@@ -211,6 +104,79 @@ class Connection:
         native = self.participant.publisher(self.node, self._qualified(topic), message_type, _qos(qos))
         return MessagePublisher(native, message_type)
 
+    def publish(self, topic: str, message: Message) -> None:
+        """Publish a message. Any thread, also that of an event loop, may call this.
+
+        The first message of a topic creates its publisher, which is reliable with a depth of 10. Subscriptions that
+        discover the publisher later do not receive that message; :meth:`publisher` creates one earlier.
+
+        Args:
+            topic: The name of the topic, relative to the namespace unless it begins with a slash.
+            message: The message.
+
+        Raises:
+            TypeError: The topic or the message has the wrong type.
+            WireError: The connection is closed, or a reliable subscription has not kept up for one second.
+        """
+        self._publisher_of(topic, type(message), DEFAULT).publish(message)
+
+    def send(self, parent: str, child: str, transform: Transform, stamp: StampLike | None = None) -> None:
+        """Publish the pose of a frame relative to its parent on /tf, like a TransformBroadcaster.
+
+        Args:
+            parent: The parent frame.
+            child: The child frame.
+            transform: A single transform. If it names its frames, they must be these.
+            stamp: The time of the pose; by default the stamp of the transform, or else the system time.
+
+        Raises:
+            FrameMismatchException: The transform names other frames.
+            InvalidArgumentException: The transform is a batch.
+            WireError: The connection is closed, or a reliable subscription has not kept up for one second.
+
+        Example:
+            >>> with coframe.connect() as ros:                                    # doctest: +SKIP
+            ...     ros.send("odom", "base_link", coframe.Transform([1.0, 0.0, 0.0]))
+        """
+        from coframe.messages.registry import find  # noqa: PLC0415 - `import coframe` must be cheap
+
+        message = _stamped(parent, child, transform, stamp)
+        message_type = find(TF_MESSAGE)
+        self._publisher_of(self.config.tf_topic, message_type, TF).publish(message_type(transforms=[message]))
+
+    def send_static(self, parent: str, child: str, transform: Transform, stamp: StampLike | None = None) -> None:
+        """Publish a pose that does not change on /tf_static, like a StaticTransformBroadcaster.
+
+        Listeners that start later receive it as long as this connection is open. A new pose of the child frame replaces
+        the earlier one.
+
+        Args:
+            parent: The parent frame.
+            child: The child frame.
+            transform: A single transform, as in :meth:`send`.
+            stamp: The time of the message, as in :meth:`send`.
+
+        Raises:
+            FrameMismatchException: The transform names other frames.
+            InvalidArgumentException: The transform is a batch.
+            WireError: The connection is closed.
+        """
+        message = _stamped(parent, child, transform, stamp)
+        with self._closing:
+            if self._closed:
+                raise _closed_error(self._name[1])
+            if self._statics is None:
+                self._statics = self.participant.static_broadcaster(self.node, self.config.tf_static_topic)
+        self._statics.send([message])
+
+    def _publisher_of(self, topic: str, message_type: type[M], qos: QoS) -> MessagePublisher[M]:
+        """Return the publisher of :meth:`publish` and :meth:`send` on a topic, which is created once."""
+        with self._closing:
+            known = self._publishers.get((topic, message_type))
+            if known is None or self._closed:
+                known = self._publishers[topic, message_type] = self.publisher(topic, message_type, qos)
+            return known
+
     def subscribe(
         self,
         topic: str,
@@ -223,8 +189,8 @@ class Connection:
         Args:
             topic: The name of the topic, relative to the namespace unless it begins with a slash.
             message_type: The message class.
-            callback: Called with each message on a thread of the subscription. If None, use
-                `MessageSubscription.receive`.
+            callback: Called with each message on a thread of the subscription. If None, call the subscription's
+                ``receive`` or iterate over it; in asyncio, await ``receive_async`` or use ``async for``.
             qos: The requested quality of service, or its depth. If None, the subscription is reliable with a depth of
                 10.
 
@@ -369,6 +335,31 @@ class Connection:
 
     def _qualified(self, topic: str) -> str:
         return topic if topic.startswith("/") else f"{self._name[0].rstrip('/')}/{topic}"
+
+
+def _stamped(parent: str, child: str, transform: Transform, stamp: StampLike | None) -> Message:
+    """Return a transform as a TransformStamped message."""
+    from coframe.messages.conversions import to_transform_stamped  # noqa: PLC0415 - `import coframe` must be cheap
+
+    if not isinstance(transform, _core.Transform):
+        raise TypeError(
+            f"expected a coframe.Transform, not {type(transform).__name__}. Transform(message) converts one."
+        )
+    if transform.shape:
+        raise InvalidArgumentException.with_details(
+            f"cannot send a batch of shape {transform.shape} as {parent} -> {child}",
+            hint="Send one transform: a loop over the batch has one after the other.",
+        )
+    frames = (transform.target or parent, transform.source or child)
+    if frames != (parent, child):
+        raise FrameMismatchException.with_details(
+            f"cannot send the transform {frames[0]} <- {frames[1]} as {parent} <- {child}",
+            target=parent,
+            source=child,
+            hint="The parent must be the transform's target and the child its source.",
+        )
+    time_of_pose = transform.stamp if stamp is None else stamp_ns(stamp)
+    return to_transform_stamped(parent, child, transform, time.time_ns() if time_of_pose is None else time_of_pose)
 
 
 def _closed_error(name: str) -> WireError:

@@ -5,24 +5,28 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import TYPE_CHECKING, overload
+from typing import TYPE_CHECKING, Any, overload
 
 import numpy as np
 
 from coframe import quaternion
 from coframe._output.formatting import did_you_mean
+from coframe.buffer.buffer import Buffer
+from coframe.robots._given_positions import by_joint, groups_of, is_joint_state
 from coframe.robots._kinematics import KinematicTree
 from coframe.transform.values import batch_of
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Iterable
     from pathlib import Path
 
     from numpy.typing import ArrayLike
 
     from coframe.quaternion import Array
+    from coframe.robots._given_positions import Positions
     from coframe.robots.parts import Joint, JointLimits, Link, Material, Mimic
     from coframe.transform.transform import Transform
+    from coframe.viewer import Viewer
 
 __all__ = ["Robot"]
 
@@ -75,13 +79,13 @@ class Robot:
 
     @overload
     def frames(
-        self, positions: Mapping[str, ArrayLike] | None = None, *, out: None = None, threads: int = 1
+        self, positions: Positions | None = None, *, out: None = None, threads: int = 1
     ) -> dict[str, Transform]: ...
     @overload
-    def frames(self, positions: Mapping[str, ArrayLike], *, out: Array, threads: int = 1) -> Array: ...
+    def frames(self, positions: Positions, *, out: Array, threads: int = 1) -> Array: ...
 
     def frames(
-        self, positions: Mapping[str, ArrayLike] | None = None, *, out: Array | None = None, threads: int = 1
+        self, positions: Positions | None = None, *, out: Array | None = None, threads: int = 1
     ) -> dict[str, Transform] | Array:
         """Return the pose of every link relative to the root link.
 
@@ -89,7 +93,8 @@ class Robot:
             positions: The positions by joint, in radians or meters: a number or an array (N,). Planar joints need x,
                 y, angle as (3,) or (N, 3), floating joints x, y, z, qx, qy, qz, qw as (7,) or (N, 7). A joint that
                 mimics another one follows it unless its own position is given. The default of other joints is 0.
-                Limits are not enforced.
+                Limits are not enforced, see :meth:`limit_violations`. Also an array (n,) or (N, n) in the order of the
+                :attr:`free_joints`, or a JointState message, whose unknown joints are ignored.
             out: An array for the result of a batch, which is faster than new transforms: (L, N, 7) float64 with x, y,
                 z, qx, qy, qz, qw of the L links, the root link first, then the child links in the order of the joints.
             threads: The number of threads.
@@ -102,6 +107,8 @@ class Robot:
             ValueError: A joint does not exist or is fixed, a position is not finite or has the wrong shape, or `out`
                 has the wrong shape.
         """
+        if positions is not None and type(positions) is not dict:
+            positions = by_joint(positions, self.joints, self.free_joints)
         found = None if out is not None else self._kinematics.transforms(positions or {}, in_root=True)
         if found is not None:
             return found
@@ -116,7 +123,7 @@ class Robot:
         links = [self.root, *(joint.child for joint in self.joints.values())]
         return {link: _batch(rows, self.root, link) for link, rows in zip(links, poses, strict=True)}
 
-    def joint_transforms(self, positions: Mapping[str, ArrayLike] | None = None) -> dict[str, Transform]:
+    def joint_transforms(self, positions: Positions | None = None) -> dict[str, Transform]:
         """Return the pose of each joint's child link relative to its parent link, as published on /tf.
 
         Args:
@@ -128,7 +135,8 @@ class Robot:
         Raises:
             ValueError: The positions are not valid, see :meth:`frames`.
         """
-        found = self._kinematics.transforms(positions or {}, in_root=False)
+        positions = by_joint(positions, self.joints, self.free_joints)
+        found = self._kinematics.transforms(positions, in_root=False)
         if found is not None:
             return found
         known, shape = self._known(positions)
@@ -139,24 +147,35 @@ class Robot:
         joints = self.joints.values()
         return {j.name: _batch(rows, j.parent, j.child) for j, rows in zip(joints, poses, strict=True)}
 
-    def jacobian(self, frame: str, positions: Mapping[str, ArrayLike] | None = None) -> Array:
-        """Return the Jacobian of a link.
+    def jacobian(
+        self,
+        frame: str,
+        positions: Positions | None = None,
+        *,
+        point: ArrayLike = (0.0, 0.0, 0.0),
+        expressed_in: str | None = None,
+    ) -> Array:
+        """Return the Jacobian of a point of a link.
 
         Args:
             frame: The link.
             positions: The positions by joint, see :meth:`frames`.
+            point: The point in the link, in meters, shape (3,); by default the link's origin.
+            expressed_in: The link along whose axes the velocities are expressed: ``frame`` for body velocities; by
+                default the root link.
 
         Returns:
-            (6, n), or (N, 6, n) if positions are arrays: the linear velocity of the link's origin in m/s and its
-            angular velocity in rad/s, expressed in the root link, for a unit velocity of each of the n
-            :attr:`free_joints`.
-            Joints that mimic a free joint move with it.
+            (6, n), or (N, 6, n) if positions are arrays: the linear velocity of the point in m/s and the angular
+            velocity of the link in rad/s, relative to the root link, for a unit velocity of each of the n
+            :attr:`free_joints`. Joints that mimic a free joint move with it.
 
         Raises:
-            ValueError: The link does not exist, or the positions are not valid, see :meth:`frames`.
+            ValueError: A link does not exist, or the positions are not valid, see :meth:`frames`.
         """
-        if frame not in self.links:
-            raise ValueError(_unknown("link", frame, list(self.links)))
+        axes = self.root if expressed_in is None else expressed_in
+        for link in (frame, axes):
+            if link not in self.links:
+                raise ValueError(_unknown("link", link, list(self.links)))
         known, shape = self._known(positions)
         poses = np.empty((len(self.joints), *shape, 7))
         self._fill(poses, known, shape, in_root=True)
@@ -164,6 +183,8 @@ class Robot:
         column = {name: i for i, name in enumerate(self.free_joints)}
         result = np.zeros((*shape, 6, len(column)))
         path = self._kinematics.path(frame)
+        if path:
+            end = t[path[0]] + quaternion.rotate(q[path[0]], np.asarray(point, dtype=np.float64))
         for i in path:
             joint = self._kinematics.joints[i]
             if joint.size != 1:
@@ -171,11 +192,119 @@ class Robot:
             leader, multiplier = self._leader(joint)
             axis = quaternion.rotate(q[i], np.array(joint.axis)) * multiplier
             slides = joint.type == "prismatic"
-            result[..., :3, column[leader]] += axis if slides else np.cross(axis, t[path[0]] - t[i])
+            result[..., :3, column[leader]] += axis if slides else np.cross(axis, end - t[i])
             result[..., 3:, column[leader]] += 0.0 if slides else axis
-        return result
+        if axes == self.root:
+            return result
+        back = np.swapaxes(quaternion.to_matrix(q[self._kinematics.path(axes)[0]]), -1, -2)
+        return np.concatenate([back @ result[..., :3, :], back @ result[..., 3:, :]], axis=-2)
 
-    def positions(self, given: Mapping[str, ArrayLike] | None = None) -> tuple[dict[str, Array], tuple[int, ...]]:
+    def limit_violations(self, positions: Positions | None = None) -> dict[str, Array]:
+        """Return how far joints are outside of their limits.
+
+        Args:
+            positions: The positions by joint, see :meth:`frames`.
+
+        Returns:
+            By joint that violates its limits: radians or meters, shape () or (N,); negative below the lower limit,
+            positive above the upper one, 0 within. Joints that mimic others are checked, too.
+
+        Raises:
+            ValueError: The positions are not valid, see :meth:`frames`.
+        """
+        found = {}
+        for name, value in self.positions(positions)[0].items():
+            limits = self.limits.get(name)
+            if limits is None or self.joints[name].size != 1 or self.joints[name].type == "continuous":
+                continue
+            low, high = _bounds(limits)
+            outside = np.minimum(value - low, 0.0) + np.maximum(value - high, 0.0)
+            if outside.any():
+                found[name] = outside
+        return found
+
+    def clip(self, positions: Positions) -> dict[str, Array]:
+        """Return positions by joint that are moved into the limits; see :meth:`limit_violations`."""
+        known, _ = self._known(positions)
+        return {name: value - self.limit_violations({name: value}).get(name, 0.0) for name, value in known.items()}
+
+    def buffer(self, joint_states: Iterable[Any] | Any, stamps: ArrayLike | None = None) -> Buffer:
+        """Return a buffer with the transforms of all links over time.
+
+        Args:
+            joint_states: JointState messages, with their stamps and in any order; or positions with ``stamps``, see
+                :meth:`frames`. Messages may contain only some of the joints. Joints without any position are static,
+                at their default.
+            stamps: Times of the positions, shape (N,), int64 nanoseconds or datetime64; None for messages.
+
+        Returns:
+            A buffer that keeps everything; ``lookup`` interpolates each joint on its own.
+
+        Raises:
+            ValueError: The positions are not valid, or there are none.
+        """
+        if stamps is not None:
+            groups = [(np.asarray(stamps), self._known(joint_states)[0])]
+        else:
+            messages = [joint_states] if is_joint_state(joint_states) else joint_states
+            groups = groups_of(messages, self.joints)
+        found = Buffer(None)
+        authority = f"robot {self.name}".rstrip()
+        moving = set()
+        for times, positions in groups:
+            for name, poses in self.joint_transforms(positions).items():
+                joint = self.joints[name]
+                if joint.size and (name in positions or (joint.mimic and self._leader(joint)[0] in positions)):
+                    moving.add(name)
+                    found.set_many(joint.parent, joint.child, times, poses, authority=authority)
+        for name, pose in self.joint_transforms().items():
+            if name not in moving:
+                joint = self.joints[name]
+                found.set(joint.parent, joint.child, pose, static=True, authority=authority)
+        return found
+
+    def show(self, positions: Positions | None = None, **options: Any) -> Viewer:
+        """Show the robot in the viewer, or below the cell in a notebook.
+
+        Args:
+            positions: The positions by joint, see :meth:`frames`; or JointState messages, which are played.
+            options: The options of :func:`coframe.show`.
+        """
+        from coframe.viewer.show import show as show_in_browser  # noqa: PLC0415 - the viewer is above this module
+
+        is_motion = isinstance(positions, list | tuple) and len(positions) > 0 and is_joint_state(positions[0])
+        buffer = self.buffer(positions) if is_motion else self._buffer_at(positions)
+        return show_in_browser(buffer, robot=self, **options)
+
+    def to_pinocchio(self) -> Any:
+        """Return the robot as a ``pinocchio.Model``, for dynamics, inverse kinematics and collisions.
+
+        Its configuration vector has its own order: joint NAME begins at
+        ``model.joints[model.getJointId(NAME)].idx_q``.
+
+        Raises:
+            ModuleNotFoundError: Pinocchio is not installed.
+        """
+        try:
+            import pinocchio  # noqa: PLC0415 - coframe itself does not need Pinocchio
+        except ModuleNotFoundError as error:
+            text = "to_pinocchio() needs Pinocchio, which is not installed. Install it with: pip install pin"
+            raise ModuleNotFoundError(text, name=error.name) from None
+        return pinocchio.buildModelFromXML(self.text)
+
+    def _buffer_at(self, positions: Positions | None) -> Buffer:
+        """Return a buffer with the transforms of one configuration."""
+        found = Buffer(None)
+        for name, pose in self.joint_transforms(positions).items():
+            if pose.shape:
+                raise ValueError(
+                    "show() takes one configuration, or JointState messages. Use buffer(positions, stamps)."
+                )
+            joint = self.joints[name]
+            found.set(joint.parent, joint.child, pose, static=True)
+        return found
+
+    def positions(self, given: Positions | None = None) -> tuple[dict[str, Array], tuple[int, ...]]:
         """Return the positions of all joints that are not fixed, including joints that mimic others.
 
         Args:
@@ -196,9 +325,10 @@ class Robot:
             joint.name: np.broadcast_to(self._position(joint, known), (*shape, *_axes(joint))) for joint in moving
         }, shape
 
-    def _known(self, given: Mapping[str, ArrayLike] | None) -> tuple[dict[str, Array], tuple[int, ...]]:
+    def _known(self, given: Positions | None) -> tuple[dict[str, Array], tuple[int, ...]]:
         """Return the given positions as arrays, and the batch shape."""
-        known = {name: self._checked(name, value) for name, value in (given or {}).items()}
+        named = by_joint(given, self.joints, self.free_joints)
+        known = {name: self._checked(name, value) for name, value in named.items()}
         shape = np.broadcast_shapes(*(self._batch_axes(name, value) for name, value in known.items()))
         if len(shape) > 1:
             raise ValueError(f"positions can have one batch axis, (N,), not {shape}")
@@ -276,6 +406,11 @@ def _default_position(joint: Joint) -> float:
     if joint.type == "continuous" or limits is None or limits.lower is None or limits.upper is None:
         return 0.0
     return 0.0 if limits.lower <= 0.0 <= limits.upper else 0.5 * (limits.lower + limits.upper)
+
+
+def _bounds(limits: JointLimits) -> tuple[float, float]:
+    """Return the lower and the upper limit."""
+    return -np.inf if limits.lower is None else limits.lower, np.inf if limits.upper is None else limits.upper
 
 
 def _batch(rows: Array, target: str, source: str) -> Transform:

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any
 from coframe.time import SECOND
 
 if TYPE_CHECKING:
-    from coframe.connection.connection import Connection, MessageSubscription
+    from coframe.connection.connection import Connection
+    from coframe.connection.message_streams import MessageSubscription
 
 __all__ = ["GraphClock"]
 

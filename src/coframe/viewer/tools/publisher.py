@@ -17,7 +17,8 @@ from coframe.viewer.tools._graph_clock import GraphClock
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from coframe.connection.connection import Connection, MessagePublisher
+    from coframe.connection.connection import Connection
+    from coframe.connection.message_streams import MessagePublisher
     from coframe.wire.static_broadcaster import StaticBroadcaster
 
 __all__ = ["ToolPublisher"]
