@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import os
+import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -15,7 +16,9 @@ from coframe._files.regular_files import check_regular, reading_hint
 from coframe._output.formatting import did_you_mean
 from coframe.cli.declaration import PASS_WORDS_ON, Command, argument
 from coframe.cli.output import fail
+from coframe.distributions import current
 from coframe.errors import PackageError
+from coframe.workspace.packages.executables import module_folders
 from coframe.workspace.packages.finding import find_package, use_sources_near
 
 if TYPE_CHECKING:
@@ -79,6 +82,9 @@ def launch(
     if launch_prefix_filter:
         arguments["launch-prefix-filter"] = launch_prefix_filter
     use_sources_near(path.parent, Path.cwd())
+    # Launch files import the modules of packages in the workspace, and read the name of the distribution.
+    sys.path += [folder for folder in module_folders() if folder not in sys.path]
+    os.environ.setdefault("ROS_DISTRO", current().name.lower())
     if show_args:
         _show_arguments(_description(path))
     elif print_description:
@@ -105,7 +111,7 @@ def _launch_file(package_or_file: str, words: list[str]) -> Path:
         share = find_package(package_or_file).share
     except PackageError as error:
         fail(str(error), error.hint)
-    there = {each.name: each for each in sorted(share.rglob("*")) if _is_launch_file(each)}
+    there = {each.name: each for each in _files(share) if _is_launch_file(each)}
     if not words or ":=" in words[0]:
         names = ", ".join(there) or "none"
         fail(f"The name of the launch file is missing. Launch files in {package_or_file}: {names}.", code=2)
@@ -117,6 +123,16 @@ def _launch_file(package_or_file: str, words: list[str]) -> Path:
             f"{did_you_mean(name, there, most=2)} Available launch files: {', '.join(there) or 'none'}.".lstrip(),
         )
     return path.resolve()
+
+
+def _files(folder: Path) -> list[Path]:
+    """Return the files below a folder, and below the folders to which the share folder of a source folder links."""
+    return sorted(
+        Path(root, name)
+        for start in [folder, *(each for each in (folder.iterdir() if folder.is_dir() else ()) if each.is_symlink())]
+        for root, _, names in os.walk(start)
+        for name in names
+    )
 
 
 def _is_launch_file(path: Path) -> bool:

@@ -11,6 +11,7 @@ from coframe._files.existence import is_dir, resolved
 from coframe._files.regular_files import UnsuitableFileError, check_regular
 from coframe.errors import PackageError
 from coframe.workspace.packages.folders import crawl, listed, named, package_around
+from coframe.workspace.packages.share_view import share_of_source, source_of
 
 if TYPE_CHECKING:
     import os
@@ -58,7 +59,7 @@ class Packages:
                 if name not in _OWN:
                     raise
                 found = _OWN[name]
-            self._found[name] = found.resolve()
+            self._found[name] = share_of_source(found.resolve(), name)
         return self._found[name]
 
     def resolve(self, url: str) -> Path:
@@ -82,7 +83,7 @@ class Packages:
     def _inside(self, url: str, root: Path, path: Path) -> Path:
         try:
             real = path.resolve()
-            if not real.is_relative_to(root):
+            if not (real.is_relative_to(root) or real.is_relative_to(source_of(root))):
                 raise PackageError(
                     f"{url!r} is outside {root}", hint=f"Only files inside the package can be read. {_SEARCHED}"
                 )

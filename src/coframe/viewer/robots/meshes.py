@@ -13,6 +13,7 @@ from urllib.parse import quote, unquote, urlsplit
 from coframe._files.existence import resolved
 from coframe._files.regular_files import check_regular
 from coframe.errors import CoframeError
+from coframe.workspace.packages.share_view import source_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
@@ -143,6 +144,7 @@ class MeshTable:
                 self._packages[name] = folder
             if folder is not None:
                 self.declare(folder)
+                self.declare(source_of(folder))
         if folder is None:
             raise MeshError(
                 f"ROS package {_shown(name)} not found. Add the folder that contains it to COFRAME_PACKAGE_PATH."

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
     from pathlib import Path
 
-__all__ = ["PythonPackage", "read"]
+__all__ = ["PythonPackage", "read", "value_of"]
 
 MAX_BYTES = 1 << 18  # of a file
 _MAX_DOTS = 4000  # of pyproject.toml; a key takes quadratic time, and this many dots in one key half a second
@@ -98,10 +98,10 @@ def _setup_py(text: str) -> PythonPackage:
     names: dict[str, Any] = {}
     for statement in tree.body:
         if isinstance(statement, ast.Assign) and isinstance(statement.targets[0], ast.Name):
-            names[statement.targets[0].id] = _value(statement.value, names)
+            names[statement.targets[0].id] = value_of(statement.value, names)
     for call in ast.walk(tree):
         if isinstance(call, ast.Call) and _called(call.func) == "setup":
-            arguments = {each.arg: _value(each.value, names) for each in call.keywords if each.arg}
+            arguments = {each.arg: value_of(each.value, names) for each in call.keywords if each.arg}
             return _from_setup_arguments(arguments)
     return PythonPackage({})
 
@@ -133,7 +133,7 @@ def _called(function: ast.expr) -> str:
     return function.id if isinstance(function, ast.Name) else getattr(function, "attr", "")
 
 
-def _value(node: ast.expr, names: dict[str, Any]) -> Any:
+def value_of(node: ast.expr, names: dict[str, Any]) -> Any:
     """Return the value of a literal, a variable, or a string composed of these; None for anything else."""
     if isinstance(node, ast.Constant):
         return node.value
@@ -141,11 +141,11 @@ def _value(node: ast.expr, names: dict[str, Any]) -> Any:
         return names.get(node.id)
     if isinstance(node, ast.Dict):
         pairs = zip(node.keys, node.values, strict=True)
-        return {_value(key, names): _value(item, names) for key, item in pairs if key}
+        return {value_of(key, names): value_of(item, names) for key, item in pairs if key}
     if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Add):
-        left, right = _value(node.left, names), _value(node.right, names)
+        left, right = value_of(node.left, names), value_of(node.right, names)
         return _short(left + right) if type(left) is type(right) and isinstance(left, str | list) else None
     if isinstance(node, ast.JoinedStr):
-        parts = [_value(part.value if isinstance(part, ast.FormattedValue) else part, names) for part in node.values]
+        parts = [value_of(part.value if isinstance(part, ast.FormattedValue) else part, names) for part in node.values]
         return _short("".join(map(str, parts))) if all(isinstance(part, str | int) for part in parts) else None
-    return [_value(item, names) for item in node.elts] if isinstance(node, ast.List | ast.Tuple) else None
+    return [value_of(item, names) for item in node.elts] if isinstance(node, ast.List | ast.Tuple) else None

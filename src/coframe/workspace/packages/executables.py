@@ -11,17 +11,18 @@ from coframe._files.existence import resolved
 from coframe._files.regular_files import open_regular, read_regular_text
 from coframe._output.formatting import did_you_mean
 from coframe._process.python_children import python_command, python_environment
+from coframe.distributions import current
 from coframe.errors import PackageError
 from coframe.workspace.packages import _builtin as builtin
 from coframe.workspace.packages import _console_scripts as console_scripts
-from coframe.workspace.packages.finding import Package, candidates, find_package
-from coframe.workspace.packages.folders import crawl
+from coframe.workspace.packages.finding import Package, candidates, find_package, source_roots
+from coframe.workspace.packages.folders import crawl, package_name
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
     from pathlib import Path
 
-__all__ = ["Executable", "executables", "find_executable"]
+__all__ = ["Executable", "executables", "find_executable", "module_folders"]
 
 # install(PROGRAMS scripts/a.py DESTINATION lib/${PROJECT_NAME}) in a CMakeLists.txt
 _INSTALL = re.compile(r"\binstall\s*\(([^()]*)\)", re.IGNORECASE)
@@ -48,6 +49,7 @@ class Executable(NamedTuple):
     def environment(self, base: Mapping[str, str] | None = None) -> dict[str, str]:
         """Return the environment to start it with; `base` is the environment of this process if None."""
         environment = python_environment(base)
+        environment.setdefault("ROS_DISTRO", current().name.lower())
         if self.python_path:
             present = environment.get("PYTHONPATH", "")
             environment["PYTHONPATH"] = os.pathsep.join([*self.python_path, *([present] if present else [])])
@@ -109,26 +111,43 @@ def _installed(package: Package) -> dict[str, Executable]:
 
 
 def _from_source(package: Package) -> dict[str, Executable]:
-    declared = console_scripts.read(package.share)
-    path = _python_path(package.share, declared.root)
+    source = package.source or package.share
+    declared = console_scripts.read(source)
+    path = _python_path(source, declared.root)
     found = {
         name: Executable(package.name, name, (*_ENTRY_POINT, target), path) for name, target in declared.scripts.items()
     }
-    for relative in [*declared.files, *_programs_of_cmake(package.share)]:
-        file = package.share / relative
-        if file.is_file() and resolved(file).is_relative_to(resolved(package.share)):
+    for relative in [*declared.files, *_programs_of_cmake(source)]:
+        file = source / relative
+        if file.is_file() and resolved(file).is_relative_to(resolved(source)):
             found.setdefault(file.name, Executable(package.name, file.name, _command_of(file), path))
     return found
 
 
 def _python_path(package: Path, root: str) -> tuple[str, ...]:
     """Return the folders of the package and of its neighbors, whose modules it may import."""
-    neighbors = [each for each in crawl(package.parent, _MAX_DEPTH) if each != package and _has_modules(each)]
-    return tuple(map(str, [resolved(package / root), *neighbors]))
+    own = [str(resolved(package / root))] if package_name(package) not in builtin.names() else []
+    return tuple(dict.fromkeys([*own, *_module_folders([package.parent])]))
+
+
+def module_folders() -> list[str]:
+    """Return the folders with the Python modules of the packages in source folders, for `sys.path`."""
+    return _module_folders(source_roots())
+
+
+def _module_folders(folders: list[Path]) -> list[str]:
+    """Return the folders of modules of packages, except those of packages that coframe has."""
+    packages = [package for folder in folders for package in crawl(folder, _MAX_DEPTH)]
+    return [
+        str(resolved(package / console_scripts.read(package).root))
+        for package in packages
+        if _has_modules(package) and package_name(package) not in builtin.names()
+    ]
 
 
 def _has_modules(package: Path) -> bool:
-    return (package / "setup.py").is_file() or (package / package.name / "__init__.py").is_file()
+    names = {package.name, package_name(package)}
+    return (package / "setup.py").is_file() or any((package / name / "__init__.py").is_file() for name in names)
 
 
 def _programs_of_cmake(package: Path) -> list[str]:

@@ -14,11 +14,20 @@ from coframe._output.formatting import did_you_mean
 from coframe.errors import PackageError
 from coframe.workspace.packages import _builtin as builtin
 from coframe.workspace.packages.folders import crawl, listed, named, package_around, package_name
+from coframe.workspace.packages.share_view import share_of_source
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-__all__ = ["Package", "candidates", "find_package", "package_names", "source_folders", "use_sources_near"]
+__all__ = [
+    "Package",
+    "candidates",
+    "find_package",
+    "package_names",
+    "source_folders",
+    "source_roots",
+    "use_sources_near",
+]
 
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_\-]*", re.ASCII)
 _SOURCES = "COFRAME_PACKAGE_PATH"
@@ -39,12 +48,14 @@ class Package(NamedTuple):
         share: Folder with its launch files and other data: ``share/NAME`` of an installation, or the source folder.
         prefix: Installation prefix; for a source folder, the folder that contains it.
         origin: ``"installed"``, ``"source"`` or ``"builtin"``.
+        source: The source folder; None if there is none.
     """
 
     name: str
     share: Path
     prefix: Path
     origin: str
+    source: Path | None = None
 
 
 def find_package(name: str) -> Package:
@@ -70,12 +81,12 @@ def candidates(name: str) -> Iterator[Package]:
     for prefix in listed("AMENT_PREFIX_PATH"):
         if is_file(prefix / _INDEX / name) or is_file(prefix / "share" / name / "package.xml"):
             yield Package(name, prefix / "share" / name, prefix, "installed")
-    for folder in _all_source_folders():
+    for folder in source_roots():
         source = _below(folder).get(name)
         if source is None and folder in listed(_SOURCES) and is_dir(folder / name):
             source = folder / name  # A folder specified by the user may contain packages without a manifest.
         if source is not None:
-            yield Package(name, source, source.parent, "source")
+            yield Package(name, share_of_source(source, name), source.parent, "source", source)
     if name in builtin.names():
         yield Package(name, builtin.share(name), builtin.share(name).parent, "builtin")
 
@@ -86,7 +97,7 @@ def package_names() -> list[str]:
     for prefix in listed("AMENT_PREFIX_PATH"):
         index = prefix / _INDEX
         found |= {marker.name for marker in index.iterdir()} if is_dir(index) else set()
-    for folder in _all_source_folders():
+    for folder in source_roots():
         found |= {package_name(package) for package in crawl(folder, _MAX_DEPTH)}
     return sorted(found)
 
@@ -113,7 +124,8 @@ def use_sources_near(*paths: Path) -> None:
     os.environ[_SOURCES] = os.pathsep.join(dict.fromkeys([*known, *found]))
 
 
-def _all_source_folders() -> list[Path]:
+def source_roots() -> list[Path]:
+    """Return the folders that are searched for source folders of packages."""
     near = [Path.cwd()]
     if sys.argv and sys.argv[0].endswith(".py"):
         near.append(resolved(sys.argv[0]).parent)

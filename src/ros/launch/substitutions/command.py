@@ -79,7 +79,9 @@ class Command(Substitution):
         result = _run([program, *words[1:]], capture=on_stderr == "capture")
         stderr = result.stderr or ""
         if result.returncode != 0:
-            message = f"executed command failed. Command: {text}"
+            # The last line says what is wrong; a traceback comes before it.
+            last = next((line.strip() for line in reversed(stderr.splitlines()) if line.strip()), "")
+            message = f"{f'{last}: ' if last else ''}executed command failed. Command: {text}"
             raise SubstitutionFailure(f"{message}\nCaptured stderr output: {stderr}" if stderr else message)
         if stderr and on_stderr == "fail":
             raise SubstitutionFailure(

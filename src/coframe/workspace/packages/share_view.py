@@ -1,0 +1,106 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The share folder that a source folder would have after its installation, as a folder of links.
+
+``install(DIRECTORY description/urdf DESTINATION share/my_robot)`` makes ``share/my_robot/urdf``, which launch files and
+URDF files use. For such packages there is a folder in the user's cache with links to the sources; what is edited there
+is used at once.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import functools
+import hashlib
+import json
+import os
+import shutil
+import tempfile
+from pathlib import Path, PurePosixPath
+
+from coframe.workspace.packages._install_rules import installed_files
+
+__all__ = ["share_of_source", "source_of"]
+
+_sources: dict[Path, Path] = {}  # the source folder of each folder of links
+
+
+@functools.cache
+def share_of_source(package: Path, name: str) -> Path:
+    """Return the share folder of a source folder: itself, or a folder of links if files are installed elsewhere.
+
+    Args:
+        package: The source folder.
+        name: Name of the package.
+    """
+    moved = {
+        relative: source
+        for relative, source in installed_files(package, name).items()
+        if source.absolute() != (package / relative).absolute()
+    }
+    if not moved or os.name != "posix":  # Links need special rights on Windows.
+        return package
+    links = _links(package, moved)
+    key = hashlib.sha256(json.dumps(links, sort_keys=True).encode()).hexdigest()[:16]
+    folder = _cache() / "share" / key / name
+    if not folder.is_dir():
+        try:
+            _make(folder, links)
+        except OSError:  # The cache cannot be written.
+            return package
+    _sources[folder] = package
+    return folder
+
+
+def source_of(share: Path) -> Path:
+    """Return the source folder to which the links in a share folder lead; the folder itself if it has none."""
+    return _sources.get(share, share)
+
+
+def _links(package: Path, moved: dict[str, Path]) -> dict[str, str]:
+    """Return the target of each link by its path in the share folder: the installed files, then those of the sources.
+
+    A folder that contains an installed file is a folder of links itself.
+    """
+    links = {relative: str(source.absolute()) for relative, source in moved.items()}
+    for relative, source in sorted(moved.items()):
+        for parent in list(PurePosixPath(relative).parents)[:-1]:
+            # The other files of the folder: those of another rule for the same folder, then those of the sources.
+            for origin in (moved.get(str(parent)), package / parent):
+                _add_contents(links, str(parent), origin)
+            links.pop(str(parent), None)
+        if source.is_dir() and (package / relative).is_dir():
+            del links[relative]
+            _add_contents(links, relative, source)
+            _add_contents(links, relative, package / relative)
+    _add_contents(links, "", package)
+    return links
+
+
+def _add_contents(links: dict[str, str], relative: str, origin: Path | None) -> None:
+    if origin is None or not origin.is_dir():
+        return
+    for each in sorted(origin.iterdir()):
+        path = f"{relative}/{each.name}" if relative else each.name
+        if not any(other == path or other.startswith(f"{path}/") for other in links):
+            links[path] = str(each.absolute())
+
+
+def _make(folder: Path, links: dict[str, str]) -> None:
+    """Make the folder in one step, so that other processes see all of it or nothing."""
+    folder.parent.parent.mkdir(parents=True, exist_ok=True, mode=0o700)
+    part = Path(tempfile.mkdtemp(dir=folder.parent.parent, prefix=".part-"))
+    try:
+        for relative, target in links.items():
+            link = part / folder.name / relative
+            link.parent.mkdir(parents=True, exist_ok=True)
+            link.symlink_to(target)
+        with contextlib.suppress(FileExistsError):
+            folder.parent.mkdir()
+        with contextlib.suppress(OSError):  # Another process was faster.
+            (part / folder.name).rename(folder)
+    finally:
+        shutil.rmtree(part, ignore_errors=True)
+
+
+def _cache() -> Path:
+    return Path(os.environ.get("XDG_CACHE_HOME") or Path("~", ".cache").expanduser()) / "coframe"

@@ -1,0 +1,140 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Source folders of packages look as they would after their installation."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from coframe.workspace.packages.executables import module_folders
+from coframe.workspace.packages.finding import find_package
+
+pytestmark = pytest.mark.skipif(os.name != "posix", reason="the folders consist of links")
+
+
+@pytest.fixture
+def package(tmp_path, monkeypatch):
+    """Return a function that writes the files of a package and returns its share folder."""
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    monkeypatch.setenv("COFRAME_PACKAGE_PATH", str(tmp_path / "src"))
+
+    def write(name, files):
+        for path, text in {"package.xml": f"<package><name>{name}</name></package>", **files}.items():
+            file = tmp_path / "src" / name / path
+            file.parent.mkdir(parents=True, exist_ok=True)
+            file.write_text(text)
+        return find_package(name).share
+
+    return write
+
+
+def test_folders_and_files_that_cmake_installs_elsewhere(package):
+    share = package(
+        "arm_one",
+        {
+            "CMakeLists.txt": "project(arm_one)\n"
+            "install(DIRECTORY description/urdf bringup/launch DESTINATION share/${PROJECT_NAME})\n"
+            'install(FILES extra/one.yaml "extra/two.yaml" DESTINATION share/arm_one/config) # a comment\n'
+            "install(DIRECTORY meshes/ DESTINATION share/${PROJECT_NAME}/parts PATTERN x EXCLUDE)\n"
+            "install(TARGETS node DESTINATION lib/${PROJECT_NAME})\n"
+            "install(DIRECTORY ../../.. DESTINATION share/arm_one/outside)\n",
+            "description/urdf/arm.urdf": "<robot/>",
+            "bringup/launch/go.launch.py": "",
+            "extra/one.yaml": "1",
+            "extra/two.yaml": "2",
+            "config/three.yaml": "3",
+            "meshes/a.stl": "a",
+        },
+    )
+    assert (share / "urdf/arm.urdf").read_text() == "<robot/>"
+    assert (share / "launch/go.launch.py").is_file()
+    assert sorted(each.name for each in (share / "config").iterdir()) == ["one.yaml", "three.yaml", "two.yaml"]
+    assert (share / "parts/a.stl").read_text() == "a"
+    assert not (share / "outside").exists()
+    assert (share / "description/urdf/arm.urdf").is_file(), "the source folders are there too"
+    assert find_package("arm_one").share == share
+
+
+def test_data_files_of_setup_py(package):
+    share = package(
+        "legs",
+        {
+            "setup.py": "import os\nfrom glob import glob\nfrom setuptools import setup\npackage_name = 'legs'\n"
+            "setup(name=package_name, data_files=[('share/' + package_name, ['package.xml']),\n"
+            "  (os.path.join('share', package_name, 'config'), glob(os.path.join('data', '*.yaml'))),\n"
+            "  (f'share/{package_name}/launch', glob('starts/*.launch.py') + ['more/b.launch.py'])])\n",
+            "data/gait.yaml": "trot",
+            "starts/a.launch.py": "",
+            "more/b.launch.py": "",
+        },
+    )
+    assert (share / "config/gait.yaml").read_text() == "trot"
+    assert sorted(each.name for each in (share / "launch").iterdir()) == ["a.launch.py", "b.launch.py"]
+    assert (share / "package.xml").is_file()
+
+
+def test_a_package_that_installs_its_folders_as_they_are_is_its_own_share_folder(package, tmp_path):
+    share = package(
+        "base",
+        {"CMakeLists.txt": "install(DIRECTORY urdf DESTINATION share/${PROJECT_NAME})", "urdf/base.urdf": "<robot/>"},
+    )
+    assert share == tmp_path / "src/base"
+    assert not (tmp_path / "cache").exists()
+
+
+def test_launch_files_import_the_modules_of_the_workspace(package, tmp_path):
+    package(
+        "helpers",
+        {"helpers/__init__.py": "GREETING = 'hello from helpers'", "CMakeLists.txt": "project(helpers)"},
+    )
+    package(
+        "bringup",
+        {
+            "CMakeLists.txt": "project(bringup)\ninstall(DIRECTORY files/launch DESTINATION share/${PROJECT_NAME})",
+            "files/launch/go.launch.py": "from helpers import GREETING\nfrom launch import LaunchDescription\n"
+            "from launch.actions import LogInfo, ExecuteProcess\n"
+            "from launch.substitutions import EnvironmentVariable\n"
+            "def generate_launch_description():\n"
+            "    return LaunchDescription([LogInfo(msg=[GREETING, ' on ', EnvironmentVariable('ROS_DISTRO')])])\n",
+        },
+    )
+    package("tf2_ros", {"tf2_ros/__init__.py": "raise RuntimeError('not this one')"})
+    environment = {name: value for name, value in os.environ.items() if name not in {"ROS_DISTRO", "COFRAME_DISTRO"}}
+    done = subprocess.run(
+        [sys.executable, "-m", "coframe.cli", "launch", "bringup", "go.launch.py"],
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=60,
+        cwd=tmp_path,
+        env={**environment, "ROS_LOG_DIR": str(tmp_path / "log")},
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert "hello from helpers on jazzy" in done.stdout
+    assert [Path(each).name for each in module_folders()] == ["helpers"]
+
+
+def test_a_failing_command_begins_with_its_last_line():
+    from launch import LaunchContext
+    from launch.substitutions import Command, SubstitutionFailure
+
+    program = "import sys; print('a\\nthe file is missing', file=sys.stderr); sys.exit(1)"
+    with pytest.raises(SubstitutionFailure, match=r"^the file is missing: executed command failed. Command: "):
+        Command([sys.executable, f' -c "{program}"']).perform(LaunchContext())
+
+
+def test_package_urls_follow_the_installation(package, tmp_path):
+    from coframe.robots import load
+
+    package(
+        "arm_two",
+        {
+            "CMakeLists.txt": "project(arm_two)\ninstall(DIRECTORY description/urdf DESTINATION share/${PROJECT_NAME})",
+            "description/urdf/part.xacro": '<robot xmlns:xacro="http://ros.org/xacro"><link name="inner"/></robot>',
+            "description/urdf/arm.urdf.xacro": '<robot name="arm" xmlns:xacro="http://ros.org/xacro">'
+            '<xacro:include filename="$(find arm_two)/urdf/part.xacro"/></robot>',
+        },
+    )
+    assert load(tmp_path / "src/arm_two/description/urdf/arm.urdf.xacro").root == "inner"
