@@ -344,19 +344,20 @@ void define_readers(nb::module_& wire) {
            "Store the transforms of one serialized message without the GIL.");
   define_store_properties<TransformStore>(store, [](auto& self) -> auto& { return self; });
 
-  nb::class_<PyEndpointReader>(wire, "EndpointReader", "The writers or readers found by DDS discovery.")
+  nb::class_<PyEndpointReader>(wire, "EndpointReader", "The writers, readers or participants found by DDS discovery.")
       .def(nb::init<dds::Entity, dds::Entity, std::shared_ptr<Event>>(), nb::arg("participant"), nb::arg("topic"),
            nb::arg("on_change"), ReleaseGil())
       .def("take", &take_endpoints,
            "Return the changes: tuples (handle, alive, guid, participant's guid, topic, type, "
            "(depth, reliable, transient_local, keep_all, manual_liveliness, deadline, lifespan, lease), user data, "
-           "partitions). An endpoint that is not alive has only the handle and the guid.")
+           "partitions). Those that are not alive have only the handle and the guid.")
       .def("close", &PyEndpointReader::close, ReleaseGil());
   wire.attr("DEADLINE_MISSED") = static_cast<std::size_t>(StatusEvents::kDeadlineMissed);
   wire.attr("LIVELINESS") = static_cast<std::size_t>(StatusEvents::kLiveliness);
   wire.attr("INCOMPATIBLE_QOS") = static_cast<std::size_t>(StatusEvents::kIncompatibleQos);
   wire.attr("MATCHED") = static_cast<std::size_t>(StatusEvents::kMatched);
   wire.attr("SAMPLE_LOST") = static_cast<std::size_t>(StatusEvents::kSampleLost);
+  wire.attr("PARTICIPANTS") = dds::kParticipantTopic;
   wire.attr("PUBLICATIONS") = dds::kPublicationTopic;
   wire.attr("SUBSCRIPTIONS") = dds::kSubscriptionTopic;
 }

@@ -51,6 +51,12 @@ struct BuiltinEndpoint {
   const Qos* qos;
 };
 
+// dds_builtintopic_participant_t
+struct BuiltinParticipant {
+  Guid key;
+  const Qos* qos;
+};
+
 struct MatchedStatus {
   std::uint32_t total_count;
   std::int32_t total_count_change;
@@ -117,6 +123,7 @@ using DataCallback = void (*)(Entity reader, void* argument);
 template <class Status>
 using StatusCallback = void (*)(Entity, Status, void* argument);
 
+inline constexpr Entity kParticipantTopic = 0x7fff0001;   // DDS_BUILTIN_TOPIC_DCPSPARTICIPANT
 inline constexpr Entity kPublicationTopic = 0x7fff0003;   // DDS_BUILTIN_TOPIC_DCPSPUBLICATION
 inline constexpr Entity kSubscriptionTopic = 0x7fff0004;  // DDS_BUILTIN_TOPIC_DCPSSUBSCRIPTION
 

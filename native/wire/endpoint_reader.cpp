@@ -71,10 +71,20 @@ EndpointChange read_change(const dds::BuiltinEndpoint& endpoint, const dds::Samp
           .user_data = read_user_data(endpoint.qos)};
 }
 
+EndpointChange read_change(const dds::BuiltinParticipant& participant, const dds::SampleInfo& info) {
+  const bool alive = info.valid_data && info.instance_state == dds::kAliveInstance;
+  EndpointChange change{.handle = info.instance_handle, .alive = alive, .guid = participant.key};
+  if (alive) {
+    change.participant = participant.key;
+    change.user_data = read_user_data(participant.qos);
+  }
+  return change;
+}
+
 }  // namespace
 
 EndpointReader::EndpointReader(dds::Entity participant, dds::Entity topic, std::shared_ptr<Event> on_change)
-    : event_(std::move(on_change)), reader_(participant, topic, nullptr, &EndpointReader::on_data, this) {
+    : topic_(topic), event_(std::move(on_change)), reader_(participant, topic, nullptr, &EndpointReader::on_data, this) {
   event_->set();
 }
 
@@ -88,7 +98,9 @@ std::vector<EndpointChange> EndpointReader::take() {
     const dds::Code count = dds::functions().dds_take(reader_.entity(), samples, info, dds::kBatch, dds::kBatch);
     if (count <= 0) return changes;
     for (dds::Code i = 0; i < count; ++i) {
-      changes.push_back(read_change(*static_cast<const dds::BuiltinEndpoint*>(samples[i]), info[i]));
+      changes.push_back(topic_ == dds::kParticipantTopic
+                            ? read_change(*static_cast<const dds::BuiltinParticipant*>(samples[i]), info[i])
+                            : read_change(*static_cast<const dds::BuiltinEndpoint*>(samples[i]), info[i]));
     }
     dds::functions().dds_return_loan(reader_.entity(), samples, count);
   }

@@ -836,6 +836,7 @@ def samples_of(buffer: Buffer, child: str) -> tuple[bytes, bytes, bytes, list[st
         the names.
     """
 
+PARTICIPANTS: int
 PUBLICATIONS: int
 SUBSCRIPTIONS: int
 
@@ -1130,7 +1131,7 @@ class TransformStore:
         """When the transforms of the newest message were stored, in nanoseconds of the steady clock; 0 if never."""
 
 class EndpointReader:
-    """The writers (PUBLICATIONS) or readers (SUBSCRIPTIONS) found by DDS discovery."""
+    """The writers (PUBLICATIONS), readers (SUBSCRIPTIONS) or participants (PARTICIPANTS) found by DDS discovery."""
 
     def __init__(self, participant: int, topic: int, on_change: Event) -> None: ...
     def take(
@@ -1138,8 +1139,8 @@ class EndpointReader:
     ) -> list[tuple[int, bool, bytes, bytes, str, str, tuple[int, bool, bool, bool], bytes, tuple[str, ...]]]:
         """Return the changes.
 
-        They are (handle, alive, guid, participant's guid, topic, type, QoS policies, user data, partitions). An
-        endpoint that is not alive has only the handle and the guid.
+        They are (handle, alive, guid, participant's guid, topic, type, QoS policies, user data, partitions). Those
+        that are not alive have only the handle and the guid. Participants have no topic, type and QoS.
         """
 
     def close(self) -> None: ...

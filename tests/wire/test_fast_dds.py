@@ -214,6 +214,54 @@ def test_history_arrives_when_its_writer_is_discovered(run):
     )
 
 
+def test_endpoints_are_discovered_on_both_sides_without_waiting_for_a_heartbeat(run):
+    """Fast DDS sends heartbeats before Cyclone DDS knows it, and repeats them after 1 s."""
+    errors = run(
+        HISTORY
+        + textwrap.dedent("""
+        fast = FastDds(domain_id())
+        fast.ask("guid", "writer", TOPIC, TYPE, "transient")
+        fast.ask("guid", "reader", "rt/answers", TYPE, "transient")
+        times = []
+        for _ in range(5):
+            begun = time.monotonic()
+            participant, subscription = join()
+            publisher = participant.publisher(participant.add_node("/", "talker"), "/answers", text, LATCHED)
+            publisher.write(DATA)
+            eventually(lambda: participant.publishers("/map_name"))
+            assert fast.read("received")[0] == "rt/answers"
+            times.append(time.monotonic() - begun)
+            participant.close()
+            eventually(lambda: fast.ask("matched", "matched", "rt/answers") == ["0"])
+        assert sorted(times)[2] < 0.8, times
+        """)
+    )
+    assert "malformed" not in errors
+
+
+def test_lists_wait_for_the_nodes_of_discovered_processes(run):
+    run(
+        HISTORY
+        + textwrap.dedent("""
+        from click.testing import CliRunner
+        from coframe.cli.app import app
+        named, silent = FastDds(domain_id()), FastDds(domain_id())
+        guid = named.ask("guid", "writer", TOPIC, TYPE, "transient")
+        named.announce("map_server", writers=[guid])
+        result = CliRunner().invoke(app, ["node", "list"])
+        assert (result.exit_code, result.stdout) == (0, "/map_server\\n"), result.output
+        assert result.stderr.splitlines() == [
+            "Waiting for the nodes of 1 process (Fast DDS).",
+            "coframe: The nodes of 1 process (Fast DDS) are still unknown after 3 s, so they are not listed.",
+        ]
+        silent.process.kill()
+        silent.process.wait()
+        result = CliRunner().invoke(app, ["topic", "info", "-v", "/map_name"])
+        assert "Node name: map_server" in result.stdout
+        """)
+    )
+
+
 def test_history_of_a_node_that_starts_later_arrives_at_once(run):
     run(
         HISTORY

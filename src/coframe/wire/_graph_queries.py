@@ -28,6 +28,10 @@ class GraphQueries:
         """Return the (namespace, name) of every node on the graph, including the nodes of this process."""
         return self._graph.nodes()
 
+    def unnamed_participants(self) -> list[str]:
+        """Return the middlewares of processes that have been discovered but have not published their nodes yet."""
+        return self._graph.unnamed_participants()
+
     def topics(self) -> dict[str, list[str]]:
         """Return the topics and their ROS types: {"/tf": ["tf2_msgs/msg/TFMessage"]}."""
         return self._graph.types(("topic",))

@@ -126,6 +126,10 @@ class Graph:
                 self._version += 1
             return self._version
 
+    def unnamed_participants(self) -> list[str]:
+        """Return the middlewares of processes that have been discovered but have not published their nodes yet."""
+        return []
+
     def nodes(self) -> list[tuple[str, str]]:
         """Return the (namespace, name) of every node."""
         self.refresh()

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import contextlib
 import os
+import sys
 import time
 from typing import TYPE_CHECKING, Any, NoReturn
 
@@ -25,6 +26,8 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator
 
     from rclpy.node import Node
+
+    from coframe.wire.participant import Participant
 
 __all__ = [
     "AT_ONCE",
@@ -101,7 +104,8 @@ def graph_node(
     """Run a hidden node for the duration of a command, and wait for the discovery of other nodes.
 
     Args:
-        spin_time: How long to wait for discovery.
+        spin_time: How long to wait for discovery. Unless it is 0, the command then waits for the nodes of processes
+            that have been discovered without them.
         use_sim_time: Whether the clock of the node follows ``/clock``.
         name: Name of the node; a hidden name with the process ID by default.
     """
@@ -122,9 +126,12 @@ def graph_node(
                 start_parameter_services=False,
                 parameter_overrides=[Parameter("use_sim_time", value=use_sim_time)],
             )
-            if (participant := getattr(node, "_Coframe__participant", None)) is not None:  # not in a sourced ROS
+            participant = getattr(node, "_Coframe__participant", None)  # None in a sourced ROS
+            if participant is not None:
                 participant.on_warning(_warn)
             time.sleep(spin_time.seconds)
+            if participant is not None and spin_time.seconds > 0:
+                _wait_for_nodes(participant)
             yield node
         except (RuntimeError, ValueError) as error:
             if isinstance(error, (CoframeError, Exit)):
@@ -136,6 +143,21 @@ def graph_node(
             if node is not None:
                 node.destroy_node()
             rclpy.try_shutdown()
+
+
+def _wait_for_nodes(participant: Participant) -> None:
+    """Wait for the nodes of processes that have been discovered, at most for PATIENCE."""
+    if not (unnamed := participant.unnamed_participants()):
+        return
+    print(f"Waiting for the nodes of {_processes(unnamed)}.", file=sys.stderr)
+    if not wait_until(lambda: not participant.unnamed_participants()):
+        unnamed = participant.unnamed_participants()
+        warn(f"The nodes of {_processes(unnamed)} are still unknown after {PATIENCE:g} s, so they are not listed.")
+
+
+def _processes(middlewares: list[str]) -> str:
+    count = "1 process" if len(middlewares) == 1 else f"{len(middlewares)} processes"
+    return f"{count} ({', '.join(sorted(set(middlewares)))})"
 
 
 def _warn(text: str) -> None:

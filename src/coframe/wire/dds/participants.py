@@ -41,13 +41,18 @@ def join(domain: int, xml: str, user_data: str) -> _core.DomainParticipant:
         ) from error
 
 
-def participant_indexes(domain: int) -> tuple[int, int]:
-    """Return the number of participant indexes of `domain` in use on this machine, and the total number.
+def discovery_ports(domain: int) -> range:
+    """Return the UDP ports for discovery that RTPS assigns to the participant indexes of `domain` on a machine.
 
-    RTPS assigns UDP ports to each index; in high domains, they end at the last port.
+    Those of high domains end at the last port.
     """
     first = 7400 + 250 * domain + 10
-    ports = range(first, min(first + 2 * config.MAX_PARTICIPANT_INDEX, 65535) + 1, 2)
+    return range(first, min(first + 2 * config.MAX_PARTICIPANT_INDEX, 65535) + 1, 2)
+
+
+def participant_indexes(domain: int) -> tuple[int, int]:
+    """Return the number of participant indexes of `domain` in use on this machine, and the total number."""
+    ports = discovery_ports(domain)
     used = 0
     for port in ports:
         with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:

@@ -9,6 +9,7 @@ from coframe import _core
 from coframe.errors import WireError
 from coframe.wire.dds import config, library, participants
 from coframe.wire.dds._announcements import Announcements, participant_user_data
+from coframe.wire.dds._discovery_requests import DiscoveryRequests
 from coframe.wire.dds._history import HistoryRequests
 from coframe.wire.dds.topics import create_topic
 from coframe.wire.qos import GRAPH_READER, GRAPH_WRITER, QoS
@@ -70,7 +71,9 @@ class DdsSession:
             ),
             _core.EndpointReader(participant, _core.PUBLICATIONS, changed),
             _core.EndpointReader(participant, _core.SUBSCRIPTIONS, changed),
+            _core.EndpointReader(participant, _core.PARTICIPANTS, changed),
         )
+        self._discovery = DiscoveryRequests(self.native.guid, domain, self.graph)
         self._history = HistoryRequests(self.native, self.graph)
 
     def writer(
@@ -147,10 +150,11 @@ class DdsSession:
     def repeat_announcement(self) -> int:
         """Announce this process again if the network may have lost the first announcements."""
         self._announcer.repeat()
-        return min(self._announcements.send_due(), self._history.update())
+        return min(self._announcements.send_due(), self._discovery.update(), self._history.update())
 
     def adapt(self) -> str:
-        """Publish the nodes of this process in the form that the other participants can read, and request history."""
+        """Publish the nodes of this process in the form that the other participants can read, and request what they have."""
+        self._discovery.update()
         self._history.update()
         return self._announcer.adapt(self.graph)
 

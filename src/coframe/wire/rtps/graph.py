@@ -19,11 +19,12 @@ if TYPE_CHECKING:
 MAX_DEPARTED_WRITERS = 1_000  # remembered after they have left, because their requests may still be queued
 
 _BATCH = 256  # messages
+_ENCLAVE = b"enclave="  # in the user data of every participant of ROS
 _HIDDEN = REQUESTS_HISTORY.encode()
 
 
 class EndpointReader(Protocol):
-    """Receives the writers or the readers that DDS discovery finds, including those of this process."""
+    """Receives the writers, readers or participants that DDS discovery finds, including those of this process."""
 
     def take(self) -> list[tuple[Any, ...]]:
         """Return the changes since the last call; see `_core.EndpointReader.take`."""
@@ -39,22 +40,30 @@ class DdsGraph(Graph):
         info_reader: Receives the messages of the topic ros_discovery_info.
         writer_reader: Receives the writers found by discovery.
         reader_reader: Receives the readers found by discovery.
+        participant_reader: Receives the participants found by discovery. If None, `unnamed_participants` is empty.
     """
 
     def __init__(
-        self, info_reader: BackendReader, writer_reader: EndpointReader, reader_reader: EndpointReader
+        self,
+        info_reader: BackendReader,
+        writer_reader: EndpointReader,
+        reader_reader: EndpointReader,
+        participant_reader: EndpointReader | None = None,
     ) -> None:
         super().__init__()
         self._info_reader = info_reader
         self._writer_reader = writer_reader
         self._reader_reader = reader_reader
+        self._participant_reader = participant_reader
+        self._participants: dict[int, tuple[bytes, bool]] = {}  # by handle: the GUID, and whether it is one of ROS
         self._gid_sizes: dict[bytes, int] = {}  # by participant
         self._departed: OrderedDict[int, bytes] = OrderedDict()  # writers that send requests in another form
 
     def close(self) -> None:
         """Close the discovery readers. The state remains available."""
-        for reader in (self._info_reader, self._writer_reader, self._reader_reader):
-            reader.close()
+        for reader in (self._info_reader, self._writer_reader, self._reader_reader, self._participant_reader):
+            if reader is not None:
+                reader.close()
 
     def foreign_services(self, guid: bytes) -> str:
         """Return the DDS implementation of an endpoint if it sends requests in another form; "" if not."""
@@ -85,6 +94,18 @@ class DdsGraph(Graph):
                     found.setdefault(size, []).extend(names.full_name(node.namespace, node.name) for node in nodes)
         return found
 
+    def participants(self) -> set[bytes]:
+        """Return the GUIDs of all participants, without processing discovery messages."""
+        with self._lock:
+            return {guid for guid, _ in self._participants.values()}
+
+    def unnamed_participants(self) -> list[str]:
+        """Return the DDS implementations of the participants of ROS whose nodes are not known yet."""
+        self.refresh()
+        with self._lock:
+            guids = [guid for guid, is_ros in self._participants.values() if is_ros and guid not in self._nodes]
+        return [vendors.vendor(guid) or vendors.unknown_vendor(guid) for guid in guids]
+
     def all_writers(self) -> dict[int, DiscoveredEndpoint]:
         """Return the writers of all topics by their handles, without processing discovery messages."""
         with self._lock:
@@ -104,6 +125,7 @@ class DdsGraph(Graph):
         changed = self._take_info()
         changed |= self._take_endpoints(self._writer_reader, self._writers)
         changed |= self._take_endpoints(self._reader_reader, self._readers)
+        changed |= self._take_participants()
         if changed:
             self._remove_departed()
         return changed
@@ -139,6 +161,15 @@ class DdsGraph(Graph):
                 if len(self._departed) > MAX_DEPARTED_WRITERS:
                     self._departed.popitem(last=False)
         return changed
+
+    def _take_participants(self) -> bool:
+        changes = [] if self._participant_reader is None else self._participant_reader.take()
+        for handle, alive, guid, *_, user_data, _ in changes:
+            if alive:
+                self._participants[handle] = guid, _ENCLAVE in user_data
+            else:
+                self._participants.pop(handle, None)
+        return bool(changes)
 
     def _remove_departed(self) -> None:
         participants = {writer.participant for writer in self._writers.values() if writer.topic == TOPIC}
