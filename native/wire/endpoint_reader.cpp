@@ -84,7 +84,9 @@ EndpointChange read_change(const dds::BuiltinParticipant& participant, const dds
 }  // namespace
 
 EndpointReader::EndpointReader(dds::Entity participant, dds::Entity topic, std::shared_ptr<Event> on_change)
-    : topic_(topic), event_(std::move(on_change)), reader_(participant, topic, nullptr, &EndpointReader::on_data, this) {
+    : topic_(topic),
+      event_(std::move(on_change)),
+      reader_(participant, topic, nullptr, &EndpointReader::on_data, this) {
   event_->set();
 }
 

@@ -25,9 +25,8 @@ from coframe.errors import CoframeError
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator
 
-    from rclpy.node import Node
-
     from coframe.wire.participant import Participant
+    from rclpy.node import Node
 
 __all__ = [
     "AT_ONCE",

@@ -32,7 +32,7 @@ _LOOPBACK_SIZES = "<MaxMessageSize>65000B</MaxMessageSize><FragmentSize>64000B</
 # guaranteed to arrive only on the loopback interface: another interface can disappear.
 _LOOPBACK_THREADS = "<MultipleReceiveThreads>true</MultipleReceiveThreads>"
 
-# A reader that has requested a lost message repeats the request after 3 s, also if the writer has not received it. On the
+# A reader that has requested a lost message requests it again after 3 s if the writer does not respond. On the
 # loopback interface, responses take less than 1 ms, except those of Fast DDS about its endpoints, which take 100 ms
 # (see _discovery_requests).
 _LOOPBACK_REQUESTS = "<AutoReschedNackDelay>110ms</AutoReschedNackDelay>"

@@ -153,7 +153,7 @@ class DdsSession:
         return min(self._announcements.send_due(), self._discovery.update(), self._history.update())
 
     def adapt(self) -> str:
-        """Publish the nodes of this process in the form that the other participants can read, and request what they have."""
+        """Publish the nodes of this process in the form that the others can read, and request what they have."""
         self._discovery.update()
         self._history.update()
         return self._announcer.adapt(self.graph)
