@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bindings/transform.hpp"
 
+#include <cmath>
 #include <new>
 
 #include "bindings/bindings.hpp"
@@ -139,6 +140,45 @@ bool read_transform(PyObject* object, GivenTransform& given) {
 
 namespace {
 
+bool is_same(PyObject* a, PyObject* b) {
+  if (a == b) return true;
+  const int same = PyObject_RichCompareBool(a, b, Py_EQ);
+  if (same < 0) throw nb::python_error();
+  return same == 1;
+}
+
+void normalize_rotation(Pose& pose) {
+  const double scale = 1.0 / std::sqrt(dot(pose.q, pose.q));
+  for (double& number : pose.q) number *= scale;
+}
+
+nb::object made_transform(const Pose& pose, bool has_stamp, Stamp stamp, PyObject* target, PyObject* source) {
+  return has_stamp ? make_transform(pose, stamp, target, source) : make_transform(pose, target, source);
+}
+
+// Composes two single transforms without covariances; None for others, and if the inner frames differ.
+nb::object compose_single(nb::handle a, nb::handle b) {
+  GivenTransform first, second;
+  if (!read_transform(a.ptr(), first) || !read_transform(b.ptr(), second)) return nb::none();
+  if (first.source != Py_None && second.target != Py_None && !is_same(first.source, second.target)) return nb::none();
+  Pose pose = second.pose;
+  compose(first.pose, pose);
+  normalize_rotation(pose);
+  // Two different stamps leave none.
+  const bool has_stamp = first.has_stamp != second.has_stamp || (first.has_stamp && first.stamp == second.stamp);
+  return made_transform(pose, has_stamp, first.has_stamp ? first.stamp : second.stamp, first.target, second.source);
+}
+
+// Inverts a single transform without covariance; None for others.
+nb::object invert_single(nb::handle transform) {
+  GivenTransform given;
+  if (!read_transform(transform.ptr(), given)) return nb::none();
+  Pose pose;
+  compose_inverse(given.pose, pose);
+  normalize_rotation(pose);
+  return made_transform(pose, given.has_stamp, given.stamp, given.source, given.target);
+}
+
 // CPython adds garbage collection to every class defined in Python, and a destructor for what such a class may add.
 // This one adds nothing (__slots__ = ()) and cannot be part of a reference cycle: both are removed before the first
 // instance exists, which halves the time of a lookup.
@@ -169,6 +209,10 @@ void define_transform(nb::module_& module) {
         transform_class = reinterpret_cast<PyTypeObject*>(cls.release().ptr());
       },
       nb::arg("cls"), "Register the class of lookup results, a subclass of Transform with __slots__ = ().");
+  module.def("compose_single", &compose_single, nb::arg("a"), nb::arg("b"),
+             "Compose two single transforms; None for batches, covariances and different inner frames.");
+  module.def("invert_single", &invert_single, nb::arg("transform"),
+             "Invert a single transform; None for batches and covariances.");
   module.def(
       "new_transform",
       [](nb::args values) {

@@ -556,6 +556,12 @@ def new_transform(
 ) -> PublicTransform:
     """Return a transform of the registered class with exactly these values."""
 
+def compose_single(a: Transform, b: Transform) -> PublicTransform | None:
+    """Compose two single transforms without covariances; None for others, and if the inner frames differ."""
+
+def invert_single(transform: Transform) -> PublicTransform | None:
+    """Invert a single transform without covariance; None for others."""
+
 def compose_batches(a: tuple[Any, Any], b: tuple[Any, Any], inverse: bool, out: Any) -> None:
     """Write a b, or a^-1 b, to `out`, (n, 7) float64: x, y, z, qx, qy, qz, qw.
 

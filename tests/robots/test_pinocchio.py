@@ -2,6 +2,8 @@
 """Kinematics of real robots, compared with Pinocchio. `make test-slow` installs both."""
 
 import importlib.metadata
+import re
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -66,5 +68,27 @@ def test_a_hundred_configurations_agree_with_pinocchio(path):
                 model, data, q, frames[some][0], pinocchio.ReferenceFrame.LOCAL_WORLD_ALIGNED
             )
             columns = [model.joints[model.getJointId(name)].idx_v for name in robot.free_joints]
-            computed = robot.jacobian(some, {name: values[i] for name, values in positions.items()})
+            given = {name: values[i] for name, values in positions.items()}
+            computed = robot.jacobian(some, given)
             np.testing.assert_allclose(computed, jacobian[:, columns], rtol=0, atol=1e-12)
+            local = pinocchio.computeFrameJacobian(model, data, q, frames[some][0], pinocchio.ReferenceFrame.LOCAL)
+            point = np.array([0.1, -0.2, 0.3])
+            moved = pinocchio.SE3(np.eye(3), point).inverse().action @ local  # of a frame at the point
+            computed = robot.jacobian(some, given, point=point, expressed_in=some)
+            np.testing.assert_allclose(computed, moved[:, columns], rtol=0, atol=1e-12)
+
+
+@pytest.mark.parametrize("path", [p for p in robots() if p.stem in {"panda", "ur5_robot", "talos_full_v2"}], ids=str)
+def test_a_robot_is_the_same_in_pinocchio(path):
+    robot = load(path)
+    model = robot.to_pinocchio()
+    assert model.name == robot.name
+    assert set(robot.free_joints) <= set(model.names)
+    assert all(model.existFrame(link) for link in robot.links)
+
+
+def test_the_page_about_pinocchio_says_what_it_does(capsys):
+    page = (Path(__file__).parents[2] / "docs/how-to/pinocchio.md").read_text(encoding="utf-8")
+    source = "\n".join(re.findall(r"```python\n(.*?)```", page, re.DOTALL))
+    exec(compile(source, "pinocchio.md", "exec"), {"__name__": "page"})
+    assert capsys.readouterr().out.splitlines() == re.findall(r"print\(.*\) +# (.*)", source)

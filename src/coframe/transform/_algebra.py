@@ -102,6 +102,8 @@ class TransformAlgebra(TransformValues):
 
     def inverse(self) -> Transform:
         """Return the inverse transform, with target and source exchanged, and its covariance if there is one."""
+        if (single := _core.invert_single(self)) is not None:
+            return single
         rows = np.empty((int(np.prod(self.shape)), 7))
         _core.compose_batches(pose_rows(self, self.shape), _IDENTITY, True, rows)
         found = _of_rows(rows, self.shape, self.source, self.target, any_stamp(self))
@@ -330,6 +332,8 @@ class TransformAlgebra(TransformValues):
         return covariances.Ellipsoid(pose, radii)
 
     def _compose(self, other: Transform) -> Transform:
+        if (single := _core.compose_single(self, other)) is not None:
+            return single
         if self.source is not None and other.target is not None and self.source != other.target:
             raise FrameMismatchException.with_details(
                 f"cannot compose {arrow(self)} with {arrow(other)}: {self.source!r} is not {other.target!r}",
