@@ -13,6 +13,7 @@ from coframe.errors import CoframeError, DecodeError
 from coframe.sensors import project_scan
 from coframe.sensors.layout import field_of
 from coframe.sensors.point_times import TIME_FIELDS, UnknownTimesError, times_in
+from coframe.time import SECOND
 from coframe.type_names import LASER_SCAN, POINT_CLOUD
 
 if TYPE_CHECKING:
@@ -23,11 +24,12 @@ if TYPE_CHECKING:
 __all__ = ["sampled_points"]
 
 _MAX_MESSAGES = 12  # of a topic
-_MAX_POINTS = 3000  # of a message
+_MAX_POINTS = 1500  # of a message
+_WINDOW = 10 * SECOND  # in which the position of a robot hardly drifts
 
 
 def sampled_points(recording: Recording, topic: str, type_: str) -> tuple[ObservedPoints, ...]:
-    """Return the points of some messages of a topic, evenly spread over the recording, without empty messages.
+    """Return the points of some messages from ten seconds in the middle of a topic, without empty messages.
 
     Args:
         recording: The recording.
@@ -37,7 +39,9 @@ def sampled_points(recording: Recording, topic: str, type_: str) -> tuple[Observ
     if type_ not in {LASER_SCAN, POINT_CLOUD}:
         return ()
     stamps = np.unique(recording.stamps(topic))
-    some = stamps[np.unique(np.linspace(0, len(stamps) - 1, _MAX_MESSAGES).astype(np.intp))] if len(stamps) else stamps
+    middle = stamps[len(stamps) // 2 : len(stamps) // 2 + 1]
+    near = stamps[(np.abs(stamps - middle) <= _WINDOW // 2)] if len(stamps) else stamps
+    some = near[np.unique(np.linspace(0, len(near) - 1, _MAX_MESSAGES).astype(np.intp))] if len(near) else near
     sampled = (_sample(recording, topic, stamp, round(usual_period(stamps))) for stamp in some.tolist())
     return tuple(points for points in sampled if points is not None and len(points.points))
 

@@ -33,9 +33,11 @@ __all__ = [
     "Observation",
     "ObservedClock",
     "ObservedEndpoint",
+    "ObservedImu",
     "ObservedJointStates",
     "ObservedLogLine",
     "ObservedPoints",
+    "ObservedPoses",
     "ObservedPositions",
     "Sensor",
     "TopicFacts",
@@ -146,6 +148,27 @@ class ObservedPositions:
 
 
 @dataclass(frozen=True, eq=False)
+class ObservedPoses:
+    """Poses in messages of an odometry topic: (N,) stamps and (N, 7) poses of one frame in another."""
+
+    topic: str
+    frame: str
+    child: str
+    stamp: NDArray[np.int64]
+    values: NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class ObservedImu:
+    """Messages of an IMU: (N, 3) accelerations in m/s^2 and rates of rotation in rad/s, in its frame."""
+
+    topic: str
+    frame: str
+    acceleration: NDArray[np.float64]
+    rates: NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
 class ObservedClock:
     """Simulated time: the arrival times of the messages on /clock, and the times in them; (N,) each."""
 
@@ -192,6 +215,8 @@ class Observation:
         descriptions: The robot descriptions, in the order of arrival.
         joint_states: The joint states, one entry per topic.
         positions: The positions in messages with poses, one entry per topic; recordings only.
+        poses: The poses of odometry topics, one entry per topic; recordings only.
+        imus: The first messages of each IMU; recordings only.
         clock: Simulated time; None without /clock.
         travel: The transport times of the transforms of each publisher, measured with the clocks of two machines; only
         live.
@@ -216,6 +241,8 @@ class Observation:
     descriptions: tuple[str, ...] = ()
     joint_states: tuple[ObservedJointStates, ...] = ()
     positions: tuple[ObservedPositions, ...] = ()
+    poses: tuple[ObservedPoses, ...] = ()
+    imus: tuple[ObservedImu, ...] = ()
     clock: ObservedClock | None = None
     travel: dict[str, NDArray[np.int64]] = field(default_factory=dict)
     log: tuple[ObservedLogLine, ...] = ()

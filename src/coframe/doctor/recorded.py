@@ -22,8 +22,10 @@ from coframe.doctor.observation import (
     Observation,
     ObservedClock,
     ObservedEndpoint,
+    ObservedImu,
     ObservedJointStates,
     ObservedLogLine,
+    ObservedPoses,
     ObservedPositions,
     Sensor,
     TopicFacts,
@@ -46,6 +48,8 @@ __all__ = ["collecting", "observe_recording"]
 
 _MAX_DECODED = 2000  # limit of messages per topic
 _MAX_DESCRIPTIONS = 10
+_UNIT = 5e-3  # how far a quaternion is off length 1 in tf2
+_ODOMETRY, _IMU = "nav_msgs/msg/Odometry", "sensor_msgs/msg/Imu"
 _PARTS, _PART = 20, 25  # parts of a topic that are looked at, and successive messages in each
 _MIN_RATE = 1.0  # Hz; what is published more slowly, such as goals, need not be on one track
 _POSES: dict[str, Callable[[Any], Any]] = {
@@ -113,6 +117,8 @@ def observe_chosen(
                 descriptions=tuple(text for topic, text in facts.descriptions if _belongs(topic, name, collectors)),
                 joint_states=tuple(j for j in facts.joints if _belongs(j.topic, name, collectors)),
                 positions=tuple(p for p in facts.positions if _belongs(p.topic, name, collectors)),
+                poses=tuple(p for p in facts.poses if _belongs(p.topic, name, collectors)),
+                imus=tuple(i for i in facts.imus if _belongs(i.topic, name, collectors)),
                 clock=facts.clock,
                 log=facts.log,
                 cache=cache,
@@ -178,6 +184,8 @@ class _Facts:
             for name in self._of_type({"sensor_msgs/msg/JointState"})
             if (joints := self._joints(name)) is not None
         ]
+        self.poses = [poses for name in self._of_type({_ODOMETRY}) if (poses := self._poses(name)) is not None]
+        self.imus = [imu for name in self._of_type({_IMU}) if (imu := self._imu(name)) is not None]
         self.log = tuple(line for name in self._of_type(_LOGS) for line in self._lines(name))
 
     def _publishers(self, topic: str) -> tuple[ObservedEndpoint, ...]:
@@ -250,6 +258,47 @@ class _Facts:
             return joint_states(topic, stamps, messages)
         except (AttributeError, TypeError, ValueError, OverflowError):
             return None
+
+    def _poses(self, topic: str) -> ObservedPoses | None:
+        """Return the first poses of an odometry topic; None if its messages have other fields or frames."""
+        try:
+            rows = [
+                (message.header, message.child_frame_id, message.pose.pose)
+                for message in self._decoded(topic, _MAX_DECODED)
+            ]
+            frames = {(str(header.frame_id).lstrip("/"), str(child).lstrip("/")) for header, child, _ in rows}
+            stamps = [int(header.stamp.sec) * SECOND + header.stamp.nanosec for header, _, _ in rows]
+            points = [[pose.position.x, pose.position.y, pose.position.z] for *_, pose in rows]
+            turns = [[getattr(pose.orientation, name) for name in "xyzw"] for *_, pose in rows]
+            values = np.concatenate([np.array(points, np.float64), np.array(turns, np.float64)], axis=1)
+            stamp = np.array(stamps, dtype=np.int64)
+        except (AttributeError, TypeError, ValueError, OverflowError):
+            return None
+        if len(frames) != 1:
+            return None
+        with np.errstate(all="ignore"):
+            length = np.linalg.norm(values[:, 3:], axis=1, keepdims=True)
+            good = np.isfinite(values).all(axis=1) & (np.abs(length[:, 0] - 1.0) < _UNIT)
+            values[:, 3:] /= length
+        (frame, child), rename = frames.pop(), self._recording.frame
+        return ObservedPoses(topic, rename(frame), rename(child), stamp[good], values[good])
+
+    def _imu(self, topic: str) -> ObservedImu | None:
+        """Return the first messages of an IMU; None if they have other fields."""
+        frame = self._recording.first_frame(topic).lstrip("/")
+        try:
+            pairs = [
+                [
+                    [getattr(one, axis) for axis in "xyz"]
+                    for one in (message.linear_acceleration, message.angular_velocity)
+                ]
+                for message in self._decoded(topic, _MAX_DECODED)
+            ]
+            values = np.array(pairs, dtype=np.float64).reshape(-1, 2, 3)
+        except (AttributeError, TypeError, ValueError, OverflowError):
+            return None
+        values = values[np.isfinite(values).all(axis=(1, 2))]
+        return ObservedImu(topic, self._recording.frame(frame), values[:, 0], values[:, 1]) if frame else None
 
     def _lines(self, topic: str) -> Iterator[ObservedLogLine]:
         received = self._recording.received(topic)
