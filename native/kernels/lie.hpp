@@ -31,12 +31,12 @@ COFRAME_INLINE PoseLanes exponential(const TwistLanes& twist) {
   Lanes sine, cosine;
   sine_and_cosine(Lanes(0.5 * angle), sine, cosine);
   const Lanes one = splat(1.0), quotient = 2.0 * sine / angle;
-  const Lanes by_half = angle2 < kNoAngle2 ? one : quotient;  // sin(a / 2) / (a / 2)
+  const Lanes by_half = angle2 < splat(kNoAngle2) ? one : quotient;  // sin(a / 2) / (a / 2)
   const Lanes series =
       1.0 / 6.0 -
       angle2 * (1.0 / 120.0 - angle2 * (1.0 / 5040.0 - angle2 * (1.0 / 362880.0 - angle2 * (1.0 / 39916800.0))));
   const Lanes exact = (1.0 - by_half * cosine) / angle2;  // sin a / a = sin(a / 2) / (a / 2) cos(a / 2)
-  const Lanes second = angle2 < kSmallAngle2 ? series : exact;
+  const Lanes second = angle2 < splat(kSmallAngle2) ? series : exact;
   const Vector<Lanes> once = cross(twist.angular, twist.linear);
   const Lanes half = 0.5 * by_half;
   return {{half * twist.angular.x, half * twist.angular.y, half * twist.angular.z, cosine},
@@ -45,19 +45,19 @@ COFRAME_INLINE PoseLanes exponential(const TwistLanes& twist) {
 
 // The rotation by at most half a turn; pi if w is 0.
 COFRAME_INLINE TwistLanes logarithm(const PoseLanes& pose) {
-  const Lanes one = splat(1.0), sign = pose.q.w < 0.0 ? -one : one;
+  const Lanes one = splat(1.0), sign = pose.q.w < splat(0.0) ? -one : one;
   const Vector<Lanes> u = sign * Vector<Lanes>{pose.q.x, pose.q.y, pose.q.z};
   const Lanes w = sign * pose.q.w;
   const Lanes length2 = squared_length(u), length = root(length2);
   const Lanes half = arctangent(length, w);
   const Lanes limit = 2.0 / w, quotient = 2.0 * half / length;
-  const Vector<Lanes> angular = Lanes(length2 < kNoAngle2 ? limit : quotient) * u;
+  const Vector<Lanes> angular = Lanes(length2 < splat(kNoAngle2) ? limit : quotient) * u;
   const Lanes angle2 = 4.0 * half * half;
   const Lanes series =
       1.0 / 12.0 +
       angle2 * (1.0 / 720.0 + angle2 * (1.0 / 30240.0 + angle2 * (1.0 / 1209600.0 + angle2 * (1.0 / 47900160.0))));
   const Lanes exact = (1.0 - half * w / length) / angle2;
-  const Lanes second = angle2 < kSmallAngle2 ? series : exact;
+  const Lanes second = angle2 < splat(kSmallAngle2) ? series : exact;
   const Vector<Lanes> once = cross(angular, pose.p);
   return {pose.p - Lanes(splat(0.5)) * once + second * cross(angular, once), angular};
 }

@@ -88,13 +88,13 @@ def test_covariances_are_interpolated_along_the_child_and_held_at_the_ends():
 
 
 def test_many_lookups_are_those_one_by_one(tree):
-    times = np.array([1.0, 2.0, 1.25, 3.0, 0.5]) * SECOND
+    times = np.array([0.5, 1.0, 2.0, 1.25, 3.0]) * SECOND
     many = tree.lookup_many("anchor", "lidar", times.astype(np.int64), covariance=True, on_error="nan")
     assert many.exact_edges == ("anchor", "lidar")
-    for i, time in enumerate(times[:4]):
+    for i, time in enumerate(times[1:], 1):
         one = tree.lookup("anchor", "lidar", int(time), covariance=True)
         np.testing.assert_allclose(many.covariance[i], one.covariance, rtol=1e-9, atol=1e-15)
-    assert np.isnan(many.covariance[4]).all()
+    assert np.isnan(many.covariance[0]).all()
     with pytest.raises(ValueError, match="cannot be combined with out"):
         tree.lookup_many("map", "base", times.astype(np.int64), covariance=True, out=np.empty((5, 7)))
 

@@ -167,3 +167,25 @@ def test_classes_of_other_libraries_are_read_by_their_fields():
 
 def test_points_are_not_poses():
     assert Transform([1.0, 0, 0]).transform_point(Point(x=1.0)).tolist() == [2.0, 0.0, 0.0]
+
+
+def test_messages_of_recordings_are_read(tmp_path):
+    import coframe
+    from coframe.messages.codec import serialize
+
+    covariance = np.eye(6)
+    path = tmp_path / "drive.mcap"
+    with coframe.bags.Writer(path) as writer:
+        odometry = writer.add_topic("/odom", "nav_msgs/msg/Odometry")
+        moving = writer.add_topic("/tf", "tf2_msgs/msg/TFMessage")
+        for second in (1, 2):
+            pose = Transform([float(second), 0, 0], target="odom", source="base", stamp=second * 1_000_000_000)
+            writer.write(odometry, serialize(pose.with_covariance(covariance).to_msg(Odometry)), second * 1_000_000_000)
+            edge = TFMessage(transforms=[pose.to_msg(TransformStamped)])
+            writer.write(moving, serialize(edge), second * 1_000_000_000)
+    bag = coframe.open_bag(path)
+    for message in bag.messages("/odom"):
+        assert Transform(message).x == message.message.pose.pose.position.x
+        bag.buffer.set_covariance("odom", "base", message)
+    found = bag.buffer.lookup("odom", "base", 1_500_000_000, covariance=True)
+    assert (found.x, found.covariance[0, 0]) == (1.5, 1.0)

@@ -167,6 +167,11 @@ def test_boxes_and_spheres_have_their_size_and_face_outwards(scene):
         assert (np.einsum("ij,ij->i", normals, corners.mean(axis=1)) >= -1e-9).all()
     np.testing.assert_allclose(np.ptp(scene.add_box("box", (1, 2, 3)).vertices, axis=0), [1, 2, 3])
     np.testing.assert_allclose(np.ptp(scene.add_sphere("sphere", 0.5).vertices, axis=0), [1, 1, 1], atol=1e-6)
+    ellipsoid = scene.add_sphere("ellipsoid", [1.0, 0.5, 0.0])
+    np.testing.assert_allclose(np.ptp(ellipsoid.vertices, axis=0), [2, 1, 0], atol=1e-6)
+    for radius in (-1.0, [1.0, -1.0, 1.0], [1.0, 2.0]):
+        with pytest.raises(SceneError, match="radius"):
+            scene.add_sphere("sphere", radius)
 
 
 def test_limits_are_errors(scene, gui, monkeypatch):

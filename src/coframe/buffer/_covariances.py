@@ -66,15 +66,18 @@ class EdgeCovariances:
     def at(self, times: NDArray[np.int64]) -> Array:
         """Return the covariances at some times, shape (N, 6, 6)."""
         with self._lock:
-            stamps, matrices = np.array(self._stamps, dtype=np.int64), list(self._matrices)
+            # Only those around the times: a lookup at one time must not copy all of them.
+            first = max(bisect.bisect_left(self._stamps, int(times.min())) - 1, 0)
+            end = bisect.bisect_right(self._stamps, int(times.max())) + 1
+            stamps, matrices = np.array(self._stamps[first:end], dtype=np.int64), self._matrices[first:end]
         after = np.searchsorted(stamps, times)
         last = np.minimum(after, len(stamps) - 1)
-        first = np.maximum(last - (stamps[last] > times), 0)
-        used, places = np.unique(np.concatenate([first, last]), return_inverse=True)
+        before = np.maximum(last - (stamps[last] > times), 0)
+        used, places = np.unique(np.concatenate([before, last]), return_inverse=True)
         known = np.array([matrices[i] for i in used])
         older, newer = known[places[: len(times)]], known[places[len(times) :]]
-        length = stamps[last] - stamps[first]
-        share = np.where(length > 0, np.clip(times - stamps[first], 0, length) / np.maximum(length, 1), 0.0)
+        length = stamps[last] - stamps[before]
+        share = np.where(length > 0, np.clip(times - stamps[before], 0, length) / np.maximum(length, 1), 0.0)
         result: Array = older + share[:, None, None] * (newer - older)
         return result
 
@@ -145,8 +148,9 @@ def with_covariance(buffer: _core.Buffer, pose: Transform, edge_pose: Callable[[
     """
     times = pose.stamps if pose.stamps is not None else np.array([pose.stamp or 0], dtype=np.int64)
     known = covariances_of(buffer)
+    present = np.isfinite(np.atleast_2d(pose.translation)).all(axis=-1)
     total, exact = Transform(covariance=np.zeros((6, 6))), []
-    for upper, lower, child in _edges(buffer, pose, times):
+    for upper, lower, child in _edges(buffer, pose, times[present]):
         step = edge_pose(upper, lower)
         if child in known:
             matrices = known[child].at(times)
@@ -174,8 +178,7 @@ def with_covariance(buffer: _core.Buffer, pose: Transform, edge_pose: Callable[[
 def _edges(buffer: _core.Buffer, pose: Transform, times: NDArray[np.int64]) -> Iterator[tuple[str, str, str]]:
     """Yield the edges from the target to the source: the nearer frame, the farther one, and which of them is the child.
 
-    The chain is that of the first time; :meth:`coframe.Buffer.lookup_many` composes each row by its own chain, but a
-    change of parents within a batch is rare.
+    The chain is that of the first time.
     """
     target, source = pose.target or "", pose.source or ""
     if target == source or not times.size:

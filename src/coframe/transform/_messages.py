@@ -124,12 +124,19 @@ def is_message(value: Any) -> bool:
     return hasattr(value, "get_fields_and_field_types") or bool(_names(value)) or _pose_fields(value) is not None
 
 
+def unwrapped(value: Any) -> Any:
+    """Return the message of a message of a recording, which contains it next to its topic."""
+    inner = getattr(value, "message", None)
+    return inner if hasattr(inner, "get_fields_and_field_types") and not hasattr(value, "header") else value
+
+
 def contents(message: Any) -> Contents:
     """Return the poses of a message.
 
     Raises:
         ValueError: It contains none, or several fields with a pose.
     """
+    message = unwrapped(message)
     paths = _paths(message)
     if len(paths) > 1:
         names = ", ".join(_text(path) for path in paths)
@@ -196,6 +203,7 @@ def moved(transform: Transform, message: Any, pose_of: Any) -> Any:
             f"`batch @ {type(message).__name__}` is not defined. Use one transform of the batch, or "
             "batch @ Transform(message)."
         )
+    message = unwrapped(message)
     result = copy.deepcopy(message)
     found = contents(result)
     frame = found.frame

@@ -89,6 +89,13 @@ def vector_of(value: Any, argument: str) -> tuple[float, float, float]:
     return x, y, z
 
 
+def radii_of(value: Any, argument: str = "radius") -> NDArray[np.float64]:
+    """Return one radius, or three along x, y and z, in meters."""
+    radii = np.asarray(value) if isinstance(value, list | tuple | np.ndarray) else np.empty(())
+    numbers = [value] if radii.ndim == 0 else vector_of(value, argument)
+    return np.array([number_of(number, argument, 0.0, MAX_COORDINATE) for number in numbers])
+
+
 def quaternion_of(value: Any, argument: str = "quaternion") -> tuple[float, float, float, float]:
     """Return a normalized quaternion x, y, z, w, (4,)."""
     numbers = _array(value, argument, [(4,)], "a quaternion x, y, z, w")

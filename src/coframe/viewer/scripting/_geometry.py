@@ -115,8 +115,8 @@ def box_mesh(size: Vector) -> tuple[NDArray[np.float64], NDArray[np.uint32]]:
     return np.array(corners) * size, np.array(faces, np.uint32)
 
 
-def sphere_mesh(radius: float, rows: int = 16) -> tuple[NDArray[np.float64], NDArray[np.uint32]]:
-    """Return the vertices and the triangles of a sphere with its center at zero."""
+def sphere_mesh(radius: float | NDArray[np.float64], rows: int = 16) -> tuple[NDArray[np.float64], NDArray[np.uint32]]:
+    """Return the vertices and the triangles of a sphere, or an ellipsoid with three radii, with its center at zero."""
     columns = 2 * rows
     polar, azimuth = np.meshgrid(np.linspace(0, np.pi, rows + 1), np.linspace(0, 2 * np.pi, columns + 1), indexing="ij")
     points = np.stack([np.sin(polar) * np.cos(azimuth), np.sin(polar) * np.sin(azimuth), np.cos(polar)], axis=-1)

@@ -264,17 +264,18 @@ class SceneApi:
     def add_sphere(
         self,
         name: str,
-        radius: float = 0.1,
+        radius: float | ArrayLike = 0.1,
         *,
         color: ArrayLike | str | None = None,
         opacity: float = 1.0,
         **placement: Unpack[Placement],
     ) -> MeshHandle:
-        """Draw a sphere; its center is at the pose.
+        """Draw a sphere or an ellipsoid; its center is at the pose.
 
         Args:
             name: The name.
-            radius: The radius in meters.
+            radius: The radius in meters; (3,) draws an ellipsoid with these radii along x, y and z, such as that of
+                :meth:`coframe.Transform.ellipsoid`.
             color: The color, (3,).
             opacity: From 0 to 1.
             **placement: ``frame``, ``pose``, ``position``, ``quaternion``, ``visible``, ``time``; see the class.
@@ -282,7 +283,7 @@ class SceneApi:
         Raises:
             SceneError: An argument is invalid.
         """
-        vertices, faces = sphere_mesh(arguments.number_of(radius, "radius", 0.0, arguments.MAX_COORDINATE))
+        vertices, faces = sphere_mesh(arguments.radii_of(radius))
         return self.add_mesh(name, vertices, faces, color=color, opacity=opacity, **placement)
 
     def add_text(
