@@ -7,7 +7,7 @@ import sys
 
 import pytest
 
-WRITE = "from launch_ros._temporary_files import write_temporary_file; write_temporary_file('a: 1')"
+WRITE = "from launch_ros.temporary_files import write_temporary_file; write_temporary_file('a: 1')"
 
 
 @pytest.mark.skipif(os.name != "posix", reason="folders of killed processes stay behind")

@@ -31,6 +31,8 @@ __all__ = ["find_last", "find_module", "find_package", "install"]
 _FINDER = "CoframeInterfaces"  # class name of the finders
 _KINDS = ("msg", "srv", "action")
 _PACKAGE = re.compile(r"[a-z](?:_?[a-z0-9])*")
+# Packages of messages and services that many programs import, and whose names do not show what they are.
+_INTERFACES = {"robot_localization", "unitree_api", "unitree_go", "unitree_hg"}
 _LOOKS_LIKE_INTERFACES = re.compile(r".*_(?:msgs?|srvs?|actions?|interfaces?)")
 
 
@@ -97,7 +99,7 @@ def _find_package(name: str) -> ModuleSpec | None:
 
     if find_folder(name) is not None:
         return _spec(name, _PackageLoader())
-    if _LOOKS_LIKE_INTERFACES.fullmatch(name):
+    if _LOOKS_LIKE_INTERFACES.fullmatch(name) or name in _INTERFACES:
         raise ModuleNotFoundError(_advice(name), name=name)
     return None
 

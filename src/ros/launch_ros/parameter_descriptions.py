@@ -11,7 +11,7 @@ from coframe._files.regular_files import read_regular_text
 from launch.frontend.substitution_grammar import parse_text
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 from launch.utilities.type_utils import normalize_typed_substitution, perform_typed_substitution
-from launch_ros._temporary_files import write_temporary_file
+from launch_ros.temporary_files import write_temporary_file
 
 if TYPE_CHECKING:
     from launch.launch_context import LaunchContext

@@ -13,6 +13,8 @@ from coframe.workspace.ros_folders import ros_folder
 __all__ = ["EXECUTABLES", "names", "share"]
 
 _COMMAND: Final = "coframe.cli:main"
+_DEMOS: Final = ("talker", "listener", "add_two_ints_server", "add_two_ints_client")
+_FOLDERS: Final = {"demo_nodes_cpp": "demo_nodes_py"}  # packages with the launch files of others
 # Package -> executable -> its function, and arguments. A module that is not installed has no executable.
 EXECUTABLES: Final[dict[str, dict[str, tuple[str, ...]]]] = {
     "robot_state_publisher": {"robot_state_publisher": ("robot_state_publisher:main",)},
@@ -29,8 +31,12 @@ EXECUTABLES: Final[dict[str, dict[str, tuple[str, ...]]]] = {
     "turtlesim": {
         name: (f"turtlesim.{name}:main",) for name in ("turtlesim_node", "turtle_teleop_key", "draw_square", "mimic")
     },
-    "demo_nodes_py": {name: (f"demo_nodes_py.{name}:main",) for name in ("talker", "listener")},
-    "demo_nodes_cpp": {name: (f"demo_nodes_py.{name}:main",) for name in ("talker", "listener")},
+    "demo_nodes_py": {name: (f"demo_nodes_py.{name}:main",) for name in _DEMOS},
+    "demo_nodes_cpp": {name: (f"demo_nodes_py.{name}:main",) for name in _DEMOS},
+    "turtle_tf2_py": {
+        name: (f"turtle_tf2_py.{name}:main",) for name in ("turtle_tf2_broadcaster", "turtle_tf2_listener")
+    },
+    "xacro": {"xacro": ("xacro:main",)},
     "coframe": {
         name: (f"coframe.lab.{name}:main",)
         for name in (
@@ -55,7 +61,9 @@ def names() -> frozenset[str]:
 
 def share(package: str) -> Path:
     """Return the folder of a built-in package; it does not exist if the package has only executables."""
-    return Path(__file__).resolve().parents[2] if package == "coframe" else ros_folder() / package
+    return (
+        Path(__file__).resolve().parents[2] if package == "coframe" else ros_folder() / _FOLDERS.get(package, package)
+    )
 
 
 def executables(package: str) -> dict[str, tuple[str, ...]]:

@@ -14,10 +14,10 @@ from launch.frontend.expose import expose_action
 from launch.substitutions import LocalSubstitution
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 from launch.utilities.yaml_loading import dump_yaml
-from launch_ros._temporary_files import write_temporary_file
 from launch_ros.actions.node_parsing import parse_node
 from launch_ros.parameter_descriptions import Parameter
 from launch_ros.substitutions.executable_in_package import executable_in_package
+from launch_ros.temporary_files import write_temporary_file
 from launch_ros.utilities import (
     add_node_name,
     evaluate_parameters,

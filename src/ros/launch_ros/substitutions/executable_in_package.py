@@ -14,7 +14,7 @@ from launch.frontend.expose import expose_substitution
 from launch.substitution import Substitution
 from launch.substitutions import SubstitutionFailure
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
-from launch_ros._temporary_files import write_temporary_file
+from launch_ros.temporary_files import write_temporary_file
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
