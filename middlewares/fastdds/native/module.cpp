@@ -186,9 +186,9 @@ void define_participant(nb::module_& module) {
             }
             new (self) PyParticipant{std::move(changed), std::move(made)};
           },
-          nb::kw_only(), nb::arg("domain"), nb::arg("name"), nb::arg("user_data"), nb::arg("discovery_range"), nb::arg("peers"),
-          nb::arg("has_profiles"), nb::arg("qos_from_profiles"), nb::arg("asynchronous"), nb::arg("properties"),
-          nb::arg("changed"))
+          nb::kw_only(), nb::arg("domain"), nb::arg("name"), nb::arg("user_data"), nb::arg("discovery_range"),
+          nb::arg("peers"), nb::arg("has_profiles"), nb::arg("qos_from_profiles"), nb::arg("asynchronous"),
+          nb::arg("properties"), nb::arg("changed"))
       .def_prop_ro("guid", [](const PyParticipant& self) { return to_bytes(self.get().guid()); })
       .def(
           "take_writers", [](const PyParticipant& self) { return take_changes(self.get().writers()); },
@@ -457,8 +457,8 @@ void define_readers(nb::module_& module) {
         construct(self, participant, topic, type, qos, user_data, std::move(on_change), std::move(store), native_store,
                   event);
       },
-      nb::arg("participant"), nb::arg("topic"), nb::arg("type_name"), nb::arg("qos"), nb::arg("user_data"), nb::arg("store"),
-      nb::arg("on_change").none());
+      nb::arg("participant"), nb::arg("topic"), nb::arg("type_name"), nb::arg("qos"), nb::arg("user_data"),
+      nb::arg("store"), nb::arg("on_change").none());
   define_endpoint<TfReader>(tf_reader);
 }
 
