@@ -490,6 +490,9 @@ NB_MODULE(_fastdds, module) {
     }
   });
   module.doc() = "The native part of coframe_fastdds. Private.";
+  module.def(
+      "handle_of", [](const nb::bytes& guid) { return handle_of(to_guid(guid)); }, nb::arg("guid"),
+      "Return the handle of an endpoint in this process.");
   module.attr("VERSION") = COFRAME_FASTDDS_VERSION;
   define_participant(module);
   define_writer(module);

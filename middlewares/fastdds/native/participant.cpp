@@ -31,15 +31,20 @@ std::uint64_t mix(std::uint64_t value) {
   return value;
 }
 
-void set_own_transports(dds::DomainParticipantQos& qos, bool loopback_only) {
-  constexpr std::uint32_t kPeers =
-      120;  // participants of each peer that are looked for, all that a domain has ports for
-  auto memory = std::make_shared<transport::SharedMemTransportDescriptor>();
+#ifdef COFRAME_FASTDDS_SHARES_MEMORY
+constexpr bool kSharesMemory = true;
+#else
+constexpr bool kSharesMemory = false;
+#endif
+
+void set_own_transports(dds::DomainParticipantQos& qos) {
+  constexpr std::uint32_t kPeers = 120;  // participants of each peer that are looked for: all that a domain has ports for
+  auto& transports = qos.transport();
+  transports.use_builtin_transports = false;
+  if (kSharesMemory) transports.user_transports.push_back(std::make_shared<transport::SharedMemTransportDescriptor>());
   auto udp = std::make_shared<transport::UDPv4TransportDescriptor>();
   udp->maxInitialPeersRange = kPeers;
-  if (loopback_only) udp->interfaceWhiteList.emplace_back("127.0.0.1");
-  qos.transport().use_builtin_transports = false;
-  qos.transport().user_transports = {memory, udp};
+  transports.user_transports.push_back(std::move(udp));
 }
 
 void add_peer(dds::DomainParticipantQos& qos, const std::string& address) {
@@ -47,8 +52,6 @@ void add_peer(dds::DomainParticipantQos& qos, const std::string& address) {
   IPLocator::setIPv4(peer, address);
   qos.wire_protocol().builtin.initialPeersList.push_back(peer);
 }
-
-bool is_loopback(const std::string& address) { return address.starts_with("127."); }
 
 void set_discovery(dds::DomainParticipantQos& qos, const ParticipantOptions& options) {
   auto& builtin = qos.wire_protocol().builtin;
@@ -60,17 +63,14 @@ void set_discovery(dds::DomainParticipantQos& qos, const ParticipantOptions& opt
     builtin.metatrafficMulticastLocatorList.clear();
     builtin.metatrafficUnicastLocatorList.push_back(any);
     add_peer(qos, "127.0.0.1");
-    bool local = true;
-    for (const std::string& peer : options.peers) {
-      add_peer(qos, peer);
-      local &= is_loopback(peer);
-    }
-    if (!options.has_profiles) set_own_transports(qos, local);
+    for (const std::string& peer : options.peers) add_peer(qos, peer);
   } else if (options.range == "SUBNET" && !options.peers.empty()) {
     for (const std::string& peer : options.peers) add_peer(qos, peer);
     add_peer(qos, "239.255.0.1");
-    if (!options.has_profiles) set_own_transports(qos, false);
   }
+  // By default, Fast DDS shares memory and looks for few participants of each peer.
+  const bool has_peers = !builtin.initialPeersList.empty();
+  if (!options.has_profiles && (has_peers || !kSharesMemory)) set_own_transports(qos);
 }
 
 dds::DomainParticipantQos make_qos(const ParticipantOptions& options) {
@@ -307,6 +307,18 @@ void Participant::on_data_reader_discovery(dds::DomainParticipant*, rtps::Reader
 
 #else
 
+namespace {
+
+// Fast DDS 2 loses count of what it sends if readers of one topic share a multicast address, as those of Cyclone DDS do,
+// and one of them is then sent a message of its own: debug builds such as Debian's abort, others write to memory that
+// is not theirs. Without multicast addresses, each reader is always sent messages of its own. This is called before the
+// reader is matched, and the object is not constant.
+void forget_multicast(const rtps::ReaderProxyData& data) {
+  const_cast<rtps::RemoteLocatorList&>(data.remote_locators()).multicast.clear();
+}
+
+}  // namespace
+
 void Participant::on_publisher_discovery(dds::DomainParticipant*, rtps::WriterDiscoveryInfo&& info) {
   const auto& data = info.info;
   store(writers_, data.guid(), info.status != rtps::WriterDiscoveryInfo::REMOVED_WRITER, [&](EndpointChange& change) {
@@ -320,6 +332,7 @@ void Participant::on_publisher_discovery(dds::DomainParticipant*, rtps::WriterDi
 
 void Participant::on_subscriber_discovery(dds::DomainParticipant*, rtps::ReaderDiscoveryInfo&& info) {
   const auto& data = info.info;
+  forget_multicast(data);
   store(readers_, data.guid(), info.status != rtps::ReaderDiscoveryInfo::REMOVED_READER, [&](EndpointChange& change) {
     change.topic = data.topicName().to_string();
     change.type = data.typeName().to_string();

@@ -150,7 +150,7 @@ class MismatchMonitor:
             if now - since < self._GRACE_PERIOD and (node is None or reason == "other"):
                 self._suspects[suspect] = since
                 continue
-            text = mismatch_text(own, peer, node, reason, self._graph.foreign_services(peer.guid))
+            text = mismatch_text(own, peer, node, reason, self._graph.foreign_services(peer))
             if own.on_mismatch is None or reason == "services":
                 self._warn_once(text, key)
             else:
@@ -164,14 +164,16 @@ class MismatchMonitor:
             matched = own.matched_handles()
             for handle, peer in peers.items():
                 if handle in matched:
-                    if not names.is_topic(own.topic) and self._graph.foreign_services(peer.guid):
+                    if not names.is_topic(own.topic) and self._graph.foreign_services(peer):
                         yield own, peer, "services"
                     continue
                 # A pair within this process is reported once, from the side of the subscription.
                 if own.is_writer and peer.guid in own_guids and own.on_mismatch is None:
                     continue
+                foreign = not names.is_topic(own.topic) and self._graph.foreign_services(peer)
                 for reason in _reasons(own, peer, self._graph):
-                    if reason not in _QOS or not own.adapts:
+                    # Processes that use coframe on Fast DDS have writers that only others match.
+                    if (reason not in _QOS or not own.adapts) and not (reason == "other" and foreign):
                         yield own, peer, reason
 
 

@@ -87,9 +87,9 @@ class Graph:
         """Stop discovery. The state remains available."""
         raise NotImplementedError
 
-    def foreign_services(self, guid: bytes) -> str:
+    def foreign_services(self, peer: DiscoveredEndpoint) -> str:
         """Return the middleware of an endpoint if it sends requests in another form than this process; "" if not."""
-        del guid
+        del peer
         return ""
 
     def ignores_requests(self, peer: DiscoveredEndpoint, qos: QoS) -> bool:
@@ -105,7 +105,7 @@ class Graph:
     def foreign_writer(self, handle: int) -> str:
         """Return what `foreign_services` returns for a writer, given its handle; it may have left."""
         writer = self.writer(handle)
-        return "" if writer is None else self.foreign_services(writer.guid)
+        return "" if writer is None else self.foreign_services(writer)
 
     @property
     def version(self) -> int:

@@ -3,10 +3,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Final
 
 INFINITE: Final = 2**63 - 1  # nanoseconds; the value that DDS and ROS use
+MIN_SERVICE_DEPTH: Final = 1000
 
 
 @dataclass(frozen=True)
@@ -50,3 +51,11 @@ TF_STATIC_WRITER = QoS(depth=1, transient_local=True)
 TF_STATIC_READER = QoS(depth=100, transient_local=True)
 GRAPH_WRITER = QoS(depth=1, transient_local=True)
 GRAPH_READER = QoS(transient_local=True, keep_all=True)
+
+
+def for_service_reader(qos: QoS) -> QoS:
+    """Return the quality of service with a depth that is enough for a reader of requests or replies.
+
+    A reader of replies also receives those to all other clients of the service, and would lose its own among them.
+    """
+    return replace(qos, depth=max(qos.depth, MIN_SERVICE_DEPTH))

@@ -55,7 +55,7 @@ class _Peers(NamedTuple):
 def _peers(own: LocalEndpoint, graph: Graph, handles: frozenset[int], found: dict[int, DiscoveredEndpoint]) -> _Peers:
     understood, foreign, receiver = 0, None, None
     for handle, peer in found.items():
-        if not graph.foreign_services(peer.guid):
+        if not graph.foreign_services(peer):
             understood += handle in handles
             continue
         foreign = peer
@@ -122,7 +122,7 @@ class ServicePublisher(RawPublisher):
         return peers
 
     def _text(self, peer: DiscoveredEndpoint) -> str:
-        middleware = self._graph.foreign_services(peer.guid)
+        middleware = self._graph.foreign_services(peer)
         return foreign_services_text(self.topic, middleware, self._graph.owner(peer.guid), is_writer=True)
 
     @property

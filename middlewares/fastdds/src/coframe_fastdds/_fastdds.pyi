@@ -10,6 +10,9 @@ Qos: TypeAlias = tuple[Any, ...]  # see coframe_fastdds._session.native_qos
 
 VERSION: str
 
+def handle_of(guid: bytes) -> int:
+    """Return the handle of an endpoint in this process."""
+
 class Participant:
     """A participant of a DDS domain."""
 

@@ -9,6 +9,7 @@ from coframe.wire.rtps.graph import DdsGraph
 
 if TYPE_CHECKING:
     from coframe.wire._backend import BackendReader
+    from coframe.wire.graph import DiscoveredEndpoint
     from coframe_fastdds import _fastdds as native
 
 
@@ -22,6 +23,11 @@ class FastDdsGraph(DdsGraph):
 
     def __init__(self, participant: native.Participant, info_reader: BackendReader) -> None:
         super().__init__(info_reader, _Changes(participant.take_writers), _Changes(participant.take_readers))
+
+    def foreign_services(self, peer: DiscoveredEndpoint) -> str:
+        """Return "": this process understands both forms of requests."""
+        del peer
+        return ""
 
 
 class _Changes:

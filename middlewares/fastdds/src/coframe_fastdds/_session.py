@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING, Any, Final, TypeVar
 
@@ -11,13 +12,22 @@ from coframe.errors import WireError
 from coframe.time import SECOND
 from coframe.wire import _descriptors as descriptors
 from coframe.wire.names import check_name
-from coframe.wire.qos import GRAPH_READER, GRAPH_WRITER, QoS
+from coframe.wire.qos import GRAPH_READER, GRAPH_WRITER, QoS, for_service_reader
 from coframe.wire.rtps.announcer import NodeAnnouncer
 from coframe.wire.rtps.discovery_info import ADAPTS, TOPIC, TYPE
 from coframe.wire.rtps.user_data import endpoint_user_data
+from coframe.wire.rtps.vendors import HEADER_PARTITIONS
 from coframe_fastdds import _config as config
 from coframe_fastdds import _fastdds as native
 from coframe_fastdds._graph import FastDdsGraph
+from coframe_fastdds._services import (
+    PLAIN_LATENCY_BUDGET,
+    ReplyReader,
+    ReplyWriter,
+    RequestReader,
+    RequestWriter,
+    Services,
+)
 from coframe_fastdds._tf_reader import FastDdsTfReader
 
 if TYPE_CHECKING:
@@ -27,18 +37,11 @@ if TYPE_CHECKING:
     from coframe.wire._backend import BackendReader, BackendServiceReader, BackendTap, BackendWriter, QueueLimits
     from coframe.wire.endpoints import GraphNode
     from coframe.wire.names import Endpoint
-    from coframe.wire.request_header import RequestHeader
 
 EndpointT = TypeVar("EndpointT")
 
 _DESCRIPTORS: Final = 32
-
-
-class FastDdsServiceReader(native.Reader):
-    """A reader of requests or replies. Implements `coframe.wire._backend.BackendServiceReader`."""
-
-    def reject(self, header: RequestHeader) -> None:
-        """Do nothing: no requests are stored."""
+_KEEP_ALL: Final = 5000  # messages, the default of Fast DDS
 
 
 class FastDdsSession:
@@ -59,6 +62,7 @@ class FastDdsSession:
         )
         info_reader = native.Reader(self.native, TOPIC, TYPE, native_qos(GRAPH_READER), "", changed)
         self.graph = FastDdsGraph(self.native, info_reader)
+        self._services = Services()
 
     def writer(
         self,
@@ -71,7 +75,8 @@ class FastDdsSession:
         on_change: _core.Event | None = None,
     ) -> BackendWriter:
         """Create a writer."""
-        del node
+        if endpoint.kind != "topic":
+            return self._service_writer(node, endpoint, qos)
         return self._create(native.Writer, endpoint, native_qos(qos), checked, on_change, user_data=user_data)
 
     def reader(self, node: GraphNode, endpoint: Endpoint, qos: QoS, on_data: _core.Event | None) -> BackendReader:
@@ -83,8 +88,14 @@ class FastDdsSession:
         self, node: GraphNode, endpoint: Endpoint, qos: QoS, on_data: _core.Event | None
     ) -> BackendServiceReader:
         """Create a reader that queues requests or replies."""
-        del node
-        return self._create(FastDdsServiceReader, endpoint, native_qos(qos), on_data)
+        profile = native_qos(for_service_reader(qos), HEADER_PARTITIONS)
+        if endpoint.kind == "request":
+            clients = self._services.clients(endpoint.name)
+            return self._create(partial(RequestReader, clients), endpoint, profile, on_data)
+        pending = self._services.pending(endpoint.name)
+        reader = self._create(partial(ReplyReader, pending), endpoint, profile, on_data)
+        pending.offer_reader(node, reader)
+        return reader
 
     def tap(self, node: GraphNode, endpoint: Endpoint, qos: QoS, limits: QueueLimits) -> BackendTap:
         """Create a reader that records messages."""
@@ -118,7 +129,8 @@ class FastDdsSession:
         return SECOND
 
     def adapt(self) -> str:
-        """Publish the nodes of this process in the form that the other participants can read."""
+        """Adapt nodes and services to the forms that the other participants can read."""
+        self._services.adapt()
         return self._announcer.adapt(self.graph)
 
     def close(self) -> None:
@@ -126,6 +138,23 @@ class FastDdsSession:
         self._announcer.close()
         self.graph.close()
         self.native.close()
+
+    def _service_writer(self, node: GraphNode, endpoint: Endpoint, qos: QoS) -> BackendWriter:
+        # A reader that refuses the plain writer never acknowledges its messages, and would block one that keeps all.
+        kept = replace(qos, keep_all=False, depth=_KEEP_ALL) if qos.keep_all else qos
+
+        def make_writer(with_header: bool) -> native.Writer:
+            profile = native_qos(kept, HEADER_PARTITIONS) if with_header else native_qos(kept, (), PLAIN_LATENCY_BUDGET)
+            return self._create(native.Writer, endpoint, profile)
+
+        writer: RequestWriter | ReplyWriter
+        if endpoint.kind == "request":
+            pending = self._services.pending(endpoint.name)
+            writer = RequestWriter(endpoint, self.graph, make_writer, pending, pending.take_reader(node))
+        else:
+            writer = ReplyWriter(endpoint, self.graph, make_writer, self._services.clients(endpoint.name))
+        self._services.writers.add(writer)
+        return writer
 
     def _create(
         self,

@@ -12,7 +12,7 @@ from coframe.wire.dds._announcements import Announcements, participant_user_data
 from coframe.wire.dds._discovery_requests import DiscoveryRequests
 from coframe.wire.dds._history import HistoryRequests
 from coframe.wire.dds.topics import create_topic
-from coframe.wire.qos import GRAPH_READER, GRAPH_WRITER, QoS
+from coframe.wire.qos import GRAPH_READER, GRAPH_WRITER, QoS, for_service_reader
 from coframe.wire.rtps.announcer import NodeAnnouncer
 from coframe.wire.rtps.discovery_info import ADAPTS, ROS_TYPE, TOPIC, TYPE
 from coframe.wire.rtps.graph import DdsGraph
@@ -109,7 +109,7 @@ class DdsSession:
     ) -> DdsServiceReader:
         """Create a reader that queues requests or replies."""
         del node
-        profile = native_qos(qos, SERVICE_PARTITIONS)
+        profile = native_qos(for_service_reader(qos), SERVICE_PARTITIONS)
         return self._create(
             endpoint, lambda topic, data: DdsServiceReader(self.native.entity, topic, profile, data, on_data)
         )

@@ -57,7 +57,8 @@ class DdsGraph(Graph):
         self._participant_reader = participant_reader
         self._participants: dict[int, tuple[bytes, bool]] = {}  # by handle: the GUID, and whether it is one of ROS
         self._gid_sizes: dict[bytes, int] = {}  # by participant
-        self._departed: OrderedDict[int, bytes] = OrderedDict()  # writers that send requests in another form
+        # Writers that send requests in another form.
+        self._departed: OrderedDict[int, DiscoveredEndpoint] = OrderedDict()
 
     def close(self) -> None:
         """Close the discovery readers. The state remains available."""
@@ -65,9 +66,11 @@ class DdsGraph(Graph):
             if reader is not None:
                 reader.close()
 
-    def foreign_services(self, guid: bytes) -> str:
+    def foreign_services(self, peer: DiscoveredEndpoint) -> str:
         """Return the DDS implementation of an endpoint if it sends requests in another form; "" if not."""
-        return "" if vendors.shares_services(guid) else vendors.vendor(guid) or vendors.unknown_vendor(guid)
+        if vendors.shares_services(peer.guid, peer.partitions):
+            return ""
+        return vendors.vendor(peer.guid) or vendors.unknown_vendor(peer.guid)
 
     def ignores_requests(self, peer: DiscoveredEndpoint, qos: QoS) -> bool:
         """Return whether the partitions of request writers do not match those of a reader."""
@@ -75,9 +78,8 @@ class DdsGraph(Graph):
 
     def foreign_writer(self, handle: int) -> str:
         """Return what `foreign_services` returns for a writer, even after it has left."""
-        writer = self.writer(handle)
-        guid = self._departed.get(handle) if writer is None else writer.guid
-        return "" if guid is None else self.foreign_services(guid)
+        writer = self.writer(handle) or self._departed.get(handle)
+        return "" if writer is None else self.foreign_services(writer)
 
     def gid_sizes(self) -> dict[int, list[str]]:
         """Return the sizes of identifiers that participants of other implementations publish, with their nodes."""
@@ -155,9 +157,9 @@ class DdsGraph(Graph):
                     guid, participant, topic, type_name, qos, user_data, type_hash_of(user_data), partitions
                 )
                 continue
-            del known[handle]
-            if known is self._writers and not vendors.shares_services(guid):
-                self._departed[handle] = guid
+            departed = known.pop(handle)
+            if known is self._writers and self.foreign_services(departed):
+                self._departed[handle] = departed
                 if len(self._departed) > MAX_DEPARTED_WRITERS:
                     self._departed.popitem(last=False)
         return changed

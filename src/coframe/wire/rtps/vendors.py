@@ -22,7 +22,11 @@ _NAMES = {
 # Cyclone DDS neither writes nor returns. A server that expects one form misreads the other.
 _SAME_SERVICES = {"Cyclone DDS"}
 
-SERVICE_PARTITIONS: Final = ("*", "request-header")
+_HEADER_PARTITION: Final = "request-header"
+HEADER_PARTITIONS: Final = ("", _HEADER_PARTITION)
+"""The partitions of endpoints on Fast DDS that use the request header of Cyclone DDS. They match all others."""
+
+SERVICE_PARTITIONS: Final = ("*", _HEADER_PARTITION)
 """The partitions of the writers of requests and of the readers of requests and replies, which Fast DDS does not match.
 
 Most endpoints are in the default partition, the empty name. Cyclone DDS matches "*" with it, as the DDS standard says.
@@ -50,9 +54,19 @@ def unknown_vendor(guid: bytes) -> str:
     return f"an unknown DDS implementation (vendor ID {guid[0]}.{guid[1]})"
 
 
-def shares_services(guid: bytes) -> bool:
-    """Return whether an endpoint of a service sends requests and replies as Cyclone DDS does."""
+def uses_request_header(guid: bytes) -> bool:
+    """Return whether the DDS implementation of an endpoint sends requests and replies as Cyclone DDS does."""
     return vendor(guid) in _SAME_SERVICES
+
+
+def shares_services(guid: bytes, partitions: tuple[str, ...]) -> bool:
+    """Return whether an endpoint of a service understands requests and replies of Cyclone DDS.
+
+    Args:
+        guid: The GUID of the endpoint.
+        partitions: Its partitions, which tell whether it belongs to a process that uses coframe on Fast DDS.
+    """
+    return uses_request_header(guid) or _HEADER_PARTITION in partitions
 
 
 def uses_service_partitions(qos: QoS) -> bool:
