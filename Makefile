@@ -15,7 +15,7 @@ PYTEST := env -u PYTHONDONTWRITEBYTECODE PYTHONPYCACHEPREFIX=$(CURDIR)/build/pyc
 BUILD_TOOLS = $(shell sed -n 's/^requires = \[\(.*\)\]/\1/p' pyproject.toml | sed 's/", "/" "/g')
 
 .DEFAULT_GOAL := help
-.PHONY: help setup build build-split demo test test-zenoh test-shared test-slow test-long test-ros test-ros-wheels sanitize sanitize-suite fuzz faults soak docs lint licenses audit typecheck format conformance bench generate page page-check clean
+.PHONY: help setup build build-split demo test test-zenoh test-fastdds test-shared test-slow test-long test-ros test-ros-wheels sanitize sanitize-suite fuzz faults soak docs lint licenses audit typecheck format conformance bench generate page page-check clean
 
 help: ## list the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  make %-12s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -54,6 +54,11 @@ test-zenoh: $(STAMP) ## run the tests of the running graph over Zenoh instead of
 	COFRAME_WIRE=zenoh $(PYTEST) --numprocesses 2 --dist loadfile --no-loadscope-reorder \
 		--ignore tests/wire/test_router.py --ignore tests/wire/test_wan.py \
 		tests/wire tests/rclpy tests/tf2 tests/recorder tests/lab tests/viewer $(ARGS)
+
+test-fastdds: $(STAMP) ## run the tests of the running graph over Fast DDS instead of Cyclone DDS
+	COFRAME_WIRE=fastdds $(PYTEST) --numprocesses 2 --dist loadfile --no-loadscope-reorder \
+		--ignore tests/wire/test_router.py --ignore tests/wire/test_wan.py \
+		tests/fastdds tests/wire tests/rclpy tests/tf2 tests/recorder tests/lab tests/viewer $(ARGS)
 
 test-shared: $(STAMP) ## run the tests of programs that use tf2_ros with transforms that processes share (Linux)
 	COFRAME_SHARED=1 $(PYTEST) --numprocesses 2 --dist loadfile --no-loadscope-reorder \

@@ -14,7 +14,7 @@ from coframe.wire import _descriptors as descriptors
 from coframe.wire.names import check_name
 from coframe.wire.qos import GRAPH_READER, GRAPH_WRITER, QoS, for_service_reader
 from coframe.wire.rtps.announcer import NodeAnnouncer
-from coframe.wire.rtps.discovery_info import ADAPTS, TOPIC, TYPE
+from coframe.wire.rtps.discovery_info import ADAPTS, ROS_TYPE, TOPIC, TYPE
 from coframe.wire.rtps.user_data import endpoint_user_data
 from coframe.wire.rtps.vendors import HEADER_PARTITIONS
 from coframe_fastdds import _config as config
@@ -58,9 +58,14 @@ class FastDdsSession:
     def __init__(self, domain: int, changed: _core.Event) -> None:
         self.native = _join(domain, config.read(), changed)
         self._announcer = NodeAnnouncer(
-            self.native.guid, native.Writer(self.native, TOPIC, TYPE, native_qos(GRAPH_WRITER), ADAPTS)
+            self.native.guid,
+            native.Writer(
+                self.native, TOPIC, TYPE, native_qos(GRAPH_WRITER), endpoint_user_data(ROS_TYPE, ADAPTS)
+            ),
         )
-        info_reader = native.Reader(self.native, TOPIC, TYPE, native_qos(GRAPH_READER), "", changed)
+        info_reader = native.Reader(
+            self.native, TOPIC, TYPE, native_qos(GRAPH_READER), endpoint_user_data(ROS_TYPE), changed
+        )
         self.graph = FastDdsGraph(self.native, info_reader)
         self._services = Services()
 
