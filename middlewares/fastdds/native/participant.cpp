@@ -38,7 +38,8 @@ constexpr bool kSharesMemory = false;
 #endif
 
 void set_own_transports(dds::DomainParticipantQos& qos) {
-  constexpr std::uint32_t kPeers = 120;  // participants of each peer that are looked for: all that a domain has ports for
+  constexpr std::uint32_t kPeers =
+      120;  // participants of each peer that are looked for: all that a domain has ports for
   auto& transports = qos.transport();
   transports.use_builtin_transports = false;
   if (kSharesMemory) transports.user_transports.push_back(std::make_shared<transport::SharedMemTransportDescriptor>());
@@ -309,10 +310,10 @@ void Participant::on_data_reader_discovery(dds::DomainParticipant*, rtps::Reader
 
 namespace {
 
-// Fast DDS 2 loses count of what it sends if readers of one topic share a multicast address, as those of Cyclone DDS do,
-// and one of them is then sent a message of its own: debug builds such as Debian's abort, others write to memory that
-// is not theirs. Without multicast addresses, each reader is always sent messages of its own. This is called before the
-// reader is matched, and the object is not constant.
+// Fast DDS 2 loses count of what it sends if readers of one topic share a multicast address, as those of Cyclone DDS
+// do, and one of them is then sent a message of its own: debug builds such as Debian's abort, others write to memory
+// that is not theirs. Without multicast addresses, each reader is always sent messages of its own. This is called
+// before the reader is matched, and the object is not constant.
 void forget_multicast(const rtps::ReaderProxyData& data) {
   const_cast<rtps::RemoteLocatorList&>(data.remote_locators()).multicast.clear();
 }

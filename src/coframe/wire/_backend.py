@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """The interface of a middleware: a session in a ROS domain, its endpoints, and the graph.
 
-`coframe.wire.dds` and `coframe.wire.zenoh` implement these protocols. Everything above them is the same for both. The
-endpoints of DDS are the native classes themselves, so that DDS messages pass through no extra layer.
+`coframe.wire.dds` and `coframe.wire.zenoh` implement these protocols, as do other distributions such as
+coframe-fastdds. Everything above them is the same for all. The endpoints of DDS are the native classes themselves, so
+that DDS messages pass through no extra layer.
 
-In both, topics and types are named as in DDS (`coframe.wire.names`), and a writer is identified by a handle, a 64-bit
-number that is part of each message and of the graph.
+In all of them, topics and types are named as in DDS (`coframe.wire.names`), and a writer is identified by a handle, a
+64-bit number that is part of each message and of the graph.
 """
 
 from __future__ import annotations

@@ -22,5 +22,6 @@ def foreign_services_text(topic: str, middleware: str, node: str | None, *, is_w
     return (
         f"{who} uses {middleware}, so {effect.format(service)}: services, actions and parameters need the same "
         "middleware on both sides, and coframe uses Cyclone DDS. Start that node with "
-        "RMW_IMPLEMENTATION=rmw_cyclonedds_cpp. Topics and transforms work."
+        "RMW_IMPLEMENTATION=rmw_cyclonedds_cpp. Topics and transforms work. With the package coframe-fastdds, "
+        "COFRAME_WIRE=fastdds makes services work with both."
     )

@@ -12,7 +12,7 @@ two writers:
   Fast DDS ignores its replies, which have no identity. A server on Fast DDS would misread its requests, so none are
   sent while there is such a server: of two servers with one name, that on Fast DDS is called.
 
-All these endpoints except the plain writer are in the partition `HEADER_PARTITION` as well, which tells other processes
+All these endpoints except the plain writer are in the partition `HEADER_PARTITION` as well, which shows other processes
 that use coframe that they understand the header form.
 """
 
@@ -47,6 +47,7 @@ _READER_KIND: Final = 0x04  # a bit of the last byte of a reader's GUID
 _PREFIX_SIZE: Final = 12  # bytes of a GUID that identify the participant
 _DISCOVERY: Final = 1.0  # seconds in which the reader of a client that has sent a request is discovered
 _POLL: Final = 0.001  # seconds
+_NO_NUMBER: Final = 0
 
 
 class _Client(NamedTuple):
@@ -319,20 +320,32 @@ class RequestWriter(_TwoForms):
     ) -> None:
         super().__init__(endpoint, graph, make_writer)
         self._pending = pending
+        self._reader = reader
+        self._replies = names.dds_topic(endpoint.name, "reply")
         self._identity = self.guid if reader is None else reader.guid
+        self._ready: set[bytes] = set()  # the participants of servers whose replies arrive
 
     def _send(self, header: RequestHeader, cdr: bytes, message: bytes) -> None:
-        peers, matched = self._peers(), self.matched_handles()
-        forms = {vendors.uses_request_header(peers[handle].guid) for handle in matched if handle in peers}
-        if forms == {True}:
+        peers = self._peers()
+        servers = [peers[handle].guid for handle in self.matched_handles() if handle in peers]
+        plain = {guid[:_PREFIX_SIZE] for guid in servers if not vendors.uses_request_header(guid)}
+        if servers and not plain:
             self._header_writer().forward(message)
-        else:
-            self._pending.send(
-                header, self._identity, lambda: self._plain.write_related(cdr, self._identity, _NO_NUMBER)
-            )
+            return
+        self._wait_for_replies(plain)
+        self._pending.send(header, self._identity, lambda: self._plain.write_related(cdr, self._identity, _NO_NUMBER))
 
-
-_NO_NUMBER: Final = 0
+    def _wait_for_replies(self, servers: set[bytes]) -> None:
+        """Wait until one of these participants can reply: another server may have been found before."""
+        deadline = time.monotonic() + _DISCOVERY
+        while self._reader is not None and servers and self._ready.isdisjoint(servers):
+            writers, matched = self._graph.writers(self._replies), self._reader.matched_handles()
+            found = [writers[handle] for handle in matched if handle in writers]
+            plain = (writer for writer in found if not vendors.shares_services(writer.guid, writer.partitions))
+            self._ready = {writer.guid[:_PREFIX_SIZE] for writer in plain}
+            if time.monotonic() > deadline:
+                return
+            time.sleep(_POLL)
 
 
 class ReplyWriter(_TwoForms):

@@ -59,9 +59,7 @@ class FastDdsSession:
         self.native = _join(domain, config.read(), changed)
         self._announcer = NodeAnnouncer(
             self.native.guid,
-            native.Writer(
-                self.native, TOPIC, TYPE, native_qos(GRAPH_WRITER), endpoint_user_data(ROS_TYPE, ADAPTS)
-            ),
+            native.Writer(self.native, TOPIC, TYPE, native_qos(GRAPH_WRITER), endpoint_user_data(ROS_TYPE, ADAPTS)),
         )
         info_reader = native.Reader(
             self.native, TOPIC, TYPE, native_qos(GRAPH_READER), endpoint_user_data(ROS_TYPE), changed
