@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The private module coframe_fastdds._fastdds: participants, writers and readers of Fast DDS for Python.
+#include <dlfcn.h>
 #include <nanobind/nanobind.h>
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/shared_ptr.h>
@@ -462,6 +463,13 @@ void define_readers(nb::module_& module) {
   define_endpoint<TfReader>(tf_reader);
 }
 
+std::string library() {
+  Dl_info info{};
+  dds::DomainParticipantFactory* (*function)() = &dds::DomainParticipantFactory::get_instance;
+  if (dladdr(reinterpret_cast<const void*>(function), &info) == 0 || info.dli_fname == nullptr) return "unknown";
+  return info.dli_fname;
+}
+
 void load_core(const nb::module_& native_core) {
   core = static_cast<const coframe_middleware*>(PyCapsule_Import(COFRAME_MIDDLEWARE_CAPSULE, 0));
   if (core == nullptr) throw nb::python_error();
@@ -493,6 +501,8 @@ NB_MODULE(_fastdds, module) {
   module.def(
       "handle_of", [](const nb::bytes& guid) { return handle_of(to_guid(guid)); }, nb::arg("guid"),
       "Return the handle of an endpoint in this process.");
+  module.attr("SHARES_MEMORY") = kSharesMemory;
+  module.def("library", &library, "Return the path of the library that is loaded.");
   module.attr("VERSION") = COFRAME_FASTDDS_VERSION;
   define_participant(module);
   define_writer(module);

@@ -31,12 +31,6 @@ std::uint64_t mix(std::uint64_t value) {
   return value;
 }
 
-#ifdef COFRAME_FASTDDS_SHARES_MEMORY
-constexpr bool kSharesMemory = true;
-#else
-constexpr bool kSharesMemory = false;
-#endif
-
 void set_own_transports(dds::DomainParticipantQos& qos) {
   constexpr std::uint32_t kPeers =
       120;  // participants of each peer that are looked for: all that a domain has ports for

@@ -22,6 +22,12 @@ namespace coframe::fastdds {
 
 extern const coframe_middleware* core;  // the functions of coframe._core
 
+#ifdef COFRAME_FASTDDS_SHARES_MEMORY
+inline constexpr bool kSharesMemory = true;
+#else
+inline constexpr bool kSharesMemory = false;
+#endif
+
 using Handle = std::uint64_t;  // identifies an endpoint in this process
 using Guid = std::array<std::uint8_t, 16>;
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Final
 from coframe.system import _dds_examination as dds_examination
 from coframe.system import _zenoh_examination as zenoh_examination
 from coframe.system._examination import Examination, Examined
+from coframe.wire import selection
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -24,7 +25,7 @@ EXAMINATIONS: Final = (dds_examination.EXAMINATION, zenoh_examination.EXAMINATIO
 def examination_of(selected: Selection | None) -> Examination:
     """Return the check of the selected middleware; the DDS check if the selection is invalid.
 
-    A middleware without a row is checked only by joining the graph.
+    A middleware without an examination of its own describes itself, and joins the graph.
     """
     if selected is None:
         return dds_examination.EXAMINATION
@@ -35,10 +36,10 @@ def examination_of(selected: Selection | None) -> Examination:
 
 
 def _examine(domain: int | None, environment: Mapping[str, str], attempt: Attempts) -> Examined:
-    del environment, attempt
-    return Examined(domain is not None, {})
+    wire = selection.select(environment).wire
+    lines = attempt(lambda: selection.row_of(wire).load().describe())
+    return Examined(domain is not None and lines is not None, {"middleware": lines or []})
 
 
 def _lines(report: SystemReport) -> Iterator[str]:
-    del report
-    yield from ()
+    yield from report.middleware

@@ -56,6 +56,7 @@ class SystemReport:
         listened: The duration of the search for nodes, in seconds.
         wire: The selected middleware and why it was selected; None if COFRAME_WIRE is invalid.
         zenoh: The connections of a Zenoh session; None if it could not be opened or DDS is selected.
+        middleware: Lines about the selected middleware if it is another one.
         problems: The failed steps.
     """
 
@@ -71,6 +72,7 @@ class SystemReport:
     participants: tuple[int, int] | None = None
     probe: Probe | None = None
     zenoh: ZenohProbe | None = None
+    middleware: list[str] = field(default_factory=list)
     problems: list[Problem] = field(default_factory=list)
 
 

@@ -159,6 +159,9 @@ class Middleware(Protocol):
     def check(self) -> None:
         """Raise a `WireError` if it is not installed, without importing it."""
 
+    def describe(self) -> list[str]:
+        """Return lines about the library for `coframe doctor --system`, unless it has an examination of its own."""
+
     def network(self, environment: Mapping[str, str]) -> str:
         """Return a string that is equal for two environments if processes in both join the same network.
 

@@ -9,6 +9,10 @@ from coframe import _core
 Qos: TypeAlias = tuple[Any, ...]  # see coframe_fastdds._session.native_qos
 
 VERSION: str
+SHARES_MEMORY: bool
+
+def library() -> str:
+    """Return the path of the library that is loaded."""
 
 def handle_of(guid: bytes) -> int:
     """Return the handle of an endpoint in this process."""

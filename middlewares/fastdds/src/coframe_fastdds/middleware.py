@@ -30,6 +30,25 @@ class FastDdsMiddleware:
         """Check that the native module and the library can be loaded."""
         load()
 
+    def describe(self) -> list[str]:
+        """Return the library, its version, and what configures it.
+
+        Raises:
+            WireError: It cannot be loaded, or an environment variable has an invalid value.
+        """
+        load()
+        native = importlib.import_module("coframe_fastdds._fastdds")
+        settings = config.read()
+        memory = "shared memory and UDP" if native.SHARES_MEMORY else "UDP"
+        lines = [f"Fast DDS {native.VERSION}: {native.library()}", f"messages within this machine use {memory}"]
+        if settings.server:
+            lines.append(f"discovery through the server {settings.server}")
+        if settings.profiles:
+            lines.append(f"configured by the profiles in {settings.profiles}")
+        if settings.properties:
+            lines.append(f"security is enabled, with the enclave {settings.enclave}")
+        return lines
+
     def network(self, environment: Mapping[str, str]) -> str:
         """Return the variables that configure Fast DDS."""
         return repr(config.read(environment))

@@ -28,6 +28,10 @@ class DdsMiddleware:
         """Check that there is a usable library, without loading it."""
         library.check()
 
+    def describe(self) -> list[str]:
+        """Return nothing: it has an examination of its own."""
+        return []
+
     def network(self, environment: Mapping[str, str]) -> str:
         """Return the configuration of Cyclone DDS."""
         return cyclone_config(environment)

@@ -28,6 +28,10 @@ class ZenohMiddleware:
         """Check that eclipse-zenoh is installed, without importing it."""
         library.check()
 
+    def describe(self) -> list[str]:
+        """Return nothing: it has an examination of its own."""
+        return []
+
     def network(self, environment: Mapping[str, str]) -> str:
         """Return the variables that configure Zenoh."""
         names = sorted(name for name in environment if name.startswith("ZENOH_"))
