@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Processes on Fast DDS and on Cyclone DDS communicate in everything."""
 
+import contextlib
 import itertools
 import os
 import subprocess
@@ -9,6 +10,7 @@ import sys
 import pytest
 
 import coframe
+from coframe import _core
 from coframe.messages import find
 from coframe.wire import selection
 from coframe.wire.names import Endpoint
@@ -112,7 +114,8 @@ def test_requests_of_strangers_are_ignored(domain_id: int, start, eventually) ->
             b"\0\1\0\0" + bytes(19),
             b"\0\1\0\0" + b"\xff" * 40,
         ):
-            writer.forward(junk)
+            with contextlib.suppress(_core.EndpointError):  # Cyclone DDS refuses to send the shortest
+                writer.forward(junk)
         writer.close()
     finally:
         participant.close()
