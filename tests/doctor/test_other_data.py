@@ -205,3 +205,30 @@ def test_odometry_topic(contradictions, wrong, reading):
 @pytest.mark.parametrize("offset", [0.0, 0.2])
 def test_an_estimate_may_differ_from_its_odometry(contradictions, offset):
     assert contradictions(with_odometry(lambda place, turn: (place, turn.as_quat()), offset)) == []
+
+
+def test_hostile_values_give_no_findings_and_no_exceptions(contradictions):
+    run = driving(turn=MOUNT.as_quat())
+    cloud, field = find("sensor_msgs/msg/PointCloud2"), find("sensor_msgs/msg/PointField")
+    fields = [field(name=name, offset=8 * i, datatype=8, count=1) for i, name in enumerate("xyz")]
+    values = np.tile([np.nan, np.inf, -np.inf, 1e300, -1e300, 0.0], (100, 1))
+    for i in range(20):
+        at = later(1 + i / 10)
+        message = cloud(height=1, width=200, fields=fields, point_step=24, row_step=4800, data=values.tobytes())
+        message.header.stamp, message.header.frame_id = stamp_message(at), "lidar"
+        run.message("/bad_points", "sensor_msgs/msg/PointCloud2", message, at)
+        short = cloud(height=1, width=2_000_000, fields=fields, point_step=24, row_step=4800, data=b"123")
+        short.header.stamp, short.header.frame_id = stamp_message(at), "lidar"
+        run.message("/short", "sensor_msgs/msg/PointCloud2", short, at)
+        scan = find("sensor_msgs/msg/LaserScan")(time_increment=float("inf"), ranges=[1.0, float("nan"), 1e38])
+        scan.header.stamp, scan.header.frame_id = stamp_message(at), "lidar"
+        run.message("/bad_scan", "sensor_msgs/msg/LaserScan", scan, at)
+        imu = find("sensor_msgs/msg/Imu")()
+        imu.header.stamp, imu.header.frame_id = stamp_message(at), "lidar"
+        imu.linear_acceleration.x = imu.angular_velocity.z = float("inf")
+        run.message("/imu", "sensor_msgs/msg/Imu", imu, at)
+        odometry = find("nav_msgs/msg/Odometry")(child_frame_id="base_link")
+        odometry.header.stamp, odometry.header.frame_id = stamp_message(at), "odom"
+        odometry.pose.pose.orientation.w = 0.0 if i % 2 else float("nan")
+        run.message("/odom", "nav_msgs/msg/Odometry", odometry, at)
+    assert contradictions(run) == []

@@ -204,11 +204,10 @@ def _carried(moving: list[Edge], times: NDArray[np.int64]) -> tuple[Array, Array
     turn, place = np.tile([0.0, 0.0, 0.0, 1.0], (len(times), 1)), np.zeros((len(times), 3))
     known = np.ones(len(times), dtype=bool)
     for edge in moving:
-        if edge.static or edge.count == 1:
-            pose = edge.last_pose
-            between = np.repeat(pose, len(times), axis=0)
+        order = np.unique(edge.stamp, return_index=True)[1]
+        if edge.static or len(order) < 2:
+            between = np.repeat(edge.last_pose, len(times), axis=0)
         else:
-            order = np.unique(edge.stamp, return_index=True)[1]
             between, inside = _interpolated(edge.stamp[order], edge.poses(order), times)
             known &= inside
         place = quaternion.rotate(between[:, 3:], place) + between[:, :3]
