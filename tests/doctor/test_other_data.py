@@ -49,8 +49,8 @@ def driving(place=PLACE, turn=None, *, noise=0.0, drift=0.0, still=False, flat=F
     for i in range(600):
         at = 0.0 if still else i / 50
         where, heading = robot(at)
-        told = where + random.normal(0, noise, 3) + [drift * at, 0, 0]
-        run.tf("odom", "base_link", later(i / 50), told, heading.as_quat(), arrived=later(i / 50) + MS)
+        published = where + random.normal(0, noise, 3) + [drift * at, 0, 0]
+        run.tf("odom", "base_link", later(i / 50), published, heading.as_quat(), arrived=later(i / 50) + MS)
         if i % 5 == 0 and "points" not in skip:
             points = hits(where + heading.apply(PLACE), heading * MOUNT, rays) + random.normal(0, noise, rays.shape)
             message = cloud(height=1, width=len(points), fields=fields, point_step=12, row_step=12 * len(points),
@@ -107,11 +107,11 @@ def test_a_lidar_at_rest_shows_no_mistake(contradictions):
     assert contradictions(driving(turn=np.roll(MOUNT.as_quat(), 1), still=True)) == []
 
 
-def with_imu(turn, told, *, moving=False, sign=1.0):
-    """Return a healthy run with an IMU that is truly turned by `turn`, and published with `told`."""
+def with_imu(turn, published, *, moving=False, sign=1.0):
+    """Return a healthy run with an IMU that is truly turned by `turn`, and published with `published`."""
     random = np.random.default_rng(2)
     run = Run.healthy()
-    run.tf("base_link", "imu", START, (0.05, 0.0, 0.1), told.as_quat(), static=True)
+    run.tf("base_link", "imu", START, (0.05, 0.0, 0.1), published.as_quat(), static=True)
     up = turn.inv().apply([0, 0, 9.81])
     for i in range(1000):
         message = find("sensor_msgs/msg/Imu")()
@@ -131,7 +131,7 @@ TILTED = Rotation.from_euler("xyz", [50, -20, 30], True)
 
 
 @pytest.mark.parametrize(
-    ("turn", "told", "reading"),
+    ("turn", "published", "reading"),
     [
         (IMU, Rotation.from_quat(np.roll(IMU.as_quat(), 1)), "if its quaternion is read as w, x, y, z"),
         (IMU, Rotation.from_euler("xyz", [90.0, 0.0, 30.0]), "if its angles are degrees that were used as radians"),
@@ -141,15 +141,15 @@ TILTED = Rotation.from_euler("xyz", [50, -20, 30], True)
     ],
     ids=["w first", "degrees", "inverted", "half angle", "w last"],
 )
-def test_gravity_at_rest(examine, turn, told, reading):
-    (finding,) = [one for one in examine(with_imu(turn, told)).every_finding() if one.code == "TF029"]
+def test_gravity_at_rest(examine, turn, published, reading):
+    (finding,) = [one for one in examine(with_imu(turn, published)).every_finding() if one.code == "TF029"]
     assert finding.text.startswith("at rest, the acceleration of /imu points ")
     assert reading in finding.text
     assert "it points up within" in finding.text
 
 
 @pytest.mark.parametrize(
-    ("turn", "told", "options"),
+    ("turn", "published", "options"),
     [
         (IMU, IMU, {}),
         (Rotation.identity(), Rotation.identity(), {"sign": -1.0}),
@@ -159,8 +159,8 @@ def test_gravity_at_rest(examine, turn, told, reading):
     ],
     ids=["right", "acceleration downward", "moving", "on a slope", "no usual mistake"],
 )
-def test_gravity_is_silent_where_nothing_is_certain(contradictions, turn, told, options):
-    assert contradictions(with_imu(turn, told, **options)) == []
+def test_gravity_is_silent_where_nothing_is_certain(contradictions, turn, published, options):
+    assert contradictions(with_imu(turn, published, **options)) == []
 
 
 def with_odometry(wrong, offset=0.0):
