@@ -231,3 +231,12 @@ def test_a_table_reports_refuses_or_marks_gaps(bag):
     assert np.isnan(marked["qw"][row])
     assert sorted(set(marked["gap_ns"])) == [0, PERIOD, 2 * SECOND]
     assert marked["x"][row + 1] == pytest.approx(3.0)
+
+
+def test_many_lookups_before_a_change_of_the_parent_succeed():
+    """At the latest time the frames are not connected, so there is nothing to say about gaps."""
+    buffer = coframe.Buffer(None)
+    for second in (1, 2):
+        buffer.set("map", "base", coframe.Transform([second, 0, 0]), second * 1_000_000_000)
+    buffer.set("odom", "base", coframe.Transform(), 9_000_000_000)
+    assert buffer.lookup_many("map", "base", [1_500_000_000]).x.tolist() == [1.5]

@@ -74,6 +74,8 @@ def test_extrapolation_and_walks_are_exact(buffer):
     buffer.set("odom", "base", Transform(), stamp=100 * SECOND)  # a new parent: no path can be cached
     time = int(TIMES[0])
     assert buffer.lookup("map", "lidar", time).is_close(lidar_at(time), translation=1e-12, rotation=1e-12)
+    many = buffer.lookup_many("map", "lidar", TIMES[:5])
+    assert many.is_close(lidar_at(TIMES[:5]), translation=1e-12, rotation=1e-12)
 
 
 @pytest.mark.parametrize("points_per_time", [1, 100])

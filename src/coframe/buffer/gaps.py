@@ -13,7 +13,7 @@ import numpy as np
 from coframe._base_error import CoframeWarning
 from coframe._output.formatting import count, duration
 from coframe.analysis.liveness import usual_gap, usual_period
-from coframe.errors import ExtrapolationException
+from coframe.errors import ExtrapolationException, TransformException
 from coframe.time import duration_ns
 
 if TYPE_CHECKING:
@@ -167,8 +167,12 @@ def _long_gaps(buffer: _core.Buffer, target: str, source: str) -> list[_Gap]:
     changes = buffer._changes
     if (cached := known.get((target, source))) is not None and cached[0] == changes:
         return cached[1]
-    gaps = []
-    for child, samples in _moving_edges(buffer, target, source):
+    gaps: list[_Gap] = []
+    try:
+        edges = _moving_edges(buffer, target, source)
+    except TransformException:  # The frames are not connected at the latest time, but were at an earlier one.
+        edges = []
+    for child, samples in edges:
         gaps += [_Gap(int(samples[i]), int(samples[i + 1]), child) for i in gaps_between(samples, None)]
     known[target, source] = changes, gaps
     return gaps
