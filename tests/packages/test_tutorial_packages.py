@@ -116,6 +116,40 @@ def test_launch_files_of_the_tutorials_are_found():
     assert "listener" in done.stdout
 
 
+def test_keys_drive_a_robot(node, environment, wait_until):
+    import pty
+
+    import rclpy
+    from geometry_msgs.msg import Twist
+
+    received = []
+    node.create_subscription(Twist, "cmd_vel", received.append, 10)
+    executor = rclpy.executors.SingleThreadedExecutor(context=node.context)
+    executor.add_node(node)
+    ours, theirs = pty.openpty()
+    words = command("run", "teleop_twist_keyboard", "teleop_twist_keyboard")
+    program = subprocess.Popen(words, stdin=theirs, stdout=subprocess.PIPE, text=True, env=environment)
+    try:
+        while "currently:\tspeed 0.5\tturn 1.0" not in program.stdout.readline():
+            pass
+        wait_until(lambda: node.count_publishers("/cmd_vel") == 1, timeout=20.0)
+        wait_until(
+            lambda: any(message.linear.x == 0.5 and message.angular.z == 1.0 for message in received),
+            lambda: (os.write(ours, b"u"), executor.spin_once(timeout_sec=0.1)),
+            timeout=20.0,
+        )
+        os.write(ours, b"w")
+        assert "speed 0.55" in program.stdout.readline()
+        program.send_signal(signal.SIGINT)
+        assert program.wait(timeout=20) == 0
+    finally:
+        program.kill()
+        program.wait()
+        program.stdout.close()
+        os.close(ours)
+        os.close(theirs)
+
+
 def test_xacro_is_an_executable_of_its_package(tmp_path):
     pytest.importorskip("xacro")
     file = tmp_path / "a.xacro"

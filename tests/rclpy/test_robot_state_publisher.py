@@ -101,6 +101,28 @@ def test_node(context, received, wait_until):
         node.destroy_node()
 
 
+def test_a_description_from_the_topic(context, received, wait_until):
+    listener, found = received
+    overrides = [Parameter("use_robot_description_topic", value=True)]
+    node = RobotStatePublisher(context=context, parameter_overrides=overrides, start_parameter_services=False)
+    executor = SingleThreadedExecutor(context=context)
+    executor.add_node(node)
+    executor.add_node(listener)
+    spin = lambda: executor.spin_once(timeout_sec=0.05)  # noqa: E731
+    states = listener.create_publisher(JointState, "joint_states", 10)
+    descriptions = listener.create_publisher(String, "robot_description", LATCHED)
+    try:
+        wait_until(states.get_subscription_count, spin)
+        for text in ("no robot", URDF):
+            descriptions.publish(String(data=text))
+        wait_until(lambda: frames(found["/tf_static"]) == [("upper", "tool")], spin)
+        wait_until(lambda: found["/tf"] or states.publish(JointState(name=["turn"], position=[0.5])), spin)
+        assert frames(found["/tf"])[0] == ("base", "upper")
+        assert node.count_publishers("/robot_description") == 1, "only the one of the test"
+    finally:
+        node.destroy_node()
+
+
 def test_command(context, received, wait_until, tmp_path):
     listener, found = received
     executor = SingleThreadedExecutor(context=context)

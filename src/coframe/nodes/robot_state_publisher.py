@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """The node robot_state_publisher, with the parameters, topics, QoS profiles and log messages of upstream."""
 
-from collections.abc import Sequence
-from typing import Any
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
 
 from coframe._output.escaping import one_line
 from coframe.frame_names import kept, prefix_advice
@@ -10,7 +11,6 @@ from coframe.nodes.program import program, spin_until_shutdown
 from coframe.robots import Robot, RobotDescriptionError, load, parse_urdf
 from coframe.robots.publishing import StatePublisher
 from coframe.time import SECOND
-from coframe.transform.transform import Transform
 from geometry_msgs.msg import TransformStamped
 from rcl_interfaces.msg import FloatingPointRange, ParameterDescriptor, SetParametersResult
 from rclpy.node import Node
@@ -21,6 +21,12 @@ from rclpy.time import Time
 from sensor_msgs.msg import JointState
 from std_msgs.msg import String
 from tf2_ros import StaticTransformBroadcaster, TransformBroadcaster
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from coframe.transform.transform import Transform
+    from rclpy.publisher import Publisher
 
 __all__ = ["RobotStatePublisher", "main", "run"]
 
@@ -49,12 +55,20 @@ class RobotStatePublisher(Node):
         self._kept = set(kept(self.declare_parameter("frame_prefix_keep", "").value))
         self._advise()
         ignore_stamps = self.declare_parameter("ignore_timestamp", False).value
-        robot = self._first_robot(description, file)
-        self._states = StatePublisher(robot, frequency, ignore_stamps=ignore_stamps)
+        # The first name is Lyrical's, the second one Kilted's.
+        from_topic = self.declare_parameter("use_robot_description_topic", False).value
+        from_topic |= self.declare_parameter("description_from_topic", False).value
+        self._frequency, self._ignore_stamps = frequency, ignore_stamps
+        self._states: StatePublisher | None = None
         self._broadcaster = TransformBroadcaster(self)
         self._static_broadcaster = StaticTransformBroadcaster(self)
-        self._description = self.create_publisher(String, "robot_description", _LATCHED)
-        self._publish_robot()
+        self._description: Publisher | None = None
+        if from_topic:
+            self.get_logger().info("Waiting for robot_description to be published on the robot_description topic...")
+            self.create_subscription(String, "robot_description", self._on_description, _LATCHED)
+        else:
+            self._description = self.create_publisher(String, "robot_description", _LATCHED)
+            self._use(self._first_robot(description, file))
         self.add_on_set_parameters_callback(self._set_parameters)
         overrides = QoSOverridingOptions.with_default_policies()
         self.create_subscription(
@@ -76,14 +90,25 @@ class RobotStatePublisher(Node):
         self.set_parameters([Parameter("robot_description", value=robot.text)])
         return robot
 
-    def _publish_robot(self) -> None:
-        for link in self._states.robot.links:
+    def _on_description(self, message: String) -> None:
+        """Use the description on the topic, for which the parameter `use_robot_description_topic` waits."""
+        try:
+            self._use(self._new_robot(message.data))
+        except RobotDescriptionError as error:
+            self.get_logger().error(one_line(f"Invalid robot_description on the topic, ignored: {error}"))
+
+    def _use(self, robot: Robot) -> None:
+        """Publish the description of a robot and its fixed transforms, and from now on those of its joints."""
+        states = StatePublisher(robot, self._frequency, ignore_stamps=self._ignore_stamps)
+        self._states = states
+        for link in robot.links:
             self.get_logger().info(one_line(f"got segment {link}"))
-        for warning in self._states.robot.warnings:
+        for warning in robot.warnings:
             self.get_logger().warning(one_line(warning))
-        self._description.publish(String(data=self._states.robot.text))
+        if self._description is not None:
+            self._description.publish(String(data=robot.text))
         now = self.get_clock().now().nanoseconds
-        fixed = [self._message(transform, now) for transform in self._states.fixed()]
+        fixed = [self._message(transform, now) for transform in states.fixed()]
         message = self._static_broadcaster.net_message
         # Links of the previous description are removed. Upstream continues to publish them.
         message.transforms, previous = [], message.transforms
@@ -91,6 +116,9 @@ class RobotStatePublisher(Node):
             self._static_broadcaster.sendTransform(fixed)
 
     def _on_joint_state(self, state: JointState) -> None:
+        states = self._states
+        if states is None:
+            return  # There is no description yet.
         if len(state.name) != len(state.position):
             if not len(state.position):
                 text = "Robot state publisher ignored a JointState message without positions"
@@ -99,12 +127,12 @@ class RobotStatePublisher(Node):
                 text = "Robot state publisher ignored an invalid JointState message"
                 self.get_logger().error(text, throttle_duration_sec=_WARNING_PERIOD)
             return
-        if self._states.turned_back(self.get_clock().now().nanoseconds):
+        if states.turned_back(self.get_clock().now().nanoseconds):
             text = "Moved backwards in time, re-publishing joint transforms!"
             self.get_logger().warning(text, throttle_duration_sec=_WARNING_PERIOD)
         stamp = Time.from_msg(state.header.stamp).nanoseconds
         try:
-            moving = self._states.moving(stamp, state.name, state.position)
+            moving = states.moving(stamp, state.name, state.position)
         except ValueError as error:
             text = one_line(f"Robot state publisher ignored an invalid JointState message: {error}")
             self.get_logger().error(text, throttle_duration_sec=_WARNING_PERIOD)
@@ -144,11 +172,12 @@ class RobotStatePublisher(Node):
             self._advise()
         if "frame_prefix_keep" in given:
             self._kept = set(kept(given["frame_prefix_keep"]))
-        self._states.frequency = given.get("publish_frequency", self._states.frequency)
-        self._states.ignore_stamps = given.get("ignore_timestamp", self._states.ignore_stamps)
+        self._frequency = given.get("publish_frequency", self._frequency)
+        self._ignore_stamps = given.get("ignore_timestamp", self._ignore_stamps)
+        if self._states is not None:
+            self._states.frequency, self._states.ignore_stamps = self._frequency, self._ignore_stamps
         if robot is not None:
-            self._states = StatePublisher(robot, self._states.frequency, ignore_stamps=self._states.ignore_stamps)
-            self._publish_robot()
+            self._use(robot)
         return SetParametersResult(successful=True)
 
     def _new_robot(self, description: str) -> Robot:

@@ -36,6 +36,7 @@ EXECUTABLES: Final[dict[str, dict[str, tuple[str, ...]]]] = {
     "turtle_tf2_py": {
         name: (f"turtle_tf2_py.{name}:main",) for name in ("turtle_tf2_broadcaster", "turtle_tf2_listener")
     },
+    "teleop_twist_keyboard": {"teleop_twist_keyboard": ("teleop_twist_keyboard:main",)},
     "xacro": {"xacro": ("xacro:main",)},
     "coframe": {
         name: (f"coframe.lab.{name}:main",)

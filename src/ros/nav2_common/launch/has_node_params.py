@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The substitution that tells whether a parameter file has parameters of a node."""
+"""The substitution that checks whether a parameter file has parameters of a node."""
 
 from __future__ import annotations
 
