@@ -31,7 +31,6 @@ PAGES_OF_FILES = {
     "CONTRIBUTING.md": "contributing.md",
     "benchmarks/README.md": "benchmarks.md",
     "conformance/README.md": "conformance.md",
-    "tests/interop/README.md": "interop.md",
 }
 # Files whose contents are on a generated page.
 SECTIONS_OF_FILES = {
