@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import sqlite3
 import threading
+from array import array
 from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
@@ -30,6 +31,12 @@ __all__ = ["SqliteStorage"]
 _BATCH_SIZE = 2000  # rows
 _BATCH_BYTES = 64 << 20
 _MAX_TOPIC_BYTES = 1 << 20
+_DAMAGED = (
+    "database disk image is malformed",
+    "file is not a database",
+    "disk I/O error",
+    "the rows of messages are not in order",
+)
 # Querying type and size does not read the data. The value is NULL for data of a wrong type or size.
 _DATA, _SIZE = (
     f"CASE WHEN typeof(data) = 'blob' AND length(data) <= {MAX_UNPACKED_BYTES} THEN {value} END"
@@ -82,7 +89,7 @@ class SqliteStorage(Storage):
     def _rows(self, numbers: list[int], column: str, progress: Callable[[int], object]) -> Iterator[Batch]:
         if not numbers:
             return
-        last = None
+        read = array("q")
         try:
             if self._leaves is not None:
                 raise sqlite3.DatabaseError(self._damage)  # The tree has been found damaged before.
@@ -90,8 +97,8 @@ class SqliteStorage(Storage):
                 "messages", f"topic_id, timestamp, {column}", f"topic_id IN ({', '.join(map(str, numbers))})"
             )
             for rows in self._parts(found):
-                last = rows[-1][0]
-                progress(last)
+                read.extend(row[0] for row in rows)
+                progress(rows[-1][0])
                 self._note_rows(rows)
                 yield from self._grouped(rows, with_data=column == _DATA)
         except DAMAGE as error:
@@ -102,7 +109,7 @@ class SqliteStorage(Storage):
         else:
             return
         try:
-            for rows in self._parts(self._recovered_rows(set(numbers), last, with_data=column == _DATA)):
+            for rows in self._parts(self._recovered_rows(set(numbers), set(read), with_data=column == _DATA)):
                 self._note_rows(rows)
                 yield from self._grouped(rows, with_data=column == _DATA)
         except sqlite3.DatabaseError as error:
@@ -136,11 +143,11 @@ class SqliteStorage(Storage):
                         found.setdefault(row.number, Channel(name, type_, encoding, offered_qos="".join(rest[:1])))
         return found
 
-    def _recovered_rows(self, numbers: set[int], last: int | None, *, with_data: bool) -> Iterator[tuple[Any, ...]]:
-        """Yield the rows of messages after the row ``last`` that are on leaves of a damaged database."""
+    def _recovered_rows(self, numbers: set[int], read: set[int], *, with_data: bool) -> Iterator[tuple[Any, ...]]:
+        """Yield the rows of messages on the leaves of a damaged database, except those that have been read."""
         leaves = self._leaves
         for row in leaves.rows() if leaves is not None else ():
-            if not row.is_message or row.number in self._on_leaves or (last is not None and row.number <= last):
+            if not row.is_message or row.number in self._on_leaves or row.number in read:
                 continue
             with suppress(DamagedError):
                 _, topic, time = self._integers(row)
@@ -272,7 +279,7 @@ class SqliteStorage(Storage):
 
 def _is_damaged(error: Exception) -> bool:
     """Return whether SQLite found a damaged page, unlike a database that is not a recording or does not end."""
-    return str(error).startswith(("database disk image is malformed", "file is not a database", "disk I/O error"))
+    return str(error).startswith(_DAMAGED)
 
 
 def _row(position: int) -> int:

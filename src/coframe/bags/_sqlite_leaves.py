@@ -8,6 +8,7 @@ recognized by the types of their values.
 from __future__ import annotations
 
 import struct
+from itertools import islice
 from typing import TYPE_CHECKING, BinaryIO, NamedTuple
 
 from coframe._files.regular_files import open_regular
@@ -21,6 +22,10 @@ __all__ = ["LeafRow", "Leaves"]
 
 _LEAF = 0x0D  # the first byte of a page with rows
 _HEADER = 100  # bytes before the content of the first page
+_MAGIC = b"SQLite format 3\0"
+_PAGE_SIZES = [1 << power for power in range(9, 17)]
+_USUAL_PAGE_SIZE = 4096
+_TRIED_ROWS = 1000
 _BLOCK_PAGES = 256  # read at once
 _MAX_RECORD_HEADER = 200  # bytes; rows of recordings have at most seven columns
 _INTEGERS = (1, 2, 3, 4, 5, 6, 8, 9)  # types of values; 0 is NULL, which stands for the ID of the row
@@ -71,13 +76,23 @@ class Leaves:
         header = self._file.read(_HEADER).ljust(_HEADER, b"\0")
         (stated,) = struct.unpack_from(">H", header, 16)
         size = 65536 if stated == 1 else stated
-        self._page = size if size >= 512 and size & (size - 1) == 0 else 4096
+        self._page = self._usable = 4096
         self._largest = min(path.stat().st_size, MAX_UNPACKED_BYTES)
-        self._usable = self._page - (header[20] if header[20] < 33 else 0)
+        is_valid = size in _PAGE_SIZES and header.startswith(_MAGIC)
+        self._page = size if is_valid else self._likely_page_size()
+        self._usable = self._page - (header[20] if is_valid and header[20] < 33 else 0)
 
     def close(self) -> None:
         """Close the file."""
         self._file.close()
+
+    def _likely_page_size(self) -> int:
+        """Return the page size with which most rows are found at the beginning of the file, if its header is lost."""
+        found = {}
+        for size in _PAGE_SIZES:
+            self._page = size
+            found[size] = sum(row.is_message for row in islice(self.rows(), _TRIED_ROWS))
+        return max(found, key=lambda size: (found[size], size == _USUAL_PAGE_SIZE))
 
     def rows(self) -> Iterator[LeafRow]:
         """Yield the rows of all leaves in the order of the file."""

@@ -75,6 +75,11 @@ class Sqlite(RecordingFormat):
     magic = b"SQLite format 3\0"
     storage_id = "sqlite3"
 
+    def matches(self, path: Path, beginning: bytes) -> bool:
+        """Return whether a file is a database, or one whose first page was lost: the others have the messages."""
+        is_lost = beginning == bytes(len(self.magic)) and path.suffix.lower() in self.suffixes
+        return super().matches(path, beginning) or is_lost
+
     def open(self, path: Path, problems: Problems) -> Storage:
         """Open a file."""
         from coframe.bags._sqlite_file import SqliteStorage  # noqa: PLC0415 - see the base class
