@@ -14,7 +14,7 @@ from coframe.messages import definition, deserialize
 from coframe.messages.schema_classes import ResolvedSchema, SchemaClasses
 from coframe.messages.schemas import parse_schema
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.timeout(1200)]
 
 DEFINITIONS = 10_000
 DAMAGED = 10_000

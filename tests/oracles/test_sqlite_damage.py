@@ -11,7 +11,7 @@ from sqlite_leaf_scan import rows_on_leaves
 
 import coframe
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.timeout(1200)]
 
 FILES = 200
 ROWS = 600

@@ -11,6 +11,9 @@ from coframe.trajectories import TrajectoryError, read_trajectory, write_traject
 
 SECONDS = 1_650_000_000
 TURN = np.linspace(0.2, 2.8, 30)  # of a car that drives along an arc, in radians
+PLOTJUGGLER = ",".join(
+    [*(f"/odom/pose/position/{axis}" for axis in "xyz"), *(f"/odom/pose/orientation/{axis}" for axis in "xyzw")]
+)
 STAMPS = SECONDS * 10**9 + np.arange(len(TURN)) * 50_000_000
 
 
@@ -84,6 +87,60 @@ def test_the_unit_of_whole_numbers_is_found_from_their_distance(tmp_path):
         assert poses.stamps.tolist() == [(SECONDS + number * step) * unit for number in range(5)]
     path.write_text("time,x,y,z,qx,qy,qz,qw\n0,0,0,0,0,0,0,1\n0.5,1,0,0,0,0,0,1\n")
     assert read(path)[0].stamps.tolist() == [0, 500_000_000]
+
+
+@pytest.mark.parametrize(("unit", "text"), [(1, "ns"), (10**3, "us"), (10**6, "ms"), (10**9, "s")])
+@pytest.mark.parametrize("is_named", [True, False])
+def test_whole_numbers_that_are_dates_in_one_unit(tmp_path, unit, text, is_named):
+    stamps = [SECONDS * 10**9 + number * 2 * 10**9 for number in range(5)]
+    rows = [f"{stamp // unit},{row},0,0,0,0,0,1" for row, stamp in enumerate(stamps)]
+    name = f"time[{text}]" if is_named else "time"
+    (tmp_path / "a.csv").write_text("\n".join([f"{name},x,y,z,qx,qy,qz,qw", *rows]))
+    assert read(tmp_path / "a.csv")[0].stamps.tolist() == stamps
+
+
+@pytest.mark.parametrize(
+    "header",
+    [
+        "header.stamp.sec,header.stamp.nanosec,x,y,z,qx,qy,qz,qw",
+        "sec,nsec,pose.position.x,pose.position.y,pose.position.z,qx,qy,qz,qw",
+        "stamp.secs,stamp.nsecs,x,y,z,qx,qy,qz,qw",
+    ],
+)
+def test_times_in_two_columns(tmp_path, header):
+    lines = [header]
+    for stamp, pose in zip(STAMPS.tolist(), car(), strict=True):
+        lines.append(",".join(map(str, [*divmod(stamp, 10**9), *pose.tolist()])))
+    (tmp_path / "a.csv").write_text("\n".join(lines))
+    assert read(tmp_path / "a.csv")[0].stamps.tolist() == STAMPS.tolist()
+
+
+@pytest.mark.parametrize(
+    ("header", "quote"),
+    [
+        (f"__time,{PLOTJUGGLER}", ""),
+        ('"timestamp","x","y","z","qx","qy","qz","qw"', '"'),
+    ],
+)
+def test_headers_and_cells_of_other_programs(tmp_path, header, quote):
+    lines = [header]
+    for stamp, pose in zip(STAMPS.tolist(), car(), strict=True):
+        cells = [f"{stamp // 10**9}.{stamp % 10**9:09}", *map(str, pose.tolist())]
+        lines.append(",".join(f"{quote}{cell}{quote}" for cell in cells))
+    (tmp_path / "a.csv").write_text("\n".join(lines))
+    poses, said = read(tmp_path / "a.csv")
+    assert (poses.stamps.tolist(), said) == (STAMPS.tolist(), [])
+
+
+@pytest.mark.parametrize(("length", "scale"), [("cm", 0.01), ("mm", 0.001), ("m", 1.0), ("km", 1000.0)])
+@pytest.mark.parametrize("comment", ["", "# "])
+def test_the_unit_of_positions_in_the_header_counts(tmp_path, length, scale, comment):
+    header = f"{comment}timestamp x[{length}] y[{length}] z[{length}] qx qy qz qw"
+    path = write(tmp_path, header, "t x y z qx qy qz qw", separator=" ", unit="s", name="a.txt")
+    np.testing.assert_allclose(read(path)[0].translation, scale * car()[:, :3], atol=1e-6 * max(scale, 1))
+    path.write_text(path.read_text().replace(f"[{length}]", "[ft]"))
+    with pytest.raises(TrajectoryError, match="the unit of the positions is not known"):
+        read(path)
 
 
 def test_the_covariances_of_openvins_are_skipped(tmp_path):

@@ -8,16 +8,19 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from coframe._output.formatting import count
+from coframe.time import MICROSECOND, MILLISECOND, SECOND
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from numpy.typing import NDArray
 
-__all__ = ["findings", "looks_like_seconds"]
+__all__ = ["findings", "likely_unit", "looks_like_seconds"]
 
 MAX_NORM_ERROR = 1e-3
 MIN_SPACING = 1_000  # nanoseconds; no trajectory has a million poses per second
+_EARLIEST, _LATEST = 946_684_800, 4_102_444_800  # the years 2000 and 2100, in seconds
+_MAX_STEP = 3600 * SECOND
 _MIN_MOVES = 10
 _STRAIGHT, _SCATTERED = 0.95, 0.85  # mean resultant lengths of the directions of motion, seen from the moving frame
 
@@ -28,6 +31,16 @@ def looks_like_seconds(stamps: NDArray[np.int64]) -> bool:
     if not len(steps):
         return bool(len(stamps)) and 100_000_000 <= int(stamps[0]) < 100_000_000_000  # 1973 to 5138
     return 0 < abs(int(np.median(steps))) < MIN_SPACING
+
+
+def likely_unit(stamps: NDArray[np.int64]) -> int:
+    """Return the unit of whole numbers in nanoseconds: the one in which they are dates, or else by their distance."""
+    first = abs(int(stamps[0])) if len(stamps) else 0
+    step = abs(int(np.median(np.diff(stamps)))) if len(stamps) > 1 else 0
+    for unit in (SECOND, MILLISECOND, MICROSECOND):
+        if _EARLIEST * SECOND < first * unit < _LATEST * SECOND and step * unit <= _MAX_STEP:
+            return unit
+    return SECOND if looks_like_seconds(stamps) else 1
 
 
 def findings(

@@ -20,7 +20,7 @@ from coframe._files.regular_files import open_regular
 from coframe._output.formatting import count
 from coframe.errors import InvalidArgumentException, TrajectoryError
 from coframe.time import SECOND
-from coframe.trajectories._checks import findings, looks_like_seconds
+from coframe.trajectories._checks import findings, likely_unit, looks_like_seconds
 from coframe.trajectories._columns import Columns, header_columns, is_separated_by_spaces, split
 from coframe.trajectories.formats import POSE_COLUMNS
 from coframe.transform.transform import Transform
@@ -158,10 +158,16 @@ class _Rows:
 
     def add(self, line: int, text: str) -> None:
         """Add a line of the file, without spaces at its ends."""
-        if not self._cells and self._kind != "kitti" and (named := header_columns(text)) is not None:
+        if not self._cells and self._kind != "kitti" and (named := self._header(line, text)) is not None:
             self._named = named
         elif text and not text.startswith("#"):
             self._add_row(line, text)
+
+    def _header(self, line: int, text: str) -> Columns | None:
+        try:
+            return header_columns(text)
+        except ValueError as error:
+            raise TrajectoryError(f"{self._file}, line {line}: {error}") from None
 
     def _add_row(self, line: int, text: str) -> None:
         cells = split(text)
@@ -176,8 +182,10 @@ class _Rows:
             if self._columns is None:
                 self._numbers.extend(map(float, cells))
             else:
-                self._times.add(cells[self._columns.stamp])
-                self._numbers.extend([float(cells[index]) for index in self._columns.pose])
+                columns = self._columns
+                self._times.add(cells[columns.stamp], cells[columns.nanoseconds] if columns.nanoseconds >= 0 else "")
+                x, y, z, *rotation = [float(cells[index]) for index in columns.pose]
+                self._numbers.extend([x * columns.scale, y * columns.scale, z * columns.scale, *rotation])
         except _UnitError as error:
             raise TrajectoryError(f"{self._file}, line {line}: {error}", hint=_NAMED_UNIT) from None
         except (ValueError, OverflowError, decimal.DecimalException):
@@ -226,21 +234,21 @@ class _Times:
         self._is_open = unit is None
         self._values = array("q")
 
-    def add(self, text: str) -> None:
-        """Add a time as written."""
+    def add(self, text: str, nanoseconds: str = "") -> None:
+        """Add a time as written, with the nanoseconds that are added to it."""
         if self._is_open and "." in text and abs(float(text)) < MAX_SECONDS:
             self._values = array("q", [value * SECOND for value in self._values])
             self._unit, self._is_open = SECOND, False
         if self._unit == SECOND and MAX_SECONDS <= abs(float(text)) < _LATEST and len(text) <= _MAX_DIGITS:
             raise _UnitError(f"the time {text} looks like nanoseconds, but times in this format are seconds")
-        self._values.append(_nanoseconds(text, self._unit))
+        self._values.append(_nanoseconds(text, self._unit) + (int(nanoseconds) if nanoseconds else 0))
 
     def nanoseconds(self, file: Path) -> NDArray[np.int64]:
         """Return all times in nanoseconds."""
         times = np.array(self._values, dtype=np.int64)
+        if self._is_open and (unit := likely_unit(times)) != 1:
+            return times * unit
         if self._unit == 1 and looks_like_seconds(times):
-            if self._is_open:
-                return times * SECOND
             raise TrajectoryError(
                 f"{file}: the times look like seconds, but this format has nanoseconds: the first one is {times[0]}",
                 hint=_NAMED_UNIT,
