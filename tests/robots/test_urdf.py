@@ -7,6 +7,7 @@ import time
 
 import pytest
 
+import coframe
 from coframe.robots import Box, Cylinder, Mesh, RobotDescriptionError, Sphere, parse_urdf
 
 ARM = """<?xml version="1.0"?>
@@ -467,3 +468,24 @@ def test_mutated_descriptions_are_parsed_or_raise_an_error():
         except RobotDescriptionError:
             refused += 1
     assert 300 < refused < 1500
+
+
+@pytest.mark.parametrize(
+    ("content", "what"),
+    [
+        (b"version https://git-lfs.github.com/spec/v1\noid sha256:4d7a\nsize 12\n", "pointer of Git LFS"),
+        (b"\x1f\x8b\x08\x00", "compressed with gzip"),
+        (b"PK\x03\x04", "a zip archive"),
+    ],
+)
+def test_other_files_are_named_for_what_they_are(tmp_path, content, what):
+    (tmp_path / "robot.urdf").write_bytes(content)
+    with pytest.raises(RobotDescriptionError, match=what):
+        coframe.robots.load(tmp_path / "robot.urdf")
+
+
+@pytest.mark.parametrize(("rpy", "is_said"), [("0 0 90", True), ("-45 0 0", True), ("0 0 6.28319", False)])
+def test_angles_of_more_than_one_turn_are_reported_because_degrees_are_usual_elsewhere(rpy, is_said):
+    joint = f'<joint name="j" type="fixed"><parent link="a"/><child link="b"/><origin rpy="{rpy}"/></joint>'
+    robot = parse_urdf(f'<robot name="r"><link name="a"/><link name="b"/>{joint}</robot>')
+    assert any("angles are in radians" in warning for warning in robot.warnings) == is_said

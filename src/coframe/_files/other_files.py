@@ -8,6 +8,7 @@ __all__ = ["BEGINNING", "what_else"]
 BEGINNING = 16
 """Bytes from the beginning of a file that are enough."""
 
+_TEXT_MODE = "its line ends were changed, as by a transfer in text mode or by Git; transfer it as a binary file"
 _KINDS = {
     b"version https://": "it is a pointer of Git LFS, not the file itself; `git lfs pull` downloads that",
     b"\x1f\x8b": "it is compressed with gzip; unpack it with gunzip",
@@ -23,6 +24,9 @@ _KINDS = {
     b"PAR1": "it is a Parquet file; pandas.read_parquet reads it",
     b"\x89HDF": "it is an HDF5 file; h5py reads it",
     b"\x93NUMPY": "it is an .npy array of NumPy; numpy.load reads it",
+    b"\x89MCAP0\r\r\n": _TEXT_MODE,
+    b"\x89MCAP0\n": _TEXT_MODE,
+    b"#ROSBAG V2.0\r\n": _TEXT_MODE,
     b"\x89MCAP": "it is a recording (MCAP)",
     b"SQLite format 3": "it is a database, perhaps a recording (SQLite)",
     b"#ROSBAG V": "it is a recording (ROS 1 bag)",

@@ -18,7 +18,7 @@ from coframe.bags._recorded_message import RecordedTopic
 from coframe.bags._recorded_types import RecordedTypes
 from coframe.bags.formats import BUILT_IN, recording_name
 from coframe.bags.namespaces import TransformCollector, report_mixed_clocks
-from coframe.bags.transforms import ingest_for
+from coframe.bags.transforms import has_unknown_encoding, ingest_for
 from coframe.errors import CoframeError, RecordingError
 from coframe.frame_names import TF_STATIC_TOPIC, TF_TOPIC, absolute
 
@@ -147,6 +147,11 @@ class _Reading:
             channel = batch.channel
             if channel not in tracks:
                 tracks[channel] = self._index.add_track(storage, channel), self._collected.ingest(channel)
+                if has_unknown_encoding(channel):
+                    text = (
+                        f"its transforms, {channel.type}, are in the encoding {channel.encoding!r}, which is not known"
+                    )
+                    self._problems.add(f"{channel.topic}: {text}")
             track, ingest = tracks[channel]
             if not batch.is_intact and _has_transforms(channel):
                 # A flipped bit in a transform would be a wrong pose without a word.

@@ -60,6 +60,7 @@ class SqliteStorage(Storage):
         self._damage = ""
         self._leaves: Leaves | None = None
         self._on_leaves: dict[int, LeafRow] = {}  # the messages that were found without the tree, by row ID
+        self._are_leaves_known = False
         self._found = self._last_row = 0
 
     def channels(self) -> list[Channel]:
@@ -78,6 +79,9 @@ class SqliteStorage(Storage):
                 return
             self._note_damage(error)
             self._channels = self._channels or self._recovered_channels()
+            if not self._channels and self._leaves is not None:
+                rows = sum(row.is_message for row in self._leaves.rows())
+                self.add_problem(f"its topics are lost, so that {count(rows, 'message')} in it cannot be read")
         with_data = [number for number, channel in self._channels.items() if wanted(channel)]
         without_data = [number for number in self._channels if number not in with_data]
         for numbers, column in ((with_data, _DATA), (without_data, _SIZE)):
@@ -256,8 +260,19 @@ class SqliteStorage(Storage):
         except DAMAGE as error:
             raise DamagedError(f"the database is damaged: {error}") from None
         if data is None:
-            raise DamagedError("the message no longer exists")
+            return self._found_on_leaves(_row(position))
         return data
+
+    def _found_on_leaves(self, number: int) -> bytes:
+        """Return the data of a row that was read before, but that a search in the damaged tree does not find."""
+        with self._lock:
+            self._leaves = self._leaves or Leaves(self.path)
+            if not self._are_leaves_known:
+                self._are_leaves_known = True
+                self._on_leaves |= {row.number: row for row in self._leaves.rows() if row.is_message}
+        if (row := self._on_leaves.get(number)) is None:
+            raise DamagedError("the message no longer exists")
+        return self._values(row, 3)[0]
 
     def head(self, position: int, size: int) -> bytes:
         """Return the first bytes of the data of a row, without reading the rest."""

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from coframe.buffer import Buffer
     from coframe.messages.slices import Slices
 
-__all__ = ["Ingest", "ingest_for", "is_static"]
+__all__ = ["Ingest", "has_unknown_encoding", "ingest_for", "is_static"]
 
 # Offset of the first parent's name in a TFMessage: after the count, the stamp, the length of the name, and the
 # encapsulation (CDR) or the sequence number (ROS 1).
@@ -136,6 +136,12 @@ def ingest_for(channel: Channel, renaming: _core.Renaming | None = None) -> Inge
     if kind not in _DECODINGS:
         return None
     return Ingest(_DECODINGS[kind], is_static(channel.topic), channel.topic, renaming)
+
+
+def has_unknown_encoding(channel: Channel) -> bool:
+    """Return whether the messages of a channel are transforms in an encoding that cannot be read."""
+    types = {type_ for _, type_ in _DECODINGS}
+    return ingest_for(channel) is None and channel.type.replace("/msg/", "/") in types
 
 
 def _foxglove_cdr(data: bytes | memoryview) -> Iterator[StampedValues]:

@@ -25,6 +25,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Materials", "origin", "parse_link"]
 
+_MAX_ANGLE = 6.3  # radians; of one turn, rounded up
 _ZEROS = (0.0, 0.0, 0.0)
 _INERTIA = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 
@@ -110,7 +111,10 @@ def origin(element: Element, target: str, source: str | None = None) -> Transfor
         return Transform(target=target, source=source)
     xyz = pose.numbers("xyz", 3, _ZEROS)
     if "quat_xyzw" not in pose.attributes:
-        return Transform.from_rpy(xyz, pose.numbers("rpy", 3, _ZEROS), target=target, source=source)
+        rpy = pose.numbers("rpy", 3, _ZEROS)
+        if max(map(abs, rpy)) > _MAX_ANGLE:
+            pose.warn(f"rpy={' '.join(f'{angle:g}' for angle in rpy)!r} has more than one turn; angles are in radians")
+        return Transform.from_rpy(xyz, rpy, target=target, source=source)
     if "rpy" in pose.attributes:
         pose.fail("<origin> has both rpy and quat_xyzw", hint="Remove one of them.")
     quaternion = pose.numbers("quat_xyzw", 4)

@@ -7,6 +7,7 @@ import re
 from typing import TYPE_CHECKING, Any, Final
 
 from coframe._files.bounded_yaml import MAX_BYTES, yaml_events
+from coframe._files.other_files import BEGINNING, what_else
 from coframe._files.regular_files import read_regular
 from coframe._process.optional_imports import pip_install
 from rclpy._parameter_words import parse_scalar
@@ -61,8 +62,12 @@ def load_parameters(path: str) -> dict[str, dict[str, Any]]:
         OSError: The file cannot be read.
         ValueError: It is not a parameter file, exceeds a limit, or PyYAML is not installed.
     """
+    text = read_regular(path, MAX_BYTES)
+    # Such files are valid YAML without parameters: a node would start with its defaults. An empty one is, too, in rcl.
+    if text and (what := what_else(text[:BEGINNING])):
+        raise ValueError(what)
     reader = _FileReader()
-    for event in _events(read_regular(path, MAX_BYTES)):
+    for event in _events(text):
         getattr(reader, f"on_{type(event).__name__}", _ignore)(event)
     return reader.nodes
 
