@@ -79,8 +79,10 @@ class SqliteStorage(Storage):
                 return
             self._note_damage(error)
             self._channels = self._channels or self._recovered_channels()
+            rows = 0
             if not self._channels and self._leaves is not None:
                 rows = sum(row.is_message for row in self._leaves.rows())
+            if not self._channels and rows:
                 self.add_problem(f"its topics are lost, so that {count(rows, 'message')} in it cannot be read")
         with_data = [number for number, channel in self._channels.items() if wanted(channel)]
         without_data = [number for number in self._channels if number not in with_data]
