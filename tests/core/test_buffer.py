@@ -469,7 +469,7 @@ def test_stamps_on_another_clock_are_recognized(cache, start, stamp, where):
 @pytest.mark.parametrize("stamp", [99 * 10**9, 105 * 10**9])
 def test_hints_for_recordings_and_frozen_buffers_do_not_mention_caches_or_waiting(buffer, stamp):
     found, code = hint_at(buffer(), stamp)
-    assert "odom -> base has samples from 100.000000000 to 104.000000000 only" in found
+    assert "odom -> base has samples only from 100.000000000 to 104.000000000" in found
     assert "cache" not in found
     assert "ait" not in found
     assert code == "TF013"

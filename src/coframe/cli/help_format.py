@@ -53,7 +53,7 @@ def write_section(formatter: click.HelpFormatter, title: str, rows: list[tuple[s
     formatter.write(f"\n{title}:\n")
     for name, text in rows:
         start = f"{_INDENT}{name}".ljust(column)
-        if len(start) > column:
+        if len(start) > column - 2:
             formatter.write(start + "\n")
             start = " " * column
         formatter.write(_wrapped(text, start, " " * column, formatter.width).rstrip() + "\n")
