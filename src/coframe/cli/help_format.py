@@ -52,11 +52,11 @@ def write_section(formatter: click.HelpFormatter, title: str, rows: list[tuple[s
     column = len(_INDENT) + 2 + max((len(name) for name, _ in rows if len(name) <= _NAME_WIDTH), default=0)
     formatter.write(f"\n{title}:\n")
     for name, text in rows:
-        start = f"{_INDENT}{name}".ljust(column)
+        start = f"{_INDENT}{name}"
         if len(start) > column - 2:
             formatter.write(start + "\n")
-            start = " " * column
-        formatter.write(_wrapped(text, start, " " * column, formatter.width).rstrip() + "\n")
+            start = ""
+        formatter.write(_wrapped(text, start.ljust(column), " " * column, formatter.width).rstrip() + "\n")
 
 
 def _arguments(command: click.Command, ctx: click.Context) -> Iterator[click.Argument]:
