@@ -48,6 +48,13 @@ Kilted also runs with `COFRAME_DISTRO=humble`.
 
 Types that a distribution added are available in all of them.
 
+### Nodes with another definition
+
+If a publisher and a subscription announce different hashes of a type, a warning names both definitions. Over DDS,
+messages of the other definition above are read: a missing field has its default value, and `stamp` and `timestamp` of
+`TransitionEvent` are converted. Humble announces no hashes; its messages are recognized by their size. Over Zenoh, the
+hash is part of the address, so no messages arrive.
+
 ### Recordings
 
 Messages are read with the definitions in the recording. Recordings without definitions are read with those of the

@@ -25,6 +25,12 @@ namespace coframe {
 using FrameId = std::uint32_t;  // 0 is tf2's NO_PARENT
 using Stamp = std::int64_t;     // nanoseconds; 0 requests the latest
 
+// Seconds as tf2 computes them: its texts and rates contain the rounding of this sum.
+inline double to_seconds(Stamp stamp) {
+  constexpr Stamp second = 1'000'000'000;
+  return static_cast<double>(stamp / second) + 1e-9 * static_cast<double>(stamp % second);
+}
+
 // Returns the distance of any two stamps.
 inline std::uint64_t distance(Stamp a, Stamp b) {
   const auto first = static_cast<std::uint64_t>(a), second = static_cast<std::uint64_t>(b);

@@ -9,14 +9,12 @@ namespace coframe {
 
 namespace {
 
-double seconds(Stamp stamp) { return static_cast<double>(stamp) * 1e-9; }
-
 std::string fixed(double value, int decimals) {
   char text[400];  // a double has up to 309 digits before the point
   return std::string(text, static_cast<std::size_t>(std::snprintf(text, sizeof text, "%.*f", decimals, value)));
 }
 
-double span(const History::View& history) { return seconds(history.newest()) - seconds(history.oldest()); }
+double span(const History::View& history) { return to_seconds(history.newest()) - to_seconds(history.oldest()); }
 
 template <class Visit>
 void for_each_edge(const Tree& tree, Visit&& visit) {
@@ -91,8 +89,8 @@ std::string frames_as_yaml(const Tree& tree) {
     text += "  parent: " + yaml_value(tree.name(history.parent())) + "\n";
     text += "  broadcaster: " + yaml_value(tree.authority_name(tree.frame(id).authority)) + "\n";
     text += "  rate: " + fixed(average_rate(history), 3) + "\n";
-    text += "  most_recent_transform: " + fixed(seconds(history.newest()), 6) + "\n";
-    text += "  oldest_transform: " + fixed(seconds(history.oldest()), 6) + "\n";
+    text += "  most_recent_transform: " + fixed(to_seconds(history.newest()), 6) + "\n";
+    text += "  oldest_transform: " + fixed(to_seconds(history.oldest()), 6) + "\n";
     text += "  buffer_length: " + fixed(span(history), 3) + "\n";
   });
   return text.empty() ? "[]" : text;
@@ -105,8 +103,8 @@ std::string frames_as_dot(const Tree& tree, Stamp now) {
     text += dot_id(tree.name(history.parent())) + " -> " + dot_id(tree.name(id)) + "[label=\"";
     text += "Broadcaster: " + tree.authority_name(tree.frame(id).authority) + "\\n";
     text += "Average rate: " + fixed(average_rate(history), 3) + " Hz\\n";
-    text += "Most recent transform: " + fixed(seconds(history.newest()), 6) + " ";
-    if (now != 0) text += "( " + fixed(seconds(now) - seconds(history.newest()), 3) + " sec old)";
+    text += "Most recent transform: " + fixed(to_seconds(history.newest()), 6) + " ";
+    if (now != 0) text += "( " + fixed(to_seconds(now) - to_seconds(history.newest()), 3) + " sec old)";
     text += "\\nBuffer length: " + fixed(span(history), 3) + " sec\\n\"];\n";
   });
   // The legend hangs on every frame without a parent; on emptied ones, as in tf2, even without a time to tell.
@@ -115,7 +113,7 @@ std::string frames_as_dot(const Tree& tree, Stamp now) {
     const History::View history = tree.history(id);
     if (history.exists() ? !history.empty() : now == 0) continue;
     text += "edge [style=invis];\n subgraph cluster_legend { style=bold; color=black; label =\"view_frames Result\";\n";
-    if (now != 0) text += "\"Recorded at time: " + fixed(seconds(now), 6) + "\"[ shape=plaintext ] ;\n ";
+    if (now != 0) text += "\"Recorded at time: " + fixed(to_seconds(now), 6) + "\"[ shape=plaintext ] ;\n ";
     text += "}->" + dot_id(tree.name(id)) + ";\n";
   }
   return text + "}";

@@ -20,7 +20,7 @@ const char* argument_text(Argument argument) {
 
 std::string seconds_text(Stamp stamp) {
   char text[64];
-  const int length = std::snprintf(text, sizeof text, "%.6f", static_cast<double>(stamp) * 1e-9);
+  const int length = std::snprintf(text, sizeof text, "%.6f", to_seconds(stamp));
   return std::string(text, static_cast<std::size_t>(length));
 }
 

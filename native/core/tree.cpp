@@ -482,7 +482,7 @@ std::vector<LogLine> refusal_texts(unsigned refusals, std::string_view parent, s
     lines.push_back({false, format("TF_OLD_DATA ignoring data from the past for frame %s at time %.6f according to "
                                    "authority %s\nPossible reasons are listed at "
                                    "http://wiki.ros.org/tf/Errors%%20explained",
-                                   child_name.c_str(), static_cast<double>(stamp) * 1e-9, who.c_str())});
+                                   child_name.c_str(), to_seconds(stamp), who.c_str())});
   }
   return lines;
 }

@@ -305,3 +305,22 @@ def test_error_of_an_invalid_parameter_file_contains_its_name(tmp_path, text, me
     path.write_text(text)
     with pytest.raises(RCLInvalidROSArgsError, match=message):
         _arguments.parse(["--ros-args", "--params-file", str(path)])
+
+
+@pytest.mark.parametrize(
+    "rule",
+    [
+        *("chatter:=my-topic", "chatter:=/a/", "x:=/a//b", "x:=1a", "x:={node}/y", "a:=b:=c", "x:y:a:=b"),
+        *("m:chatter:=my-topic", "~:=b", "a:=~", "*:=b", "a/*:=b", "a:=\\1", "a__b:=c", "a:=__b", "/:=b", "a:=/"),
+        *("~a:=b", "a:= b", "rostopic://a:=rostopic://b", "1a:=b", "a{b}:=c", "\u00e4:=b", "a:=\u0663"),
+    ],
+)
+def test_rules_that_ros_rejects(rule):
+    with pytest.raises(RCLInvalidROSArgsError, match=f"Couldn't parse remap rule: '-r {re.escape(rule)}'"):
+        _arguments.parse(["--ros-args", "-r", rule])
+
+
+@pytest.mark.parametrize("rule", ["~/a:=b", "/a/b:=~/c", "a_:=c", "_a:=b", "_1:=_", "m:rosservice://a/b:=/c", "a:=b_"])
+def test_rules_that_ros_accepts(rule):
+    (remap,) = _arguments.parse(["--ros-args", "-r", rule]).remaps
+    assert rule.endswith(f"{remap.match}:={remap.replacement}")

@@ -80,7 +80,7 @@ _LATER = {
         *("add_post_set_parameters_callback", "add_pre_set_parameters_callback", "get_fully_qualified_node_names"),
         *("count_clients", "count_services", "list_parameters", "wait_for_node"),
         *("remove_post_set_parameters_callback", "remove_pre_set_parameters_callback"),
-        *("get_clients_info_by_service", "get_servers_info_by_service"),
+        *("get_clients_info_by_service", "get_servers_info_by_service", "_parameters"),
     },
     "Subscription": {"get_publisher_count"},
     "Timer": {"callback"},

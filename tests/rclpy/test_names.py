@@ -38,12 +38,26 @@ def test_root_namespace():
     assert expand_topic_name("~/a", "arm", "/") == "/arm/a"
 
 
-@pytest.mark.parametrize("name", ["", "a b", "a//b", "a/", "1a", "a/1b", "a~", "a{", "{1}", "{a b}", "a-b"])
+@pytest.mark.parametrize("name", ["", "a b", "a/", "1a", "a/1b", "a~", "a{", "{1}", "{a b}", "a-b"])
 def test_invalid_topic_names(name):
     with pytest.raises(InvalidTopicNameException, match="Invalid topic name"):
         validate_topic_name(name)
     with pytest.raises(InvalidServiceNameException, match="Invalid service name"):
         validate_topic_name(name, is_service=True)
+
+
+def test_repeated_slashes_are_only_invalid_in_full_names():
+    assert validate_topic_name("a//b")
+    with pytest.raises(InvalidTopicNameException, match="must not contain repeated '/'"):
+        validate_full_topic_name("/a//b")
+
+
+def test_a_tilde_before_a_name_is_invalid_up_to_humble(monkeypatch):
+    assert validate_topic_name("~x")
+    monkeypatch.setattr("rclpy.validate_topic_name.since", lambda _: False)
+    with pytest.raises(InvalidTopicNameException, match="must not have tilde '~' before a name"):
+        validate_topic_name("~x")
+    assert validate_topic_name("~/x")
 
 
 def test_unknown_substitution():

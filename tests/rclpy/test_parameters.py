@@ -289,3 +289,21 @@ def test_an_empty_list_does_not_override_a_single_value(make_node):
     node.declare_parameter("gain", 1.5)
     with pytest.raises(ParameterUninitializedException):
         node.get_parameter("gain")
+
+
+def test_parameters_before_an_undeclared_one_are_set(node):
+    node.declare_parameter("a", 1)
+    node.declare_parameter("b", 1)
+    values = [Parameter("a", value=2), Parameter("missing", value=3), Parameter("b", value=4)]
+    with pytest.raises(ParameterNotDeclaredException):
+        node.set_parameters(values)
+    assert (node.get_parameter("a").value, node.get_parameter("b").value) == (2, 1)
+    with pytest.raises(ParameterNotDeclaredException):
+        node.set_parameters_atomically([Parameter("a", value=5), Parameter("missing", value=3)])
+    assert node.get_parameter("a").value == 2
+
+
+def test_parameters_by_name_as_programs_for_humble_read_them(node):
+    node.declare_parameter("a", 1)
+    assert node._parameters["a"].value == 1
+    assert set(node._parameters) >= {"a", "use_sim_time"}

@@ -13,9 +13,9 @@ from coframe.distributions import follows
 from coframe.messages._parser import without_comment
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Iterator, Mapping
 
-__all__ = ["pack", "unpack"]
+__all__ = ["other_forms", "pack", "unpack"]
 
 _HEADER = "="
 
@@ -31,10 +31,25 @@ def pack(definitions: Mapping[str, str]) -> str:
 
 def unpack(text: str) -> dict[str, str]:
     """Return the definitions of an archive by name, in the form of the distribution that this process follows."""
-    definitions: dict[str, str] = {}
+    pieces = _pieces(text)
+    return {name: definition for name, variant, definition in pieces if not variant or follows(variant)}
+
+
+def other_forms(text: str) -> dict[str, str]:
+    """Return the definitions that differ between distributions, in the form that this process does not follow."""
+    pieces = list(_pieces(text))
+    return {
+        name: next(text for other, variant, text in pieces if other == name and not variant)
+        if follows(distribution)
+        else definition
+        for name, distribution, definition in pieces
+        if distribution
+    }
+
+
+def _pieces(text: str) -> Iterator[tuple[str, str, str]]:
+    """Yield the name, the distribution ("" for the default form) and the text of each definition."""
     for piece in f"\n{text}".split(f"\n{_HEADER}")[1:]:
         key, _, definition = piece.partition("\n")
         name, _, variant = key.partition(" ")
-        if not variant or follows(variant):
-            definitions[name] = definition
-    return definitions
+        yield name, variant, definition

@@ -98,12 +98,42 @@ def _deserialize_in_python(data: bytes, cls: type[M], max_rest: int | None = Non
         message: M
         message, end = plan.run(data)
     except (struct.error, ValueError) as error:
+        converted = _in_other_form(data, cls)
+        if converted is not None:
+            return converted
         raise _decode_error(error, plan, data, cls) from None
     if max_rest is not None and len(data) - end > max_rest:
         raise DecodeError(
             f"{cls.ROS_TYPE}: the message ends at byte {end} of {len(data)}",
             hint="The bytes contain a message of another type, or of another version of this one.",
         )
+    return message
+
+
+def _in_other_form(data: bytes, cls: type[M]) -> M | None:
+    """Return the message if the bytes are one of the definition that another distribution has; None otherwise."""
+    from coframe.messages import other_forms  # noqa: PLC0415 - rarely needed
+
+    if not other_forms.has_other_form(cls):
+        return None
+    return deserialize_other_form(data, cls)
+
+
+def deserialize_other_form(data: bytes, cls: type[M]) -> M | None:
+    """Return a message of the definition that another distribution has, as one of `cls`; None if it is not one.
+
+    Args:
+        data: The bytes.
+        cls: A class for which `other_forms.has_other_form` is true.
+    """
+    from coframe.messages import other_forms  # noqa: PLC0415 - rarely needed
+
+    other = other_forms.other_form(cls.ROS_TYPE)
+    assert other is not None
+    try:
+        message: M = other_forms.convert(deserialize_whole(data, other), cls)
+    except DecodeError:
+        return None
     return message
 
 

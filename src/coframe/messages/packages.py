@@ -172,6 +172,13 @@ def shipped(name: str) -> InterfacePackage | None:
     return InterfacePackage(name, {key: Definition(text) for key, text in texts.items()})
 
 
+def shipped_other_form(ros_type: str) -> str | None:
+    """Return the definition that other distributions have of a type of coframe; None if all have the same one."""
+    package, _, name = ros_type.partition("/")
+    path = _SHIPPED / f"{package}.txt"
+    return archive.other_forms(path.read_text("utf-8")).get(name) if path.is_file() else None
+
+
 def shipped_names() -> list[str]:
     """Return the names of all interface packages that coframe contains."""
     return sorted(path.stem for path in _SHIPPED.glob("*.txt"))

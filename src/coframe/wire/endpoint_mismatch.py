@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from coframe._output.warn_once import WarnOnce
 from coframe.wire import names
 from coframe.wire._foreign_services import foreign_services_text
+from coframe.wire.type_hashes import type_hash_of_name
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -94,9 +95,13 @@ def mismatch_text(
             f"{who} {their_verb} {names.ros_type(peer.type)} on {topic}, but this {role} {our_verb} {own_type}: "
             "no messages will arrive. Use the same message type, or another topic name."
         )
+    if reason == "definition":
+        return _definition_text(f"{who} {'expects' if own.is_writer else 'publishes'}", topic, own_type, role, peer)
     if reason == "services":
         return foreign_services_text(own.topic, middleware, node, is_writer=own.is_writer)
     if reason == "other":
+        if _differs(own, peer):
+            return f"{mismatch_text(own, peer, node, 'definition')} Until then, no messages will arrive."
         what = _OTHER_POLICIES.get(own.refused_policy, f"definition of {own_type}")
         return (
             f"{who} on {topic} has a different {what} from this {role}: no messages will arrive. "
@@ -108,6 +113,20 @@ def mismatch_text(
     else:
         problem = f"offers {offered} on {topic}, but this subscription requests {requested}"
     return f"{who} {problem}: no messages will arrive. {advice}"
+
+
+def _definition_text(start: str, topic: str, own_type: str, role: str, peer: DiscoveredEndpoint) -> str:
+    from coframe.distributions import DEFINITIONS, current  # noqa: PLC0415 - only for the warning
+    from coframe.messages.other_forms import difference  # noqa: PLC0415
+
+    theirs = difference(own_type, peer.type_hash)
+    if own_type in DEFINITIONS and theirs != "another definition":
+        consequence = "Fields that only one of them has are not transferred. Set COFRAME_DISTRO to use the same one."
+        return f"{start} {own_type} on {topic} with {theirs}, but this {role} follows {current().title}. {consequence}"
+    return (
+        f"{start} {own_type} on {topic} with another definition than this {role} ({peer.type_hash}): messages may be "
+        "dropped or misread. Use the same definition on both sides; coframe interface show prints this one."
+    )
 
 
 class MismatchMonitor:
@@ -151,7 +170,7 @@ class MismatchMonitor:
                 self._suspects[suspect] = since
                 continue
             text = mismatch_text(own, peer, node, reason, self._graph.foreign_services(peer))
-            if own.on_mismatch is None or reason == "services":
+            if own.on_mismatch is None or reason in ("services", "definition"):
                 self._warn_once(text, key)
             else:
                 self._warn_once(text, key, partial(own.on_mismatch, _policy(own) if reason == "other" else reason))
@@ -166,6 +185,8 @@ class MismatchMonitor:
                 if handle in matched:
                     if not names.is_topic(own.topic) and self._graph.foreign_services(peer):
                         yield own, peer, "services"
+                    elif _differs(own, peer) and peer.guid not in own_guids:
+                        yield own, peer, "definition"
                     continue
                 # A pair within this process is reported once, from the side of the subscription.
                 if own.is_writer and peer.guid in own_guids and own.on_mismatch is None:
@@ -175,6 +196,14 @@ class MismatchMonitor:
                     # Processes that use coframe on Fast DDS have writers that only others match.
                     if (reason not in _QOS or not own.adapts) and not (reason == "other" and foreign):
                         yield own, peer, reason
+
+
+def _differs(own: LocalEndpoint, peer: DiscoveredEndpoint) -> bool:
+    """Return whether both endpoints of a topic announce a hash of its type, and these differ."""
+    if not peer.type_hash or not names.is_topic(own.topic):
+        return False
+    own_hash = type_hash_of_name(names.ros_type(own.description.type))
+    return bool(own_hash) and own_hash != peer.type_hash
 
 
 def _reasons(own: LocalEndpoint, peer: DiscoveredEndpoint, graph: Graph) -> list[str]:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The ROS 2 client library for Python (the API of Humble) without a ROS installation.
+"""The ROS 2 client library for Python (the API of Humble, Jazzy and Kilted) without a ROS installation.
 
     import rclpy
 
@@ -13,6 +13,7 @@ This package is used if no ROS installation is sourced. A ROS installation on th
 from __future__ import annotations
 
 import sys
+from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
 from coframe.workspace import ros_side
@@ -81,6 +82,7 @@ from rclpy.utilities import (
 )
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
     from types import TracebackType
 
     from typing_extensions import Self
@@ -227,7 +229,8 @@ def shutdown(*, context: Context | None = None, uninstall_handlers: bool | None 
 def try_shutdown(*, context: Context | None = None, uninstall_handlers: bool | None = None) -> None:
     """Shut down ROS communication unless it is shut down already; see `shutdown`."""
     chosen = get_default_context() if context is None else context
-    if chosen.ok():
+    # After a signal, the default context is replaced, so that init() works again.
+    if chosen.ok() or chosen._Coframe__was_shut_down_by_signal:  # noqa: SLF001 - shared in rclpy
         _shut_down(context, uninstall_handlers=uninstall_handlers)
 
 
@@ -290,12 +293,8 @@ def spin(node: Node, executor: Executor | None = None) -> None:
         node: Node to spin.
         executor: Executor to use. None: the global executor.
     """
-    executor, is_new = _add(node, executor)
-    try:
-        executor.spin()
-    finally:
-        if is_new:
-            executor.remove_node(node)
+    with _added(node, executor) as added:
+        added.spin()
 
 
 def spin_once(node: Node, *, executor: Executor | None = None, timeout_sec: float | None = None) -> None:
@@ -309,12 +308,8 @@ def spin_once(node: Node, *, executor: Executor | None = None, timeout_sec: floa
     Raises:
         ExternalShutdownException: The context was shut down.
     """
-    executor, is_new = _add(node, executor)
-    try:
-        executor.spin_once(timeout_sec=timeout_sec)
-    finally:
-        if is_new:
-            executor.remove_node(node)
+    with _added(node, executor) as added:
+        added.spin_once(timeout_sec=timeout_sec)
 
 
 def spin_until_future_complete(
@@ -334,14 +329,20 @@ def spin_until_future_complete(
     Raises:
         ExternalShutdownException: The context was shut down.
     """
-    executor, is_new = _add(node, executor)
+    with _added(node, executor) as added:
+        added.spin_until_future_complete(future, timeout_sec)
+
+
+@contextmanager
+def _added(node: Node, executor: Executor | None) -> Iterator[Executor]:
+    """Add a node to an executor for a while, and give it back to the executor that it belonged to."""
+    executor = executor or get_global_executor()
+    previous = node.executor
+    is_new = executor.add_node(node)
     try:
-        executor.spin_until_future_complete(future, timeout_sec)
+        yield executor
     finally:
         if is_new:
             executor.remove_node(node)
-
-
-def _add(node: Node, executor: Executor | None) -> tuple[Executor, bool]:
-    executor = executor or get_global_executor()
-    return executor, executor.add_node(node)
+            if previous is not None and node.executor is None and previous.context.ok():
+                previous.add_node(node)

@@ -24,6 +24,10 @@ _PARAMETER: Final = re.compile(rf"(?:(?P<node>{_NAME}):)?(?P<name>{_NAME}(?:[./]
 _SWITCHES: Final = ("stdout-logs", "rosout-logs", "external-lib-logs")
 
 
+# The names in a remapping rule, as rcl's lexer reads them.
+_REMAP_PART = r"[A-Za-z_](?:(?<!_)_|[A-Za-z0-9])*"
+_REMAP_NAME = re.compile(rf"(?:~/|/)?{_REMAP_PART}(?:/{_REMAP_PART})*", re.ASCII)
+
 Parameters = dict[str, dict[str, Any]]  # values by pattern of node names and name of the parameter
 
 
@@ -202,10 +206,17 @@ def _remap_of(rule: str) -> Remap:
         return Remap(node, "namespace", match, replacement)
     if not replacement:
         raise ValueError("it has no value after :=")
-    for scheme, kind in (("rostopic://", "topic"), ("rosservice://", "service")):
+    kind = "any"
+    for scheme, kind_of_scheme in (("rostopic://", "topic"), ("rosservice://", "service")):
         if match.startswith(scheme):
-            return Remap(node, kind, match[len(scheme) :], replacement)
-    return Remap(node, "any", match, replacement)
+            kind, match = kind_of_scheme, match[len(scheme) :]
+    for name, side in ((match, "before"), (replacement, "after")):
+        if not _REMAP_NAME.fullmatch(name):
+            raise ValueError(
+                f"{name!r} {side} := is not a name: names consist of letters, digits and single '_', do not start with "
+                "a digit, and are separated by single '/'; only '/' or '~/' can be before the first one"
+            )
+    return Remap(node, kind, match, replacement)
 
 
 def _parse_deprecated_remap(word: str, result: Arguments) -> bool:

@@ -44,6 +44,7 @@ class Node(NodeParameters, NodeGraph):
     executor: Executor | None
     _Coframe__entities: EntityRegistry
     _Coframe__names: NameResolver
+    _Coframe__client_class: type[Client] = Client
 
     def get_logger(self) -> RcutilsLogger:
         """Return the logger of the node."""
@@ -208,7 +209,7 @@ class Node(NodeParameters, NodeGraph):
         requests = self._Coframe__participant.service_publisher(graph_node, name, srv_type.Request, qos, "request")
         group = self._Coframe__entities.group(callback_group)
         return self._Coframe__entities.add(
-            Client(
+            self._Coframe__client_class(
                 self.context,
                 self._Coframe__participant,
                 requests,

@@ -36,6 +36,18 @@ SetCallback = Callable[[list["Parameter[Any]"]], SetParametersResult]
 PostSetCallback = Callable[[list["Parameter[Any]"]], None]
 
 
+class _ParametersByName:
+    """Attribute `_parameters` of nodes: on Humble, which has no `list_parameters`, programs read it.
+
+    A node can have an attribute of its own with this name, because this class has no `__set__`.
+    """
+
+    def __get__(self, node: NodeParameters | None, _: type[NodeParameters]) -> Any:
+        if node is None:
+            return self
+        return {name: node.get_parameter(name) for name in node.list_parameters([], 0).names}
+
+
 class NodeParameters:
     """Base class of `Node` with its parameters.
 
@@ -49,6 +61,7 @@ class NodeParameters:
     """
 
     PARAM_REL_TOL = RELATIVE_TOLERANCE
+    _parameters = _ParametersByName()
 
     def __init__(
         self, overrides: dict[str, Parameter[Any]], *, allow_undeclared: bool, declare_overrides: bool
@@ -238,11 +251,15 @@ class NodeParameters:
             For each parameter whether it was set, and the reason if it was not.
 
         Raises:
-            ParameterNotDeclaredException: A parameter is not declared, and undeclared parameters are not allowed.
+            ParameterNotDeclaredException: A parameter is not declared, and undeclared parameters are not allowed. The
+                parameters before it were set.
         """
+        results = []
         with self.__lock:
-            self.__check_declared(parameter_list)
-            return [self.__set([parameter]) for parameter in parameter_list]
+            for parameter in parameter_list:
+                self.__check_declared([parameter])
+                results.append(self.__set([parameter]))
+        return results
 
     def set_parameters_atomically(self, parameter_list: list[Parameter[Any]]) -> SetParametersResult:
         """Set all parameters, or no parameter if one is rejected.
@@ -299,7 +316,7 @@ class NodeParameters:
         descriptor = self.__descriptors.get(name)
         if descriptor is None:
             if self.__allow_undeclared:
-                return ParameterDescriptor(name=name)
+                return ParameterDescriptor()
             raise self.__not_declared(name)
         return descriptor
 

@@ -36,6 +36,11 @@ class NameResolver:
     namespace: str
     rules: list[Remap]
 
+    @property
+    def full_name(self) -> str:
+        """The name of the node with its namespace, for example "/robot1/arm"."""
+        return f"{self.namespace.rstrip('/')}/{self.node_name}"
+
     def resolve(self, name: str, *, is_service: bool = False, only_expand: bool = False) -> str:
         """Return the fully qualified name, remapped by the first matching rule.
 

@@ -173,7 +173,7 @@ class Executor:
                 if node.context.ok()
                 else "belongs to a context that was shut down. Create a new node after rclpy.init()."
             )
-            raise RuntimeError(f"Node '{node.get_name()}' {reason}")
+            raise RuntimeError(f"Node '{node._Coframe__names.node_name}' {reason}")
         with self.__lock:
             if node in self._nodes:
                 return False
@@ -515,6 +515,8 @@ class MultiThreadedExecutor(Executor):
     def __run_in_pool(self, task: Task[Any]) -> None:
         try:
             self._Coframe__call(task)
+        except BaseException as error:  # noqa: BLE001 - the spinning thread raises it
+            task.set_exception(error)
         finally:
             if task.done() and task.exception() is not None:
                 self.__failed.append(task)

@@ -15,6 +15,7 @@ from rcl_interfaces.msg import ParameterEvent
 from rclpy import _arguments, _node_endpoints
 from rclpy._absent import Handle
 from rclpy._arguments import Arguments
+from rclpy._destroyable import destroyed
 from rclpy._entity_registry import EntityRegistry, check_callback
 from rclpy._node_parameters import NodeParameters
 from rclpy._remapping import NameResolver, remap_node
@@ -81,6 +82,7 @@ class Node(_node_endpoints.Node):
     """
 
     handle = Handle()
+    _Coframe__clock_class: type[ROSClock] = ROSClock
 
     def __init__(
         self,
@@ -104,10 +106,11 @@ class Node(_node_endpoints.Node):
         arguments = _arguments_for(self.__context, cli_args, use_global_arguments=use_global_arguments)
         self._Coframe__names = _names_for(node_name, namespace or "", arguments)
         self.__executor: Callable[[], Executor | None] = _no_executor
-        self.__logger = RcutilsLogger(self.get_fully_qualified_name().lstrip("/").replace("/", "."))
-        self._Coframe__entities = EntityRegistry(self.get_fully_qualified_name(), self.__logger.name, self.__context)
+        name = self._Coframe__names.full_name
+        self.__logger = RcutilsLogger(name.lstrip("/").replace("/", "."))
+        self._Coframe__entities = EntityRegistry(name, self.__logger.name, self.__context)
         self.__timers_of_rates: dict[Rate, Timer] = {}
-        self.__clock = ROSClock()
+        self.__clock: Clock = self._Coframe__clock_class()
 
         overrides = {
             # As in rcl, an empty list has no type yet: that of the declaration applies.
@@ -167,16 +170,35 @@ class Node(_node_endpoints.Node):
     # Names
 
     def get_name(self) -> str:
-        """Return the name without the namespace."""
+        """Return the name without the namespace.
+
+        Raises:
+            InvalidHandle: The node was destroyed.
+        """
+        self.__check_exists()
         return self._Coframe__names.node_name
 
     def get_namespace(self) -> str:
-        """Return the namespace, for example "/" or "/robot1"."""
+        """Return the namespace, for example "/" or "/robot1".
+
+        Raises:
+            InvalidHandle: The node was destroyed.
+        """
+        self.__check_exists()
         return self._Coframe__names.namespace
 
     def get_fully_qualified_name(self) -> str:
-        """Return the name with the namespace, for example "/robot1/arm"."""
-        return f"{self.get_namespace().rstrip('/')}/{self.get_name()}"
+        """Return the name with the namespace, for example "/robot1/arm".
+
+        Raises:
+            InvalidHandle: The node was destroyed.
+        """
+        self.__check_exists()
+        return self._Coframe__names.full_name
+
+    def __check_exists(self) -> None:
+        if self._Coframe__entities.is_destroyed:
+            raise destroyed(f"The node {self._Coframe__names.full_name}")
 
     def resolve_topic_name(self, topic: str, *, only_expand: bool = False) -> str:
         """Return the fully qualified name of a topic, remapped unless `only_expand` is set.
@@ -355,7 +377,7 @@ class Node(_node_endpoints.Node):
         self.destroy_node()
 
     def __repr__(self) -> str:
-        return f"<{type(self).__name__} {self.get_fully_qualified_name()}>"
+        return f"<{type(self).__name__} {self._Coframe__names.full_name}>"
 
     def _Coframe__on_parameter_set(self, parameter: Parameter[Any]) -> None:
         if parameter.name == USE_SIM_TIME_NAME:

@@ -12,6 +12,8 @@ from coframe.distributions import since
 from coframe.errors import DecodeError
 from coframe.messages import codec
 from coframe.messages.native_codec import native_codec
+from coframe.messages.other_forms import has_other_form, other_form
+from coframe.messages.type_hash import type_hash
 from coframe.wire.tf_reader import TfReader
 from rclpy._absent import Handle
 from rclpy._content_filter import ContentFilter
@@ -84,6 +86,9 @@ class Subscription(LoggingEntity):
         self.raw = raw
         self.event_handlers = event_handlers or []
         self.__filter: ContentFilter | None = None
+        self.__other_hash = ""  # of the definition that another distribution has
+        if has_other_form(msg_type):
+            self.__other_hash = type_hash(other_form(msg_type.ROS_TYPE))
 
     @property
     def topic_name(self) -> str:
@@ -134,7 +139,8 @@ class Subscription(LoggingEntity):
         wire = self.__wire
         if wire is None:
             return None
-        native = None if self.raw else native_codec(self.msg_type)
+        # Messages of another definition are recognized before they are read.
+        native = None if self.raw or self.__other_hash else native_codec(self.msg_type)
         if native is None or isinstance(wire, TfReader):
             samples = wire.take(limit=1)
         else:
@@ -144,7 +150,7 @@ class Subscription(LoggingEntity):
     def __deliver(self, sample: Sample, received: int) -> Any:
         try:
             is_done = self.raw or not isinstance(sample.data, bytes)
-            message = sample.data if is_done else codec.deserialize(sample.data, self.msg_type)
+            message = sample.data if is_done else self.__read(sample)
             if self.__filter is not None and not self.__is_let_through(message):
                 return None
         except DecodeError as error:  # A damaged message of another program must not end this one.
@@ -153,6 +159,15 @@ class Subscription(LoggingEntity):
         if not self.__accepts_info:
             return self.callback(message)
         return self.callback(message, self.__info(sample, received))
+
+    def __read(self, sample: Sample) -> Any:
+        if self.__other_hash and self.__wire is not None:
+            writer = self.__wire.writer(sample.writer)
+            if writer is not None and writer.type_hash == self.__other_hash:
+                message = codec.deserialize_other_form(sample.data, self.msg_type)
+                if message is not None:
+                    return message
+        return codec.deserialize(sample.data, self.msg_type)
 
     def __is_let_through(self, message: Any) -> bool:
         whole = codec.deserialize(message, self.msg_type) if self.raw else message

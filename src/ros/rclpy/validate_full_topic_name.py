@@ -22,4 +22,6 @@ def validate_full_topic_name(name: str, *, is_service: bool = False) -> bool:
         if character in name:
             text = "topic name must not contain characters other than alphanumerics, '_', or '/'"
             raise kind(name, text, name.index(character))
+    if "//" in name:
+        raise kind(name, "topic name must not contain repeated '/'", name.index("//") + 1)
     return validate_topic_name(name, is_service=is_service)

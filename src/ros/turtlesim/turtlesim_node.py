@@ -13,7 +13,7 @@ from coframe.nodes.program import program, spin_until_shutdown
 from rcl_interfaces.msg import IntegerRange, ParameterDescriptor
 from rclpy.exceptions import NameValidationException
 from rclpy.node import Node
-from rclpy.validate_topic_name import validate_topic_name
+from rclpy.validate_full_topic_name import validate_full_topic_name
 from std_srvs.srv import Empty
 from turtlesim._canvas import SIZE_IN_METERS, Canvas
 from turtlesim._drawing import Drawing
@@ -93,7 +93,7 @@ class TurtleSim(Node):
             return f"The name of a turtle has at most {_MAX_NAME_LENGTH} characters"
         try:
             if request.name:
-                validate_topic_name(request.name)
+                validate_full_topic_name(f"/{request.name}")
         except NameValidationException as error:
             return f"[{shown(request.name)}] cannot be the name of a turtle: {printable(str(error))}"
         return ""
