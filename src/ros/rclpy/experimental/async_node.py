@@ -198,7 +198,7 @@ class AsyncNode(Node):
             raise RuntimeError("An AsyncNode runs in an event loop, not in an executor. Use `await node.run()`.")
 
     def __watch(self, loop: asyncio.AbstractEventLoop) -> None:
-        """Wake the event loop whenever an entity may be ready. This runs in a thread of its own."""
+        """Wake the event loop whenever an entity may be ready. This runs in a dedicated thread."""
         wakeup = self.context._Coframe__wakeup
         seen = wakeup.count
         while not self.__stopped:
