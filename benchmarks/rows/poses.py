@@ -37,11 +37,10 @@ def row(operation: str, peer: Callable[..., Any], reference: str, target: Target
 SCIPY, PYTRANSFORM3D, JAXLIE, PINOCCHIO = "SciPy", "pytransform3d", "jaxlie on the CPU", "Pinocchio in a loop"
 BASIC = ("exp", "log", "compose")
 SCREWS = "interpolate along screws"
-FASTER = TimesAsFast(1)
 
 ROWS = [
-    *(row(name, lie.Scipy, SCIPY, FASTER) for name in (*BASIC, "inverse", "interpolate")),
-    *(row(name, lie.Pytransform3d, PYTRANSFORM3D, FASTER) for name in (*BASIC, SCREWS)),
-    *(row(name, lie.Jaxlie, JAXLIE, FASTER) for name in BASIC),
-    *(row(name, lie.Pinocchio, PINOCCHIO, FASTER) for name in (*BASIC, SCREWS)),
+    *(row(name, lie.Scipy, SCIPY, TimesAsFast(4)) for name in (*BASIC, "inverse", "interpolate")),
+    *(row(name, lie.Pytransform3d, PYTRANSFORM3D, TimesAsFast(2)) for name in (*BASIC, SCREWS)),
+    *(row(name, lie.Jaxlie, JAXLIE, TimesAsFast(5)) for name in BASIC),
+    *(row(name, lie.Pinocchio, PINOCCHIO, TimesAsFast(10)) for name in (*BASIC, SCREWS)),
 ]

@@ -124,7 +124,7 @@ class Connection:
         """Publish the pose of a frame relative to its parent on /tf, like a TransformBroadcaster.
 
         Args:
-            parent: The parent frame.
+            parent: The parent frame. Names are published as given, without the prefix of a connection.
             child: The child frame.
             transform: A single transform. If it names its frames, they must be these.
             stamp: The time of the pose; by default the stamp of the transform, or else the system time.

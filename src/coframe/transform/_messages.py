@@ -147,7 +147,7 @@ def contents(message: Any) -> Contents:
         if empty is None:
             raise ValueError(
                 f"{_name(message)} contains no pose. A pose has the fields position and orientation, or translation "
-                "and rotation."
+                "and rotation. transform.transform_point(point) transforms a point."
             )
         return Contents([], is_list=True)
     path = paths[0]
