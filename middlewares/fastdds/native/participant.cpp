@@ -3,6 +3,7 @@
 
 #include <pthread.h>
 
+#include <cstdio>
 #include <cstring>
 #include <random>
 
@@ -66,6 +67,25 @@ void set_discovery(dds::DomainParticipantQos& qos, const ParticipantOptions& opt
   // By default, Fast DDS shares memory and looks for few participants of each peer.
   const bool has_peers = !builtin.initialPeersList.empty();
   if (!options.has_profiles && (has_peers || !kSharesMemory)) set_own_transports(qos);
+}
+
+// Prints errors as one plain line each. Without it, Fast DDS writes them in colors, and reports descriptions of types
+// of other versions, which coframe does not use.
+class Console final : public dds::LogConsumer {
+ public:
+  void Consume(const dds::Log::Entry& entry) override {
+    const char* category = entry.context.category != nullptr ? entry.context.category : "";
+    if (entry.kind != dds::Log::Kind::Error || std::strncmp(category, "TYPELOOKUP", 10) == 0) return;
+    std::fprintf(stderr, "Fast DDS: %s (%s)\n", entry.message.c_str(), category);
+  }
+};
+
+void print_errors_plainly() {
+  static std::once_flag once;
+  std::call_once(once, [] {
+    dds::Log::ClearConsumers();
+    dds::Log::RegisterConsumer(std::make_unique<Console>());
+  });
 }
 
 dds::DomainParticipantQos make_qos(const ParticipantOptions& options) {
@@ -176,6 +196,7 @@ std::vector<EndpointChange> EndpointChanges::take() {
 
 Participant::Participant(const ParticipantOptions& options, void* changed) : options_(options), changed_(changed) {
   check_not_forked();
+  print_errors_plainly();
   const dds::DomainParticipantQos qos = make_qos(options);
   // The listener receives discovery, and nothing about endpoints.
   participant_ = created(dds::DomainParticipantFactory::get_instance()->create_participant(options.domain, qos, this,
