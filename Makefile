@@ -77,8 +77,8 @@ test-slow: $(STAMP) $(VENV)/.oracle $(VENV)/.installers $(VENV)/.docs ## run the
 test-ros: $(STAMP) ## run programs with the sourced ROS 2 and with coframe, and compare their outputs
 	COFRAME_TEST_ROS=1 $(PYTEST) tests/interop tests/course/test_sourced_ros.py -v $(ARGS)
 
-test-ros-wheels: ## grade the lab's solution and verify coframe.ros2 on rclpy and Fast DDS of ROS 2 Kilted, which pip installs into build/ros_wheels
-	scripts/ros_wheels.sh
+test-ros-wheels: $(STAMP) ## print what works beside rclpy and Fast DDS of ROS 2 Jazzy and Kilted, which pip installs into build/ros_wheels, and grade the lab there
+	$(BIN)/python -m scripts.ros_wheels $(ARGS)
 
 test-long: $(STAMP) ## compare ten million random operations with the real tf2 (a new seed each run); ten minutes with a stuck tab; a class of 36
 	$(PYTEST) -m long -rP $(ARGS)
