@@ -2,7 +2,7 @@
 """Run what one side provides and the other uses: coframe on a middleware beside a distribution of ROS 2, both ways.
 
 The programs are in tests/process/ros_matrix; each runs with coframe's rclpy and with that of ROS 2. They communicate on
-the loopback interface, each pair in a domain of its own.
+the loopback interface, and each pair has its own domain.
 """
 
 from __future__ import annotations

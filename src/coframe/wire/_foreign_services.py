@@ -3,7 +3,12 @@
 
 from __future__ import annotations
 
-from coframe.wire import names
+from typing import Final
+
+from coframe.wire import names, selection
+from coframe.wire.rtps import vendors
+
+_FAST_DDS_WIRE: Final = "fastdds"
 
 
 def foreign_services_text(topic: str, middleware: str, node: str | None, *, is_writer: bool) -> str:
@@ -22,6 +27,17 @@ def foreign_services_text(topic: str, middleware: str, node: str | None, *, is_w
     return (
         f"{who} uses {middleware}, so {effect.format(service)}: services, actions and parameters need the same "
         "middleware on both sides, and coframe uses Cyclone DDS. Start that node with "
-        "RMW_IMPLEMENTATION=rmw_cyclonedds_cpp. Topics and transforms work. With the package coframe-fastdds, "
-        "COFRAME_WIRE=fastdds makes services work with both."
+        f"RMW_IMPLEMENTATION=rmw_cyclonedds_cpp.{_fast_dds_remedy() if middleware == vendors.FAST_DDS else ''} Or use "
+        "Zenoh for both: RMW_IMPLEMENTATION=rmw_zenoh_cpp there, and --wire zenoh or COFRAME_WIRE=zenoh here. Topics "
+        "and transforms work."
+    )
+
+
+def _fast_dds_remedy() -> str:
+    """Return how to use coframe on Fast DDS, whose services work with both implementations of DDS."""
+    if _FAST_DDS_WIRE in selection.wires():
+        return f" Or start this program with {selection.VARIABLE}={_FAST_DDS_WIRE}."
+    return (
+        f" Or start this program with {selection.VARIABLE}={_FAST_DDS_WIRE}, after installing coframe-fastdds: pip "
+        "install ./middlewares/fastdds in a checkout of coframe."
     )

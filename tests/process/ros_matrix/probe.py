@@ -196,7 +196,7 @@ for row in ROWS:
         outcome = "ok"
     except WrongError as wrong:
         outcome = str(wrong)
-    except Exception as error:  # noqa: BLE001 - a row of the table, whatever it is
+    except Exception as error:  # noqa: BLE001 - every outcome is a row of the table
         outcome = f"{type(error).__name__}: {error}"
     print(json.dumps([row.__name__, outcome, round(time.monotonic() - begun, 2)]), flush=True)
 os._exit(0)  # Ending the middleware is not part of the test.
