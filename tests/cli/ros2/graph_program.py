@@ -6,6 +6,8 @@ from geometry_msgs.msg import PointStamped
 from rcl_interfaces.msg import FloatingPointRange, ParameterDescriptor, SetParametersResult
 from rclpy.action import ActionServer
 from rclpy.node import Node
+from rclpy.qos import QoSProfile
+from rclpy.service_introspection import ServiceIntrospectionState
 from std_msgs.msg import String
 from std_srvs.srv import SetBool
 from tf2_msgs.action import LookupTransform
@@ -21,7 +23,8 @@ class Program(Node):
         self.chatter = self.create_publisher(String, "/chatter", 10)
         self.point = self.create_publisher(PointStamped, "/point", 10)
         self.create_subscription(String, "/commands", lambda message: print(message.data, flush=True), 10)
-        self.create_service(SetBool, "/switch", self.switch)
+        switch = self.create_service(SetBool, "/switch", self.switch)
+        switch.configure_introspection(self.get_clock(), QoSProfile(depth=10), ServiceIntrospectionState.CONTENTS)
         self.lookup = ActionServer(self, LookupTransform, "/lookup", self.execute)
         self.create_timer(0.02, self.publish)
         self.count = 0

@@ -125,7 +125,9 @@ def test_parameters(run, tmp_path):
     dumped = run("param", "dump", NODE)
     parameters = yaml.safe_load(dumped)[NODE]["ros__parameters"]
     assert (parameters["rate"], parameters["arm"]) == (20.0, {"joints": ["a", "b"]})
-    (tmp_path / "file.yaml").write_text(dumped.replace("20.0", "30.0").replace("use_sim_time: false", ""))
+    read_only = "start_type_description_service: true"
+    text = dumped.replace("20.0", "30.0").replace("use_sim_time: false", "").replace(read_only, "")
+    (tmp_path / "file.yaml").write_text(text)
     assert "Set parameter rate successful" in run("param", "load", NODE, tmp_path / "file.yaml")
     assert run("param", "get", NODE, "rate") == "Double value is: 30.0\n"
     assert "not set" in run("param", "get", NODE, "speed", code=1)

@@ -5,6 +5,7 @@ import os
 import signal
 import subprocess
 import sys
+import threading
 
 import pytest
 import yaml
@@ -116,6 +117,53 @@ def test_types_of_actions_and_their_names(run, listed):
 def test_information_about_a_service(run):
     info = run("service", "info", "/switch")
     assert info == "Type: std_srvs/srv/SetBool\nClients count: 0\nServices count: 1\n"
+
+
+def test_the_endpoints_of_a_service(run):
+    verbose = run("service", "info", "/switch", "--verbose")
+    server = verbose.split("Services count: ")[1]
+    for line in ("Node name: program", "Node namespace: /robot1", "Endpoint type: SERVER", "Endpoint count: 2"):
+        assert line in server.splitlines()
+    assert "Unknown service '/swich'\n  Did you mean '/switch'?" in run("service", "info", "/swich", code=1)
+
+
+def test_the_events_of_a_service(run, graph):
+    echo = subprocess.Popen(
+        [sys.executable, "-m", "coframe.cli", "service", "echo", "/switch", "--flow-style"],
+        stdout=subprocess.PIPE,
+        text=True,
+        env={**os.environ, **graph.environment},
+    )
+    read = threading.Thread(target=lambda: events.extend(echo.stdout.readline() for _ in range(3)))
+    events = []
+    read.start()
+    try:
+        for _ in range(60):
+            run("service", "call", "/switch", "std_srvs/srv/SetBool", "{data: true}")
+            read.join(timeout=0.2)
+            if not read.is_alive():
+                break
+    finally:
+        echo.send_signal(signal.SIGINT)
+        read.join(timeout=20)
+        echo.communicate(timeout=20)
+    request, end, response = map(yaml.safe_load, (events[0], events[1].replace("---", ""), events[2]))
+    assert (request["info"]["event_type"], request["request"]) == ("REQUEST_RECEIVED", [{"data": True}])
+    assert end is None
+    assert response["info"]["event_type"] == "RESPONSE_SENT"
+    assert response["response"] == [{"success": True, "message": "on"}]
+
+
+def test_the_feedback_and_status_of_an_action(run, graph):
+    command = [sys.executable, "-m", "coframe.cli", "action", "echo", "/lookup", "--flow-style"]
+    echo = subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env={**os.environ, **graph.environment})
+    try:
+        run("action", "send_goal", "/lookup", "tf2_msgs/action/LookupTransform", "{source_frame: arm}")
+        assert echo.stdout.readline() == "interface: STATUS_TOPIC\n"
+        assert yaml.safe_load(echo.stdout.readline())["status_list"]
+    finally:
+        echo.send_signal(signal.SIGINT)
+        echo.communicate(timeout=20)
 
 
 def test_a_service_type_of_two_parts(run):
