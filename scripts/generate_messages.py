@@ -16,9 +16,9 @@ from coframe.distributions import REMOVED
 from coframe.messages import _archive as archive
 from coframe.messages._constructors import default_assignments
 from coframe.messages._fields import number_of
-from coframe.messages._parser import Field, Structure, parse
+from coframe.messages._parser import Field, MessageStructure, parse
 from coframe.messages._stubs import field_hint, parameter_hint, stub, value_type
-from coframe.messages.compounds import PARTS, member_messages
+from coframe.messages.compounds import NUMBER_OF_PARTS, member_messages
 from coframe.messages.definition import Array, NamespacedType
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -55,7 +55,7 @@ class Message(NamedTuple):
     package: str
     kind: str
     name: str
-    structure: Structure
+    structure: MessageStructure
 
     @property
     def ros_type(self) -> str:
@@ -112,7 +112,7 @@ def _classes_as_source(package: str, kind: str, paths: list[Path]) -> dict[Path,
 
 def _classes_at_first_use(package: str, kind: str, paths: list[Path]) -> dict[Path, str]:
     notice = NOTICE.format(package=package, kind=kind)
-    definitions = {path.stem: parse(path.read_text("utf-8"), package, PARTS[kind]) for path in paths}
+    definitions = {path.stem: parse(path.read_text("utf-8"), package, NUMBER_OF_PARTS[kind]) for path in paths}
     folder = ROS / package / kind
     return {
         folder / "__init__.pyi": notice + stub(package, kind, definitions),
@@ -140,7 +140,7 @@ class Module:
 
     def add(self, path: Path) -> None:
         """Add one definition file."""
-        parts = parse(path.read_text("utf-8"), self.package, PARTS[self.kind])
+        parts = parse(path.read_text("utf-8"), self.package, NUMBER_OF_PARTS[self.kind])
         name = path.stem
         for message, structure in member_messages(self.package, self.kind, name, parts).items():
             self.messages[message] = Message(self.package, self.kind, message, structure)

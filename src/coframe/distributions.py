@@ -55,8 +55,8 @@ VARIABLES: Final = ("COFRAME_DISTRO", "ROS_DISTRO")
 """The environment variables that select the distribution; the first one that is set applies."""
 
 # Other names that ROS_DISTRO may have, with the distribution that is closest to each.
-_CLOSEST = {"foxy": _HUMBLE, "galactic": _HUMBLE, "iron": _JAZZY, "rolling": _LYRICAL}
-NAMES: Final[Mapping[str, Distribution]] = {each.name.lower(): each for each in Distribution} | _CLOSEST
+_CLOSEST_SUPPORTED = {"foxy": _HUMBLE, "galactic": _HUMBLE, "iron": _JAZZY, "rolling": _LYRICAL}
+NAMES: Final[Mapping[str, Distribution]] = {each.name.lower(): each for each in Distribution} | _CLOSEST_SUPPORTED
 """The distributions by all names that the environment variables may have."""
 
 

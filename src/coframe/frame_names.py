@@ -23,7 +23,16 @@ from coframe import _core
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-__all__ = ["TF_STATIC_TOPIC", "TF_TOPIC", "absolute", "belongs", "kept", "naming_problems", "prefix_advice", "renaming"]
+__all__ = [
+    "TF_STATIC_TOPIC",
+    "TF_TOPIC",
+    "absolute",
+    "is_robot_topic",
+    "naming_problems",
+    "prefix_advice",
+    "renaming",
+    "shared_frames",
+]
 
 TF_TOPIC: Final = "/tf"
 TF_STATIC_TOPIC: Final = "/tf_static"
@@ -48,7 +57,7 @@ def renaming(prefix: str = "", keep: Iterable[str] = ()) -> _core.Renaming | Non
         >>> renaming("robot1")("base_link")
         'robot1base_link'
     """
-    shared = kept(keep)
+    shared = shared_frames(keep)
     if prefix.startswith("/"):
         raise ValueError(
             f"the prefix {prefix!r} begins with a slash, which tf2 does not allow in frame names. Use "
@@ -57,14 +66,14 @@ def renaming(prefix: str = "", keep: Iterable[str] = ()) -> _core.Renaming | Non
     return _core.Renaming(prefix, shared) if prefix else None
 
 
-def kept(keep: Iterable[str]) -> list[str]:
+def shared_frames(keep: Iterable[str]) -> list[str]:
     """Return the names of the shared frames as a list; a string is split at commas.
 
     Raises:
         TypeError: A name is not a string.
 
     Example:
-        >>> kept("map, world"), kept(["/map"])
+        >>> shared_frames("map, world"), shared_frames(["/map"])
         (['map', 'world'], ['map'])
     """
     names = keep.split(",") if isinstance(keep, str) else list(keep)
@@ -84,13 +93,15 @@ def absolute(topic: str) -> str:
     return f"/{topic.strip('/')}"
 
 
-def belongs(topic: str, tf_topic: str, tf_static_topic: str) -> bool:
+def is_robot_topic(topic: str, tf_topic: str, tf_static_topic: str) -> bool:
     """Return whether a topic belongs to the robot: it is one of these transform topics, or is in their namespace.
 
     Example:
-        >>> belongs("/robot1/scan", "/robot1/tf", "/tf_static"), belongs("/robot2/scan", "/robot1/tf", "/tf_static")
-        (True, False)
-        >>> belongs("/robot2/scan", "/tf", "/tf_static"), belongs("tf", "/tf", "/tf_static")
+        >>> is_robot_topic("/robot1/scan", "/robot1/tf", "/tf_static")
+        True
+        >>> is_robot_topic("/robot2/scan", "/robot1/tf", "/tf_static")
+        False
+        >>> is_robot_topic("/robot2/scan", "/tf", "/tf_static"), is_robot_topic("tf", "/tf", "/tf_static")
         (True, True)
     """
     name, moving, static = map(absolute, (topic, tf_topic, tf_static_topic))

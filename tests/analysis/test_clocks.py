@@ -3,7 +3,7 @@
 
 import numpy as np
 
-from coframe.analysis.clocks import clock_of, group_by_clock, is_same_clock, present_for
+from coframe.analysis.clocks import clock_of, current_time_for, group_by_clock, is_same_clock
 from coframe.analysis.liveness import stale_limit, usual_gap, usual_period
 from coframe.time import DAY, HOUR, MINUTE, SECOND
 
@@ -27,8 +27,8 @@ def test_spans_are_grouped_by_clock():
 
 def test_present_is_known_only_on_the_system_clock():
     now = 1_700_000_000 * SECOND
-    assert present_for(now - MINUTE, now) == now
-    assert present_for(5 * SECOND, now) is None
+    assert current_time_for(now - MINUTE, now) == now
+    assert current_time_for(5 * SECOND, now) is None
     assert is_same_clock(now, now + MINUTE)
 
 

@@ -41,5 +41,5 @@ def test_escape_sequences_in_frame_names_do_not_reach_the_terminal(capsys):
 
 def test_a_number_that_no_float_can_hold_is_refused(capsys):
     with pytest.raises(click.exceptions.Exit):
-        echo._positive("Precision", 10**400, echo.MAX_DIGITS)
+        echo._check_positive("Precision", 10**400, echo.MAX_DIGITS)
     assert "Precision must be at most 17, not 10000000000000000000\n" in capsys.readouterr().err

@@ -11,7 +11,7 @@ import recordings
 
 from coframe.course._view import view_of
 from coframe.wire.dds.library import places
-from coframe.workspace.packages.folders import listed
+from coframe.workspace.packages.folders import existing_folders
 
 FULL_DISK = Path("/dev/full")
 UNREADABLE = "/" + 300 * "x"  # Looking it up is an error, as with a folder that the user may not read.
@@ -141,5 +141,5 @@ def test_unreadable_folders_on_search_paths_are_skipped(monkeypatch):
     words, options = command("--version")
     assert subprocess.run(words, stdout=subprocess.PIPE, check=False, **options).stderr == ""
     assert UNREADABLE not in dict(view_of(Path(), [], []).entries)
-    assert Path(UNREADABLE) not in set(listed("AMENT_PREFIX_PATH"))
+    assert Path(UNREADABLE) not in set(existing_folders("AMENT_PREFIX_PATH"))
     assert list(places({"LD_LIBRARY_PATH": UNREADABLE, "AMENT_PREFIX_PATH": UNREADABLE}))

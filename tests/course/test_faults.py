@@ -26,7 +26,7 @@ def test_the_doctor_finds_the_fault(number):
     with subprocess.Popen([*COFRAME, "lab", "break", str(number)], stdout=subprocess.PIPE, text=True) as system:
         try:
             lines = iter(system.stdout.readline, "")
-            assert any("started" in line or "Published" in line for line in lines)
+            assert any("started" in line or "PublishResult" in line for line in lines)
             command = [*COFRAME, "doctor", "--duration", "6s", "--json"]
             report = json.loads(subprocess.run(command, capture_output=True, check=False).stdout)
         finally:

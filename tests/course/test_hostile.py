@@ -29,7 +29,7 @@ def daemon(run):
 """
 HOSTILE = {
     "crash": ("1 / 0", "division by zero"),
-    "ends": (NODE, "ended by itself"),
+    "ends": (NODE, "exited by itself"),
     "not Python": ("def", "invalid syntax"),
     "interrupts its parent": (
         "import os, signal, time\nos.kill(os.getppid(), signal.SIGINT)\ntime.sleep(0.5)\n1 / 0",
@@ -39,10 +39,10 @@ HOSTILE = {
 SLOW = {
     "endless loop": ("while True: pass", "does not join the ROS graph"),
     "busy node": (NODE + "while True: pass", ""),
-    "forks": ("import os\nwhile True:\n    os.fork()", "processes and was ended"),
+    "forks": ("import os\nwhile True:\n    os.fork()", "processes and was stopped"),
     "daemons": (
         DAEMON + "for _ in range(20): daemon(lambda: time.sleep(60))" + NODE + "rclpy.spin(node)",
-        "more than 8 processes and was ended",
+        "more than 8 processes and was stopped",
     ),
     "output": ("while True: print('x' * 1_000_000)", "printed more than|File too large"),
     "files": (

@@ -14,8 +14,8 @@ from coframe.cli.app import app
 from coframe.cli.monitor import _print_classic, _printer
 from coframe.connection.listener_config import ListenerConfig
 from coframe.doctor import observe_recording
-from coframe.doctor.figures import chain_figures, edge_figures, publisher_figures
 from coframe.doctor.live import LiveObserver
+from coframe.doctor.statistics import chain_statistics, edge_statistics, publisher_statistics
 
 
 @pytest.fixture
@@ -29,7 +29,7 @@ def seen(tmp_path):
 
 
 def test_rate_jitter_and_delay_of_edges(seen):
-    rows = {(row.parent, row.child): row for row in edge_figures(seen)}
+    rows = {(row.parent, row.child): row for row in edge_statistics(seen)}
     drive, arm, mount = rows["odom", "base_link"], rows["base_link", "arm"], rows["base_link", "lidar"]
     assert drive.rate == pytest.approx(50.0)
     assert arm.rate == pytest.approx(10.0)
@@ -43,26 +43,26 @@ def test_rate_jitter_and_delay_of_edges(seen):
 
 
 def test_publisher_counts_messages_not_transforms(seen):
-    (everyone,) = publisher_figures(seen)
+    (everyone,) = publisher_statistics(seen)
     assert everyone.messages == 200 + 40 - 0
     assert everyone.delay == pytest.approx((200 * 2 * MS + 40 * 30 * MS) / 240)
 
 
 def test_chain_is_limited_by_its_slowest_edge(seen):
-    chain = chain_figures(seen, "odom", "arm")
+    chain = chain_statistics(seen, "odom", "arm")
     assert chain.frames == ["odom", "base_link", "arm"]
     assert chain.limit == ("base_link", "arm")
     # Stamps every 100 ms that arrive 30 ms later are 30 to 130 ms old, 80 ms on average.
     assert chain.delay == pytest.approx(80 * MS, rel=0.05)
     assert chain.delay_max == pytest.approx(130 * MS, rel=0.02)
-    up_and_down = chain_figures(seen, "lidar", "arm")
+    up_and_down = chain_statistics(seen, "lidar", "arm")
     assert up_and_down.frames == ["lidar", "base_link", "arm"]
 
 
 def test_static_and_missing_chains(seen):
-    assert chain_figures(seen, "base_link", "lidar").limit is None
-    assert chain_figures(seen, "base_link", "nowhere") is None
-    assert chain_figures(seen, "arm", "arm").frames == ["arm"]
+    assert chain_statistics(seen, "base_link", "lidar").limit is None
+    assert chain_statistics(seen, "base_link", "nowhere") is None
+    assert chain_statistics(seen, "arm", "arm").frames == ["arm"]
 
 
 def test_stale_edge_limits_the_chain(tmp_path):
@@ -70,7 +70,7 @@ def test_stale_edge_limits_the_chain(tmp_path):
     for i in range(20):
         run.tf("base_link", "arm", START + i * SECOND // 50, (0.1 * i, 0, 0))
     (observation,) = observe_recording(run.write(tmp_path)).values()
-    chain = chain_figures(observation, "odom", "arm")
+    chain = chain_statistics(observation, "odom", "arm")
     assert chain.limit == ("base_link", "arm")
     assert chain.limit_share > 0.85
     assert np.isclose(chain.delay_max, observation.end - START - 19 * SECOND // 50)
@@ -105,7 +105,7 @@ def irregular(tmp_path):
 
 
 def test_figures_of_edges_match_the_expected_ones(irregular):
-    for row in edge_figures(irregular.seen):
+    for row in edge_statistics(irregular.seen):
         sent, took = irregular.sent[row.parent, row.child], irregular.took[row.parent, row.child]
         intervals = np.diff(np.sort(sent + took))
         assert row.transforms == len(sent)
@@ -118,7 +118,7 @@ def test_figures_of_edges_match_the_expected_ones(irregular):
 
 
 def test_figures_of_a_chain_match_frequent_lookups(irregular):
-    chain = chain_figures(irregular.seen, "base_link", "map")
+    chain = chain_statistics(irregular.seen, "base_link", "map")
     begun = max((irregular.sent[edge] + irregular.took[edge]).min() for edge in irregular.sent)
     moments = np.linspace(begun + 1e-6, irregular.end, 4001)
     newest = np.array([[irregular.newest(edge, now) for now in moments] for edge in irregular.sent])

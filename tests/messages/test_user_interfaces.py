@@ -368,7 +368,7 @@ def test_files_that_are_not_definitions_are_refused(define: Callable[..., Any], 
     assert find("demo_msgs/msg/Windows").get_fields_and_field_types() == {"a": "uint8", "b": "uint8"}
     for name, expected in (
         ("Binary", "is not UTF-8"),
-        ("Huge", "more than 262144 bytes"),
+        ("Huge", "larger than the maximum of 262144 bytes"),
         ("bad_name", "must begin with a capital"),
     ):
         with pytest.raises(coframe.InterfaceError, match=expected):

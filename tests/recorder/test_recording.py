@@ -102,7 +102,7 @@ def test_topics_without_a_ros_type_are_refused(participant, node, eventually, tm
         publisher.write(text("hello"))
         foreign.forward(b"\0\1\0\0abcd")
         eventually(lambda: recorder.statistics.messages == 1)
-        assert recorder.statistics.refused == ["/raw"]
+        assert recorder.statistics.unrecordable == ["/raw"]
     foreign.close()
     assert data_by_topic(tmp_path / "run") == {"/words": [text("hello")]}
 

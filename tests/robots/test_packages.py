@@ -130,7 +130,7 @@ def test_a_xacro_file_cannot_exhaust_memory_or_time(tmp_path, monkeypatch, body)
     (tmp_path / "a.urdf.xacro").write_text(
         f'<robot name="a" xmlns:xacro="http://www.ros.org/wiki/xacro">{body}</robot>'
     )
-    with pytest.raises(RobotDescriptionError, match="the limit"):
+    with pytest.raises(RobotDescriptionError, match="the maximum"):
         load(tmp_path / "a.urdf.xacro")
 
 

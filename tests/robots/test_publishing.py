@@ -67,10 +67,10 @@ def test_unknown_joints_do_not_affect_the_rate(robot):
 
 def test_a_clock_that_jumps_back_resets_the_rate_limit(robot):
     publisher = StatePublisher(robot)
-    assert not publisher.turned_back(5 * SECOND)
+    assert not publisher.has_jumped_back(5 * SECOND)
     assert publisher.moving(5 * SECOND, ["turn"], [0.1])
     assert not publisher.moving(SECOND, ["turn"], [0.1])
-    assert publisher.turned_back(SECOND)
+    assert publisher.has_jumped_back(SECOND)
     assert publisher.moving(SECOND, ["turn"], [0.1])
 
 

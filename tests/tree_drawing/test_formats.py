@@ -88,7 +88,7 @@ def test_png(forest, monkeypatch):
     image = pytest.importorskip("PIL.Image")
     png = pytest.importorskip("coframe.tree_drawing.png", reason="PNG needs matplotlib")
     picture = image.open(io.BytesIO(png.as_png(forest, "run $1$"))).convert("RGB")
-    drawing = draw(forest, "run $1$", png._spelled)
+    drawing = draw(forest, "run $1$", png._replace_unsupported)
     scale = picture.width / drawing.width
     assert scale == pytest.approx(2.0, rel=0.01)
     assert picture.height / drawing.height == pytest.approx(2.0, rel=0.01)

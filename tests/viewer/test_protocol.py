@@ -39,9 +39,9 @@ def test_the_built_page_has_the_same_version():
 
 
 def test_a_field_that_only_one_side_has_makes_the_check_fail(generator, monkeypatch, capsys):
-    fields = record(server_messages.Saved).fields
+    fields = record(server_messages.RvizSaved).fields
     extra = dataclasses.replace(fields[-1], attribute="path", name="path")
-    monkeypatch.setattr(record(server_messages.Saved), "_fields", (*fields, extra))
+    monkeypatch.setattr(record(server_messages.RvizSaved), "_fields", (*fields, extra))
     monkeypatch.setattr("sys.argv", ["generate_protocol.py", "--check"])
     assert generator.main() == 1
     printed = capsys.readouterr().out
@@ -50,9 +50,9 @@ def test_a_field_that_only_one_side_has_makes_the_check_fail(generator, monkeypa
 
 
 def test_the_version_changes_with_types_but_not_with_comments(generator, monkeypatch):
-    monkeypatch.setattr(server_messages.Saved, "__doc__", "Another comment.")
+    monkeypatch.setattr(server_messages.RvizSaved, "__doc__", "Another comment.")
     assert generator.protocol_version() == PROTOCOL_VERSION
-    monkeypatch.setattr(record(server_messages.Saved), "_fields", record(server_messages.Saved).fields[:1])
+    monkeypatch.setattr(record(server_messages.RvizSaved), "_fields", record(server_messages.RvizSaved).fields[:1])
     assert generator.protocol_version() != PROTOCOL_VERSION
 
 
@@ -73,7 +73,7 @@ def test_valid_requests_become_instances_of_their_class():
     request = parse_request('{"type":"timeline","from":-5,"to":1.0,"bins":10.0}')
     assert request == client_messages.RequestTimeline(from_=-5.0, to=1.0, bins=10)
     assert parse_request('{"type":"time","mode":"at","at":1,"speed":1e6}').speed == 100.0
-    assert parse_request('{"type":"ready"}') == client_messages.Ready()
+    assert parse_request('{"type":"ready"}') == client_messages.FrameDrawn()
     view = {"class": "Orbit", "options": {"Distance": 4}}
     request = parse_request(json.dumps({"type": "save_rviz", "displays": [], "global": {"a": 1}, "view": view}))
     assert (request.global_, request.view) == ({"a": 1}, view)
@@ -117,5 +117,5 @@ def test_every_request_has_a_handler():
     pytest.importorskip("websockets", reason="the viewer needs websockets")
     from coframe.viewer.clients import _requests as requests
 
-    answered = {*requests._HANDLERS, client_messages.Ready}
+    answered = {*requests._HANDLERS, client_messages.FrameDrawn}
     assert answered == set(get_args(client_messages.ClientMessage))

@@ -11,7 +11,7 @@ pytest.importorskip("dds_library", reason="these tests use both middlewares")
 
 import coframe
 from coframe.messages import find
-from coframe.system.examinations import EXAMINATIONS
+from coframe.system.middleware_checks import MIDDLEWARE_CHECKS
 from coframe.system.report import collect
 from coframe.wire import selection
 from coframe.wire.participant import Participant
@@ -74,7 +74,7 @@ def _static(parent: str, child: str):
 
 
 def test_the_doctor_examines_each_middleware() -> None:
-    assert [examination.wire for examination in EXAMINATIONS] == list(WIRES)
+    assert [check.wire for check in MIDDLEWARE_CHECKS] == list(WIRES)
 
 
 @pytest.mark.parametrize("wire", WIRES)

@@ -49,7 +49,7 @@ class LineLimit:
                 self._since, self._shown = self._clock(), 0
             lines = text.split("\n")
             left = MAX_LINES - self._shown
-            fitting = _fitting(lines, left)
+            fitting = _count_fitting(lines, left)
             if fitting < len(lines) and (self._shown or fitting == 0):
                 self.omitted += len(lines)
                 return
@@ -82,7 +82,7 @@ def print_bounded(text: str, *, error: bool = False) -> None:
         print(text, file=stream, flush=True)
 
 
-def _fitting(lines: list[str], room: int) -> int:
+def _count_fitting(lines: list[str], room: int) -> int:
     """Return how many of the first lines can be shown."""
     for number, line in enumerate(lines):
         room -= _weight(line)

@@ -35,7 +35,7 @@ def read_yaml(text: str | bytes, max_bytes: int = MAX_BYTES) -> Any:
     def load(yaml: Any, base: Any) -> Any:
         loader = type("BoundedLoader", (base,), {})
         yaml.add_constructor(_INTEGER, _integer, Loader=loader)
-        return _copied(yaml.load(text, Loader=loader))
+        return _deep_copy(yaml.load(text, Loader=loader))
 
     return _within_limits(text, max_bytes, load)
 
@@ -136,10 +136,10 @@ def _check(events: Any, yaml: Any) -> None:
             extents.add(1, 1, event.anchor)
 
 
-def _copied(value: Any) -> Any:
+def _deep_copy(value: Any) -> Any:
     """Return a copy in which no part occurs twice, so that a change of one part does not change another."""
     if isinstance(value, dict):
-        return {key: _copied(part) for key, part in value.items()}
+        return {key: _deep_copy(part) for key, part in value.items()}
     if isinstance(value, list):
-        return [_copied(part) for part in value]
+        return [_deep_copy(part) for part in value]
     return value

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-__all__ = ["MAX_LINE_LENGTH", "MAX_NAME_LENGTH", "csv_cell", "one_line", "printable", "shown"]
+__all__ = ["MAX_LINE_LENGTH", "MAX_NAME_LENGTH", "csv_cell", "display_name", "one_line", "printable"]
 
 MAX_NAME_LENGTH = 60
 MAX_LINE_LENGTH = 2000
@@ -34,11 +34,11 @@ def one_line(text: str) -> str:
     return printable(short.replace("\n", r"\n").replace("\t", r"\t"))
 
 
-def shown(name: str) -> str:
+def display_name(name: str) -> str:
     r"""Return a received name for a drawing or a table: printable and shortened.
 
     Example:
-        >>> shown("base_link"), shown("two\nlines"), len(shown("x" * 10_000))
+        >>> display_name("base_link"), display_name("two\nlines"), len(display_name("x" * 10_000))
         ('base_link', 'two\\nlines', 60)
     """
     # A long name is shortened first, so that the rest of it costs nothing.

@@ -17,15 +17,15 @@ __all__ = [
     "count",
     "did_you_mean",
     "duration",
-    "listed",
-    "quoted",
+    "join_names",
+    "join_quoted",
     "seconds",
-    "similar",
+    "similar_names",
     "times",
 ]
 
 _UNITS = ((DAY, "days"), (HOUR, "h"), (SECOND, "s"), (MILLISECOND, "ms"), (MICROSECOND, "us"))
-_MAX_LISTED = 5
+_MAX_LISTED_NAMES = 5
 MAX_COMPARED_LENGTH = 200  # characters; the time grows with the square
 MAX_COMPARED_NAMES = 20_000
 
@@ -50,11 +50,11 @@ def seconds(nanoseconds: int) -> str:
     return f"{sign}{size // SECOND}.{size % SECOND:09d}"
 
 
-def listed(names: Iterable[str], *, most: int = _MAX_LISTED) -> str:
+def join_names(names: Iterable[str], *, most: int = _MAX_LISTED_NAMES) -> str:
     """Return names as a comma-separated list: at most `most` names, then the number of the others.
 
     Example:
-        >>> listed("abc"), listed("abcdefg")
+        >>> join_names("abc"), join_names("abcdefg")
         ('a, b, c', 'a, b, c, d, e and 2 more')
     """
     every = list(names)
@@ -62,9 +62,9 @@ def listed(names: Iterable[str], *, most: int = _MAX_LISTED) -> str:
     return ", ".join(every[:most]) + (f" and {more} more" if more > 0 else "")
 
 
-def quoted(names: Iterable[str]) -> str:
-    """Return a list of quoted names, shortened as in :func:`listed`."""
-    return listed(repr(name) for name in names)
+def join_quoted(names: Iterable[str]) -> str:
+    """Return a list of quoted names, shortened as in :func:`join_names`."""
+    return join_names(repr(name) for name in names)
 
 
 def did_you_mean(name: str, known: Iterable[str], *, most: int = 1) -> str:
@@ -74,11 +74,11 @@ def did_you_mean(name: str, known: Iterable[str], *, most: int = 1) -> str:
         >>> did_you_mean("lidra", ["lidar", "camera"])
         "Did you mean 'lidar'?"
     """
-    meant = similar(name, known, most=most)
+    meant = similar_names(name, known, most=most)
     return f"Did you mean {' or '.join(map(repr, meant))}?" if meant else ""
 
 
-def similar(name: str, known: Iterable[str], *, most: int = 1) -> list[str]:
+def similar_names(name: str, known: Iterable[str], *, most: int = 1) -> list[str]:
     """Return the names with the most similar spelling; very long names and names beyond a limit are skipped."""
     import difflib  # noqa: PLC0415 - only errors need it
 

@@ -40,13 +40,13 @@ class WarnOnce:
             warn: Called instead of the function given to the constructor.
         """
         key = text if key is None else key
-        if not text or self.knows(key):
+        if not text or self.is_suppressed(key):
             return
         self._keys.add(key)
         shown = text if len(self._keys) <= self._most else self._last
         if shown:
             (warn or self._warn)(shown)
 
-    def knows(self, key: Hashable) -> bool:
+    def is_suppressed(self, key: Hashable) -> bool:
         """Return whether a warning with this key is suppressed: it was already issued, or there were too many."""
         return key in self._keys or len(self._keys) > self._most

@@ -6,9 +6,9 @@ from __future__ import annotations
 import os
 import sys
 
-__all__ = ["GRADED", "SOLUTIONS", "refusal", "refuse_graded"]
+__all__ = ["GRADED_VARIABLE", "SOLUTIONS", "forbid_graded_program", "refusal"]
 
-GRADED = "COFRAME_GRADED"  # environment variable that is set for graded programs
+GRADED_VARIABLE = "COFRAME_GRADED"  # environment variable that is set for graded programs
 SOLUTIONS = ("coframe.lab", "coframe.course")
 
 
@@ -17,7 +17,7 @@ def refusal(package: str) -> str:
     return f"{package} contains solutions of the lab, so a graded program cannot import it."
 
 
-def refuse_graded(package: str) -> None:
+def forbid_graded_program(package: str) -> None:
     """Raise ImportError if this process is a graded program that imports the package.
 
     The message is also printed, so that the report contains it even if the program catches the exception.
@@ -25,6 +25,6 @@ def refuse_graded(package: str) -> None:
     Raises:
         ImportError: This process is a graded program.
     """
-    if GRADED in os.environ:
+    if GRADED_VARIABLE in os.environ:
         print(refusal(package), file=sys.stderr, flush=True)  # noqa: T201 - the output of the program is its protocol
         raise ImportError(refusal(package), name=package)

@@ -98,7 +98,7 @@ def plugins(group: str) -> list[Plugin]:
     found: dict[str, Plugin] = {}
     packages: set[str] = set()
     for folder in filter(None, sys.path):  # never the current folder
-        here = _entry_points(folder, _modified(folder))
+        here = _entry_points(folder, _modification_time(folder))
         for plugin in here:
             # A distribution in an earlier folder replaces the one with the same name in a later folder.
             if plugin.group == group and plugin.package not in packages:
@@ -123,7 +123,7 @@ def load_plugins(group: str, report: Callable[[str], None]) -> Iterator[tuple[Pl
             yield plugin, loaded
 
 
-def _modified(folder: str) -> int:
+def _modification_time(folder: str) -> int:
     try:
         return os.stat(folder).st_mtime_ns  # noqa: PTH116 - entries of sys.path are texts
     except (OSError, ValueError):
@@ -131,7 +131,7 @@ def _modified(folder: str) -> int:
 
 
 @functools.lru_cache(maxsize=256)
-def _entry_points(folder: str, _modified: int) -> tuple[Plugin, ...]:
+def _entry_points(folder: str, _modification_time: int) -> tuple[Plugin, ...]:
     """Return all entry points in a folder of ``sys.path``; they are read again when the folder changes."""
     try:
         names = sorted(os.listdir(folder))  # noqa: PTH208 - as above
@@ -141,11 +141,11 @@ def _entry_points(folder: str, _modified: int) -> tuple[Plugin, ...]:
     for name in names:
         if metadata := _METADATA.fullmatch(name):
             package = re.sub(r"[-_.]+", "-", metadata[1]).lower()
-            found += _parsed(os.path.join(folder, name, "entry_points.txt"), package)  # noqa: PTH118
+            found += _parse_entry_points(os.path.join(folder, name, "entry_points.txt"), package)  # noqa: PTH118
     return tuple(found)
 
 
-def _parsed(path: str, package: str) -> Iterator[Plugin]:
+def _parse_entry_points(path: str, package: str) -> Iterator[Plugin]:
     """Yield the entry points of a file; lines in another format are skipped."""
     try:
         text = read_regular_text(path, MAX_BYTES)

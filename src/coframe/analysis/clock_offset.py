@@ -20,7 +20,7 @@ _BINS = 24
 _MIN_BINS = 8
 _MIN_PER_BIN = 4
 _MAD = 1.4826  # The standard deviation of a normal distribution is this multiple of its median absolute deviation.
-_SIGNIFICANT = 6.0  # times the standard error of the slope
+_MIN_SLOPE_RATIO = 6.0  # times the standard error of the slope
 _MAX_CURVATURE = 0.2  # of the whole change; a step of the clock is not a drift
 _MIN_CHANGE = MICROSECOND
 _MILLION = 1e6
@@ -102,4 +102,4 @@ def _slope(x: NDArray[np.float64], y: NDArray[np.float64]) -> float:
     change = abs(slope) * float(np.ptp(centers))
     error = float(np.sqrt(np.sum(rest**2) / (bins - 2) / np.sum((centers - centers.mean()) ** 2)))
     is_linear = float(np.abs(rest).max()) <= _MAX_CURVATURE * change
-    return slope if is_linear and abs(slope) > _SIGNIFICANT * error else 0.0
+    return slope if is_linear and abs(slope) > _MIN_SLOPE_RATIO * error else 0.0

@@ -11,7 +11,7 @@ from coframe.time import HOUR, MINUTE
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-__all__ = ["SAME_CLOCK", "ClockName", "clock_of", "group_by_clock", "is_same_clock", "present_for"]
+__all__ = ["SAME_CLOCK", "ClockName", "clock_of", "current_time_for", "group_by_clock", "is_same_clock"]
 
 ClockName = Literal["wall", "simulated", "other"]
 
@@ -72,7 +72,7 @@ def group_by_clock(spans: Sequence[tuple[int, int]]) -> list[list[int]]:
     return groups
 
 
-def present_for(newest: int, wall: int | None = None) -> int | None:
+def current_time_for(newest: int, wall: int | None = None) -> int | None:
     """Return the current time on the clock of the stamps that are being received.
 
     Args:

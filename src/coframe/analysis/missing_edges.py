@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 __all__ = ["BASE_FRAMES", "MissingEdge", "estimator_advice", "is_sensor_frame", "missing_edge", "unknown_mount"]
 
 # Usual pairs of parent and child, from REP-105 and common robots.
-_USUAL = (
+_USUAL_EDGES = (
     ("base_footprint", "base_link"),
     ("odom", "base_footprint"),
     ("odom", "base_link"),
@@ -29,7 +29,7 @@ _USUAL = (
 
 BASE_FRAMES = ("base_footprint", "base_link")
 """The names of a robot's base frames, the upper one first."""
-_ESTIMATED = {"odom", "map", *BASE_FRAMES}
+_ESTIMATED_FRAMES = {"odom", "map", *BASE_FRAMES}
 _SENSOR = re.compile(
     "camera|cam(?![a-z])|optical|depth|rgb|stereo|infra|imager|laser|lidar|scan|velodyne|ouster|livox|hokuyo|rplidar|ldlidar"
     "|imu|gyro|gps|gnss|navsat|radar|sonar|ultraso|range|tof|realsense|zed|kinect|sensor|magnet|baro|microphone"
@@ -124,7 +124,7 @@ def is_sensor_frame(frame: str) -> bool:
 
 def unknown_mount(root: str) -> str:
     """Return advice about a tree with this root if no missing edge is more likely than others."""
-    if _without_prefix(root) in _ESTIMATED:
+    if _without_prefix(root) in _ESTIMATED_FRAMES:
         return (
             f"Start the node that publishes a transform with child_frame_id = {root!r}: odometry, localization or SLAM."
         )
@@ -153,7 +153,7 @@ def missing_edge(first: Sequence[str], second: Sequence[str]) -> MissingEdge | N
     for root, frames in sides:
         if similar := similar_frames(root, frames[:MAX_COMPARED_FRAMES]):
             return MissingEdge(similar[0], root, misspelled=True)
-    for parent, child in _USUAL:
+    for parent, child in _USUAL_EDGES:
         for root, frames in sides:
             if _without_prefix(root) != child:
                 continue

@@ -22,7 +22,7 @@ from coframe.bags.summary import summarize
 from coframe.bags.transforms import is_static
 from coframe.buffer import Buffer
 from coframe.errors import RecordingError
-from coframe.frame_names import absolute, belongs, renaming
+from coframe.frame_names import absolute, is_robot_topic, renaming
 from coframe.messages import deserialize, find, serialize
 from coframe.messages.conversions import to_transform_stamped
 from coframe.type_names import TF_MESSAGE
@@ -133,7 +133,7 @@ class _Renaming:
 
     def on(self, topic: str) -> _Renaming:
         """Return the mapping for the messages of a topic; only topics of the robot get the prefix."""
-        return self if self._renamed is None or belongs(topic, *self._robot) else _Renaming("", (), self._robot)
+        return self if self._renamed is None or is_robot_topic(topic, *self._robot) else _Renaming("", (), self._robot)
 
     @property
     def has_prefix(self) -> bool:
@@ -173,7 +173,7 @@ class _Repair:
         self._routes: dict[Channel, _Route | None] = {}
         self._counts: Counter[tuple[str, str]] = Counter()  # keys: the text before and after the count
         self._copied = 0
-        self._moving = {
+        self._moving_edges = {
             name: {edge.child for edge in buffer.edges() if edge.parent and not edge.static}
             for name, buffer in recording.buffers.items()
         }
@@ -190,7 +190,7 @@ class _Repair:
                 self._count(channel, "messages skipped: their type of ROS 1 cannot be converted to ROS 2")
             elif not 0 <= received < 1 << 63:
                 self._count(channel, "messages skipped: invalid receive time")
-            elif (message := self._repaired(channel, route, data)) is not None:
+            elif (message := self._repair_message(channel, route, data)) is not None:
                 self._writer.write(route.topic, message, received)
                 self._copied += 1
         progress(total, total)
@@ -200,7 +200,7 @@ class _Repair:
         topics = len({channel.topic for channel, route in self._routes.items() if route is not None})
         amounts = f"{count(self._copied, 'message')} on {count(topics, 'topic')}"
         copied = f"{amounts} copied, with an index and metadata.yaml"
-        return [copied, *(f"{topic}{_counted(what, number)}" for (topic, what), number in self._counts.items())]
+        return [copied, *(f"{topic}{_number_and_noun(what, number)}" for (topic, what), number in self._counts.items())]
 
     def _count(self, channel: Channel, what: str, number: int = 1) -> None:
         self._counts[f"{channel.topic}: ", what] += number
@@ -237,10 +237,10 @@ class _Repair:
         frames = names if names and names.exist else None
         return _Route(topic, converted.convert, frames, rename, converted.type == TF_MESSAGE)
 
-    def _repaired(self, channel: Channel, route: _Route, data: bytes) -> bytes | None:
+    def _repair_message(self, channel: Channel, route: _Route, data: bytes) -> bytes | None:
         """Return the repaired message; None if it is damaged."""
         try:
-            message = self._corrected(channel, route, route.convert(data))
+            message = self._correct_message(channel, route, route.convert(data))
         except Exception:  # noqa: BLE001 - the libraries raise errors of many kinds for damaged bytes
             self._count(channel, "damaged messages skipped")
             return None
@@ -248,7 +248,7 @@ class _Repair:
             self._counts["", "messages converted from ROS 1 to ROS 2"] += 1
         return message
 
-    def _corrected(self, channel: Channel, route: _Route, message: bytes) -> bytes:
+    def _correct_message(self, channel: Channel, route: _Route, message: bytes) -> bytes:
         """Return a message of ROS 2 with new frame names and without the transforms that tf2 rejects."""
         if route.transforms:
             message = self._without_rejected(channel, message)
@@ -265,7 +265,7 @@ class _Repair:
         if rejected := len(message.transforms) - len(good):
             self._count(channel, "invalid transforms removed, which tf2 rejects", rejected)
         if is_static(channel.topic):
-            moving = self._moving.get(namespace_of(channel.topic), set())
+            moving = self._moving_edges.get(namespace_of(channel.topic), set())
             fixed = [transform for transform in good if transform.child_frame_id.lstrip("/") not in moving]
             if len(fixed) < len(good):
                 self._count(channel, "static transforms of moving frames removed", len(good) - len(fixed))
@@ -278,7 +278,7 @@ class _Repair:
             route = self._route(channel)
             if route is not None:
                 self._write_statics(channel, route, transforms, "static transforms moved to the beginning")
-        known = self._known()
+        known = self._known_child_frames()
         if new := [transform for transform in added if self._rename(transform.child_frame_id) not in known]:
             topic = self._robot.tf_static_topic
             default = Channel(topic, TF_MESSAGE, "cdr", offered_qos=to_yaml([_STATIC_QOS]))
@@ -290,14 +290,14 @@ class _Repair:
             skipped = len(added) - len(new)
             self._counts["", "static transforms not added because the recording contains their frames"] += skipped
 
-    def _known(self) -> set[str]:
+    def _known_child_frames(self) -> set[str]:
         """Return the new names of the child frames in the namespaces of the robot's topics."""
         buffers = self._recording.buffers
         of_robot = [buffers[name] for name in {*map(namespace_of, self._robot)} if name in buffers]
         return {self._rename(edge.child) for buffer in of_robot for edge in buffer.edges() if edge.parent}
 
     def _write_statics(self, channel: Channel, route: _Route, transforms: list[TransformStamped], what: str) -> None:
-        message = self._corrected(channel, route, serialize(find(TF_MESSAGE)(transforms=transforms)))
+        message = self._correct_message(channel, route, serialize(find(TF_MESSAGE)(transforms=transforms)))
         self._writer.write(route.topic, message, self._recording.received_start, publisher=what)
         self._count(channel, what, len(transforms))
 
@@ -333,7 +333,7 @@ def _statics_of(path: str | os.PathLike[str]) -> list[TransformStamped]:
     return [to_transform_stamped(parent, child, transform, 0) for parent, child, transform in transforms]
 
 
-def _counted(what: str, number: int) -> str:
+def _number_and_noun(what: str, number: int) -> str:
     """Return a number with its noun, in the singular if the number is 1."""
     text = f"{number} {what}"
     return _PLURAL.sub(lambda match: match[0].removesuffix("s"), text, count=1) if number == 1 else text

@@ -18,17 +18,17 @@ def main() -> None:
     """Process calls until standard input ends."""
     output = os.fdopen(os.dup(sys.stdout.fileno()), "wb")
     os.dup2(sys.stderr.fileno(), sys.stdout.fileno())  # Output of libraries must not be mistaken for a result.
-    sys.path += [folder for folder in _received() if folder not in sys.path]
+    sys.path += [folder for folder in _receive() if folder not in sys.path]
     while True:
         try:
-            job = _received()
+            job = _receive()
         except EOFError:
             return
         pickle.dump(query_recording(*job), output)
         output.flush()
 
 
-def _received() -> Any:
+def _receive() -> Any:
     return pickle.load(sys.stdin.buffer)  # noqa: S301 - from the process that has started this one
 
 

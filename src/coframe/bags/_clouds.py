@@ -41,7 +41,7 @@ __all__ = ["Cloud", "Clouds"]
 
 _SCAN_FIELDS = {"intensity", "index"}
 _MIN_PENDING = 1_000_000  # points to gather before they are thinned
-_MAX_TRIED = 200  # stamps of messages at which is seen what moves
+_MAX_COMPARED_STAMPS = 200  # stamps of messages at which is seen what moves
 
 
 class Cloud(NamedTuple):
@@ -218,9 +218,9 @@ class Clouds:
             kept.append(thinned(cloud.points, voxel))
             pending += len(kept[-1])
             if pending > least:
-                kept = [thinned(_joined(kept), voxel)]
+                kept = [thinned(_concatenate(kept), voxel)]
                 pending, least = 0, max(_MIN_PENDING, len(kept[0]))
-        return None if last is None else last._replace(points=thinned(_joined(kept), voxel))
+        return None if last is None else last._replace(points=thinned(_concatenate(kept), voxel))
 
     def _recorded(self) -> Iterator[RecordedMessage]:
         if self._at is None:
@@ -250,7 +250,9 @@ class Clouds:
             if self._max_gap is not None:
                 transformed = self._without_gaps(points, transformed, gaps, frame, recorded.stamp)
             if self._has_validity:
-                points = _structured({**{name: points[name] for name in points.dtype.names or ()}, "gap_ns": gaps})
+                points = _structured_array(
+                    {**{name: points[name] for name in points.dtype.names or ()}, "gap_ns": gaps}
+                )
             if deskewed:
                 self._note_times(measured.read)
             read = measured.read if deskewed else None
@@ -325,7 +327,7 @@ class Clouds:
         if self._fixed is not None:
             return self._fixed
         if frame not in self._still:
-            stamps = self._stamps[:: -(-len(self._stamps) // _MAX_TRIED)]
+            stamps = self._stamps[:: -(-len(self._stamps) // _MAX_COMPARED_STAMPS)]
             self._still[frame] = still_frame(self._recording.buffer, self.frame, frame, stamps)
         return self._still[frame]
 
@@ -348,10 +350,10 @@ class Clouds:
             needed = [name for name in times_of if name in names] if self._deskews else []
             names = list(dict.fromkeys([*self._fields, *needed]))
         columns = {name: field_of(message, name).reshape(-1) for name in ("x", "y", "z", *names)}
-        points = _structured(columns)
+        points = _structured_array(columns)
         times, same = self._times(points, stamp) if self._deskews else (None, None)
         if self._fields is not None and names != self._fields:
-            points = _structured({name: points[name] for name in ("x", "y", "z", *self._fields)})
+            points = _structured_array({name: points[name] for name in ("x", "y", "z", *self._fields)})
         return _Measured(points, None if times is None else times.times, times, same)
 
     def _times(self, points: NDArray[Any], stamp: int) -> tuple[PointTimes | None, str | None]:
@@ -373,7 +375,9 @@ class Clouds:
         others = {"intensity": hits.intensities, "index": hits.beams}
         columns |= {n: v for n, v in others.items() if v is not None and (self._fields is None or n in self._fields)}
         self._count(self.points_skipped, "are out of range", len(message.ranges) - len(hits.points))
-        return _Measured(_structured(columns), hits.times if self._deskews and message.time_increment != 0 else None)
+        return _Measured(
+            _structured_array(columns), hits.times if self._deskews and message.time_increment != 0 else None
+        )
 
     def _reason(self, error: TransformException) -> str:
         """Return the first error message that differs from this one only in its times."""
@@ -394,7 +398,7 @@ def _field_and_unit(text: str | None) -> tuple[str | None, str | None]:
     return field or None, unit or None
 
 
-def _structured(columns: dict[str, NDArray[Any]]) -> NDArray[Any]:
+def _structured_array(columns: dict[str, NDArray[Any]]) -> NDArray[Any]:
     """Return a packed little-endian array, with coordinates as float64 so that they stay exact far from the origin."""
     kinds = [(n, "<f8" if n in {"x", "y", "z"} else v.dtype.newbyteorder("<")) for n, v in columns.items()]
     points = np.empty(len(columns["x"]), dtype=kinds)
@@ -403,7 +407,7 @@ def _structured(columns: dict[str, NDArray[Any]]) -> NDArray[Any]:
     return points
 
 
-def _joined(parts: list[NDArray[Any]]) -> NDArray[Any]:
+def _concatenate(parts: list[NDArray[Any]]) -> NDArray[Any]:
     if any(part.dtype != parts[0].dtype for part in parts):
         raise ValueError("The messages have different fields: choose the fields to keep.")
     return np.concatenate(parts)

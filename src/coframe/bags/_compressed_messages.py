@@ -42,9 +42,9 @@ class UnpackedMessages(Storage):
             if batch.messages is None:
                 yield batch
                 continue
-            yield from self._unpacked(batch.channel, batch, batch.messages)
+            yield from self._unpack_batch(batch.channel, batch, batch.messages)
 
-    def _unpacked(self, channel: Channel, packed: Batch, messages: Slices) -> Iterator[Batch]:
+    def _unpack_batch(self, channel: Channel, packed: Batch, messages: Slices) -> Iterator[Batch]:
         """Yield a batch in parts, so that not all unpacked messages are in memory at the same time."""
         rows: list[int] = []
         unpacked: list[bytes] = []

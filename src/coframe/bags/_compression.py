@@ -21,7 +21,7 @@ MAX_UNPACKED_BYTES = 512 << 20  # bytes of a record or an unpacked chunk: real o
 MAX_UNPACKED_MESSAGE = 128 << 20  # bytes of an unpacked message
 # Recorders finish a chunk at about 1 MB, so only a chunk with one huge message is larger than this, and such a message
 # does not consist only of zeros.
-_PLAUSIBLE = 64 << 20
+_MAX_SMALL_SIZE = 64 << 20
 _MAX_RATIO = 1000  # unpacked to packed size, above _PLAUSIBLE
 
 
@@ -48,7 +48,7 @@ def unpack(compression: str, data: bytes | memoryview, size: int) -> bytes:
         raise DamagedError(f"unknown compression {compression[:20]!r}; known: {', '.join(_OPENERS)}")
     if size > MAX_UNPACKED_BYTES:
         raise DamagedError(f"a chunk claims to have {size} bytes, more than the limit of {MAX_UNPACKED_BYTES}")
-    if size > max(_PLAUSIBLE, _MAX_RATIO * len(data)) + 1:
+    if size > max(_MAX_SMALL_SIZE, _MAX_RATIO * len(data)) + 1:
         raise DamagedError(
             f"a chunk of {len(data)} bytes claims to unpack to {size} bytes, more than {_MAX_RATIO} times as many"
         )
@@ -56,7 +56,7 @@ def unpack(compression: str, data: bytes | memoryview, size: int) -> bytes:
     try:
         unpacked: bytes = open_(data).read(size)
     except Exception as error:  # noqa: BLE001 - each library has its own exceptions
-        unpacked = _undamaged(open_(data), size)
+        unpacked = _undamaged_data(open_(data), size)
         if not unpacked:
             raise DamagedError(f"{compression} reports: {error}") from None
     return unpacked
@@ -83,7 +83,7 @@ def unpack_message(compression: str, data: bytes | memoryview, largest: int = MA
             size, or the compression is unknown.
         RecordingError: The package for this compression is not installed.
     """
-    limit = min(largest, max(_PLAUSIBLE, _MAX_RATIO * len(data)))
+    limit = min(largest, max(_MAX_SMALL_SIZE, _MAX_RATIO * len(data)))
     # One byte more than the limit shows that the message is too large, even if the file states another size.
     if _stated_size(compression, data) > limit or len(unpacked := unpack(compression, data, limit + 1)) > limit:
         raise DamagedError(f"a message of {len(data)} bytes unpacks to more than the maximum of {limit} bytes")
@@ -100,16 +100,16 @@ def _stated_size(compression: str, data: bytes | memoryview) -> int:
     return 0
 
 
-def _undamaged(reader: Any, size: int) -> bytes:
+def _undamaged_data(reader: Any, size: int) -> bytes:
     """Return the data before the damage."""
     unpacked = bytearray()
     with contextlib.suppress(Exception):
-        while len(unpacked) < size and (piece := reader.read(min(_PIECE, size - len(unpacked)))):
+        while len(unpacked) < size and (piece := reader.read(min(_PIECE_BYTES, size - len(unpacked)))):
             unpacked += piece
     return bytes(unpacked)
 
 
-_PIECE = 4096  # bytes
+_PIECE_BYTES = 4096  # bytes
 
 
 def _zstd() -> Callable[[Any], Any]:

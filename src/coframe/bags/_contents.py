@@ -9,7 +9,7 @@ from itertools import pairwise
 from typing import TYPE_CHECKING
 
 from coframe import time
-from coframe._output.formatting import listed
+from coframe._output.formatting import join_names
 from coframe._process.freed_memory import collection_paused
 from coframe.bags._file_discovery import open_files
 from coframe.bags._message_index import MessageIndex, largest_track, reread
@@ -193,7 +193,7 @@ class _Reading:
         spans.sort()
         apart = any(later[0] - earlier[1] > _MAX_PAUSE for earlier, later in pairwise(spans))
         if apart:
-            names = listed(group[0].path.name for group in groups.values())
+            names = join_names(group[0].path.name for group in groups.values())
             raise RecordingError(
                 f"{self._path} contains {len(groups)} recordings that were made at different times: {names}",
                 hint="Give the path of one of them.",

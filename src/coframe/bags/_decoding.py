@@ -35,7 +35,7 @@ def decoder(channel: Channel, types: RecordedTypes, problems: Problems) -> Calla
         A function that raises a DecodeError if the bytes are damaged.
     """
     if channel.encoding == "json":
-        return functools.partial(_guarded, json.loads, channel.type)
+        return functools.partial(_decode_checked, json.loads, channel.type)
     makers = {"cdr": _cdr_decoder, "ros1": _ros1_decoder, "protobuf": _protobuf_decoder}
     if channel.encoding not in makers:
         problems.add(f"{channel.topic}: messages with the encoding {channel.encoding!r} are returned as bytes")
@@ -78,7 +78,7 @@ def _protobuf_decoder(channel: Channel, types: RecordedTypes) -> Callable[[bytes
     except Exception as error:  # noqa: BLE001 - protobuf raises errors of several kinds for damaged descriptors
         reason = " ".join(str(error).split())[:200]
         raise UnknownTypeError(f"its definition cannot be used ({reason or type(error).__name__})") from None
-    return functools.partial(_guarded, kind.FromString, channel.type)
+    return functools.partial(_decode_checked, kind.FromString, channel.type)
 
 
 def _add_all(files: dict[str, Any], pool: Any) -> None:
@@ -94,7 +94,7 @@ def _add_all(files: dict[str, Any], pool: Any) -> None:
         add(next(iter(files)))
 
 
-def _guarded(decode: Callable[[bytes], Any], name: str, data: bytes) -> Any:
+def _decode_checked(decode: Callable[[bytes], Any], name: str, data: bytes) -> Any:
     """Decode a message, and convert any library error to a DecodeError."""
     try:
         return decode(data)

@@ -18,7 +18,7 @@ from coframe._files.bounded_yaml import read_yaml
 from coframe._files.other_files import BEGINNING, what_else
 from coframe._files.regular_files import UnsuitableFileError, open_regular, read_regular, reading_hint
 from coframe._files.temporary_folders import temporary_folder
-from coframe._output.formatting import listed
+from coframe._output.formatting import join_names
 from coframe._process.optional_imports import pip_install
 from coframe.bags._compressed_messages import UnpackedMessages
 from coframe.bags.formats import (
@@ -104,7 +104,7 @@ def _existing_instead(path: Path) -> str:
     if near:
         return f"Did you mean {str(path.with_name(near[0]))!r}?"
     recordings = [each.name for each in entries if is_recording(each)]
-    return f"Recordings in {str(path.parent.absolute())!r}: {listed(recordings)}." if recordings else ""
+    return f"Recordings in {str(path.parent.absolute())!r}: {join_names(recordings)}." if recordings else ""
 
 
 def _inner_recordings(folder: Path) -> str:
@@ -113,25 +113,25 @@ def _inner_recordings(folder: Path) -> str:
         inner = [each.name for each in sorted(folder.iterdir()) if each.is_dir() and (each / METADATA).is_file()]
     except OSError:
         return ""
-    return f"Give one of the recordings in this folder: {listed(inner)}." if inner else ""
+    return f"Give one of the recordings in this folder: {join_names(inner)}." if inner else ""
 
 
 def _candidates(folder: Path, metadata: dict[str, Any], problems: Problems) -> list[Path]:
     """Return the files of a folder that may be part of the recording: those in the metadata first, then others."""
-    existing = sorted((file for file in folder.iterdir() if _is_candidate(file, problems)), key=_natural)
-    listed: list[Path] = []
-    for name in _listed(metadata):
+    existing = sorted((file for file in folder.iterdir() if _is_candidate(file, problems)), key=_natural_sort_key)
+    in_metadata: list[Path] = []
+    for name in _listed_files(metadata):
         file = folder / Path(name).name
         same = [other for other in existing if other.name in {file.name, f"{file.name}{COMPRESSED}"}]
-        listed += same
+        in_metadata += same
         if not same and not file.exists():
             problems.add(f"{METADATA} lists {Path(name).name}, which does not exist")
-    others = [file for file in existing if file not in listed]
+    others = [file for file in existing if file not in in_metadata]
     # The order of these files does not matter, because messages are sorted by time.
     if metadata and others:
         names = ", ".join(file.name for file in others)
         problems.add(f"{METADATA} does not list {names}; {'it was' if len(others) == 1 else 'they were'} read as well")
-    return list(dict.fromkeys([*listed, *others]))
+    return list(dict.fromkeys([*in_metadata, *others]))
 
 
 def _is_candidate(file: Path, problems: Problems) -> bool:
@@ -152,7 +152,7 @@ def _beginning(file: Path) -> bytes:
         return opened.read(BEGINNING)
 
 
-def _natural(file: Path) -> list[tuple[int, int, str]]:
+def _natural_sort_key(file: Path) -> list[tuple[int, int, str]]:
     """Return a key that sorts numbers in names by value: run_2 before run_10."""
     return [
         (1, int(part), "") if part.isascii() and part.isdigit() else (0, 0, part)
@@ -163,10 +163,10 @@ def _natural(file: Path) -> list[tuple[int, int, str]]:
 def _open(file: Path, problems: Problems, closing: ExitStack) -> Storage | None:
     start = _beginning(file)
     if start.startswith(_ZSTD):
-        file, start = _unpacked(file, problems, closing)
+        file, start = _unpack_file(file, problems, closing)
     for each in formats():
         if matches(each, file, start):
-            return _opened(each, file, problems, closing)
+            return _open_file(each, file, problems, closing)
     names = [each.name for each in formats()]
     reason = next(filter(None, (each.refusal(start) for each in formats())), "")
     unknown = f"the file is in none of these formats: {', '.join(names)}"
@@ -174,7 +174,7 @@ def _open(file: Path, problems: Problems, closing: ExitStack) -> Storage | None:
     return None
 
 
-def _opened(format_: RecordingFormat, file: Path, problems: Problems, closing: ExitStack) -> Storage | None:
+def _open_file(format_: RecordingFormat, file: Path, problems: Problems, closing: ExitStack) -> Storage | None:
     try:
         storage = format_.open(file, problems)
     except (OSError, CoframeError):
@@ -188,7 +188,7 @@ def _opened(format_: RecordingFormat, file: Path, problems: Problems, closing: E
     return storage
 
 
-def _unpacked(file: Path, problems: Problems, closing: ExitStack) -> tuple[Path, bytes]:
+def _unpack_file(file: Path, problems: Problems, closing: ExitStack) -> tuple[Path, bytes]:
     """Unpack a compressed file into a folder that exists while the recording is open."""
     try:
         zstandard: Any = importlib.import_module("zstandard")
@@ -267,6 +267,6 @@ def _listed_topics(metadata: dict[str, Any]) -> Iterator[Channel]:
             )
 
 
-def _listed(metadata: dict[str, Any]) -> list[str]:
+def _listed_files(metadata: dict[str, Any]) -> list[str]:
     names = metadata.get("relative_file_paths")
     return [name for name in names if isinstance(name, str) and name] if isinstance(names, list) else []

@@ -35,7 +35,7 @@ _FIELDS = {
     "rotation": ("rotation",),
 }
 _NESTED = ("header", "transform")  # objects with some of these fields, in ROS and in old schemas of Foxglove
-_IGNORED = {"seq"}
+_IGNORED_FIELDS = {"seq"}
 
 
 class StampedValues(NamedTuple):
@@ -85,7 +85,7 @@ def _collect(value: dict[str, Any], fields: dict[str, Any]) -> list[str]:
             fields.setdefault(field, content)
         elif name in _NESTED:
             unknown += _collect_inner(_object(content, name), fields)
-        elif name not in _IGNORED:
+        elif name not in _IGNORED_FIELDS:
             unknown.append(name)
     return unknown
 

@@ -34,7 +34,7 @@ _LAST_OPCODE = 0x0F  # opcodes from 0x80 are reserved for applications
 _RECORD = struct.Struct("<BQ")  # opcode, length
 _MESSAGE_RECORD = struct.Struct("<BQHIQQ")  # opcode, length, channel, sequence, log time, publish time
 _CHUNK_HEAD = struct.Struct("<QQQI")  # first and last log time, unpacked size, its CRC or 0
-_BLOCK = 4 << 20  # bytes to read at once from records outside chunks
+_BLOCK_BYTES = 4 << 20  # bytes to read at once from records outside chunks
 _FOOTER_RECORD = struct.Struct("<BQQQI")  # opcode, length, start of the summary, of its offsets, CRC
 _STATISTICS_HEAD = struct.Struct("<QHIIIIQQI")  # messages, other counts, times, bytes of the counts by channel
 _CHANNEL_COUNT = struct.Struct("<HQ")
@@ -74,7 +74,7 @@ class McapStorage(ChunkedStorage):
                 if end - offset > MAX_UNPACKED_BYTES:
                     self.add_problem(f"the record at byte {offset} claims to have {end - offset} bytes")
                     continue
-                data = self.bytes_at(offset, max(end - offset, _BLOCK))
+                data = self.bytes_at(offset, max(end - offset, _BLOCK_BYTES))
                 done = offset + (yield from self._inner(data, offset))
                 progress(done)
         if missing:
@@ -250,7 +250,7 @@ class McapStorage(ChunkedStorage):
         for number in np.unique(channels).tolist() if len(channels) > 1 else channels.tolist():
             of_channel = channels == number
             self._counts[number] = self._counts.get(number, 0) + int(np.count_nonzero(of_channel))
-            valid = of_channel & (times < _TOO_LATE)
+            valid = of_channel & (times < _MAX_RECEIVE_TIME)
             parts = [(valid, self._channels.get(number))]
             if number in before:
                 parts = _divided(valid, records, before[number], parts[0][1])
@@ -261,8 +261,8 @@ class McapStorage(ChunkedStorage):
                     messages = Slices(data, starts[rows], ends[rows])
                     positions = records[rows] + np.uint64(base)
                     yield Batch(channel, times[rows].astype(np.int64), positions, messages, is_intact)
-        if (times >= _TOO_LATE).any():
-            self.add_problem("messages with an invalid receive time", int(np.count_nonzero(times >= _TOO_LATE)))
+        if (times >= _MAX_RECEIVE_TIME).any():
+            self.add_problem("messages with an invalid receive time", int(np.count_nonzero(times >= _MAX_RECEIVE_TIME)))
         return done
 
     def payload(self, source: bytes | None, offset: int) -> bytes | memoryview:
@@ -321,7 +321,7 @@ class McapStorage(ChunkedStorage):
         return None if known_channel is None else (number, known_channel)
 
 
-_TOO_LATE = np.uint64(1 << 63)
+_MAX_RECEIVE_TIME = np.uint64(1 << 63)
 
 
 def _ros_type(name: str) -> str:

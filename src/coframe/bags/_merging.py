@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from coframe._output.formatting import listed
+from coframe._output.formatting import join_names
 from coframe.bags.transforms import ingest_for
-from coframe.frame_names import absolute, kept, renaming
+from coframe.frame_names import absolute, renaming, shared_frames
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -20,8 +20,8 @@ if TYPE_CHECKING:
 __all__ = ["MergedNames"]
 
 # Topics that all robots share, as programs expect them under these names.
-_SHARED = {"/clock", "/diagnostics", "/diagnostics_agg", "/parameter_events", "/rosout", "/tf", "/tf_static"}
-_LOOKED_AT = 50  # messages of a topic whose frames are compared
+_SHARED_TOPICS = {"/clock", "/diagnostics", "/diagnostics_agg", "/parameter_events", "/rosout", "/tf", "/tf_static"}
+_MAX_COMPARED_MESSAGES = 50  # messages of a topic whose frames are compared
 
 
 class MergedNames:
@@ -46,7 +46,7 @@ class MergedNames:
             )
         self._recordings = recordings
         self._prefixes = list(prefixes) if prefixes is not None else _own_prefixes(recordings)
-        self._renamings = [renaming(prefix, kept(keep)) for prefix in prefixes or [""] * len(recordings)]
+        self._renamings = [renaming(prefix, shared_frames(keep)) for prefix in prefixes or [""] * len(recordings)]
         self._is_given = prefixes is not None
         self._shared: dict[str, list[int]] = {}  # the recordings that contain a topic
         for number, recording in enumerate(recordings):
@@ -61,7 +61,7 @@ class MergedNames:
         """Return the new name of a topic of a recording."""
         prefix = self._prefixes[recording]
         is_alone = len(self._shared.get(name, ())) < 2 and not self._is_given
-        if not prefix or is_alone or absolute(name) in _SHARED or absolute(name).startswith(f"/{prefix}"):
+        if not prefix or is_alone or absolute(name) in _SHARED_TOPICS or absolute(name).startswith(f"/{prefix}"):
             return name
         return f"/{prefix}{absolute(name).lstrip('/')}"
 
@@ -81,13 +81,13 @@ class MergedNames:
                     if new != name and not self._is_given:
                         apart.setdefault(name, []).append(new)
         kept_apart = [
-            f"{name}: kept apart as {listed(new)}, because the frames have different prefixes"
+            f"{name}: kept apart as {join_names(new)}, because the frames have different prefixes"
             for name, new in apart.items()
         ]
         joined = [
             f"{name}: joined from {len(parts)} recordings{self._frames_of(parts)}"
             for name, parts in sources.items()
-            if len(parts) > 1 and absolute(name) not in _SHARED
+            if len(parts) > 1 and absolute(name) not in _SHARED_TOPICS
         ]
         return kept_apart + joined
 
@@ -96,7 +96,7 @@ class MergedNames:
         found = [_frames_in(self._recordings[number], name) - {""} for number, name in parts]
         if not all(found) or len(set.union(*found)) == len(set.intersection(*found)):
             return ""
-        names = listed(repr(frame) for frame in sorted(set.union(*found)))
+        names = join_names(repr(frame) for frame in sorted(set.union(*found)))
         return f", with messages in {names}: prefixes keep those of different robots apart"
 
 
@@ -120,5 +120,5 @@ def _frames_in(recording: Recording, topic: str) -> set[str]:
     if any(ingest_for(channel) for channel in recording.channels() if channel.topic == topic):
         return set()
     messages = recording.topics[topic].messages
-    rows = np.unique(np.linspace(0, messages - 1, _LOOKED_AT).astype(np.int64)).tolist() if messages else []
+    rows = np.unique(np.linspace(0, messages - 1, _MAX_COMPARED_MESSAGES).astype(np.int64)).tolist() if messages else []
     return {frame.lstrip("/") for frame in recording.frames(topic, rows)}

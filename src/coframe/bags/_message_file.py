@@ -80,7 +80,7 @@ class MessageFile(Storage):
         del wanted
         pending: dict[Channel, _Pending] = {}
         size = count = 0
-        for channel, received, data in self._checked():
+        for channel, received, data in self._valid_messages():
             lists = pending.setdefault(channel, _Pending([], [], []))
             lists.received.append(received)
             lists.positions.append(self._append(data))
@@ -92,7 +92,7 @@ class MessageFile(Storage):
         yield from _batches(pending)
         progress(self.size)
 
-    def _checked(self) -> Iterator[tuple[Channel, int, bytes]]:
+    def _valid_messages(self) -> Iterator[tuple[Channel, int, bytes]]:
         """Yield the messages of the format that are valid."""
         try:
             for channel, received, data in self.format.serialized_messages(self.path):

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
 __all__ = ["MessageIndex", "Track", "largest_track", "reread"]
 
-_FEW_MESSAGES = 8  # of a topic whose rows are recomputed: a recording can have tens of thousands of such topics
+_MIN_CACHED_MESSAGES = 8  # of a topic whose rows are recomputed: a recording can have tens of thousands of such topics
 _CLOCK_TYPE = "rosgraph_msgs/msg/Clock"
 
 
@@ -225,12 +225,12 @@ class MessageIndex:
 
     def _receive_order(self, tracks: list[Track]) -> NDArray[np.intp]:
         """Return the order of the messages of tracks by receive time; equal ones as they were written."""
-        received = _joined([_int64(track.received) for track in tracks])
+        received = _concatenate([_int64(track.received) for track in tracks])
         order = np.argsort(received, kind="stable")
         if len(tracks) == 1 or (np.diff(received[order]) > 0).all():
             return order
         # Positions are signed for rows of SQLite, and grow within a file.
-        positions = _joined([np.asarray(track.positions, dtype=np.uint64).view(np.int64) for track in tracks])
+        positions = _concatenate([np.asarray(track.positions, dtype=np.uint64).view(np.int64) for track in tracks])
         files = np.repeat([self._storages[track.storage] for track in tracks], [len(each.received) for each in tracks])
         return np.lexsort((positions, files, received))
 
@@ -238,14 +238,14 @@ class MessageIndex:
         if topic in self._rows:
             return self._rows[topic]
         tracks = self._tracks[topic]
-        received = _joined([_int64(track.received) for track in tracks])
-        positions = _joined([np.asarray(track.positions, dtype=np.uint64) for track in tracks])
+        received = _concatenate([_int64(track.received) for track in tracks])
+        positions = _concatenate([np.asarray(track.positions, dtype=np.uint64) for track in tracks])
         of_track = _numbers([len(track.received) for track in tracks])
         if len(tracks) > 1 or not (received[1:] >= received[:-1]).all():
             order = self._receive_order(tracks)
             received, positions, of_track = received[order], positions[order], of_track[order]
         rows = _Rows(tracks, of_track, positions, received)
-        if len(received) > _FEW_MESSAGES:
+        if len(received) > _MIN_CACHED_MESSAGES:
             self._rows[topic] = rows
         return rows
 
@@ -303,5 +303,5 @@ def _int64(values: array[int]) -> NDArray[np.int64]:
     return np.asarray(values, dtype=np.int64)
 
 
-def _joined(parts: list[NDArray[Any]]) -> NDArray[Any]:
+def _concatenate(parts: list[NDArray[Any]]) -> NDArray[Any]:
     return parts[0] if len(parts) == 1 else np.concatenate(parts)

@@ -35,7 +35,7 @@ _SHORT_TEXT = 1 << 13  # bytes of definitions whose beginning is cached for the 
 _MIN_COUNTED_BYTES = 1 << 12  # minimum bytes counted per definition
 
 # The definition of a message that begins with a stamp contains one of these, or a sequence of messages that do.
-_MAY_BEGIN_WITH_STAMP = re.compile(rb"Header|[Tt]ime|\[|sequence").search
+_find_stamp_type = re.compile(rb"Header|[Tt]ime|\[|sequence").search
 
 _Key = tuple[str, str, str, bytes]
 
@@ -114,7 +114,7 @@ class RecordedTypes:
 
     def stamp_reader(self, channel: Channel) -> StampReader | None:
         """Return the reader for the stamps of a channel's messages; None if they do not begin with a stamp."""
-        if channel.definition and not _MAY_BEGIN_WITH_STAMP(channel.definition):
+        if channel.definition and not _find_stamp_type(channel.definition):
             return None  # Reading the definition takes longer, and a recording can have tens of thousands.
         first = self._beginning(channel).first
         return None if first is None else StampReader(first, channel.encoding)
@@ -158,7 +158,7 @@ class RecordedTypes:
         try:
             return self._classes.of(schema, is_ros1=channel.encoding == "ros1")
         except InterfaceError as error:
-            raise _unusable(error) from None
+            raise _definition_problem(error) from None
 
     def _new_schema(self, channel: Channel, key: _Key) -> ResolvedSchema:
         name = _name(channel)
@@ -169,7 +169,7 @@ class RecordedTypes:
                 return _schema_without_text(name)
             return ResolvedSchema(parse_schema(channel.definition, name, channel.definition_format))
         except InterfaceError as error:
-            raise _unusable(error) from None
+            raise _definition_problem(error) from None
 
     def count(self, channel: Channel) -> None:
         """Count the definition of a channel.
@@ -215,6 +215,6 @@ def _schema_without_text(name: str) -> ResolvedSchema:
     return ResolvedSchema(Schema(name, {name: event(package, rest.removesuffix(_EVENT))}))
 
 
-def _unusable(error: InterfaceError) -> UnknownTypeError:
+def _definition_problem(error: InterfaceError) -> UnknownTypeError:
     reason = str(error).partition("\n")[0]
     return UnknownTypeError(f"its definition cannot be used ({reason[:300]})")

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 __all__ = ["Ros1Storage"]
 
 _MESSAGE, _CHUNK, _CHUNK_INFO, _CONNECTION = 0x02, 0x05, 0x06, 0x07
-_KNOWN = {0x02, 0x03, 0x04, 0x05, 0x06, 0x07}
+_KNOWN_OPCODES = {0x02, 0x03, 0x04, 0x05, 0x06, 0x07}
 _LENGTH = struct.Struct("<I")
 _TIME = struct.Struct("<II")
 _MAX_HEADER_BYTES = 1 << 16
@@ -102,7 +102,7 @@ class Ros1Storage(ChunkedStorage):
         if length > _MAX_HEADER_BYTES:
             raise DamagedError("the header of the record is damaged")
         header = _fields(self.bytes_at(offset + 4, length))
-        if _opcode(header) not in _KNOWN:
+        if _opcode(header) not in _KNOWN_OPCODES:
             raise DamagedError("the header of the record is damaged")
         start = offset + 8 + length
         end = start + self._length(start - 4)

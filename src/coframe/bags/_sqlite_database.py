@@ -23,10 +23,10 @@ from coframe.bags._compression import MAX_UNPACKED_BYTES
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
-__all__ = ["DAMAGE", "Database"]
+__all__ = ["DAMAGE_ERRORS", "Database"]
 
 # SQLite's error messages quote damaged data, which may not be UTF-8.
-DAMAGE: Final = (sqlite3.Error, UnicodeDecodeError)
+DAMAGE_ERRORS: Final = (sqlite3.Error, UnicodeDecodeError)
 
 # SQLite's virtual machine runs about 50 million steps per second. A row of a recording takes about 20 steps and has
 # more than 20 bytes.
@@ -40,7 +40,7 @@ _STEPS_PER_CHECK: Final = 1000
 _BEFORE_ALL: Final = -(1 << 63) - 1
 _PLAIN_DEFINITION: Final = re.compile(r"CREATE (TABLE|(UNIQUE )?INDEX) ", re.IGNORECASE)
 # If two databases were changed together, a journal ends with the name of another file, which SQLite may delete.
-_NAMES_ANOTHER_FILE: Final = b"\xd9\xd5\x05\xf9\x20\xa1\x63\xd7"
+_MASTER_JOURNAL_MAGIC: Final = b"\xd9\xd5\x05\xf9\x20\xa1\x63\xd7"
 
 
 class Database:
@@ -59,7 +59,7 @@ class Database:
         self._steps = 0
         self._path = path.resolve()  # SQLite looks for journals next to the target of a link.
         self.size = self._path.stat().st_size
-        self._connection = self._recovered(add_problem) or self._connect(self._path, "mode=ro&immutable=1")
+        self._connection = self._recover_journal(add_problem) or self._connect(self._path, "mode=ro&immutable=1")
         self._closing.callback(self._connection.close)
 
     def close(self) -> None:
@@ -101,7 +101,7 @@ class Database:
             raise sqlite3.DatabaseError(f"{table} is not a plain table, unlike in recordings of rosbag2")
         last = _BEFORE_ALL
         found = self._query(query)
-        with self._explained():
+        with self._explain_interruption():
             for row in found:
                 if row[0] <= last:
                     raise sqlite3.DatabaseError(f"the rows of {table} are not in order: it contains a page twice")
@@ -130,11 +130,11 @@ class Database:
 
     def _query(self, query: str, values: tuple[Any, ...] = (), steps: int | None = None) -> sqlite3.Cursor:
         self._steps = max(MIN_STEPS, MAX_STEPS_PER_BYTE * self.size) if steps is None else steps
-        with self._explained():
+        with self._explain_interruption():
             return self._connection.execute(query, values)
 
     @contextmanager
-    def _explained(self) -> Iterator[None]:
+    def _explain_interruption(self) -> Iterator[None]:
         """Replace SQLite's message for an interrupted query."""
         try:
             yield
@@ -163,7 +163,7 @@ class Database:
         self._steps -= _STEPS_PER_CHECK
         return self._steps < 0
 
-    def _recovered(self, add_problem: Callable[[str], object]) -> sqlite3.Connection | None:
+    def _recover_journal(self, add_problem: Callable[[str], object]) -> sqlite3.Connection | None:
         """Return a connection that also reads the journal of a killed or running recorder; None without a journal."""
         wal, journal, shared = (self._path.with_name(f"{self._path.name}-{kind}") for kind in ("wal", "journal", "shm"))
         try:
@@ -172,14 +172,14 @@ class Database:
                 return None
             self.size += sum(file.stat().st_size for file in there)
             if there == [wal] and is_file(shared):
-                return self._tested(self._path, "mode=ro&readonly_shm=1")
-            return self._tested(self._copy(there), "mode=ro" if there == [wal] else "mode=rw")
-        except (*DAMAGE, OSError) as error:
+                return self._open_and_test(self._path, "mode=ro&readonly_shm=1")
+            return self._open_and_test(self._copy(there), "mode=ro" if there == [wal] else "mode=rw")
+        except (*DAMAGE_ERRORS, OSError) as error:
             reason = error.strerror if isinstance(error, OSError) and error.strerror else error
             add_problem(f"the journal of the database cannot be read ({reason}); the last messages are missing")
             return None
 
-    def _tested(self, path: Path, options: str) -> sqlite3.Connection:
+    def _open_and_test(self, path: Path, options: str) -> sqlite3.Connection:
         with ExitStack() as on_error:
             connection = on_error.enter_context(closing(self._connect(path, options)))
             self._query("PRAGMA schema_version").fetchone()  # reads the journal
@@ -206,7 +206,7 @@ def _has_content(journal: Path) -> bool:
     with open_regular(journal) as file:
         if file.read(1) in {b"", b"\0"}:
             return False
-        file.seek(-min(len(_NAMES_ANOTHER_FILE), journal.stat().st_size), os.SEEK_END)
-        if file.read() == _NAMES_ANOTHER_FILE:
+        file.seek(-min(len(_MASTER_JOURNAL_MAGIC), journal.stat().st_size), os.SEEK_END)
+        if file.read() == _MASTER_JOURNAL_MAGIC:
             raise OSError("it belongs to several databases")
     return True

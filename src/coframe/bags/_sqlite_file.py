@@ -14,7 +14,7 @@ import numpy as np
 from coframe._files.regular_files import open_regular
 from coframe._output.formatting import count
 from coframe.bags._compression import MAX_UNPACKED_BYTES, DamagedError
-from coframe.bags._sqlite_database import DAMAGE, Database
+from coframe.bags._sqlite_database import DAMAGE_ERRORS, Database
 from coframe.bags._sqlite_leaves import LeafRow, Leaves
 from coframe.bags.formats import SQLITE
 from coframe.bags.storage import Batch, Channel, Storage
@@ -73,7 +73,7 @@ class SqliteStorage(Storage):
         try:
             self._channels = self._read_channels()
             total = self._database.last_row("messages") or 0
-        except DAMAGE as error:
+        except DAMAGE_ERRORS as error:
             if not _is_damaged(error):
                 self.add_problem(f"the database cannot be read: {error}")
                 return
@@ -106,8 +106,8 @@ class SqliteStorage(Storage):
                 read.extend(row[0] for row in rows)
                 progress(rows[-1][0])
                 self._note_rows(rows)
-                yield from self._grouped(rows, with_data=column == _DATA)
-        except DAMAGE as error:
+                yield from self._batches_by_topic(rows, with_data=column == _DATA)
+        except DAMAGE_ERRORS as error:
             if not _is_damaged(error):
                 self.add_problem(f"the database is damaged and was read only in part: {error}")
                 return
@@ -117,7 +117,7 @@ class SqliteStorage(Storage):
         try:
             for rows in self._parts(self._recovered_rows(set(numbers), set(read), with_data=column == _DATA)):
                 self._note_rows(rows)
-                yield from self._grouped(rows, with_data=column == _DATA)
+                yield from self._batches_by_topic(rows, with_data=column == _DATA)
         except sqlite3.DatabaseError as error:
             self.add_problem(f"the database is damaged and was read only in part: {error}")
 
@@ -195,7 +195,7 @@ class SqliteStorage(Storage):
             raise sqlite3.DatabaseError("its messages have more bytes than the file")
         self._bytes_left -= size
 
-    def _grouped(self, rows: list[tuple[Any, ...]], *, with_data: bool) -> Iterator[Batch]:
+    def _batches_by_topic(self, rows: list[tuple[Any, ...]], *, with_data: bool) -> Iterator[Batch]:
         """Yield one batch per topic; rows with a time or data of the wrong type are skipped."""
         _, topics, times, data = zip(*rows, strict=True)
         if set(map(type, times)) != {int} or None in data:
@@ -224,11 +224,11 @@ class SqliteStorage(Storage):
         definitions = {}
         if "message_definitions" in tables:
             columns = "topic_type, encoding, encoded_message_definition"
-            for _, type_, kind, text in self._counted(self._database.rows("message_definitions", columns)):
+            for _, type_, kind, text in self._count_bytes(self._database.rows("message_definitions", columns)):
                 definitions[type_] = (str(text).encode(), str(kind))
         qos = "offered_qos_profiles" if "offered_qos_profiles" in tables["topics"] else "''"
         # In some recordings, the column id of topics is not the row number.
-        found = self._counted(self._database.rows("topics", f"id, name, type, serialization_format, {qos}"))
+        found = self._count_bytes(self._database.rows("topics", f"id, name, type, serialization_format, {qos}"))
         return {
             number: Channel(str(topic), str(type_), str(encoding), *definitions.get(type_, (b"", "")), str(offered))
             for _, number, topic, type_, encoding, offered in found
@@ -244,7 +244,7 @@ class SqliteStorage(Storage):
             return f"its recorder wrote to {log}, which is missing; copy this file as well"
         return "the file is not a recording of rosbag2"
 
-    def _counted(self, rows: Iterator[tuple[Any, ...]]) -> Iterator[tuple[Any, ...]]:
+    def _count_bytes(self, rows: Iterator[tuple[Any, ...]]) -> Iterator[tuple[Any, ...]]:
         """Yield rows, and count the bytes of their strings."""
         for row in rows:
             self._bytes_left -= sum(len(value) for value in row if isinstance(value, str | bytes))
@@ -259,7 +259,7 @@ class SqliteStorage(Storage):
         try:
             with self._lock:
                 data = self._database.blob("messages", "data", _row(position))
-        except DAMAGE as error:
+        except DAMAGE_ERRORS as error:
             raise DamagedError(f"the database is damaged: {error}") from None
         if data is None:
             return self._found_on_leaves(_row(position))
@@ -283,7 +283,7 @@ class SqliteStorage(Storage):
         try:
             with self._lock:
                 return self._database.beginning("messages", "data", _row(position), size)
-        except DAMAGE as error:
+        except DAMAGE_ERRORS as error:
             raise DamagedError(f"the database is damaged: {error}") from None
 
     def close(self) -> None:

@@ -100,7 +100,7 @@ class TrajectoryQuery:
         else:
             stamps = _stamps_of_samples(buffer, self.target, self.source, start, stop)
         if not stamps.size:
-            raise _no_stamps(recording)
+            raise _no_stamps_error(recording)
         return stamps
 
     def batches(self, recording: Recording, stamps: NDArray[np.int64]) -> Iterator[tuple[Transform, int]]:
@@ -164,7 +164,7 @@ def _stamps_of_samples(
     return np.unique(np.concatenate([[first], inside, [last]]).astype(np.int64)) if first <= last else inside
 
 
-def _no_stamps(recording: Recording) -> RecordingError:
+def _no_stamps_error(recording: Recording) -> RecordingError:
     first, last = (f"{stamp / time.SECOND:.3f} s" for stamp in recording.span)
     return RecordingError(
         "No stamps between the start and the stop of the query.",

@@ -134,7 +134,7 @@ def query_recordings(
 def _query(bag: str, query: TrajectoryQuery, folder: Path) -> QueryResult:
     fingerprint = _fingerprint(bag, query)
     part = folder / f"{Path(bag).stem}-{hashlib.sha256(bag.encode()).hexdigest()[:12]}.parquet"
-    if (kept := _existing(part, bag, fingerprint)) is not None:
+    if (kept := _previous_result(part, bag, fingerprint)) is not None:
         return kept
     with open_chosen(bag, query.transforms) as recording:
         found, missing = query.run(recording)
@@ -155,7 +155,7 @@ def _fingerprint(bag: str, query: TrajectoryQuery) -> bytes:
     return json.dumps({"query": asdict(query), "state": state}, sort_keys=True).encode()
 
 
-def _existing(part: Path, bag: str, fingerprint: bytes) -> QueryResult | None:
+def _previous_result(part: Path, bag: str, fingerprint: bytes) -> QueryResult | None:
     """Return the result of an earlier run; None if its file does not exist, is damaged or is out of date."""
     if not _is_intact(part):
         return None

@@ -98,7 +98,7 @@ def copy_recordings(
             stack.enter_context(open_bag(source, progress=lambda done, total: progress("reading", done, total)))
             for source in sources
         ]
-        selections = [_selected(recording, recordings, chosen) for recording in recordings]
+        selections = [_selected_topics(recording, recordings, chosen) for recording in recordings]
         merged = MergedNames(recordings, prefixes, keep)
         streams = [
             _messages(number, recording, names, *span(recording))
@@ -131,7 +131,7 @@ def copy_recordings(
         return CopyReport(Path(target), writer.messages, list(dict.fromkeys(problems)), merged.notes(selections))
 
 
-def _selected(recording: Recording, recordings: list[Recording], topics: list[str] | None) -> list[str]:
+def _selected_topics(recording: Recording, recordings: list[Recording], topics: list[str] | None) -> list[str]:
     """Return the topics to copy from a recording; a topic that no recording contains is an error."""
     if topics is None:
         return list(recording.topics)

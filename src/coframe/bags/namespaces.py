@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Final
 from coframe.analysis.clocks import group_by_clock
 from coframe.bags.transforms import ingest_for
 from coframe.buffer import Buffer
-from coframe.frame_names import TF_STATIC_TOPIC, TF_TOPIC, kept, renaming
+from coframe.frame_names import TF_STATIC_TOPIC, TF_TOPIC, renaming, shared_frames
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
@@ -61,7 +61,7 @@ class TransformChoice:
 
     def __post_init__(self) -> None:
         renaming(self.prefix, self.keep)  # checks both
-        object.__setattr__(self, "keep", tuple(kept(self.keep)))
+        object.__setattr__(self, "keep", tuple(shared_frames(self.keep)))
 
     @property
     def topics(self) -> tuple[str, ...] | None:
@@ -193,9 +193,9 @@ class TransformCollector:
                         f"the transforms of {first or '/'}; use `buffers` or open_bag(namespace=...) for the others"
                     )
                     return buffers[first]
-        return self._merged(messages())
+        return self._merge_buffers(messages())
 
-    def _merged(self, messages: Iterable[tuple[Channel, Slices]]) -> Buffer:
+    def _merge_buffers(self, messages: Iterable[tuple[Channel, Slices]]) -> Buffer:
         transforms = _NamespaceTransforms()
         for channel, slices in messages:
             take = ingest_for(channel, self._renaming)
@@ -214,13 +214,13 @@ def _bare(namespace: str) -> str:
     return f"/{stripped}" if stripped else ""
 
 
-def _moving(buffer: Buffer) -> list[EdgeInfo]:
+def _moving_edges(buffer: Buffer) -> list[EdgeInfo]:
     return [edge for edge in buffer.edges() if not edge.static and edge.samples]
 
 
 def _clocks(buffer: Buffer) -> list[list[EdgeInfo]]:
     """Return the moving edges by the clock of their stamps, the clock with the most samples first."""
-    moving = _moving(buffer)
+    moving = _moving_edges(buffer)
     groups = group_by_clock([(edge.oldest, edge.newest) for edge in moving])
     clocks = [[moving[position] for position in group] for group in groups]
     return sorted(clocks, key=lambda clock: -sum(edge.samples for edge in clock))

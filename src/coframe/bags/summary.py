@@ -130,11 +130,11 @@ def _sensor(recording: Recording, topic: RecordedTopic, trees: FrameTrees) -> Se
             topic.name, frame, topic.messages, "", 0, f"No frame named {frame!r}: no transform contains it."
         )
     root = trees.root(frame)
-    possible, why = _possible(recording.buffer, root, frame, recording.stamps(topic.name))
+    possible, why = _count_possible(recording.buffer, root, frame, recording.stamps(topic.name))
     return SensorSummary(topic.name, frame, topic.messages, root, possible, why)
 
 
-def _possible(buffer: Buffer, root: str, frame: str, stamps: Any) -> tuple[int, str]:
+def _count_possible(buffer: Buffer, root: str, frame: str, stamps: Any) -> tuple[int, str]:
     try:
         found = buffer.lookup_many(root, frame, stamps, on_error="nan").translation[:, 0]
     except TransformException as error:

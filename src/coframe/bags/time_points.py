@@ -46,15 +46,15 @@ def parse_time_point(text: str, span: tuple[int, int]) -> int:
     if match := _NUMBER.fullmatch(text):
         whole = int(match[1][:30])
         is_nanoseconds = match[2] is None and whole * time.SECOND >= 2**63
-        return _checked(text, whole if is_nanoseconds else whole * time.SECOND + _fraction(text, match[2]))
+        return _check_range(text, whole if is_nanoseconds else whole * time.SECOND + _fraction(text, match[2]))
     if match := _OFFSET.fullmatch(text):
         try:
             offset = time.duration_ns(match[2])
         except ValueError as error:
             raise ValueError(f"{error}; {_HINT}") from None
-        return _checked(text, span[1] - offset if match[1] == "-" else span[0] + offset)
+        return _check_range(text, span[1] - offset if match[1] == "-" else span[0] + offset)
     if match := _ISO.fullmatch(text):
-        return _checked(text, _iso(text, match))
+        return _check_range(text, _iso(text, match))
     raise ValueError(f"{text[:60]!r} is not a point in time: {_HINT}")
 
 
@@ -77,7 +77,7 @@ def _iso(text: str, match: re.Match[str]) -> int:
     return time.stamp_ns(whole) + _fraction(text, match[2])
 
 
-def _checked(text: str, nanoseconds: int) -> int:
+def _check_range(text: str, nanoseconds: int) -> int:
     if not -(2**63) <= nanoseconds < 2**63:
         raise ValueError(f"{text[:60]!r} does not fit into 64-bit nanoseconds, which end in the year 2262")
     return nanoseconds

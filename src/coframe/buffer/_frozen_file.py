@@ -39,10 +39,10 @@ _MAGIC = b"\x89CFZ\r\n\x1a\n"
 _VERSION = 1
 _PAGE = 4096
 _CHUNK = 256 * (8 + 64)
-_OTHER_FILE = "Buffer.save() writes frozen buffers; open_bag() reads recordings."
-_BLOCK = 256  # number of chunks written at once
+_WRONG_FILE_HINT = "Buffer.save() writes frozen buffers; open_bag() reads recordings."
+_CHUNKS_PER_WRITE = 256  # number of chunks written at once
 _CRC = struct.Struct("<I")
-BLOCK_SIZE = _BLOCK * _CHUNK  # bytes that are written or checked at once
+BLOCK_SIZE = _CHUNKS_PER_WRITE * _CHUNK  # bytes that are written or checked at once
 
 
 class Header(NamedTuple):
@@ -95,8 +95,8 @@ def _write(snapshot: Buffer, file: BinaryIO) -> None:
     table, chunks = _core.frozen_parts(snapshot)
     file.write(bytes(_PAGE))  # The header is written last: it contains the checksums.
     crc = 0
-    for first in range(0, chunks, _BLOCK):
-        block = _core.frozen_chunks(snapshot, first, _BLOCK)
+    for first in range(0, chunks, _CHUNKS_PER_WRITE):
+        block = _core.frozen_chunks(snapshot, first, _CHUNKS_PER_WRITE)
         crc = zlib.crc32(block, crc)
         file.write(block)
     size = chunks * _CHUNK
@@ -122,7 +122,7 @@ def opened(path: Path) -> Iterator[BinaryIO]:
         if isinstance(error, FrozenFileError):
             raise
         reason = getattr(error, "strerror", None) or error
-        raise FrozenFileError(f"{path} cannot be opened: {reason}", hint=_OTHER_FILE) from None
+        raise FrozenFileError(f"{path} cannot be opened: {reason}", hint=_WRONG_FILE_HINT) from None
 
 
 def read_header(path: Path, file: BinaryIO) -> Header:
@@ -136,7 +136,7 @@ def read_header(path: Path, file: BinaryIO) -> Header:
     if not data.startswith(_MAGIC):
         raise FrozenFileError(
             f"{path} is not a frozen buffer",
-            hint=_OTHER_FILE,
+            hint=_WRONG_FILE_HINT,
         )
     if len(data) < _HEADER.size + _CRC.size:
         raise damaged(path, "it is truncated")

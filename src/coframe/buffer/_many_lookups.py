@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING, Literal, TypeAlias, overload
 import numpy as np
 
 from coframe import _core, time
-from coframe.buffer import _covariances as covariances
-from coframe.buffer import gaps
+from coframe.buffer import _covariances, gaps
 from coframe.errors import ExtrapolationException
 from coframe.transform.resampling import StepLimits
 from coframe.transform.values import batch_of, stamps_of
@@ -181,7 +180,7 @@ class Buffer(_core.Buffer):
         if out is not None and out is not rows:
             out[...] = batch.matrix
         if covariance:
-            batch = covariances.with_covariance(
+            batch = _covariances.with_covariance(
                 self, batch, lambda a, b: self._lookup_quietly(a, b, times, "nan", extrapolate, hold=hold)
             )
         result = batch if out is None else out

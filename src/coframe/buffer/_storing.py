@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from coframe.time import StampLike
     from coframe.transform.transform import Transform
 
-_REFUSED_HINT = "Frame names must differ and not be empty, values must be finite, and a quaternion must not be zero."
+_REJECTION_HINT = "Frame names must differ and not be empty, values must be finite, and a quaternion must not be zero."
 
 
 def check_single(parent: str, child: str, transform: Transform, stamp: StampLike | None, *, static: bool) -> None:
@@ -102,7 +102,7 @@ def rejected_row(
 def rejected(parent: str, child: str, text: str) -> InvalidArgumentException:
     """Return the error for a transform that tf2 rejects, with tf2's message."""
     return InvalidArgumentException.with_details(
-        text, target=parent, source=child, edge=(parent, child), hint=_REFUSED_HINT
+        text, target=parent, source=child, edge=(parent, child), hint=_REJECTION_HINT
     )
 
 

@@ -7,9 +7,7 @@ import sys
 from typing import TYPE_CHECKING, Any
 
 from coframe import _core, errors, time
-from coframe.buffer import _covariances as covariances
-from coframe.buffer import _frozen_file as frozen_file
-from coframe.buffer import _many_lookups as many_lookups
+from coframe.buffer import _covariances, _frozen_file, _many_lookups
 from coframe.buffer._storing import check_not_frozen, check_single, rejected, rejected_row, rows_of, stamp_of
 from coframe.buffer._waiting import CallbackHandle, timed_out, transform_or_timeout
 from coframe.buffer.dispatcher import Dispatcher
@@ -37,7 +35,7 @@ _core.register_errors(errors)
 _core.register_time(time)
 
 
-class Buffer(many_lookups.Buffer):
+class Buffer(_many_lookups.Buffer):
     """Thread-safe store of transforms over time with the semantics of tf2.
 
     All stamps are in nanoseconds; 0 or None means the latest time at which every edge between the frames has data.
@@ -126,7 +124,7 @@ class Buffer(many_lookups.Buffer):
         when = stamp_of(transform, stamp)
         refusals = self._set_values(parent, child, when, *transform.values, static, authority)
         if refusals == 0 and transform.covariance is not None:
-            covariances.store(self, child, transform, when, static=static)
+            _covariances.store(self, child, transform, when, static=static)
         return refusals
 
     def set_many(
@@ -162,15 +160,15 @@ class Buffer(many_lookups.Buffer):
         """
         times, values = rows_of(parent, child, stamps, poses)
         check_not_frozen(self, parent, child)
-        refusals, stored, row = self._set_rows(parent, child, times, values, static, authority)
-        if refusals:
+        rejections, stored, row = self._set_rows(parent, child, times, values, static, authority)
+        if rejections:
             x, y, z, qx, qy, qz, qw = values[row].tolist()
-            texts = _core.insert_texts(refusals, parent, child, int(times[row]), x, y, z, qx, qy, qz, qw, authority)
+            texts = _core.insert_texts(rejections, parent, child, int(times[row]), x, y, z, qx, qy, qz, qw, authority)
             raise rejected_row(parent, child, row, values[row, 3:], "\n".join(line for _, line in texts))
         if covariance is not None:
             poses = Transform(values[:, :3], values[:, 3:], covariance=covariance)
         if isinstance(poses, Transform) and poses.covariance is not None and times.size:
-            covariances.store(self, child, poses, times, static=static)
+            _covariances.store(self, child, poses, times, static=static)
         return stored
 
     def set_covariance(self, parent: str, child: str, pose: Transform | Any, *, static: bool = False) -> None:
@@ -200,7 +198,7 @@ class Buffer(many_lookups.Buffer):
             >>> found.covariance[0].tolist(), found.exact_edges
             ([2.0, 0.0, 0.0, 0.0, 1.0, 0.0], ('lidar',))
         """
-        covariances.set_covariance(self, parent, child, pose, static=static)
+        _covariances.set_covariance(self, parent, child, pose, static=static)
 
     def _lookup_composed(
         self,
@@ -224,14 +222,14 @@ class Buffer(many_lookups.Buffer):
             if source_time is not None:
                 raise ValueError("source_time needs fixed, a frame that does not move between both times")
             pose = lookup(target, source, stamp)
-            return covariances.with_covariance(self, pose, lambda a, b: lookup(a, b, pose.stamp))
+            return _covariances.with_covariance(self, pose, lambda a, b: lookup(a, b, pose.stamp))
         source_stamp = stamp if source_time is None else source_time
         if not covariance and extrapolate is None and max_gap is None:
             return self._lookup_full(target, stamp, source, source_stamp, fixed, timeout=timeout)
         parts = [lookup(target, fixed, stamp), lookup(fixed, source, source_stamp)]
         if covariance:
             parts = [
-                covariances.with_covariance(self, part, lambda a, b, at=part.stamp: lookup(a, b, at))  # type: ignore[misc]
+                _covariances.with_covariance(self, part, lambda a, b, at=part.stamp: lookup(a, b, at))  # type: ignore[misc]
                 for part in parts
             ]
         return (parts[0] @ parts[1]).replace(stamp=parts[0].stamp)
@@ -343,8 +341,8 @@ class Buffer(many_lookups.Buffer):
         copy = Buffer.__new__(Buffer)
         _core.Buffer.__init__(copy, self.cache_ns)
         copy._become_snapshot(self, is_screw(interpolation or self.interpolation))
-        for child, edge in covariances.covariances_of(self).items():
-            covariances.covariances_of(copy)[child] = edge.copy()
+        for child, edge in _covariances.covariances_of(self).items():
+            _covariances.covariances_of(copy)[child] = edge.copy()
         copy._dispatcher = Dispatcher()
         return copy
 
@@ -359,7 +357,7 @@ class Buffer(many_lookups.Buffer):
         Raises:
             FrozenFileError: The file cannot be written.
         """
-        frozen_file.save(self.snapshot(), path)
+        _frozen_file.save(self.snapshot(), path)
 
     def edges(self, children: list[str] | None = None, *, now: int | None = None) -> list[EdgeInfo]:
         """Return the state of the edges between frames and their parents.

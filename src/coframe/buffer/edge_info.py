@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from coframe import time
 from coframe._output import html_tables
 from coframe._output.formatting import seconds
-from coframe.analysis.clocks import present_for
+from coframe.analysis.clocks import current_time_for
 from coframe.analysis.liveness import buffered_period, is_stale
 
 if TYPE_CHECKING:
@@ -91,7 +91,7 @@ def edge_infos(buffer: Buffer, children: list[str] | None, now: int | None) -> l
     edges = []
     for facts in buffer._edge_tuples(children):
         newest = facts[0][5]
-        present = now if given else present_for(newest, wall)
+        present = now if given else current_time_for(newest, wall)
         edges.append(_edge_info(buffer, *facts, None if now is None and given else wall, present))
     return edges
 

@@ -34,7 +34,7 @@ class FrozenBuffer(Buffer):
         self._path = Path(path).absolute()
         with opened(self._path) as file:
             header = read_header(self._path, file)
-            self._memory = self._copied(file) or mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ)
+            self._memory = self._copy_small_file(file) or mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ)
         self._guard = _core.MemoryGuard(self._memory, _LOSS.format(path=self._path))
         if zlib.crc32(memoryview(self._memory)[header.table : header.table + header.table_size]) != header.table_crc:
             self._guard.check()
@@ -46,7 +46,7 @@ class FrozenBuffer(Buffer):
         self._dispatcher = Dispatcher()
         self._header = header
 
-    def _copied(self, file: BinaryIO) -> mmap.mmap | None:
+    def _copy_small_file(self, file: BinaryIO) -> mmap.mmap | None:
         """Return a copy of a small file, which other programs cannot change; None for a large file."""
         size = os.fstat(file.fileno()).st_size
         if size > MAX_COPIED:

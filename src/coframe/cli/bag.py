@@ -13,8 +13,8 @@ import click
 from rich.table import Table
 from rich.text import Text
 
-from coframe._output.escaping import shown
-from coframe._output.formatting import count, listed, seconds
+from coframe._output.escaping import display_name
+from coframe._output.formatting import count, join_names, seconds
 from coframe.bags import COMPRESSIONS, parse_time_point, repair, summarize
 from coframe.bags.copying import copy_recordings
 from coframe.bags.formats import METADATA, storage_formats
@@ -126,7 +126,7 @@ def info(
             return
         summary = summarize(recording)
         if as_json:
-            print(json.dumps(_plain(summary), indent=2))
+            print(json.dumps(_as_plain_data(summary), indent=2))
         else:
             _print(summary)
             if verbose:
@@ -383,9 +383,8 @@ def _print(summary: Summary) -> None:
     )
     console.print(_text(f"storage   {storage}"))
     if any(topic.messages for topic in summary.topics):
-        console.print(
-            f"received  {_when(summary.start)} to {_when(summary.end)}, {seconds(summary.end - summary.start)} s"
-        )
+        first, last = _format_time(summary.start), _format_time(summary.end)
+        console.print(f"received  {first} to {last}, {seconds(summary.end - summary.start)} s")
         note = ", simulation time" if summary.span[1] < EARLIEST_WALL_TIME <= summary.start else ""
         console.print(f"stamps    {seconds(summary.span[0])} to {seconds(summary.span[1])}{note}")
     else:
@@ -399,13 +398,13 @@ def _print(summary: Summary) -> None:
         console.print(topics)
     _print_omitted(console, len(summary.topics), "topic")
     for tree in summary.trees[:_MAX_ROWS]:
-        console.print(_text(f"tree with root {shown(tree.root)}: {count(tree.size, 'frame')}", style="bold"))
+        console.print(_text(f"tree with root {display_name(tree.root)}: {count(tree.size, 'frame')}", style="bold"))
     _print_omitted(console, len(summary.trees), "tree")
     edges = _table("parent", "child", "samples", "Hz", "longest gap", "from", "to")
     for edge in summary.edges[:_MAX_ROWS]:
         moving = (f"{edge.rate:.1f}", f"{edge.longest_gap / SECOND:.3f} s", seconds(edge.oldest), seconds(edge.newest))
         cells: tuple[Any, ...] = ("static", "", "", "") if edge.static else moving
-        edges.add_row(Text(shown(edge.parent)), Text(shown(edge.child)), str(edge.samples), *cells)
+        edges.add_row(Text(display_name(edge.parent)), Text(display_name(edge.child)), str(edge.samples), *cells)
     if summary.edges:
         console.print(edges)
     _print_omitted(console, len(summary.edges), "edge")
@@ -424,14 +423,14 @@ def _print_sensors(summaries: list[SensorSummary], console: Console) -> None:
     reasons: dict[str, list[tuple[str, str]]] = {}
     for sensor in summaries[:_MAX_ROWS]:
         share = f"{sensor.possible} of {sensor.messages} into {sensor.root}" if sensor.root else "none"
-        sensors.add_row(_text(sensor.topic), _text(shown(sensor.frame)), _text(share))
+        sensors.add_row(_text(sensor.topic), _text(display_name(sensor.frame)), _text(share))
         if sensor.why_not:
             # The messages about the topics of one frame differ only in the times.
             reasons.setdefault(_NUMBER.sub("", sensor.why_not), []).append((sensor.topic, sensor.why_not))
     console.print(sensors)
     _print_omitted(console, len(summaries), "sensor")
     for group in reasons.values():
-        console.print(_text(f"{listed(topic for topic, _ in group)}: {group[0][1]}"), soft_wrap=True)
+        console.print(_text(f"{join_names(topic for topic, _ in group)}: {group[0][1]}"), soft_wrap=True)
 
 
 def _print_services(recording: Recording) -> None:
@@ -465,10 +464,10 @@ def _text(text: str, style: str = "") -> Text:
     return Text(one_line(text), style=style)
 
 
-def _plain(value: Any) -> Any:
+def _as_plain_data(value: Any) -> Any:
     """Return named tuples as dictionaries, also inside lists and tuples."""
     if isinstance(value, (list, tuple)):
-        parts = [_plain(part) for part in value]
+        parts = [_as_plain_data(part) for part in value]
         return dict(zip(value._fields, parts, strict=True)) if hasattr(value, "_fields") else parts
     return value
 
@@ -480,6 +479,6 @@ def _table(*columns: str) -> Table:
     return table
 
 
-def _when(nanoseconds: int) -> str:
+def _format_time(nanoseconds: int) -> str:
     date = datetime.fromtimestamp(nanoseconds // SECOND, timezone.utc)
     return f"{date:%Y-%m-%d %H:%M:%S}.{nanoseconds % SECOND // MILLISECOND:03d} UTC"

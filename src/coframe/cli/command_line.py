@@ -67,9 +67,9 @@ class CommandLine(CommandGroup):
         """
         if cmd_name not in self.commands:
             if cmd_name in self._rows:
-                self.commands[cmd_name] = self._own(cmd_name)
+                self.commands[cmd_name] = self._own_command(cmd_name)
             elif cmd_name in self._plugins:
-                self.commands[cmd_name] = _loaded(self._plugins[cmd_name])
+                self.commands[cmd_name] = _load_command(self._plugins[cmd_name])
         return self.commands.get(cmd_name)
 
     def command_lines(self, ctx: click.Context) -> list[tuple[str, str]]:  # noqa: ARG002
@@ -105,7 +105,7 @@ class CommandLine(CommandGroup):
         found = plugins(PLUGINS) if self._has_plugins else []
         return {plugin.name: plugin for plugin in found if plugin.name not in COMMANDS}
 
-    def _own(self, name: str) -> click.Command:
+    def _own_command(self, name: str) -> click.Command:
         module = importlib.import_module(f"coframe.cli.{self._rows[name].module}")
         command: click.Command = getattr(module, name)
         command.short_help = self._rows[name].line
@@ -116,7 +116,7 @@ def _line(plugin: Plugin) -> str:
     return f"Command of the package {plugin.package}."
 
 
-def _loaded(plugin: Plugin) -> click.Command:
+def _load_command(plugin: Plugin) -> click.Command:
     try:
         command = plugin.load()
         if not isinstance(command, click.Command):

@@ -31,11 +31,11 @@ __all__ = [
 
 _Names = TypeVar("_Names")
 _DISCOVERY = 0.6  # seconds: the longest discovery of topics or frames
-_UNCHANGED = 0.2  # seconds without a new name, after which the known names are complete
+_SETTLE_TIME = 0.2  # seconds without a new name, after which the known names are complete
 _MAX_BYTES = 200 << 20  # bytes; reading more would take longer than typing the name
 
 
-def _silent(complete: Callable[..., _Names]) -> Callable[..., _Names | list[str]]:
+def _without_errors(complete: Callable[..., _Names]) -> Callable[..., _Names | list[str]]:
     """Wrap a completion so that it returns no names on failure and writes nothing to stderr."""
 
     @functools.wraps(complete)
@@ -54,7 +54,7 @@ def _silent(complete: Callable[..., _Names]) -> Callable[..., _Names | list[str]
     return run
 
 
-@_silent
+@_without_errors
 def complete_recordings(
     _ctx: click.Context, _parameter: click.Parameter, incomplete: str
 ) -> list[str] | list[CompletionItem]:
@@ -76,7 +76,7 @@ def _is_visible(entry: Path, start: str) -> bool:
     return start.startswith(".") or not entry.name.startswith(".")
 
 
-@_silent
+@_without_errors
 def complete_frames(ctx: click.Context, parameter: click.Parameter, incomplete: str) -> list[str]:
     """Return matching frames of the recording in the first argument, otherwise those on the ROS graph.
 
@@ -98,18 +98,18 @@ def complete_frames(ctx: click.Context, parameter: click.Parameter, incomplete: 
     return sorted(name for name in names if name.startswith(incomplete))
 
 
-@_silent
+@_without_errors
 def complete_live_frames(ctx: click.Context, _parameter: click.Parameter, incomplete: str) -> list[str]:
     """Return the frames of the ROS graph that begin with a text."""
     from coframe.connection.connection import connect  # noqa: PLC0415 - only for this completion
 
     options = {name: ctx.params[name] for name in ("domain", "tf_topic", "tf_static_topic") if ctx.params.get(name)}
     with connect("completion", **options) as connection:
-        names = _settled(connection.buffer.frame_names)
+        names = _wait_until_settled(connection.buffer.frame_names)
     return sorted(name for name in names if name.startswith(incomplete))
 
 
-@_silent
+@_without_errors
 def complete_live_topics(_ctx: click.Context, _parameter: click.Parameter, incomplete: str) -> list[str]:
     """Return the topics of the ROS graph that begin with a text."""
     from coframe.cli.ros2.hidden_names import is_hidden  # noqa: PLC0415 - only for this completion
@@ -117,7 +117,7 @@ def complete_live_topics(_ctx: click.Context, _parameter: click.Parameter, incom
     return sorted(name for name in _live_topics(None) if name.startswith(incomplete) and not is_hidden(name))
 
 
-@_silent
+@_without_errors
 def complete_tf_topics(ctx: click.Context, _parameter: click.Parameter, incomplete: str) -> list[str]:
     """Return the topics of transforms on the ROS graph that begin with a text."""
     topics = _live_topics(ctx.params.get("domain"))
@@ -130,16 +130,16 @@ def _live_topics(domain: int | None) -> dict[str, list[str]]:
 
     participant = Participant.get(domain)
     try:
-        return _settled(participant.topics)
+        return _wait_until_settled(participant.topics)
     finally:
         participant.close()
 
 
-def _settled(observe: Callable[[], _Names]) -> _Names:
+def _wait_until_settled(observe: Callable[[], _Names]) -> _Names:
     """Return the state of the ROS graph once it no longer changes, or after a timeout."""
     begin = changed = time.monotonic()
     names = observe()
-    while (now := time.monotonic()) - begin < _DISCOVERY and not (names and now - changed > _UNCHANGED):
+    while (now := time.monotonic()) - begin < _DISCOVERY and not (names and now - changed > _SETTLE_TIME):
         time.sleep(0.02)
         if (found := observe()) != names:
             names, changed = found, time.monotonic()

@@ -19,13 +19,13 @@ from coframe.cli.commands import joins_graph
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-__all__ = ["PASS_WORDS_ON", "PATH", "Argument", "Command", "CommandGroup", "Declared", "argument"]
+__all__ = ["PASS_ARGUMENTS_ON", "PATH", "Argument", "Command", "CommandGroup", "Declared", "argument"]
 
 Declared = TypeVar("Declared", bound="Callable[..., Any] | click.Command")
 
 PATH: Final = click.Path(path_type=Path)
 # For commands that pass on unknown arguments: --ros-args to a node, NAME:=VALUE to a xacro file.
-PASS_WORDS_ON: Final = {"ignore_unknown_options": True, "allow_extra_args": True}
+PASS_ARGUMENTS_ON: Final = {"ignore_unknown_options": True, "allow_extra_args": True}
 
 
 class Argument(click.Argument):

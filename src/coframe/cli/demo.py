@@ -42,9 +42,9 @@ if TYPE_CHECKING:
 __all__ = ["demo"]
 
 REFRESH = 0.1  # seconds
-OTHER_LINES = 6  # above and below the rows of the tree
+RESERVED_LINES = 6  # above and below the rows of the tree
 # All of these frames exist once every node has published.
-COMPLETE = ("world", "end_effector", "camera_link", "lidar_link")
+EXPECTED_FRAMES = ("world", "end_effector", "camera_link", "lidar_link")
 START_TIMEOUT = 20.0
 ARM = Path(coframe.lab.__file__).with_name("two_link_arm.urdf.xacro")
 
@@ -139,7 +139,7 @@ def demo(
                     ros.buffer,
                     name("base_link"),
                     liveness,
-                    most=max(1, console.height - OTHER_LINES),
+                    most=max(1, console.height - RESERVED_LINES),
                     wide=console.width >= 100,
                 ),
                 Text(str(clouds)),
@@ -148,7 +148,7 @@ def demo(
             )
 
         with Live(get_renderable=screen, console=console, refresh_per_second=1 / REFRESH, transient=False):
-            _watch(ros.buffer, nodes, start, seconds, [name(frame) for frame in COMPLETE])
+            _watch(ros.buffer, nodes, start, seconds, [name(frame) for frame in EXPECTED_FRAMES])
 
 
 def _robot() -> Robot | None:

@@ -11,13 +11,13 @@ from click.exceptions import Exit
 
 from coframe.cli.output import one_line, report_console
 from coframe.system.advice import advise
-from coframe.system.examinations import examination_of
+from coframe.system.middleware_checks import check_of
 from coframe.system.report import collect
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from coframe.system import Advice, SystemReport
+    from coframe.system import SystemFinding, SystemReport
     from coframe.system.network import Interface
 
 __all__ = ["examine_system"]
@@ -75,7 +75,7 @@ def _software(report: SystemReport) -> Iterator[str]:
 def _middleware(report: SystemReport) -> Iterator[str]:
     if report.wire is not None:
         yield f"{report.wire.wire}, because {report.wire.reason}"
-    yield from examination_of(report.wire).lines(report)
+    yield from check_of(report.wire).lines(report)
 
 
 def _library(report: SystemReport) -> Iterator[str]:
@@ -89,7 +89,7 @@ def _library(report: SystemReport) -> Iterator[str]:
 
 
 def _network(report: SystemReport) -> Iterator[str]:
-    yield f"domain {_or_unknown(report.domain)}, discovery range {_or_unknown(report.discovery)}"
+    yield f"domain {_value_or_unknown(report.domain)}, discovery range {_value_or_unknown(report.discovery)}"
     if report.participants:
         used, every = report.participants
         yield f"participants on this machine: {used} of at most {every} indexes in use, {every - used} free"
@@ -118,7 +118,7 @@ def _state(interface: Interface) -> str:
     return f"used, multicast does not work ({interface.problem})"
 
 
-def _or_unknown(value: object) -> str:
+def _value_or_unknown(value: object) -> str:
     return "unknown" if value is None else str(value)
 
 
@@ -126,7 +126,7 @@ def _mebibytes(size: int) -> str:
     return f"{size / _MEBIBYTE:.1f} MiB"
 
 
-def _print_advice(advice: list[Advice]) -> None:
+def _print_advice(advice: list[SystemFinding]) -> None:
     console = report_console()
     console.print("Findings", style="bold")
     if not advice:

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 import click
 import numpy as np
 
-from coframe._output.escaping import shown
+from coframe._output.escaping import display_name
 from coframe.cli.completion import complete_live_frames
 from coframe.cli.declaration import argument
 from coframe.cli.lifecycle import run_until_interrupted
@@ -101,14 +101,14 @@ def echo(
 
     Example: coframe echo base_link camera_link 2
     """
-    hertz = _positive("Rate", rate if rate is not None else _positional_rate(echo_rate), MAX_RATE)
-    _positive("Period", 1.0 / hertz, MAX_SECONDS)
+    hertz = _check_positive("Rate", rate if rate is not None else _positional_rate(echo_rate), MAX_RATE)
+    _check_positive("Period", 1.0 / hertz, MAX_SECONDS)
     # The messages and exit codes for values out of range are tf2_echo's.
-    cache = _positive("Cache time", cache_time.seconds, MAX_SECONDS)
+    cache = _check_positive("Cache time", cache_time.seconds, MAX_SECONDS)
     given = offset if offset is not None else upstream_offset
     ahead = None if given is None else given.seconds
-    _positive("Limit", 1 if limit is None else limit)
-    _positive("Precision", precision, MAX_DIGITS)
+    _check_positive("Limit", 1 if limit is None else limit)
+    _check_positive("Precision", precision, MAX_DIGITS)
     for option, value in (("--at", at), ("--offset", ahead)):
         if value is not None and not abs(value) <= MAX_SECONDS:
             fail(f"{option} must be a number of seconds from {-MAX_SECONDS:.0e} to {MAX_SECONDS:.0e}, not {value}")
@@ -148,7 +148,7 @@ def _positional_rate(text: str | None) -> float:
         )
 
 
-def _positive(what: str, value: float, most: float = math.inf) -> float:
+def _check_positive(what: str, value: float, most: float = math.inf) -> float:
     if not value > 0:
         fail(f"{what} must be > 0.0")
     if value > most:
@@ -192,7 +192,7 @@ def _print_answer(buffer: Buffer, source: str, target: str, stamp: int, write: C
         transform = buffer.lookup(source, target, stamp)
     except TransformException as error:
         frames = (
-            f"Frame {shown(each.name)} exists with parent {shown(each.parent)}."
+            f"Frame {display_name(each.name)} exists with parent {display_name(each.parent)}."
             for each in buffer.frames()
             if each.parent
         )

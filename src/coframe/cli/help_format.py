@@ -29,7 +29,7 @@ def argument_names(command: click.Command, ctx: click.Context) -> list[str]:
 def write_description(command: click.Command, formatter: click.HelpFormatter) -> None:
     """Write the description of a command, which may have several paragraphs."""
     for paragraph in inspect.cleandoc(command.help or "").split("\n\n"):
-        formatter.write("\n" + _wrapped(paragraph, _INDENT, _INDENT, formatter.width) + "\n")
+        formatter.write("\n" + _wrap(paragraph, _INDENT, _INDENT, formatter.width) + "\n")
 
 
 def write_arguments(command: click.Command, ctx: click.Context, formatter: click.HelpFormatter) -> None:
@@ -56,7 +56,7 @@ def write_section(formatter: click.HelpFormatter, title: str, rows: list[tuple[s
         if len(start) > column - 2:
             formatter.write(start + "\n")
             start = ""
-        formatter.write(_wrapped(text, start.ljust(column), " " * column, formatter.width).rstrip() + "\n")
+        formatter.write(_wrap(text, start.ljust(column), " " * column, formatter.width).rstrip() + "\n")
 
 
 def _arguments(command: click.Command, ctx: click.Context) -> Iterator[click.Argument]:
@@ -75,7 +75,7 @@ def _whole_name(argument: click.Argument) -> str:
     return name if name.count("[") == name.count("]") else name.strip("[]")
 
 
-def _wrapped(text: str, first: str, rest: str, width: int) -> str:
+def _wrap(text: str, first: str, rest: str, width: int) -> str:
     """Wrap text only at spaces, because a break inside `--tf-topic` would be misread."""
     words = " ".join(text.split())
     return textwrap.fill(

@@ -14,7 +14,7 @@ from rich.live import Live
 from rich.text import Text
 
 from coframe._process.keys import keys
-from coframe.cli.declaration import PASS_WORDS_ON, PATH, Command, argument
+from coframe.cli.declaration import PASS_ARGUMENTS_ON, PATH, Command, argument
 from coframe.cli.lifecycle import run_until_interrupted
 from coframe.cli.node_arguments import reported_node_errors, xacro_arguments
 from coframe.cli.options import (
@@ -45,7 +45,7 @@ REFRESH = 0.1  # seconds
 SLIDERS = "/coframe_joints/sliders"
 
 
-@click.command(cls=Command, context_settings=PASS_WORDS_ON)
+@click.command(cls=Command, context_settings=PASS_ARGUMENTS_ON)
 @click.pass_context
 @argument(
     "file",

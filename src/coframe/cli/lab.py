@@ -39,7 +39,7 @@ from coframe.errors import CourseError
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence
 
-    from coframe.course.running import Program
+    from coframe.course.running import NamedCommand
 
 __all__ = ["lab"]
 
@@ -278,7 +278,7 @@ def _folder(given: Path | None) -> Path:
 
 
 def _run(
-    programs: Sequence[Program],
+    programs: Sequence[NamedCommand],
     seconds: float | None,
     *,
     browser: bool,

@@ -14,7 +14,7 @@ from click.exceptions import Exit
 from coframe._files.existence import exists, is_dir
 from coframe._files.regular_files import check_regular, reading_hint
 from coframe._output.formatting import did_you_mean
-from coframe.cli.declaration import PASS_WORDS_ON, Command, argument
+from coframe.cli.declaration import PASS_ARGUMENTS_ON, Command, argument
 from coframe.cli.output import fail
 from coframe.distributions import current
 from coframe.errors import PackageError
@@ -29,7 +29,7 @@ __all__ = ["launch"]
 _SUFFIXES = (".launch.py", ".launch.xml", ".launch.yaml", ".launch.yml", "_launch.py", "_launch.xml", "_launch.yaml")
 
 
-@click.command(cls=Command, context_settings=PASS_WORDS_ON)
+@click.command(cls=Command, context_settings=PASS_ARGUMENTS_ON)
 @click.pass_context
 @argument("package_or_file", metavar="FILE|PACKAGE", help="Launch file, or the package that contains it.")
 @click.option("--show-args", "-s", "--show-arguments", is_flag=True, help="Show the arguments of the launch file.")

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import click
 import numpy as np
 
-from coframe._output.escaping import shown
+from coframe._output.escaping import display_name
 from coframe._output.formatting import duration, seconds
 from coframe.bags import parse_time_point
 from coframe.bags.namespaces import TransformChoice
@@ -44,7 +44,7 @@ if TYPE_CHECKING:
 
 __all__ = ["lookup"]
 
-_ALWAYS = (0, 0)  # the span of static transforms
+_UNLIMITED_SPAN = (0, 0)  # the span of static transforms
 _RETRY_PERIOD = 0.05  # seconds
 
 
@@ -148,7 +148,7 @@ def lookup(
             )
             with Connection("coframe_lookup", config) as ros:
                 try:
-                    found = _when_possible(lambda: transform(ros.buffer, _clock_time(duration)), duration)
+                    found = _wait_for_transform(lambda: transform(ros.buffer, _clock_time(duration)), duration)
                 except TransformException as error:
                     if awaited := ros.awaited_statics():
                         fail(str(error), awaited_statics_text(awaited))
@@ -173,7 +173,7 @@ def _check_time_travel(fixed: str | None, source_time: str | None, max_gap: int 
 def _gap_line(gap: Validity) -> str:
     if not gap.gaps[0]:
         return "- Interpolated over: 0 s, at the time of a sample"
-    return f"- Interpolated over: {duration(int(gap.gaps[0]))} between two samples of {shown(gap.edges[0])}"
+    return f"- Interpolated over: {duration(int(gap.gaps[0]))} between two samples of {display_name(gap.edges[0])}"
 
 
 def _looked_up(buffer: Buffer, target: str, source: str, when: int, max_gap: int | None) -> Transform:
@@ -199,7 +199,7 @@ def _clock_time(window: int) -> Callable[[str, str], int]:
     return parse
 
 
-def _when_possible(transform: Callable[[], Transform], window: int) -> Transform:
+def _wait_for_transform(transform: Callable[[], Transform], window: int) -> Transform:
     """Return the transform as soon as it is available; after the timeout, raise the error of the last attempt."""
     end = time.monotonic() + window / SECOND
     while True:
@@ -215,7 +215,7 @@ def _available_span(recording: Recording, frames: set[str]) -> str:
     """Describe when the recording has transforms between all these frames; "" if it never does."""
     one, *others = sorted(frames)
     try:
-        spans = [span for other in others if (span := recording.buffer.span(one, other)) != _ALWAYS]
+        spans = [span for other in others if (span := recording.buffer.span(one, other)) != _UNLIMITED_SPAN]
     except TransformException:
         return ""
     if not spans:

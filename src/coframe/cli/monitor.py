@@ -13,7 +13,7 @@ from rich.live import Live
 from rich.table import Table
 from rich.text import Text
 
-from coframe._output.escaping import shown
+from coframe._output.escaping import display_name
 from coframe._output.formatting import count
 from coframe.cli.declaration import argument
 from coframe.cli.lifecycle import run_until_interrupted
@@ -25,7 +25,7 @@ from coframe.cli.options import (
 from coframe.cli.output import fail, report_console
 from coframe.cli.ros_arguments import NodeCommand, node_identity
 from coframe.connection.listener_config import ListenerConfig
-from coframe.doctor.figures import chain_figures, edge_figures, publisher_figures
+from coframe.doctor.statistics import chain_statistics, edge_statistics, publisher_statistics
 from coframe.time import MILLISECOND, SECOND
 
 if TYPE_CHECKING:
@@ -33,15 +33,15 @@ if TYPE_CHECKING:
     from typing import TypeAlias
 
     from coframe.doctor import Observation
-    from coframe.doctor.figures import ChainFigures
     from coframe.doctor.live import LiveObserver
+    from coframe.doctor.statistics import ChainStatistics
 
     Pair: TypeAlias = tuple[str, str] | None
 
 __all__ = ["monitor"]
 
 _MIN_ROWS = 5
-_OTHER_LINES = 12  # lines reserved on the screen for titles, a chain, and publishers
+_RESERVED_LINES = 12  # lines reserved on the screen for titles, a chain, and publishers
 _BROADCASTERS = "\nAll Broadcasters:"
 
 
@@ -121,7 +121,7 @@ def _watch(observer: LiveObserver, pair: Pair) -> NoReturn:
     console = report_console()
     with Live(console=console, auto_refresh=False) as live:
         while True:
-            most = max(console.height - _OTHER_LINES, _MIN_ROWS) if console.is_terminal else None
+            most = max(console.height - _RESERVED_LINES, _MIN_ROWS) if console.is_terminal else None
             live.update(_tables(observer.observe(), pair, most), refresh=True)
             observer.listen(1.0)
 
@@ -131,36 +131,36 @@ def _tables(observation: Observation, pair: Pair, most: int | None = None) -> Gr
     if not observation.edges:
         return Group(Text("no transforms received yet: is a broadcaster running in the same ROS domain?"))
     edges = _table("edge", "publisher", "Hz", "jitter ms", "delay ms", "p99 ms", "age ms", "count")
-    rows = edge_figures(observation, most)
+    rows = edge_statistics(observation, most)
     for row in rows:
         figures = (row.jitter, row.delay, row.delay_p99, row.age)
         rate = "static" if row.static else "stale" if row.stale else _hertz(row.rate)
         cells = (
-            f"{shown(row.parent)} -> {shown(row.child)}",
-            shown(row.publisher) or "unknown",
+            f"{display_name(row.parent)} -> {display_name(row.child)}",
+            display_name(row.publisher) or "unknown",
             rate,
             *map(_ms, figures),
         )
         edges.add_row(*_texts(*cells, str(row.transforms)), style="red" if row.stale else "")
     publishers = _table("publisher", "messages/s", "delay ms", "p99 ms")
-    for node in publisher_figures(observation):
+    for node in publisher_statistics(observation):
         delays = (_ms(node.delay), _ms(node.delay_p99))
-        publishers.add_row(*_texts(shown(node.publisher) or "unknown", _hertz(node.rate), *delays))
-    chain = [Text(_chain(chain_figures(observation, *pair), pair))] if pair else []
+        publishers.add_row(*_texts(display_name(node.publisher) or "unknown", _hertz(node.rate), *delays))
+    chain = [Text(_chain(chain_statistics(observation, *pair), pair))] if pair else []
     left = len(observation.edges) - len({(row.parent, row.child) for row in rows})
     more = [Text(f"... and {count(left, 'more edge')}; `coframe monitor --once` prints all", style="dim")]
     return Group(*chain, edges, *more[: min(left, 1)], publishers)
 
 
-def _chain(figures: ChainFigures | None, pair: tuple[str, str]) -> str:
+def _chain(figures: ChainStatistics | None, pair: tuple[str, str]) -> str:
     if figures is None:
-        return f"no transforms connect {shown(pair[0])} and {shown(pair[1])} yet"
-    chain = f"chain: {' -> '.join(map(shown, figures.frames))}"
+        return f"no transforms connect {display_name(pair[0])} and {display_name(pair[1])} yet"
+    chain = f"chain: {' -> '.join(map(display_name, figures.frames))}"
     if figures.limit is None:
         return f"{chain}\nall edges are static, or not every edge has been received yet"
     return (
         f"{chain}\nnet delay: mean {_ms(figures.delay)} ms, p99 {_ms(figures.delay_p99)} ms; limited by "
-        f"{' -> '.join(map(shown, figures.limit))} for {figures.limit_share:.0%} of the time"
+        f"{' -> '.join(map(display_name, figures.limit))} for {figures.limit_share:.0%} of the time"
     )
 
 
@@ -168,11 +168,11 @@ def _data(observation: Observation, pair: Pair) -> dict[str, Any]:
     data: dict[str, Any] = {
         "start_ns": observation.start,
         "end_ns": observation.end,
-        "edges": [row._asdict() for row in edge_figures(observation)],
-        "publishers": [row._asdict() for row in publisher_figures(observation)],
+        "edges": [row._asdict() for row in edge_statistics(observation)],
+        "publishers": [row._asdict() for row in publisher_statistics(observation)],
     }
     if pair is not None:
-        chain = chain_figures(observation, *pair)
+        chain = chain_statistics(observation, *pair)
         data["chain"] = None if chain is None else chain._asdict()
     return data
 
@@ -190,25 +190,25 @@ def _classic(observation: Observation, pair: Pair) -> Iterator[str]:
     """
     yield "\n\n"
     if pair is not None:
-        chain = chain_figures(observation, *pair)
-        yield f"RESULTS: for {shown(pair[0])} to {shown(pair[1])}"
+        chain = chain_statistics(observation, *pair)
+        yield f"RESULTS: for {display_name(pair[0])} to {display_name(pair[1])}"
         if chain is not None:
-            yield f"Chain is: {' -> '.join(map(shown, chain.frames))}"
-            yield f"Net delay     avg = {_g(chain.delay)}: max = {_g(chain.delay_max)}"
+            yield f"Chain is: {' -> '.join(map(display_name, chain.frames))}"
+            yield f"Net delay     avg = {_fmt(chain.delay)}: max = {_fmt(chain.delay_max)}"
     else:
         yield "RESULTS: for all Frames"
     yield "\nFrames:"
-    for row in edge_figures(observation):
-        name = shown(row.publisher) or "<no authority available>"
-        frame = shown(row.child)
-        yield f"Frame: {frame}, published by {name}, Average Delay: {_g(row.delay)}, Max Delay: {_g(row.delay_max)}"
+    for row in edge_statistics(observation):
+        name = display_name(row.publisher) or "<no authority available>"
+        frame = display_name(row.child)
+        yield f"Frame: {frame}, published by {name}, Average Delay: {_fmt(row.delay)}, Max Delay: {_fmt(row.delay_max)}"
     yield _BROADCASTERS
-    for node in publisher_figures(observation):
-        name, rate = shown(node.publisher) or "<no authority available>", node.rate or 0.0
-        yield f"Node: {name} {rate:g} Hz, Average Delay: {_g(node.delay)} Max Delay: {_g(node.delay_max)}"
+    for node in publisher_statistics(observation):
+        name, rate = display_name(node.publisher) or "<no authority available>", node.rate or 0.0
+        yield f"Node: {name} {rate:g} Hz, Average Delay: {_fmt(node.delay)} Max Delay: {_fmt(node.delay_max)}"
 
 
-def _g(nanoseconds: float | None) -> str:
+def _fmt(nanoseconds: float | None) -> str:
     """Format seconds with six significant digits, as C++ streams do."""
     return f"{(nanoseconds or 0.0) / SECOND:g}"
 

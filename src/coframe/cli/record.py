@@ -273,10 +273,9 @@ def _finish(recorder: Recorder) -> None:
             warn(f"{topic}: dropped {count(number, 'message')}, because the disk was too slow; see --backlog")
         if statistics.missing:
             warn(f"no message was received on {', '.join(statistics.missing)}")
-        if statistics.refused:
-            warn(
-                f"not recorded, because they are not ROS topics or there are too many: {', '.join(statistics.refused)}"
-            )
+        if statistics.unrecordable:
+            topics = ", ".join(statistics.unrecordable)
+            warn(f"not recorded, because they are not ROS topics or there are too many: {topics}")
         if statistics.not_renamed:
             warn(f"no prefix was added on topics with unknown types: {', '.join(statistics.not_renamed)}")
         if recorder.writer.undescribed:

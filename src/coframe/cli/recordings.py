@@ -6,7 +6,7 @@ from __future__ import annotations
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
-from coframe._output.formatting import listed, seconds
+from coframe._output.formatting import join_names, seconds
 from coframe.bags.recording import open_chosen
 from coframe.bags.time_points import parse_time_point
 from coframe.cli.output import fail, warn
@@ -79,4 +79,4 @@ def grouped_by_topic(sentences: list[str]) -> list[str]:
         topic, colon, text = sentence.partition(": ")
         is_about_topic = bool(colon) and topic.startswith("/") and " " not in topic
         topics.setdefault(text if is_about_topic else sentence, []).extend([topic] if is_about_topic else [])
-    return [f"{listed(names)}: {text}" if names else text for text, names in topics.items()]
+    return [f"{join_names(names)}: {text}" if names else text for text, names in topics.items()]

@@ -14,7 +14,7 @@ from rich.live import Live
 from rich.table import Table
 from rich.text import Text
 
-from coframe._output.escaping import shown
+from coframe._output.escaping import display_name
 from coframe._output.formatting import count
 from coframe.cli.declaration import Command
 from coframe.cli.lifecycle import run_until_interrupted
@@ -195,8 +195,8 @@ def _table(running: Relay, rates: _Rates, most: int | None = None) -> Group:
             note = f"stale: {edge.robot} {'left the ROS graph' if has_left else 'stopped publishing'}"
         hertz = each.get((edge.target, edge.parent, edge.child))
         cells = [
-            f"{shown(edge.parent)} -> {shown(edge.child)}",
-            *map(shown, (edge.robot, edge.source, edge.node, edge.target)),
+            f"{display_name(edge.parent)} -> {display_name(edge.child)}",
+            *map(display_name, (edge.robot, edge.source, edge.node, edge.target)),
             "static" if edge.static else "-" if hertz is None else f"{hertz:.1f}",
             "" if edge.static else f"{edge.age:.1f}",
             note,

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from coframe.cli.declaration import PASS_WORDS_ON, PATH, Command, argument
+from coframe.cli.declaration import PASS_ARGUMENTS_ON, PATH, Command, argument
 from coframe.cli.lifecycle import run_until_interrupted
 from coframe.cli.node_arguments import reported_node_errors, xacro_arguments
 from coframe.cli.options import (
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 __all__ = ["robot"]
 
 
-@click.command(cls=Command, context_settings=PASS_WORDS_ON)
+@click.command(cls=Command, context_settings=PASS_ARGUMENTS_ON)
 @click.pass_context
 @argument("file", metavar="FILE", type=PATH, help="Robot description: a URDF or xacro file.")
 @prefix_option

@@ -37,7 +37,7 @@ __all__ = ["show_robots"]
 
 REFRESH = 0.2  # seconds
 START_TIMEOUT = 30.0
-SHARED = ("world", "map")
+SHARED_FRAMES = ("world", "map")
 # The frames of one robot; the node complete_tf_tree has a parameter for the name of each.
 FRAMES = ("odom", "base", "link1", "link2", "end_effector", "imu", "lidar", "camera", "gripper")
 
@@ -99,7 +99,7 @@ def _optional_relay(
             common=config.tf_topic,
             common_static=config.tf_static_topic,
             prefix_each=True,
-            keep=SHARED,
+            keep=SHARED_FRAMES,
             domain=config.domain,
             warn=warn,
         )

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 __all__ = ["NodeCommand", "NodeIdentity", "node_identity"]
 
 _START, _END = "--ros-args", "--"
-_WITH_ARGUMENT = {"-p", "--param", "--params-file", "--log-level", "--log-config-file", "-e", "--enclave"}
+_FLAGS_WITH_ARGUMENT = {"-p", "--param", "--params-file", "--log-level", "--log-config-file", "-e", "--enclave"}
 _SWITCH = re.compile(r"--(?:enable|disable)-(?:rosout|stdout|external-lib)-logs")
 _RULE = re.compile(r"(?:(?P<node>[A-Za-z_]\w*):(?!/))?(?P<match>[^:]+):=(?P<replacement>.*)")
 _NAME = re.compile(r"[A-Za-z_]\w*", re.ASCII)
@@ -99,7 +99,7 @@ def _section(words: Iterator[str]) -> Iterator[_Rule]:
             return
         if word in {"-r", "--remap"}:
             yield _parse(_argument(word, words))
-        elif word in _WITH_ARGUMENT:
+        elif word in _FLAGS_WITH_ARGUMENT:
             _argument(word, words)
         elif ":=" in word and not word.startswith("-"):
             yield _parse(word)

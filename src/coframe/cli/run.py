@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 import click
 from click.exceptions import Exit
 
-from coframe.cli.declaration import PASS_WORDS_ON, Command, argument
+from coframe.cli.declaration import PASS_ARGUMENTS_ON, Command, argument
 from coframe.cli.output import fail
 from coframe.errors import PackageError
 from coframe.workspace.packages.executables import executables, find_executable
@@ -25,7 +25,7 @@ __all__ = ["run"]
 
 
 # The arguments of the executable begin after its name, and may look like options.
-@click.command(cls=Command, context_settings={**PASS_WORDS_ON, "allow_interspersed_args": False})
+@click.command(cls=Command, context_settings={**PASS_ARGUMENTS_ON, "allow_interspersed_args": False})
 @click.pass_context
 @argument("package", metavar="PACKAGE", help="Name of the package.")
 @argument(

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from rich.table import Table
 from rich.text import Text
 
-from coframe._output.escaping import shown
+from coframe._output.escaping import display_name
 
 if TYPE_CHECKING:
     from coframe.robots.joint_states import FreeJoint, JointStates
@@ -66,7 +66,7 @@ class Sliders:
             is_selected = name == names[self.selected]
             table.add_row(
                 Text(">" if is_selected else " "),
-                Text(shown(name), style="bold" if is_selected else "", no_wrap=True),
+                Text(display_name(name), style="bold" if is_selected else "", no_wrap=True),
                 Text(f"{joint.lower:8.3f}", style="dim"),
                 Text(_bar(joint), style="cyan" if is_selected else ""),
                 Text(f"{joint.upper:.3f}", style="dim"),

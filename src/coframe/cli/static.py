@@ -11,8 +11,8 @@ import time
 import click
 from click.exceptions import Exit
 
-from coframe._output.escaping import shown
-from coframe.cli.declaration import PASS_WORDS_ON
+from coframe._output.escaping import display_name
+from coframe.cli.declaration import PASS_ARGUMENTS_ON
 from coframe.cli.lifecycle import run_until_interrupted
 from coframe.cli.options import checked_prefix
 from coframe.cli.output import fail, log
@@ -60,7 +60,7 @@ Options:
 
 
 # The command parses its arguments itself, because numbers may be negative.
-@click.command(cls=NodeCommand, add_help_option=False, context_settings=PASS_WORDS_ON)
+@click.command(cls=NodeCommand, add_help_option=False, context_settings=PASS_ARGUMENTS_ON)
 @click.pass_context
 def static(context: click.Context) -> None:
     """Publish a static transform until stopped, like ROS 2's static_transform_publisher.
@@ -82,7 +82,7 @@ def static(context: click.Context) -> None:
     if arguments.old_style:
         log("WARN", node, "Old-style arguments are deprecated; see --help for new-style arguments")
     if arguments.frame_id == arguments.child_frame_id:
-        names = f"from '{shown(arguments.frame_id)}' to '{shown(arguments.child_frame_id)}'"
+        names = f"from '{display_name(arguments.frame_id)}' to '{display_name(arguments.child_frame_id)}'"
         fail(
             f"cannot publish static transform {names}, exiting",
             "A frame cannot be its own parent: give two different frames.",
@@ -116,7 +116,7 @@ def _publish_until_stopped(arguments: StaticArguments, identity: NodeIdentity) -
 
 def _announcement(arguments: StaticArguments) -> str:
     values = [f"'{value:f}'" for value in arguments.transform.values]
-    parent, child = shown(arguments.frame_id), shown(arguments.child_frame_id)
+    parent, child = display_name(arguments.frame_id), display_name(arguments.child_frame_id)
     return (
         f"Spinning until stopped - publishing transform\ntranslation: ({', '.join(values[:3])})\n"
         f"rotation: ({', '.join(values[3:])})\nfrom '{parent}' to '{child}'"

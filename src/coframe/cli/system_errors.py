@@ -7,19 +7,19 @@ import errno
 
 __all__ = ["advice_for_writing", "description"]
 
-_FULL = {errno.ENOSPC, getattr(errno, "EDQUOT", errno.ENOSPC)}
+_DISK_FULL_CODES = {errno.ENOSPC, getattr(errno, "EDQUOT", errno.ENOSPC)}
 _ADVICE = {
     errno.EACCES: "Check the permissions.",
     errno.EPERM: "Check the permissions.",
     errno.EROFS: "Choose a writable folder.",
     errno.EMFILE: "Close files or raise the limit of open files: ulimit -n 4096.",
-    **dict.fromkeys(_FULL, "Free some space, or write to another disk."),
+    **dict.fromkeys(_DISK_FULL_CODES, "Free some space, or write to another disk."),
 }
 
 
 def advice_for_writing(error: OSError) -> str:
     """Return what to do if a file could not be written."""
-    return _ADVICE[errno.ENOSPC] if error.errno in _FULL else "Check that the folder exists and is writable."
+    return _ADVICE[errno.ENOSPC] if error.errno in _DISK_FULL_CODES else "Check that the folder exists and is writable."
 
 
 def description(error: OSError) -> str:

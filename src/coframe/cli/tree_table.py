@@ -11,7 +11,7 @@ from rich.console import Group
 from rich.table import Table
 from rich.text import Text
 
-from coframe._output.escaping import shown
+from coframe._output.escaping import display_name
 from coframe._output.formatting import count
 from coframe.analysis.tree import FrameTrees
 from coframe.errors import TransformException
@@ -35,7 +35,7 @@ def tree_table(buffer: Buffer, reference: str, liveness: LivenessTracker, *, mos
         most: Maximum number of rows.
         wide: Whether the terminal has at least 100 columns, enough to show millimeters.
     """
-    title = Text(f"transform tree, poses relative to {shown(reference)} (meters, degrees)")
+    title = Text(f"transform tree, poses relative to {display_name(reference)} (meters, degrees)")
     table = Table(title=title, title_justify="left", box=None, padding=(0, 1, 0, 0), pad_edge=False)
     for column in ("frame", "parent"):
         table.add_column(column, no_wrap=True)
@@ -54,8 +54,8 @@ def tree_table(buffer: Buffer, reference: str, liveness: LivenessTracker, *, mos
         frame, stale = rows[trees.names[number]]
         age = (now - frame.newest) / SECOND
         table.add_row(
-            Text(" " * trees.depths[number] + shown(frame.name), style="dim" if stale else "bold"),
-            Text(shown(frame.parent)),
+            Text(" " * trees.depths[number] + display_name(frame.name), style="dim" if stale else "bold"),
+            Text(display_name(frame.parent)),
             Text(_rate(frame), style="dim" if frame.static else "cyan"),
             Text(_age(frame, age), style="red" if stale else ""),
             *_pose(buffer, reference, frame.name, decimals),

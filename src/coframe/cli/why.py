@@ -21,10 +21,10 @@ from rich.console import Console, Group
 from rich.live import Live
 from rich.text import Text
 
-from coframe._output.formatting import listed
+from coframe._output.formatting import join_names
 from coframe.bags import parse_time_point
 from coframe.bags.namespaces import TransformChoice
-from coframe.buffer.explanation.drawing import remark, verdict
+from coframe.buffer.explanation.drawing import edge_remark, verdict
 from coframe.cli.completion import complete_frames
 from coframe.cli.declaration import Command, argument
 from coframe.cli.lifecycle import run_to_completion, run_until_interrupted
@@ -199,7 +199,7 @@ def _with_clock_advice(found: Explanation, reports: Iterable[Report]) -> Explana
         return found
     code = of_clocks[0].code
     names = {" -> ".join(edge) for one in of_clocks for edge in (one.edge, *one.edges) if edge is not None}
-    subject = listed(edge.name for edge in found.edges if edge.name in names)
+    subject = join_names(edge.name for edge in found.edges if edge.name in names)
     return replace(found, hint=f"The stamps of {subject} are off, see {code} below. See doctor code {code}.")
 
 
@@ -245,7 +245,9 @@ def _relevant_reports(found: Explanation, seen: Iterable[Observation]) -> list[R
 
     reports = map(diagnose, seen)
     return [
-        report._replace(findings=[one.explaining(()) for one in report.every_finding() if concerns(one)], sensors=[])
+        report._replace(
+            findings=[one.with_consequences(()) for one in report.every_finding() if concerns(one)], sensors=[]
+        )
         for report in reports
     ]
 
@@ -328,4 +330,4 @@ def _data(answer: _Answer) -> dict[str, Any]:
 def _edge_data(found: Explanation, edge: ChainEdge) -> dict[str, Any]:
     times = {"by", "oldest", "newest", "age", "gap", "period"}
     named = {f"{name}_ns" if name in times else name: value for name, value in edge._asdict().items()}
-    return {**named, "remark": remark(found, edge)}
+    return {**named, "edge_remark": edge_remark(found, edge)}

@@ -6,7 +6,7 @@ from __future__ import annotations
 import logging
 from typing import TYPE_CHECKING
 
-from coframe._output.escaping import shown
+from coframe._output.escaping import display_name
 from coframe.buffer.buffer import DEFAULT_AUTHORITY, Buffer
 
 if TYPE_CHECKING:
@@ -67,7 +67,7 @@ class ConnectionBuffer(Buffer):
         _logger.warning(
             "The transform %s -> %s is stored in the buffer of this process only; set() publishes nothing. To publish "
             "transforms, use connection.%s(parent, child, transform).",
-            shown(parent),
-            shown(child),
+            display_name(parent),
+            display_name(child),
             sender,
         )

@@ -101,7 +101,7 @@ class Connection:
             WireError: The connection is closed, or the middleware cannot create the publisher.
         """
         self._check(topic, message_type)
-        native = self.participant.publisher(self.node, self._qualified(topic), message_type, _qos(qos))
+        native = self.participant.publisher(self.node, self._qualified_name(topic), message_type, _qos(qos))
         return MessagePublisher(native, message_type)
 
     def publish(self, topic: str, message: Message) -> None:
@@ -203,7 +203,7 @@ class Connection:
             raise TypeError(f"the callback must be a function, not {callback!r}")
         event = _core.Event()
         native = self.participant.subscription(
-            self.node, self._qualified(topic), message_type, _qos(qos), on_data=event
+            self.node, self._qualified_name(topic), message_type, _qos(qos), on_data=event
         )
         subscription = MessageSubscription(native, message_type, event, callback)
         self._subscriptions.append(subscription)
@@ -333,7 +333,7 @@ class Connection:
                 "coframe.messages.find() returns the class of a ROS type"
             )
 
-    def _qualified(self, topic: str) -> str:
+    def _qualified_name(self, topic: str) -> str:
         return topic if topic.startswith("/") else f"{self._name[0].rstrip('/')}/{topic}"
 
 

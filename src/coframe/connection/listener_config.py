@@ -92,7 +92,7 @@ class ListenerConfig:
             tf_topic=tf_topic or root + TF_TOPIC,
             tf_static_topic=tf_static_topic or root + TF_STATIC_TOPIC,
             prefix=prefix,
-            keep=tuple(sorted(frame_names.kept(keep))),
+            keep=tuple(sorted(frame_names.shared_frames(keep))),
             cache=cache_length(cache),
             domain=domains.domain_id() if domain is None else domains.check_domain_id(domain),
             wire=selection.resolve(wire),

@@ -9,7 +9,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
-from coframe._process.graded_programs import GRADED, SOLUTIONS, refusal
+from coframe._process.graded_programs import GRADED_VARIABLE, SOLUTIONS, refusal
 from coframe._process.python_children import python_environment
 from coframe.course._solutions import Decoys, entry_files, solution_folders, solution_problem
 from coframe.course._view import view_of
@@ -29,7 +29,7 @@ MAX_CPU = 120  # seconds of processor time
 _ADDRESS_SPACE = 8 * MAX_MEMORY  # threads and libraries reserve more than they use
 
 # Environment variables of the user that are visible to the grade. All others may contain secrets.
-PASSED: Final = (
+PASSED_VARIABLES: Final = (
     "AMENT_PREFIX_PATH",
     "CYCLONEDDS_URI",
     "DYLD_LIBRARY_PATH",
@@ -62,7 +62,7 @@ def passed_variables() -> dict[str, str]:
     Empty or relative elements in lists of folders are removed, because they would refer to a folder of the student,
     from which libraries and programs would be loaded.
     """
-    environment = {name: os.environ[name] for name in PASSED if name in os.environ}
+    environment = {name: os.environ[name] for name in PASSED_VARIABLES if name in os.environ}
     for name in environment.keys() & FOLDER_LISTS:
         environment[name] = os.pathsep.join(filter(os.path.isabs, environment[name].split(os.pathsep)))
     return environment
@@ -136,7 +136,7 @@ class Confinement:
         """Return the environment of a program with this home folder."""
         environment = passed_variables()
         environment |= {"HOME": str(home), "TMPDIR": str(home), "ROS_LOG_DIR": str(home)}
-        environment |= {"PYTHONUNBUFFERED": "1", "PYTHONDONTWRITEBYTECODE": "1", GRADED: "1"}
+        environment |= {"PYTHONUNBUFFERED": "1", "PYTHONDONTWRITEBYTECODE": "1", GRADED_VARIABLE: "1"}
         environment |= {"USER": "student", "LOGNAME": "student"}  # if the user has no account
         return python_environment(environment)
 

@@ -16,14 +16,14 @@ if TYPE_CHECKING:
 
 __all__ = ["main"]
 
-_LATE = 20.0  # seconds
+_DELAY = 20.0  # seconds
 _INTERRUPTED = 130  # exit code: 128 + SIGINT
 _OFFSET = 5  # seconds
 _DROPOUT, _PERIOD = 1.0, 4.0  # seconds
 
 
-def _late(_module: Any) -> None:
-    time.sleep(_LATE)
+def _start_late(_module: Any) -> None:
+    time.sleep(_DELAY)
 
 
 def _offset(_module: Any) -> None:
@@ -47,7 +47,7 @@ def _degrees(module: Any) -> None:
     )
 
 
-def _wrong_parent(_module: Any) -> None:
+def _change_parent(_module: Any) -> None:
     def move(transforms: list[Any]) -> list[Any]:
         for each in transforms:
             if each.child_frame_id == "link2":
@@ -57,17 +57,17 @@ def _wrong_parent(_module: Any) -> None:
     _change_transforms(move)
 
 
-def _dead(module: Any) -> None:
+def _stop_listener(module: Any) -> None:
     module.TransformListenerNode.query_transforms = lambda self: self.timer.cancel()
 
 
 _FAULTS: dict[str, Callable[[Any], None]] = {
-    "late": _late,
+    "late": _start_late,
     "offset": _offset,
     "dropout": _dropout,
     "degrees": _degrees,
-    "wrong parent": _wrong_parent,
-    "dead": _dead,
+    "wrong parent": _change_parent,
+    "dead": _stop_listener,
 }
 
 

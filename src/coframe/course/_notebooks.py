@@ -20,7 +20,7 @@ _CODE = re.compile(r"^```python\n(?P<block>.*?)^```\n|^<!-- notebook:(?P<comment
 # In a notebook, the view replaces the image.
 _PICTURE = re.compile(r"^!\[[^]]*\]\(\d\d_\w+\.webp\)\n+", re.MULTILINE)
 _CHAPTER_LINK = re.compile(r"\]\((\d\d_\w+)\.md(#[\w-]*)?\)")
-_OTHER_LINK = re.compile(r"\]\((?!\w+:|#|\d\d_\w+\.ipynb)([^)]+)\)")
+_RELATIVE_LINK = re.compile(r"\]\((?!\w+:|#|\d\d_\w+\.ipynb)([^)]+)\)")
 
 
 class Cell(NamedTuple):
@@ -49,7 +49,7 @@ def cells(chapter: Path) -> Iterator[Cell]:
 def _markdown(text: str) -> Iterator[Cell]:
     if text.strip():
         linked = _CHAPTER_LINK.sub(r"](\1.ipynb\2)", text.strip())
-        yield Cell("markdown", _OTHER_LINK.sub(r"](../\1)", linked))
+        yield Cell("markdown", _RELATIVE_LINK.sub(r"](../\1)", linked))
 
 
 def notebook(chapter: Path) -> str:

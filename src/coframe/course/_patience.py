@@ -9,12 +9,12 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-__all__ = ["Patience"]
+__all__ = ["FairTimeout"]
 
 _MAX_FACTOR = 4  # multiple of the limit after which time is up in any case
 
 
-class Patience:
+class FairTimeout:
     """A time limit for a program that excludes the time it waits for a processor."""
 
     def __init__(self, seconds: float, waiting_time: Callable[[], float]) -> None:

@@ -13,33 +13,33 @@ import time
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from coframe.course import _processes as processes
+from coframe.course import _processes
 from coframe.course._confinement import MAX_MEMORY, MAX_OUTPUT
-from coframe.course._patience import Patience
+from coframe.course._patience import FairTimeout
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from coframe.course._confinement import Confinement
 
-__all__ = ["HOMES", "MAX_FILES", "MAX_PROCESSES", "Program"]
+__all__ = ["HOMES", "MAX_FILES", "MAX_PROCESSES", "StudentProgram"]
 
 HOMES = "home"  # the folder for the home folders of all programs
 MAX_FILES = 100 << 20  # bytes of all files it writes
 MAX_PROCESSES = 8
 _MAX_FILES = 10_000
-_TOO_MUCH_OUTPUT = f"The program printed more than {MAX_OUTPUT >> 20} MB and was stopped."
-_STOP_PATIENCE = 3.0  # seconds between SIGINT and SIGKILL
+_OUTPUT_VIOLATION = f"The program printed more than {MAX_OUTPUT >> 20} MB and was stopped."
+_STOP_TIMEOUT = 3.0  # seconds between SIGINT and SIGKILL
 _LAST_LINES = 8
 _TRACEBACK_LINE = re.compile(r'^  File "([^"\n]{1,1000})", line (\d{1,7})', re.MULTILINE)
-_KILL_ROUNDS = 50
+_MAX_KILL_ATTEMPTS = 50
 _SIGNAL_OFFSET = 128  # added to the number of the signal that ended a program in namespaces
-_BLOCK = 512  # bytes per block, the unit of file sizes on disk
+_BLOCK_BYTES = 512  # bytes per block, the unit of file sizes on disk
 _POLL_PERIOD = 0.01  # seconds
 _CHECK_PERIOD = 0.25  # seconds between two checks of its memory and processes
 
 
-class Program:
+class StudentProgram:
     """A program in a student's folder.
 
     Attributes:
@@ -76,7 +76,7 @@ class Program:
         """
         self._home.mkdir(parents=True, exist_ok=True)
         words = words or (str(self.file), "--ros-args", "-p", "use_sim_time:=true")
-        self._others = processes.children()
+        self._others = _processes.children()
         with self._log.open("wb") as log, tempfile.TemporaryFile() as given:
             given.write(request)
             given.seek(0)
@@ -99,7 +99,7 @@ class Program:
             request: The standard input.
         """
         self.start(*words, request=request)
-        patience = Patience(seconds, self.waiting_time)
+        patience = FairTimeout(seconds, self.waiting_time)
         try:
             while self.is_running():
                 if patience.is_over():
@@ -116,7 +116,7 @@ class Program:
             return False
         if time.monotonic() - self._checked > _CHECK_PERIOD:
             self._checked = time.monotonic()
-            self.violation = self.violation or self._exceeded()
+            self.violation = self.violation or self._exceeded_limit()
             if self.violation:
                 self._kill()
                 return False
@@ -124,9 +124,9 @@ class Program:
 
     def waiting_time(self) -> float:
         """Return how long the program and the grader have waited for a processor, in seconds."""
-        own = processes.waiting_time(os.getpid())
+        own = _processes.waiting_time(os.getpid())
         main = self._find_main()
-        return own if main is None else own + processes.waiting_time(main)
+        return own if main is None else own + _processes.waiting_time(main)
 
     def stop(self) -> None:
         """End the program and all processes that it started."""
@@ -137,7 +137,7 @@ class Program:
         if self._exit_code is None:
             self._interrupt(process)
             with contextlib.suppress(subprocess.TimeoutExpired):
-                process.wait(_STOP_PATIENCE)
+                process.wait(_STOP_TIMEOUT)
         self._kill()
         self._process = None
 
@@ -154,13 +154,13 @@ class Program:
             if not self._confinement.has_namespaces:
                 self._main = self._process.pid
             elif (first := self._first_process()) is not None:
-                self._main = next(iter(processes.children(first)), None)
+                self._main = next(iter(_processes.children(first)), None)
         return self._main
 
     def _first_process(self) -> int | None:
         """Return the first process in the namespaces of the program, the parent of all others."""
         assert self._process is not None
-        return next(iter(processes.children(self._process.pid)), None)
+        return next(iter(_processes.children(self._process.pid)), None)
 
     def attempt(self) -> str:
         """Return a message if the program tried to use solutions of the lab; "" if it did not."""
@@ -182,7 +182,7 @@ class Program:
         if code is None:
             return ""
         if self._log.stat().st_size >= MAX_OUTPUT:
-            return _TOO_MUCH_OUTPUT
+            return _OUTPUT_VIOLATION
         last = self.last_lines()
         if code == 0:
             return "The program exited by itself: it needs rclpy.spin(node)."
@@ -216,39 +216,39 @@ class Program:
         except OSError:
             return ""
 
-    def _exceeded(self) -> str:
+    def _exceeded_limit(self) -> str:
         assert self._process is not None
         if self._log.stat().st_size >= MAX_OUTPUT:
-            return _TOO_MUCH_OUTPUT
-        running = self._running()
+            return _OUTPUT_VIOLATION
+        running = self._running_processes()
         if len(running) > MAX_PROCESSES:
             return f"The program started more than {MAX_PROCESSES} processes and was stopped."
-        if sum(each.memory for each in running) + processes.shared_memory(running) > MAX_MEMORY:
+        if sum(each.memory for each in running) + _processes.shared_memory(running) > MAX_MEMORY:
             return f"The program used more than {MAX_MEMORY >> 20} MB of memory and was stopped."
-        if processes.own_memory() > MAX_MEMORY:
+        if _processes.own_memory() > MAX_MEMORY:
             return "The program published more data than the check can store and was stopped."
         if _is_larger(self._home, MAX_FILES):
             return f"The program wrote more than {MAX_FILES >> 20} MB or {_MAX_FILES} files and was stopped."
         return ""
 
-    def _running(self) -> list[processes.Process]:
+    def _running_processes(self) -> list[_processes.Process]:
         """Return the processes of the program, except those that confine it."""
         if not self._confinement.has_namespaces:
-            return processes.descendants(without=self._others)
+            return _processes.descendants(without=self._others)
         first = self._first_process()
-        return [] if first is None else processes.descendants(of=first)
+        return [] if first is None else _processes.descendants(of=first)
 
     def _kill(self) -> None:
         assert self._process is not None
-        processes.kill_group(self._process.pid)
+        _processes.kill_group(self._process.pid)
         self._process.kill()
         self._process.wait()
-        for _ in range(_KILL_ROUNDS):  # A process may start another one before it is killed.
-            left = processes.descendants(without=self._others)
+        for _ in range(_MAX_KILL_ATTEMPTS):  # A process may start another one before it is killed.
+            left = _processes.descendants(without=self._others)
             if not left:
                 break
             for each in left:
-                processes.kill(each.pid)
+                _processes.kill(each.pid)
 
 
 def _is_larger(folder: Path, size: int) -> bool:
@@ -258,7 +258,7 @@ def _is_larger(folder: Path, size: int) -> bool:
         for name in names:
             count += 1
             with contextlib.suppress(OSError):
-                total += Path(path, name).lstat().st_blocks * _BLOCK
+                total += Path(path, name).lstat().st_blocks * _BLOCK_BYTES
             if total > size or count > _MAX_FILES:
                 return True
     return False

@@ -106,7 +106,7 @@ class Sheet:
         share = min(1.0, max(0.0, float(good)))
         lost = share < 1.0
         earned = round(points * share, 2)
-        details = (_shortened(observed), cause, read) if lost else ("", "", "")
+        details = (_shorten(observed), cause, read) if lost else ("", "", "")
         self.facts.append(Fact(name, points, earned, expected, *details))
         return not lost
 
@@ -126,7 +126,7 @@ class Sheet:
         for fact in self.facts[first:]:
             fact.earned, fact.observed, fact.cause = 0.0, observed, ""
 
-    def blame(self, first: int, cause: str) -> None:
+    def set_cause(self, first: int, cause: str) -> None:
         """Set the cause of all lost points from fact index `first` on."""
         for fact in self.facts[first:]:
             if fact.earned < fact.points:
@@ -156,7 +156,7 @@ class Sheet:
         }
 
 
-def _shortened(text: str) -> str:
+def _shorten(text: str) -> str:
     """Truncate untrusted text from a submission, such as a frame name."""
     return text if len(text) <= _MAX_OBSERVATION_LENGTH else f"{text[:_MAX_OBSERVATION_LENGTH]} ..."
 

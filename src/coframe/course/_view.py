@@ -32,9 +32,9 @@ _INSTALLATIONS: Final = ("AMENT_PREFIX_PATH", "VIRTUAL_ENV")
 _PARTS: Final = ("bin", "etc", "include", "lib", "lib64", "local", "pyvenv.cfg", "share", "ssl")  # of an installation
 _FOLDERS: Final = ("LD_LIBRARY_PATH", "PYTHONPATH")
 _CONFIGURATION: Final = "/etc"
-_FOR_EVERYONE = 0o4  # the permission bit that lets all users read a file
+_WORLD_READABLE = 0o4  # the permission bit that lets all users read a file
 _DDS_CONFIGURATION: Final = "CYCLONEDDS_URI"
-_PERSONAL: Final = ("/", "/home", "/root", "/run", "/tmp", "/var/tmp")  # noqa: S108 - they are kept out
+_PRIVATE_FOLDERS: Final = ("/", "/home", "/root", "/run", "/tmp", "/var/tmp")  # noqa: S108 - they are kept out
 _MAPPED = Path("/proc/self/maps")
 _MAX_LINKS = 40  # maximum number of links in a path, as in the kernel
 
@@ -58,7 +58,7 @@ def private_folders(folder: Path) -> list[str]:
     Args:
         folder: The student's folder; its parent contains the folders of other students.
     """
-    found = [Path(path) for path in (*_PERSONAL, tempfile.gettempdir())]
+    found = [Path(path) for path in (*_PRIVATE_FOLDERS, tempfile.gettempdir())]
     found += [Path.cwd(), folder.resolve().parent, *_sources()]
     home = os.path.expanduser("~")  # noqa: PTH111 - pathlib fails if there is none
     found += [Path(path) for path in (home, _home_of_account()) if os.path.isabs(path)]  # noqa: PTH117
@@ -77,7 +77,7 @@ def view_of(folder: Path, private: Iterable[str], solutions: Iterable[str]) -> V
     # A file below a package folder belongs to a package, even if this process runs in that folder.
     packages = {os.path.realpath(path) for path in sysconfig.get_paths().values()}
     hidden = {path for path in private if not any(_is_below(path, each) for each in packages)}
-    installed = {os.path.realpath(path) for path in _installations()} - {*map(os.path.realpath, _PERSONAL)}
+    installed = {os.path.realpath(path) for path in _installations()} - {*map(os.path.realpath, _PRIVATE_FOLDERS)}
     installed = {part for path in installed for part in _installed_parts(path, hidden)}
     others = {os.path.realpath(path) for path in _packages()}
     others = {path for path in others if not any(_is_below(each, path) for each in hidden)}
@@ -106,7 +106,7 @@ def _is_below(path: str, folder: str) -> bool:
 
 def _installations() -> Iterator[str]:
     yield from (*_SYSTEM, sys.prefix, sys.base_prefix, sys.exec_prefix, sys.base_exec_prefix)
-    yield from _listed(_INSTALLATIONS)
+    yield from _listed_folders(_INSTALLATIONS)
 
 
 def _installed_parts(path: str, private: set[str]) -> Iterator[str]:
@@ -120,11 +120,11 @@ def _installed_parts(path: str, private: set[str]) -> Iterator[str]:
 
 def _packages() -> Iterator[str]:
     yield from (path for path in sys.path if os.path.isabs(path))  # noqa: PTH117
-    yield from _listed(_FOLDERS)
-    yield from _absolute(os.environ.get(_DDS_CONFIGURATION, "").removeprefix("file://"))
+    yield from _listed_folders(_FOLDERS)
+    yield from _absolute_path(os.environ.get(_DDS_CONFIGURATION, "").removeprefix("file://"))
     # The packages and libraries that the grader itself has loaded.
     for module in tuple(sys.modules.values()):
-        yield from _absolute(os.path.dirname(getattr(module, "__file__", None) or ""))  # noqa: PTH120
+        yield from _absolute_path(os.path.dirname(getattr(module, "__file__", None) or ""))  # noqa: PTH120
     if _MAPPED.is_file():
         for line in _MAPPED.read_text(errors="replace").splitlines():
             if "/" in line:
@@ -138,18 +138,18 @@ def _secrets() -> Iterator[str]:
             entry = os.path.join(path, name)  # noqa: PTH118 - fast, for some thousand files
             with contextlib.suppress(OSError):
                 mode = os.lstat(entry).st_mode
-                if not (mode & _FOR_EVERYONE or stat.S_ISLNK(mode)):
+                if not (mode & _WORLD_READABLE or stat.S_ISLNK(mode)):
                     folders[:] = [each for each in folders if each != name]
                     yield entry
 
 
-def _listed(variables: Iterable[str]) -> Iterator[str]:
+def _listed_folders(variables: Iterable[str]) -> Iterator[str]:
     for name in variables:
         for path in os.environ.get(name, "").split(os.pathsep):
-            yield from _absolute(path)
+            yield from _absolute_path(path)
 
 
-def _absolute(path: str) -> Iterator[str]:
+def _absolute_path(path: str) -> Iterator[str]:
     if os.path.isabs(path):  # noqa: PTH117
         yield path
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import rclpy
 from builtin_interfaces.msg import Time
-from coframe.course._patience import Patience
+from coframe.course._patience import FairTimeout
 from coframe.time import MILLISECOND, SECOND
 from geometry_msgs.msg import TransformStamped
 from rcl_interfaces.srv import GetParameters
@@ -25,26 +25,26 @@ if TYPE_CHECKING:
 
     from typing_extensions import Self
 
-    from coframe.course._program import Program
+    from coframe.course._program import StudentProgram
     from coframe.transform.transform import Transform
 
 __all__ = ["MAX_MESSAGES", "STEP", "Received", "World", "stamp_of"]
 
 STEP = 10 * MILLISECOND  # step of the simulated clock
 _START = 1000 * SECOND
-_NOT_JOINED = "The program does not join the ROS graph: it needs rclpy.init() and a node that spins."
+_NOT_JOINED_VIOLATION = "The program does not join the ROS graph: it needs rclpy.init() and a node that spins."
 _NODE = "lab_check"
 _RECORDER = "/coframe_record"  # the node of coframe record, which runs next to all programs
 _CLOCK = "/clock"
-_START_PATIENCE = 15.0  # time limit for the node of a program to join the graph; see Patience
+_START_TIMEOUT = 15.0  # time limit for the node of a program to join the graph; see Patience
 _RESPONSE = 1.0  # seconds that a node may take for one callback, see Patience
 _MATCHING = 2.0  # seconds that a subscription may need to find a publisher, see Patience
-_MAX_MISSED = 5  # responses after which the world stops waiting for the node
+_MAX_MISSING_RESPONSES = 5  # responses after which the world stops waiting for the node
 MAX_MESSAGES = 1000  # per program and step; at the highest rate of the lab, it publishes one
-_TOO_MANY = "The program publishes without pausing and was stopped: it needs a timer."
+_TOO_MANY_MESSAGES = "The program publishes without pausing and was stopped: it needs a timer."
 _GRAPH_PERIOD = 25 * STEP  # seconds between two checks of the publishers of the world's topics
-_QUIET = 0.002  # seconds of real time without a message after which a step is complete
-_WITHOUT_RESPONSES = 0.01  # seconds of real time per step for a node that does not respond
+_QUIET_TIME = 0.002  # seconds of real time without a message after which a step is complete
+_UNRESPONSIVE_STEP_TIME = 0.01  # seconds of real time per step for a node that does not respond
 
 
 class Received(NamedTuple):
@@ -78,7 +78,7 @@ class World:
         self._probes: deque[Any] = deque()
         self._missed = 0
         self._intruders: dict[str, set[str]] = {}
-        self._program: Program | None = None
+        self._program: StudentProgram | None = None
 
     def __enter__(self) -> Self:
         return self
@@ -153,14 +153,14 @@ class World:
             if names := {info.node_name for info in self.publishers_of(topic)}:
                 self._intruders.setdefault(topic, set()).update(names)
 
-    def start(self, program: Program) -> None:
+    def start(self, program: StudentProgram) -> None:
         """Start a program and wait until its node has joined the graph; the program may end earlier."""
         self._program = program
         self._intruders.clear()
         self._messages_before = self._messages
         self._missed = 0
         program.start()
-        patience = Patience(_START_PATIENCE, program.waiting_time)
+        patience = FairTimeout(_START_TIMEOUT, program.waiting_time)
         while not patience.is_over() and program.is_running():
             names = self._other_nodes()
             if names and self._node.count_subscribers(_CLOCK) and all(map(self._has_parameters, names)):
@@ -168,7 +168,7 @@ class World:
             self._executor.spin_once(timeout_sec=0.02)
         else:
             if program.is_running():
-                program.violation = _NOT_JOINED
+                program.violation = _NOT_JOINED_VIOLATION
         for name in self._other_nodes():
             if self._has_parameters(name):
                 self._probes.append(self._node.create_client(GetParameters, f"{name}/get_parameters"))
@@ -185,7 +185,7 @@ class World:
         for subscription in self._subscriptions:
             self._node.destroy_subscription(subscription)
         self._subscriptions.clear()
-        deadline = time.monotonic() + _START_PATIENCE
+        deadline = time.monotonic() + _START_TIMEOUT
         while self._other_nodes() and time.monotonic() < deadline:
             time.sleep(0.01)
         self._program = None
@@ -209,9 +209,9 @@ class World:
 
     def wait_until(self, is_true: Callable[[], bool], seconds: float) -> None:
         """Wait until a condition is true, without advancing the clock; at most a few seconds, see Patience."""
-        patience = Patience(seconds, self._waiting_time)
+        patience = FairTimeout(seconds, self._waiting_time)
         while not (is_true() or patience.is_over()) and self._program is not None and self._program.is_running():
-            self._spin(_QUIET)
+            self._spin(_QUIET_TIME)
 
     def settle(self) -> None:
         """Wait until the student's node has run all callbacks that are ready, and its messages have arrived."""
@@ -219,21 +219,21 @@ class World:
         # received the clock, the second one that the timers triggered by it have run.
         for _ in range(2):
             self._await_responses()
-        if not self._probes or self._missed >= _MAX_MISSED:
-            time.sleep(_WITHOUT_RESPONSES)
+        if not self._probes or self._missed >= _MAX_MISSING_RESPONSES:
+            time.sleep(_UNRESPONSIVE_STEP_TIME)
         first, count = self._messages, -1
         while count != self._messages:
             count = self._messages
-            self._spin(_QUIET)
+            self._spin(_QUIET_TIME)
             if count - first > MAX_MESSAGES and self._program is not None:
-                self._program.violation = _TOO_MANY
+                self._program.violation = _TOO_MANY_MESSAGES
                 break
 
     def _await_responses(self) -> None:
-        if self._missed >= _MAX_MISSED:
+        if self._missed >= _MAX_MISSING_RESPONSES:
             return
         futures = [probe.call_async(GetParameters.Request(names=["use_sim_time"])) for probe in self._probes]
-        patience = Patience(_RESPONSE, self._waiting_time)
+        patience = FairTimeout(_RESPONSE, self._waiting_time)
         while not (all(future.done() for future in futures) or patience.is_over()):
             for future in futures:
                 self._executor.spin_until_future_complete(future, timeout_sec=_RESPONSE / 4)

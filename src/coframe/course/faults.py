@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from coframe.course.running import Program, module_program
+from coframe.course.running import NamedCommand, module_program
 
 __all__ = ["FAULTS", "Fault"]
 
@@ -21,10 +21,10 @@ class Fault(NamedTuple):
 
     name: str
     explanation: str
-    programs: tuple[Program, ...]
+    programs: tuple[NamedCommand, ...]
 
 
-def _node(name: str, *parameters: str, title: str = "") -> Program:
+def _node(name: str, *parameters: str, title: str = "") -> NamedCommand:
     words = [word for parameter in parameters for word in ("-p", parameter)]
     title = title or name
     remap = ("-r", f"__node:={title}") if title != name else ()
@@ -32,7 +32,7 @@ def _node(name: str, *parameters: str, title: str = "") -> Program:
     return module_program(title, f"coframe.lab.{name}", *arguments)
 
 
-def _faulty(fault: str, name: str) -> Program:
+def _node_with_fault(fault: str, name: str) -> NamedCommand:
     """Return a node of the lab with a fault from coframe.course._faulty_node."""
     return module_program(name, "coframe.course._faulty_node", fault, name)
 
@@ -48,7 +48,7 @@ FAULTS = (
     Fault(
         "late broadcaster",
         "The sensor mounts are published 20 s after everything else. Until then, every scan is dropped.",
-        (_faulty("late", "static_tf_broadcaster"), _DYNAMIC, _LISTENER, _LIDAR, _SENSOR),
+        (_node_with_fault("late", "static_tf_broadcaster"), _DYNAMIC, _LISTENER, _LIDAR, _SENSOR),
     ),
     Fault(
         "misspelled frame",
@@ -58,7 +58,7 @@ FAULTS = (
     Fault(
         "clock offset",
         "The stamps of the arm are 5 s behind the clock, as if the clock of its computer were wrong.",
-        (_STATIC, _faulty("offset", "dynamic_tf_broadcaster"), _LISTENER, _LIDAR, _SENSOR),
+        (_STATIC, _node_with_fault("offset", "dynamic_tf_broadcaster"), _LISTENER, _LIDAR, _SENSOR),
     ),
     Fault(
         "missing static transform",
@@ -80,7 +80,7 @@ FAULTS = (
     Fault(
         "dropout",
         "The arm is not published for 1 s in every 4 s.",
-        (_STATIC, _faulty("dropout", "dynamic_tf_broadcaster"), _LISTENER, _LIDAR, _SENSOR),
+        (_STATIC, _node_with_fault("dropout", "dynamic_tf_broadcaster"), _LISTENER, _LIDAR, _SENSOR),
     ),
     Fault(
         "swapped quaternion order",
@@ -97,16 +97,24 @@ FAULTS = (
     Fault(
         "degrees",
         "The joint angles are in degrees, but are used as radians: the arm turns around several times.",
-        (_DESCRIPTION, _JOINTS, _STATIC, _faulty("degrees", "dynamic_tf_broadcaster"), _LISTENER, _LIDAR, _SENSOR),
+        (
+            _DESCRIPTION,
+            _JOINTS,
+            _STATIC,
+            _node_with_fault("degrees", "dynamic_tf_broadcaster"),
+            _LISTENER,
+            _LIDAR,
+            _SENSOR,
+        ),
     ),
     Fault(
         "wrong parent",
         "The second link is mounted on base_link instead of link1.",
-        (_DESCRIPTION, _STATIC, _faulty("wrong parent", "dynamic_tf_broadcaster"), _LISTENER, _LIDAR, _SENSOR),
+        (_DESCRIPTION, _STATIC, _node_with_fault("wrong parent", "dynamic_tf_broadcaster"), _LISTENER, _LIDAR, _SENSOR),
     ),
     Fault(
         "dead listener",
         "The listener runs, but its first failed lookup has ended its timer: /end_effector_pose has no messages.",
-        (_STATIC, _DYNAMIC, _faulty("dead", "tf_listener"), _LIDAR, _SENSOR),
+        (_STATIC, _DYNAMIC, _node_with_fault("dead", "tf_listener"), _LIDAR, _SENSOR),
     ),
 )

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from typing import Any
 
     from coframe.connection.connection import Connection
-    from coframe.course.running import Program
+    from coframe.course.running import NamedCommand
 
 __all__ = ["FirstOutput"]
 
@@ -37,7 +37,7 @@ _OUTPUTS = {
 class FirstOutput:
     """Subscriptions to the output topics of the lab programs."""
 
-    def __init__(self, ros: Connection, programs: Iterable[Program]) -> None:
+    def __init__(self, ros: Connection, programs: Iterable[NamedCommand]) -> None:
         self._ros = ros
         self._names = [program.name for program in programs if program.name in _OUTPUTS]
         self._received: set[str] = set()

@@ -45,7 +45,7 @@ def create_folder(folder: Path, variant: int | None) -> list[Path]:
         folder.mkdir(parents=True, exist_ok=True)
         for name in names:
             text = (_TEMPLATES / f"{name}{_SUFFIX}").read_text(encoding="utf-8")
-            write_complete(folder / name, _filled(text, assignment).encode())
+            write_complete(folder / name, _fill_template(text, assignment).encode())
         write_complete(folder / FILE, assignment_file(assignment).encode())
     except OSError as error:
         for name in (*names, FILE):
@@ -62,7 +62,7 @@ def file_names() -> list[str]:
     return sorted(path.name.removesuffix(_SUFFIX) for path in _TEMPLATES.glob(f"*{_SUFFIX}"))
 
 
-def _filled(text: str, assignment: Assignment) -> str:
+def _fill_template(text: str, assignment: Assignment) -> str:
     """Return a template filled with the parameters of the assignment."""
     first, second = assignment.link_lengths
     values = {

@@ -23,16 +23,16 @@ def text(report: dict[str, Any]) -> Iterator[str]:
         bonus = " bonus" if criterion["bonus"] else ""
         yield f"{criterion['name']} ({criterion['file']}): {_pair(criterion)}{bonus}"
         if criterion["problem"]:
-            yield from _indented(criterion["problem"], "  ! ")
+            yield from _indent(criterion["problem"], "  ! ")
             yield from (f"    | {line}" for line in criterion["last_lines"])
         for fact in criterion["facts"]:
             lost = fact["earned"] < fact["points"]
             yield f"  {'-' if lost else '+'} {_pair(fact)}  {fact['name']}"
             if lost and fact["cause"]:  # The problem above explains the others.
-                yield from _indented(fact["expected"], "        expected: ")
-                yield from _indented(fact["observed"], "        observed: ")
-                yield from _indented(fact["cause"], "        likely cause: ")
-                yield from _indented(fact["read"], "        read: ")
+                yield from _indent(fact["expected"], "        expected: ")
+                yield from _indent(fact["observed"], "        observed: ")
+                yield from _indent(fact["cause"], "        likely cause: ")
+                yield from _indent(fact["read"], "        read: ")
         yield ""
     yield from report["notices"]
     yield _sum(report)
@@ -60,7 +60,7 @@ def _pair(item: dict[str, Any]) -> str:
     return f"{item['earned']:g} / {item['points']:g}"
 
 
-def _indented(content: str, start: str) -> list[str]:
+def _indent(content: str, start: str) -> list[str]:
     if not content:
         return []
     return textwrap.wrap(content, _WIDTH, initial_indent=start, subsequent_indent=" " * len(start))

@@ -17,7 +17,7 @@ __all__ = ["Chapter", "chapters", "contents", "terminal_text", "write_pages"]
 _NOTEBOOKS = "notebooks"
 _CONTENTS = "README.md"
 _LINK = re.compile(r"\[([^\]]*)\]\([^)]*\)")
-_OUTSIDE = re.compile(r"\[([^\]]*)\]\(\.\./[^)]*\)")  # links to documents that are not installed
+_EXTERNAL_LINK = re.compile(r"\[([^\]]*)\]\(\.\./[^)]*\)")  # links to documents that are not installed
 _PICTURE = re.compile(r"!\[([^\]]*)\]\([^)]*\)")
 _PAGE = """<!DOCTYPE html>
 <html lang="en"><meta charset="utf-8"><meta name="viewport" content="width=device-width">
@@ -115,7 +115,7 @@ def _page(text: str) -> str:
     """Return Markdown as a web page, with links to the other pages."""
     from markdown_it import MarkdownIt  # noqa: PLC0415 - only for web pages
 
-    body = MarkdownIt("commonmark").enable("table").render(_OUTSIDE.sub(r"\1", text))
+    body = MarkdownIt("commonmark").enable("table").render(_EXTERNAL_LINK.sub(r"\1", text))
     body = body.replace('href="README.md', 'href="index.html')
     body = re.sub(r'href="(\w+)\.md', r'href="\1.html', body)
     return _PAGE.format(title=html.escape(text.partition("\n")[0].removeprefix("# ")), body=body)

@@ -36,7 +36,7 @@ _VARIABLE: Final = "COFRAME_ISOLATED"  # set in processes that have their own ne
 _MIN_DOMAIN, _DOMAINS = 51, 50
 _SIOCGIFFLAGS, _SIOCSIFFLAGS = 0x8913, 0x8914
 _UP_AND_MULTICAST = 0x1 | 0x1000
-_DISK = b"size=256m,nr_inodes=20k"
+_DISK_OPTIONS = b"size=256m,nr_inodes=20k"
 _FLAGS = ("--net", "--ipc", "--pid", "--fork", "--kill-child", "--mount-proc")
 
 
@@ -92,7 +92,7 @@ def bring_loopback_up() -> None:
 def limit_disk(folder: Path) -> None:
     """Mount a small memory disk on a folder in newly created namespaces; do nothing elsewhere."""
     if is_isolated():
-        c_function("mount", b"coframe", os.fsencode(folder), b"tmpfs", 0, _DISK)
+        c_function("mount", b"coframe", os.fsencode(folder), b"tmpfs", 0, _DISK_OPTIONS)
 
 
 @functools.cache

@@ -19,23 +19,23 @@ from coframe.errors import CourseError
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
 
-__all__ = ["COMPLETE_TREE", "SIMULATION", "STEPS", "Program", "module_program", "programs_of", "running"]
+__all__ = ["COMPLETE_TREE", "SIMULATION", "STEPS", "NamedCommand", "module_program", "programs_of", "running"]
 
 STEPS = ("static_tf_broadcaster.py", "dynamic_tf_broadcaster.py", "tf_listener.py", "sensor_transform.py")
 COMPLETE_TREE = ("complete_tf_tree.py", "tf_listener.py", "sensor_transform.py")
-_STOP_PATIENCE = 3.0  # seconds between SIGINT and SIGKILL
+_STOP_TIMEOUT = 3.0  # seconds between SIGINT and SIGKILL
 
 
-class Program(NamedTuple):
+class NamedCommand(NamedTuple):
     """A program: its name, and the command that starts it."""
 
     name: str
     command: tuple[str, ...]
 
 
-def module_program(name: str, module: str, *arguments: str) -> Program:
+def module_program(name: str, module: str, *arguments: str) -> NamedCommand:
     """Return a program that is a module of coframe."""
-    return Program(name, tuple(python_command(module, *arguments)))
+    return NamedCommand(name, tuple(python_command(module, *arguments)))
 
 
 # Simulates the robot: moving joints and a lidar. Their names differ from those of a student's nodes.
@@ -49,14 +49,16 @@ SIMULATION = (
 )
 
 
-def programs_of(folder: Path, names: Sequence[str]) -> list[Program]:
+def programs_of(folder: Path, names: Sequence[str]) -> list[NamedCommand]:
     """Return the named programs that exist in a folder.
 
     Raises:
         CourseError: It contains none of them.
     """
     found = [
-        Program(Path(name).stem, (sys.executable, str(folder / name))) for name in names if (folder / name).is_file()
+        NamedCommand(Path(name).stem, (sys.executable, str(folder / name)))
+        for name in names
+        if (folder / name).is_file()
     ]
     if not found:
         raise CourseError(
@@ -67,14 +69,14 @@ def programs_of(folder: Path, names: Sequence[str]) -> list[Program]:
 
 
 @contextlib.contextmanager
-def running(programs: Sequence[Program], write: Callable[[str, str], None]) -> Iterator[None]:
+def running(programs: Sequence[NamedCommand], write: Callable[[str, str], None]) -> Iterator[None]:
     """Run programs during the block.
 
     Args:
         programs: The programs.
         write: Called from other threads with the name of a program and a line of its output, or a status message.
     """
-    processes: list[tuple[Program, subprocess.Popen[str]]] = []
+    processes: list[tuple[NamedCommand, subprocess.Popen[str]]] = []
     threads = []
     stopping = threading.Event()
     try:
@@ -117,7 +119,7 @@ def _stop(processes: list[subprocess.Popen[str]]) -> None:
     for process in processes:
         if process.poll() is None:
             process.send_signal(signal.SIGINT if os.name == "posix" else signal.SIGTERM)
-    deadline = time.monotonic() + _STOP_PATIENCE
+    deadline = time.monotonic() + _STOP_TIMEOUT
     for process in processes:
         try:
             process.wait(max(0.0, deadline - time.monotonic()))

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from coframe.doctor._finding import Finding
 
-__all__ = ["CAUSES", "joined"]
+__all__ = ["CAUSES", "group_by_cause"]
 
 # (cause, consequence, whether both must concern the same frame)
 CAUSES: tuple[tuple[str, str, bool], ...] = (
@@ -52,22 +52,22 @@ CAUSES: tuple[tuple[str, str, bool], ...] = (
 )
 
 
-def joined(findings: list[Finding]) -> list[Finding]:
+def group_by_cause(findings: list[Finding]) -> list[Finding]:
     """Return the causes with their consequences, the worst first; each consequence is below one cause only."""
     causes = _causes(findings)
     below: dict[int, list[Finding]] = {}
     for position, cause in causes.items():
         if cause is not None:
-            below.setdefault(_outermost(cause, causes), []).append(findings[position])
+            below.setdefault(_outermost_cause(cause, causes), []).append(findings[position])
     roots = [
-        finding.explaining(tuple(below.get(position, ())))
+        finding.with_consequences(tuple(below.get(position, ())))
         for position, finding in enumerate(findings)
         if causes[position] is None
     ]
-    return sorted(roots, key=lambda finding: (-_worst(finding), finding.code))
+    return sorted(roots, key=lambda finding: (-_severity_key(finding), finding.code))
 
 
-def _worst(finding: Finding) -> int:
+def _severity_key(finding: Finding) -> int:
     return max(finding.severity, *(other.severity for other in finding.explains), 0)
 
 
@@ -90,7 +90,7 @@ def _causes(findings: list[Finding]) -> dict[int, int | None]:
     return found
 
 
-def _outermost(position: int, causes: dict[int, int | None]) -> int:
+def _outermost_cause(position: int, causes: dict[int, int | None]) -> int:
     seen = {position}
     while (further := causes[position]) is not None and further not in seen:
         position = further

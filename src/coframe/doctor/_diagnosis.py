@@ -14,9 +14,9 @@ from coframe._output import html_tables
 from coframe._output.escaping import one_line
 from coframe._output.formatting import count
 from coframe.doctor import checks
-from coframe.doctor._causes import joined
+from coframe.doctor._causes import group_by_cause
 from coframe.doctor._finding import Finding, Severity, findings_table
-from coframe.doctor._grouping import grouped
+from coframe.doctor._grouping import merge_similar
 from coframe.doctor._plugin_checks import plugin_checks
 from coframe.doctor.observation import NEVER
 from coframe.time import MILLISECOND
@@ -91,7 +91,7 @@ class Report(NamedTuple):
 
 def all_checks() -> dict[str, Check]:
     """Return the checks by code: coframe's checks, then the checks of other distributions."""
-    return built_in_checks() | {code: partial(_guarded, check) for code, check in plugin_checks().items()}
+    return built_in_checks() | {code: partial(_run_guarded, check) for code, check in plugin_checks().items()}
 
 
 @cache
@@ -117,10 +117,10 @@ def diagnose(observation: Observation, *, ignore: Collection[str] = ()) -> Repor
             finding for code, check in all_checks().items() if code not in ignored for finding in check(observation)
         ]
     sensors = [_facts(observation, sensor) for sensor in observation.sensors if len(sensor.stamp)]
-    return Report(joined(grouped(findings)), sensors, observation)
+    return Report(group_by_cause(merge_similar(findings)), sensors, observation)
 
 
-def _guarded(check: PluginCheck, observation: Observation) -> Iterator[Finding]:
+def _run_guarded(check: PluginCheck, observation: Observation) -> Iterator[Finding]:
     """Yield the findings of a check of another distribution; an error in it becomes a note and ends only this check."""
     try:
         for finding in check.find(observation):

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Edge", "angles_between", "publishers_of"]
 
-_LATE = SECOND
+_MAX_LATENESS = SECOND
 _MIN_UNSET_STAMPS = 5  # transforms with the stamp 0
 
 
@@ -82,7 +82,7 @@ class Edge:
 
     @cached_property
     def _without_late(self) -> Edge | None:
-        kept = self.stamp >= np.maximum.accumulate(self.stamp) - _LATE
+        kept = self.stamp >= np.maximum.accumulate(self.stamp) - _MAX_LATENESS
         if kept.all():
             return None
         columns = (self.arrived[kept], self.stamp[kept], self.publisher[kept], self.values[kept])

@@ -82,7 +82,7 @@ class Finding:
         """The edge or topic that it concerns; may be empty."""
         return " -> ".join(self.edge) if self.edge else self.topic
 
-    def explaining(self, others: tuple[Finding, ...]) -> Self:
+    def with_consequences(self, others: tuple[Finding, ...]) -> Self:
         """Return the finding with its consequences."""
         return replace(self, explains=others)
 

@@ -21,13 +21,13 @@ _MIN_JUMPS = 6  # jumps away and back
 _METERS = 1e-3
 _RADIANS = 1e-2
 # A jump must be larger than this multiple of the usual step.
-_CLEARLY = 6.0
+_MIN_STEP_RATIO = 6.0
 _TOLERANCE = 2.0  # usual steps that two poses at nearly the same time may differ
 _MAX_COMPARED = 200  # jumps
 _SAMPLE = 1_000  # rows, which are enough for a quantile
 _TURNS = 3
-_MOSTLY = 0.4
-_GOLDEN = 0.6180339887498949
+_MIN_ALTERNATION_SHARE = 0.4
+_GOLDEN_RATIO = 0.6180339887498949
 # The maximum distance between two rows of the slower publisher.
 _MAX_RUN = 12
 
@@ -53,9 +53,10 @@ def flicker(edge: Edge) -> Flicker | None:
     # The usual step is computed only if there are enough large steps, because it takes most of the time.
     if np.count_nonzero((edge.distances > _METERS) | (edge.turns > _RADIANS)) < _MIN_JUMPS:
         return None
-    typical_distance, typical_angle = _typical(edge)
+    typical_distance, typical_angle = _typical_step(edge)
     jumps = np.flatnonzero(
-        (edge.distances > _CLEARLY * typical_distance + _METERS) | (edge.turns > _CLEARLY * typical_angle + _RADIANS)
+        (edge.distances > _MIN_STEP_RATIO * typical_distance + _METERS)
+        | (edge.turns > _MIN_STEP_RATIO * typical_angle + _RADIANS)
     )
     if len(jumps) < _MIN_JUMPS:
         return None
@@ -95,11 +96,11 @@ def jump_cause(edge: Edge, rows: NDArray[np.intp]) -> Explanation | None:
 
 def _tolerances(edge: Edge) -> dict[str, float]:
     """Return how far an edge usually moves between two rows, as the limits of a comparison."""
-    distance, angle = _typical(edge)
+    distance, angle = _typical_step(edge)
     return {"meters": _TOLERANCE * distance + _METERS, "radians": _TOLERANCE * angle + _RADIANS / 10}
 
 
-def _typical(edge: Edge) -> tuple[float, float]:
+def _typical_step(edge: Edge) -> tuple[float, float]:
     """Return the usual step, in meters and radians, between two rows of the same publisher.
 
     With two publishers that alternate, every second row is from the same one, and every third row if one of them has
@@ -110,11 +111,13 @@ def _typical(edge: Edge) -> tuple[float, float]:
         np.linalg.norm(edge.values[rows + turn, :3] - edge.values[rows, :3], axis=1) for turn in range(1, _TURNS + 1)
     ]
     turned = [angles_between(edge.rotations[rows], edge.rotations[rows + turn]) for turn in range(1, _TURNS + 1)]
-    return float(np.quantile(moved, _MOSTLY, axis=1).min()), float(np.quantile(turned, _MOSTLY, axis=1).min())
+    return float(np.quantile(moved, _MIN_ALTERNATION_SHARE, axis=1).min()), float(
+        np.quantile(turned, _MIN_ALTERNATION_SHARE, axis=1).min()
+    )
 
 
 def _sample(count: int) -> NDArray[np.intp]:
     """Return a sample of rows at irregular distances, because a regular one could contain only one publisher."""
     if count <= _SAMPLE:
         return np.arange(count)
-    return np.asarray(np.arange(_SAMPLE) * _GOLDEN % 1.0 * count).astype(np.intp)
+    return np.asarray(np.arange(_SAMPLE) * _GOLDEN_RATIO % 1.0 * count).astype(np.intp)

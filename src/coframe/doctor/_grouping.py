@@ -7,26 +7,26 @@ import re
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from coframe._output.formatting import listed
+from coframe._output.formatting import join_names
 
 if TYPE_CHECKING:
     from collections.abc import Hashable
 
     from coframe.doctor._finding import Finding
 
-__all__ = ["grouped"]
+__all__ = ["merge_similar"]
 
 _MIN_SUBJECTS = 3  # edges or topics
 # A number with its unit, in which the texts about the edges may differ.
 _FIGURE = re.compile(r"[-+]?\d[\d.,_]*(?:e[-+]?\d+)?\s?(?:ns|us|ms|min|s|h|Hz|mm|m|%|deg(?:rees)?)?\b")
 
 
-def grouped(findings: list[Finding]) -> list[Finding]:
+def merge_similar(findings: list[Finding]) -> list[Finding]:
     """Return the findings, with one instead of several that differ only in their edges or topics, and in numbers."""
     groups: dict[Hashable, list[Finding]] = {}
     for position, finding in enumerate(findings):
         groups.setdefault(_kind(finding) if finding.subject else position, []).append(finding)
-    return [one for group in groups.values() for one in ([_merged(group)] if _is_many(group) else group)]
+    return [one for group in groups.values() for one in ([_merge_group(group)] if _is_many(group) else group)]
 
 
 def _is_many(group: list[Finding]) -> bool:
@@ -49,12 +49,12 @@ def _pattern(finding: Finding) -> str:
     return _FIGURE.sub("\1", text)
 
 
-def _merged(group: list[Finding]) -> Finding:
+def _merge_group(group: list[Finding]) -> Finding:
     """Return the first finding, extended by the other edges or topics."""
     first = group[0]
     edges = tuple(dict.fromkeys(edge for finding in group if finding.edge for edge in (finding.edge, *finding.edges)))
     topics = () if edges else tuple(dict.fromkeys(finding.topic for finding in group))
-    others = listed(map(" -> ".join, edges[1:])) if edges else listed(topics[1:])
+    others = join_names(map(" -> ".join, edges[1:])) if edges else join_names(topics[1:])
     noun = "edges" if edges else "topics"
     stamps = [finding.first_stamp for finding in group if finding.first_stamp is not None]
     same_fix = all(finding.fix == first.fix for finding in group)

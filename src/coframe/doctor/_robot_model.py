@@ -12,11 +12,11 @@ from coframe.robots import Robot, parse_urdf
 if TYPE_CHECKING:
     from coframe.doctor.observation import Observation
 
-__all__ = ["model", "parsed"]
+__all__ = ["model", "parse_robot"]
 
 
 @lru_cache(maxsize=16)
-def parsed(text: str) -> Robot:
+def parse_robot(text: str) -> Robot:
     """Return the robot of a description.
 
     Raises:
@@ -29,7 +29,7 @@ def model(observation: Observation) -> Robot | None:
     """Return the robot of the newest valid description; None if there is none."""
     for text in reversed(observation.descriptions):
         try:
-            return parsed(text)
+            return parse_robot(text)
         except RobotDescriptionError:
             continue
     return None

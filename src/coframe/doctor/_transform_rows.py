@@ -7,14 +7,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from coframe.doctor._transforms import COLUMNS, NO_TRANSFORMS, Transforms, numbered
+from coframe.doctor._transforms import COLUMNS, NO_TRANSFORMS, Transforms, number_names
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 __all__ = ["TransformRows"]
 
-_GROWTH = 1.5  # growth factor of the arrays when they are almost full
+_GROWTH_FACTOR = 1.5  # growth factor of the arrays when they are almost full
 _MIN_GROWTH = 1.1  # with fewer, rows would be moved too often
 _MAX_PUBLISHERS = 1000  # with more, unused ones are removed
 
@@ -46,7 +46,7 @@ class TransformRows:
         rows = slice(self._end, self._end + len(batch))
         for name in COLUMNS:
             self._columns[name][rows] = getattr(batch, name)
-        self._columns["publisher"][rows] = numbered(self._publishers, batch.publishers)[batch.publisher]
+        self._columns["publisher"][rows] = number_names(self._publishers, batch.publishers)[batch.publisher]
         self._end = rows.stop
 
     def forget(self, before: int, most: int) -> None:
@@ -76,7 +76,7 @@ class TransformRows:
         if self._end + count <= capacity:
             return
         kept, length = slice(self._begin, self._end), len(self)
-        larger = int(_GROWTH * (length + count)) if _MIN_GROWTH * (length + count) > capacity else 0
+        larger = int(_GROWTH_FACTOR * (length + count)) if _MIN_GROWTH * (length + count) > capacity else 0
         for name, column in self._columns.items():
             target = np.empty((larger, *column.shape[1:]), column.dtype) if larger else column
             # One-dimensional, because NumPy copies all rows of other arrays if they overlap.

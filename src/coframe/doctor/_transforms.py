@@ -14,11 +14,11 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-__all__ = ["COLUMNS", "NORM_TOLERANCE", "NO_TRANSFORMS", "Transforms", "bare", "numbered"]
+__all__ = ["COLUMNS", "NORM_TOLERANCE", "NO_TRANSFORMS", "Transforms", "bare", "number_names"]
 
 # tf2 rejects a quaternion whose squared length differs from 1 by this much or more.
 NORM_TOLERANCE = 0.01
-_DENSE = 1_000_000  # keys up to this value are counted, which is faster than sorting
+_MAX_COUNTED_KEY = 1_000_000  # keys up to this value are counted, which is faster than sorting
 # All except the publishers, whose numbers depend on their names.
 COLUMNS = ("arrived", "stamp", "parent", "child", "static", "values")
 
@@ -60,7 +60,7 @@ class Transforms:
         }
         publishers: dict[str, int] = {}
         columns["publisher"] = np.concatenate(
-            [_NO_NUMBERS, *(numbered(publishers, batch.publishers)[batch.publisher] for batch in batches)]
+            [_NO_NUMBERS, *(number_names(publishers, batch.publishers)[batch.publisher] for batch in batches)]
         )
         arrived = columns["arrived"]
         if (arrived[1:] < arrived[:-1]).any():
@@ -93,7 +93,7 @@ class Transforms:
     @cached_property
     def _numbered(self) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
         keys = self.child * len(self.names) + self.parent
-        if not len(keys) or keys.max() > _DENSE:
+        if not len(keys) or keys.max() > _MAX_COUNTED_KEY:
             pairs, edge = np.unique(keys, return_inverse=True)
             return pairs, edge
         pairs = np.flatnonzero(np.bincount(keys))  # ten times as fast as np.unique
@@ -122,7 +122,7 @@ class Transforms:
         return tuple(self.publishers[number] for number in numbers if self.publishers[number])
 
 
-def numbered(known: dict[str, int], names: Iterable[str]) -> NDArray[np.int64]:
+def number_names(known: dict[str, int], names: Iterable[str]) -> NDArray[np.int64]:
     """Return the numbers of names; new names are added to `known` with the next number."""
     return np.array([known.setdefault(name, len(known)) for name in names], dtype=np.int64)
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from coframe.doctor._transform_rows import TransformRows
-from coframe.doctor._transforms import Transforms, numbered
+from coframe.doctor._transforms import Transforms, number_names
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -77,7 +77,7 @@ class Collector:
             return
         if not len(columns.stamp):
             return
-        names = numbered(self._names, columns.names)
+        names = number_names(self._names, columns.names)
         batch = Transforms(
             arrived=arrived[columns.message],
             stamp=columns.stamp,

@@ -52,8 +52,8 @@ _ANY_PUBLISHER = QoS(depth=100, reliable=False)  # matches every publisher
 _LATCHED = QoS(depth=10, transient_local=True)
 _WHOLE_MESSAGE = 16 << 20  # bytes; enough for a description, a joint state or a log message
 # Images need several megabytes per second, and their CameraInfo has the same header.
-_TOO_LARGE = {"sensor_msgs/msg/Image", "sensor_msgs/msg/CompressedImage"}
-_DECODED = {"sensor_msgs/msg/JointState", "rcl_interfaces/msg/Log", "rosgraph_msgs/msg/Clock"}
+_LARGE_TYPES = {"sensor_msgs/msg/Image", "sensor_msgs/msg/CompressedImage"}
+_DECODED_TYPES = {"sensor_msgs/msg/JointState", "rcl_interfaces/msg/Log", "rosgraph_msgs/msg/Clock"}
 _DESCRIPTION = "robot_description"
 MAX_TRANSFORMS = 1_000_000
 MAX_MESSAGES = 20_000  # for each topic
@@ -119,7 +119,7 @@ class _Topic:
         """Remove headers and decoded messages that arrived before a time, except latched descriptions."""
         while self.headers and self.headers[0].arrived < before:
             self.headers.popleft()
-        while self.type in _DECODED and self.decoded and self.decoded[0][0] < before:
+        while self.type in _DECODED_TYPES and self.decoded and self.decoded[0][0] < before:
             self._drop_oldest()
 
     def _drop_oldest(self) -> None:
@@ -360,9 +360,9 @@ class LiveObserver:
         ros_type = types[0]
         if name.endswith(_DESCRIPTION) and ros_type == "std_msgs/msg/String":
             subscription = self._subscribe(name, ros_type, _LATCHED, _WHOLE_MESSAGE)
-        elif ros_type in _DECODED:
+        elif ros_type in _DECODED_TYPES:
             subscription = self._subscribe(name, ros_type, _ANY_PUBLISHER, _WHOLE_MESSAGE)
-        elif ros_type not in _TOO_LARGE and opens_with_header(ros_type):
+        elif ros_type not in _LARGE_TYPES and opens_with_header(ros_type):
             subscription = self._subscribe(name, ros_type, _ANY_PUBLISHER, HEADER_BYTES)
         else:
             return
@@ -375,7 +375,7 @@ class LiveObserver:
             topic.forgotten_until = time.time_ns()
         whole = Slices.contiguous(messages.data, messages.ends).each()
         rows = zip(map(bytes, whole), messages.arrived.tolist(), messages.writers.tolist(), strict=True)
-        if topic.type in _DECODED or topic.name.endswith(_DESCRIPTION):
+        if topic.type in _DECODED_TYPES or topic.name.endswith(_DESCRIPTION):
             for size, arrived, message in _decode(topic.type, rows):
                 topic.add_decoded(size, arrived, message)
             return

@@ -20,7 +20,7 @@ __all__ = ["AHEAD", "MIN_MESSAGES", "is_ahead", "is_ahead_by_design", "is_behind
 
 AHEAD = 20 * MILLISECOND
 MIN_MESSAGES = 5
-_BEHIND = 500 * MILLISECOND
+_MAX_LAG = 500 * MILLISECOND
 # Localization nodes stamp map -> odom ahead of time, by their parameter transform_tolerance.
 _TOLERANCE = 2 * SECOND
 
@@ -32,7 +32,7 @@ def is_ahead(lags: NDArray[np.int64]) -> bool:
 
 def is_behind(lags: NDArray[np.int64]) -> bool:
     """Return whether stamps are usually far behind the clock on arrival, given arrival minus stamp."""
-    return bool(np.median(lags) > _BEHIND)
+    return bool(np.median(lags) > _MAX_LAG)
 
 
 def is_ahead_by_design(edge: Edge, lags: NDArray[np.int64]) -> bool:

@@ -39,8 +39,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from coframe import _core
 from coframe._base_error import CoframeError, CoframeWarning
-from coframe._output.escaping import shown
-from coframe._output.formatting import MAX_COMPARED_LENGTH, duration, listed, seconds
+from coframe._output.escaping import display_name
+from coframe._output.formatting import MAX_COMPARED_LENGTH, duration, join_names, seconds
 from coframe._process.plugins import PluginError
 from coframe.analysis.missing_edges import missing_edge
 from coframe.analysis.similar_frames import similar_frames
@@ -311,7 +311,7 @@ def _restore(kind: str | type[TransformException], text: str, facts: dict[str, o
 _MAX_GUESSES = 3
 _UNITS = {"s": SECOND, "ms": MILLISECOND, "us": MICROSECOND}
 # Clocks of one system differ by less; simulated time and the system time by decades.
-_OTHER_CLOCK = 30 * DAY
+_MIN_CLOCK_DIFFERENCE = 30 * DAY
 _MIN_UNIT_RATIO = 100  # a time in another unit is at least this much smaller than the samples
 MAX_LISTED_FRAMES = 50
 
@@ -342,7 +342,7 @@ def _hint_for_time(failure: Failure, parent: str, child: str) -> str:
     apart = requested - latest if requested > latest else earliest - requested
     facts = {"parent": parent, "child": child, "first": seconds(earliest), "last": seconds(latest)}
     facts |= {"target": failure.target, "source": failure.source}
-    if apart > _OTHER_CLOCK:
+    if apart > _MIN_CLOCK_DIFFERENCE:
         direction = "after" if requested > latest else "before"
         return hint("other_clock", by=duration(apart), direction=direction, **facts)
     return hint("outside_recorded", **facts) if failure.recorded else ""
@@ -381,7 +381,7 @@ def _guess(failure: Failure) -> str:
     # The other frame of the lookup is not a candidate.
     others = [frame for frame in known if failure.name not in arguments or frame not in arguments]
     meant = _similar_names(failure.name, others)
-    frames = f"Known frames: {listed(map(shown, known), most=MAX_LISTED_FRAMES)}."
+    frames = f"Known frames: {join_names(map(display_name, known), most=MAX_LISTED_FRAMES)}."
     if not meant:
         return frames
     target, source = (
@@ -403,7 +403,7 @@ def _trees(failure: Failure) -> str:
     structure = FrameTrees.from_parents(failure.parents)
     trees = [structure.tree(root) for root in roots]
     described = " and ".join(
-        f"{root!r} with {listed(map(shown, below), most=MAX_LISTED_FRAMES)}" if below else f"{root!r} alone"
+        f"{root!r} with {join_names(map(display_name, below), most=MAX_LISTED_FRAMES)}" if below else f"{root!r} alone"
         for root, *below in trees
     )
     target_root, source_root = roots

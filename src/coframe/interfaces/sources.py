@@ -29,7 +29,18 @@ _PREFIXES = "AMENT_PREFIX_PATH"
 _PACKAGE_PATH = "COFRAME_PACKAGE_PATH"
 _MAX_FOLDERS = 5_000  # per source; a search must end even if a link or a mistyped path leads to a whole disk
 _MAX_DEPTH = 8
-_SKIPPED = {"build", "install", "log", "node_modules", "__pycache__", "venv", "site-packages", "msg", "srv", "action"}
+_SKIPPED_FOLDERS = {
+    "build",
+    "install",
+    "log",
+    "node_modules",
+    "__pycache__",
+    "venv",
+    "site-packages",
+    "msg",
+    "srv",
+    "action",
+}
 _IGNORE_MARKERS = {"COLCON_IGNORE", "AMENT_IGNORE", "CATKIN_IGNORE"}
 
 _indexes: dict[tuple[Path, int], dict[str, Path]] = {}
@@ -166,7 +177,7 @@ def _folders(entries: Iterable[os.DirEntry[str]]) -> list[Path]:
 
 
 def _is_searched(entry: os.DirEntry[str]) -> bool:
-    if entry.name in _SKIPPED or entry.name.startswith("."):
+    if entry.name in _SKIPPED_FOLDERS or entry.name.startswith("."):
         return False
     try:
         return entry.is_dir()

@@ -4,6 +4,6 @@
 They import only ROS packages, so each of these files also runs unchanged on a real ROS 2 installation.
 """
 
-from coframe._process.graded_programs import refuse_graded
+from coframe._process.graded_programs import forbid_graded_program
 
-refuse_graded(__name__)
+forbid_graded_program(__name__)

@@ -74,10 +74,10 @@ class SensorTransformNode(Node):
         self.scan_sub = self.create_subscription(LaserScan, scan_topic, self.scan_callback, qos)
         cloud_topic = self.declare_parameter("cloud_topic", "/scan_base_frame").value
         self.points_pub = self.create_publisher(PointCloud2, cloud_topic, 10)
-        self.add_on_set_parameters_callback(self.refuse_change)
+        self.add_on_set_parameters_callback(self.reject_change)
         self.get_logger().info("Sensor transform node started")
 
-    def refuse_change(self, parameters: list[Any]) -> SetParametersResult:
+    def reject_change(self, parameters: list[Any]) -> SetParametersResult:
         """Reject parameter changes, because the node reads its parameters only at startup."""
         for parameter in parameters:
             if parameter.name != "use_sim_time":

@@ -46,10 +46,10 @@ class StaticFramePublisher(Node):
             self.make_mount("lidar", base, [0.0, 0.0, 0.5], NO_ROTATION),
         ]
         self.tf_broadcaster.sendTransform(transforms)
-        self.add_on_set_parameters_callback(self.refuse_change)
+        self.add_on_set_parameters_callback(self.reject_change)
         self.get_logger().info(f"Published {len(transforms)} static transforms")
 
-    def refuse_change(self, parameters: list[Any]) -> SetParametersResult:
+    def reject_change(self, parameters: list[Any]) -> SetParametersResult:
         """Reject parameter changes, because the node reads its parameters only at startup."""
         for parameter in parameters:
             if parameter.name != "use_sim_time":

@@ -25,7 +25,7 @@ from coframe.messages.registry import classes, find
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from coframe.messages._parser import Field, Structure
+    from coframe.messages._parser import Field, MessageStructure
 
 __all__ = ["FieldError", "class_name", "create_classes", "new_message_class"]
 
@@ -49,7 +49,7 @@ class FieldError(CoframeError, ValueError):
         self.missing = missing
 
 
-def create_classes(package: str, kind: str, name: str, parts: Sequence[Structure]) -> None:
+def create_classes(package: str, kind: str, name: str, parts: Sequence[MessageStructure]) -> None:
     """Create the classes of one definition and register them.
 
     Args:
@@ -72,7 +72,7 @@ def create_classes(package: str, kind: str, name: str, parts: Sequence[Structure
             _create_action(package, kind, name)
 
 
-def _create_message(ros_type: str, structure: Structure) -> None:
+def _create_message(ros_type: str, structure: MessageStructure) -> None:
     _in_progress.append(ros_type)
     try:
         inner = _inner_classes(structure.fields)
@@ -82,7 +82,7 @@ def _create_message(ros_type: str, structure: Structure) -> None:
 
 
 def new_message_class(
-    ros_type: str, structure: Structure, inner: dict[str, type], *, is_recorded: bool = False
+    ros_type: str, structure: MessageStructure, inner: dict[str, type], *, is_recorded: bool = False
 ) -> type[Message]:
     """Return a new message class.
 

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from coframe.messages.encapsulation import Order
 
 
-class RefusedError(CoframeError, ValueError):
+class RejectedValueError(CoframeError, ValueError):
     """Bytes or values that the type does not allow; the message names the expected value."""
 
 
@@ -37,7 +37,7 @@ class Compiler(ABC):
         self.swapped = (order == "<") != (sys.byteorder == "little")
         self.lines = [start]
         self.indent = 1
-        self.names: dict[str, Any] = {"array": array, "RefusedError": RefusedError}
+        self.names: dict[str, Any] = {"array": array, "RejectedValueError": RejectedValueError}
         self.offset = Offset(8, 0)
         self.codes = ""
         self.pending: list[str] = []

@@ -9,9 +9,9 @@ from typing import Any
 
 import numpy as np
 
-from coframe.messages._compiler import Compiler, Plan, RefusedError
-from coframe.messages._fields import Number, number_of
-from coframe.messages._layout import CODES, WITHOUT_MEMBERS, Offset, ros1_prefix, smallest_size
+from coframe.messages._compiler import Compiler, Plan, RejectedValueError
+from coframe.messages._fields import NumberFormat, number_of
+from coframe.messages._layout import CODES, EMPTY_STRUCT_CODE, Offset, ros1_prefix, smallest_size
 from coframe.messages.definition import (
     AbstractNestedType,
     AbstractType,
@@ -81,7 +81,7 @@ class _Decoder(Compiler):
         if cls.SLOT_TYPES or self.is_ros1:
             self.members(cls, variable)
         else:
-            self.number(WITHOUT_MEMBERS, self.variable())
+            self.number(EMPTY_STRUCT_CODE, self.variable())
 
     def _length(self) -> str:
         length = self.variable()
@@ -98,7 +98,7 @@ class _Decoder(Compiler):
         # The only NUL must be the last byte. This also detects lengths beyond the data. Some writers use length 0
         # for an empty string.
         with self.block(f"if data.find(0, pos, {end}) != {end} - 1 and {length}:"):
-            self.emit(f"raise {self.constant(_text_refusal)}(data, pos, {length})")
+            self.emit(f"raise {self.constant(_text_error)}(data, pos, {length})")
         self.emit(f"{place} = data[pos:{end} - 1].decode()")
         if isinstance(type_, BoundedString):
             self._check_bound(f"len({place})", type_.maximum_size, "characters")
@@ -107,7 +107,7 @@ class _Decoder(Compiler):
 
     def _ros1_text(self, length: str, end: str, place: str) -> None:
         with self.block(f"if {end} > len(data):"):
-            self.emit(f"raise {self.constant(_length_refusal)}(data, pos, {length}, 1)")
+            self.emit(f"raise {self.constant(_length_error)}(data, pos, {length}, 1)")
         self.emit(f"{place} = data[pos:{end}].decode()")
         self.emit(f"pos = {end}")
 
@@ -138,7 +138,7 @@ class _Decoder(Compiler):
         else:
             self._list(type_.value_type, length, place)
 
-    def _number_array(self, type_: Array, number: Number, place: str) -> None:
+    def _number_array(self, type_: Array, number: NumberFormat, place: str) -> None:
         self.flush()
         self._align(number.dtype.itemsize)
         size = type_.size * number.dtype.itemsize
@@ -150,7 +150,7 @@ class _Decoder(Compiler):
         self.emit(f"pos = {end}")
         self.offset += size
 
-    def _number_sequence(self, number: Number, length: str, place: str) -> None:
+    def _number_sequence(self, number: NumberFormat, length: str, place: str) -> None:
         values = self.variable()
         self.emit(f"{values} = {place} = array({number.code!r})")
         empty = self.offset
@@ -175,7 +175,7 @@ class _Decoder(Compiler):
     def _list(self, value_type: AbstractType, length: str, place: str) -> None:
         smallest = smallest_size(value_type)
         with self.block(f"if {length} * {smallest} > len(data) - pos:"):
-            self.emit(f"raise {self.constant(_length_refusal)}(data, pos, {length}, {smallest})")
+            self.emit(f"raise {self.constant(_length_error)}(data, pos, {length}, {smallest})")
         values, item = self.variable(), self.variable()
         self.emit(f"{values} = {place} = []")
 
@@ -193,28 +193,28 @@ class _Decoder(Compiler):
         end = self.variable()
         self.emit(f"{end} = pos + {length} * {size}")
         with self.block(f"if {end} > len(data):"):
-            self.emit(f"raise {self.constant(_length_refusal)}(data, pos, {length}, {size})")
+            self.emit(f"raise {self.constant(_length_error)}(data, pos, {length}, {size})")
         return end
 
     def _check_bound(self, length: str, bound: int, unit: str) -> None:
         with self.block(f"if {length} > {bound}:"):
-            self.emit(f'raise RefusedError(f"at most {bound} {unit}, found {{{length}}}")')
+            self.emit(f'raise RejectedValueError(f"at most {bound} {unit}, found {{{length}}}")')
 
 
-def _text_refusal(data: bytes, pos: int, length: int) -> RefusedError:
+def _text_error(data: bytes, pos: int, length: int) -> RejectedValueError:
     if pos + length > len(data):
-        return _length_refusal(data, pos, length, 1)
+        return _length_error(data, pos, length, 1)
     if data[pos + length - 1]:
-        return RefusedError(
+        return RejectedValueError(
             f"a string of {length} bytes that ends with NUL, found {data[pos + length - 1]:#04x} at its end"
         )
-    return RefusedError(f"a string of {length} bytes with a NUL only at its end, found one inside")
+    return RejectedValueError(f"a string of {length} bytes with a NUL only at its end, found one inside")
 
 
-def _length_refusal(data: bytes, pos: int, length: int, size: int) -> RefusedError:
+def _length_error(data: bytes, pos: int, length: int, size: int) -> RejectedValueError:
     each = "" if size == 1 else f" of at least {size} bytes each"
     unit = "bytes" if size == 1 else "values"
-    return RefusedError(f"{length} {unit}{each}, found only {max(len(data) - pos, 0)} bytes")
+    return RejectedValueError(f"{length} {unit}{each}, found only {max(len(data) - pos, 0)} bytes")
 
 
 def _from_utf16_units(data: bytes, swapped: bool) -> str:
@@ -222,5 +222,5 @@ def _from_utf16_units(data: bytes, swapped: bool) -> str:
     if swapped:
         units.byteswap()
     if units and max(units) > 0xFFFF:
-        raise RefusedError(f"UTF-16 code units, found {max(units):#x}")
+        raise RejectedValueError(f"UTF-16 code units, found {max(units):#x}")
     return array("H", units).tobytes().decode("utf-16" + ("-le" if sys.byteorder == "little" else "-be"))

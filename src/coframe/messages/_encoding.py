@@ -9,9 +9,9 @@ from typing import Any
 
 import numpy as np
 
-from coframe.messages._compiler import Compiler, Plan, RefusedError
-from coframe.messages._fields import Number, number_of
-from coframe.messages._layout import CODES, WITHOUT_MEMBERS, Offset
+from coframe.messages._compiler import Compiler, Plan, RejectedValueError
+from coframe.messages._fields import NumberFormat, number_of
+from coframe.messages._layout import CODES, EMPTY_STRUCT_CODE, Offset
 from coframe.messages.definition import (
     AbstractNestedType,
     AbstractType,
@@ -40,7 +40,7 @@ class _Encoder(Compiler):
         if cls.SLOT_TYPES:
             self.members(cls, "m")
         else:
-            self.number(WITHOUT_MEMBERS, "0")
+            self.number(EMPTY_STRUCT_CODE, "0")
         self.flush()
 
     def flush(self) -> None:
@@ -69,7 +69,7 @@ class _Encoder(Compiler):
     def _message(self, type_: NamespacedType, place: str) -> None:
         cls = class_of(type_)
         if not cls.SLOT_TYPES:
-            self.number(WITHOUT_MEMBERS, "0")
+            self.number(EMPTY_STRUCT_CODE, "0")
             return
         variable = self.variable()
         self.emit(f"{variable} = {place}")
@@ -78,9 +78,9 @@ class _Encoder(Compiler):
     def _text(self, type_: AbstractType, place: str) -> None:
         text = self.variable()
         if isinstance(type_, BoundedString):
-            self._refuse_if(f"len({place}) > {type_.maximum_size}", f"more than {type_.maximum_size} characters")
+            self._reject_if(f"len({place}) > {type_.maximum_size}", f"more than {type_.maximum_size} characters")
         self.emit(f"{text} = {place}.encode()")
-        self._refuse_if(f"0 in {text}", "a NUL character inside the string; ROS strings end at the first NUL")
+        self._reject_if(f"0 in {text}", "a NUL character inside the string; ROS strings end at the first NUL")
         self.number("I", f"len({text}) + 1")
         self.flush()
         self.emit(f"out += {text}")
@@ -89,7 +89,7 @@ class _Encoder(Compiler):
     def _wide_text(self, type_: AbstractWString, place: str) -> None:
         units = self.variable()
         if isinstance(type_, BoundedWString):
-            self._refuse_if(f"len({place}) > {type_.maximum_size}", f"more than {type_.maximum_size} characters")
+            self._reject_if(f"len({place}) > {type_.maximum_size}", f"more than {type_.maximum_size} characters")
         self.emit(f"{units} = {self.constant(_utf16_units)}({place})")
         self.number("I", f"len({units})")
         self.flush()
@@ -104,10 +104,10 @@ class _Encoder(Compiler):
         values = self.variable()
         self.emit(f"{values} = {place}")
         if isinstance(type_, Array):
-            self._refuse_if(f"len({values}) != {type_.size}", f"not {type_.size} values")
+            self._reject_if(f"len({values}) != {type_.size}", f"not {type_.size} values")
         else:
             if isinstance(type_, BoundedSequence):
-                self._refuse_if(f"len({values}) > {type_.maximum_size}", f"more than {type_.maximum_size} values")
+                self._reject_if(f"len({values}) > {type_.maximum_size}", f"more than {type_.maximum_size} values")
             self.number("I", f"len({values})")
         self.flush()
         if number:
@@ -118,14 +118,14 @@ class _Encoder(Compiler):
             item = self.variable()
             self.loop(f"for {item} in {values}:", lambda: self.member(type_.value_type, item))
 
-    def _number_array(self, type_: Array, number: Number, place: str) -> None:
+    def _number_array(self, type_: Array, number: NumberFormat, place: str) -> None:
         self.flush()
         self._align(number.dtype.itemsize)
         dtype = self.constant(number.dtype.newbyteorder("<"))
         self.emit(f"out += {self.constant(_array_bytes)}({place}, {dtype}, {type_.size})")
         self.offset += type_.size * number.dtype.itemsize
 
-    def _number_sequence(self, number: Number, values: str) -> None:
+    def _number_sequence(self, number: NumberFormat, values: str) -> None:
         with self.block(f"if {values}.typecode != {number.code!r}:"):
             self.emit(f"{values} = array({number.code!r}, {values})")
         self._swap(values)
@@ -149,18 +149,18 @@ class _Encoder(Compiler):
 
     def _swap(self, values: str) -> None:
         if self.swapped:
-            self.emit(f"{values} = {self.constant(_swapped)}({values})")
+            self.emit(f"{values} = {self.constant(_swap_bytes)}({values})")
 
-    def _refuse_if(self, condition: str, found: str) -> None:
+    def _reject_if(self, condition: str, found: str) -> None:
         with self.block(f"if {condition}:"):
-            self.emit(f"raise RefusedError({found!r})")
+            self.emit(f"raise RejectedValueError({found!r})")
 
 
 def _utf16_units(text: str) -> array[int]:
     return array("I", array("H", str(text).encode("utf-16" + ("-le" if sys.byteorder == "little" else "-be"))))
 
 
-def _swapped(values: array[Any]) -> array[Any]:
+def _swap_bytes(values: array[Any]) -> array[Any]:
     copy = values[:]
     copy.byteswap()
     return copy
@@ -169,5 +169,5 @@ def _swapped(values: array[Any]) -> array[Any]:
 def _array_bytes(values: Any, dtype: np.dtype[Any], size: int) -> bytes:
     result = np.asarray(values, dtype)
     if result.size != size:
-        raise RefusedError(f"not {size} numbers")
+        raise RejectedValueError(f"not {size} numbers")
     return result.tobytes()

@@ -31,13 +31,13 @@ from coframe.messages.definition import (
 )
 from coframe.messages.registry import class_of
 
-CHECKED = __debug__ and os.environ.get("ROS_PYTHON_CHECK_FIELDS", "1") != "0"
+CHECKS_FIELDS = __debug__ and os.environ.get("ROS_PYTHON_CHECK_FIELDS", "1") != "0"
 
 # Converts a value that a user assigns to the value that the message stores.
 Check = Callable[[Any], Any]
 
 
-class Number(NamedTuple):
+class NumberFormat(NamedTuple):
     """The Python representation of a number type: the type code of array.array and the dtype of NumPy."""
 
     code: str
@@ -45,16 +45,16 @@ class Number(NamedTuple):
 
 
 NUMBERS = {
-    "float": Number("f", np.dtype("float32")),
-    "double": Number("d", np.dtype("float64")),
-    "int8": Number("b", np.dtype("int8")),
-    "uint8": Number("B", np.dtype("uint8")),
-    "int16": Number("h", np.dtype("int16")),
-    "uint16": Number("H", np.dtype("uint16")),
-    "int32": Number("i", np.dtype("int32")),
-    "uint32": Number("I", np.dtype("uint32")),
-    "int64": Number("q", np.dtype("int64")),
-    "uint64": Number("Q", np.dtype("uint64")),
+    "float": NumberFormat("f", np.dtype("float32")),
+    "double": NumberFormat("d", np.dtype("float64")),
+    "int8": NumberFormat("b", np.dtype("int8")),
+    "uint8": NumberFormat("B", np.dtype("uint8")),
+    "int16": NumberFormat("h", np.dtype("int16")),
+    "uint16": NumberFormat("H", np.dtype("uint16")),
+    "int32": NumberFormat("i", np.dtype("int32")),
+    "uint32": NumberFormat("I", np.dtype("uint32")),
+    "int64": NumberFormat("q", np.dtype("int64")),
+    "uint64": NumberFormat("Q", np.dtype("uint64")),
 }
 _FLOAT32_BOUND = 3.402823466e38
 _FLOAT64_BOUND = 1.7976931348623157e308
@@ -62,7 +62,7 @@ _FLOAT64_BOUND = 1.7976931348623157e308
 
 def attribute(name: str, type_: AbstractType, slot: Any) -> Any:
     """Return the descriptor of ``message.name``, which stores its value in the slot ``_name``."""
-    if not CHECKED and number_of(type_) is None:
+    if not CHECKS_FIELDS and number_of(type_) is None:
         return slot
     check, store = _check(name, type_), slot.__set__
 
@@ -72,7 +72,7 @@ def attribute(name: str, type_: AbstractType, slot: Any) -> Any:
     return property(attrgetter(f"_{name}"), assign, doc=f"Message field '{name}'.")
 
 
-def number_of(type_: AbstractType) -> Number | None:
+def number_of(type_: AbstractType) -> NumberFormat | None:
     """Return how the numbers of an array or sequence of numbers are stored; None for other types."""
     if isinstance(type_, AbstractNestedType) and isinstance(type_.value_type, BasicType):
         return NUMBERS.get(type_.value_type.typename)
@@ -96,7 +96,7 @@ def constructor_conversion(type_: AbstractType) -> Check | None:
     return to_numpy
 
 
-def _number_sequence(number: Number, values: Iterable[Any]) -> array[Any]:
+def _number_sequence(number: NumberFormat, values: Iterable[Any]) -> array[Any]:
     if isinstance(values, np.ndarray):
         values = values.tolist()  # Faster: array.array would read one NumPy scalar after another.
     return array(number.code, values)
@@ -208,15 +208,15 @@ def _float32_check(name: str) -> Check:
     return check
 
 
-def _number_array_check(name: str, type_: Array, number: Number) -> Check:
+def _number_array_check(name: str, type_: Array, number: NumberFormat) -> Check:
     check_values = _values_check(name, type_)
 
     def check(value: Any) -> Any:
         if isinstance(value, np.ndarray):
-            assert not CHECKED or value.dtype == number.dtype, (
+            assert not CHECKS_FIELDS or value.dtype == number.dtype, (
                 f"The '{name}' numpy.ndarray() must have the dtype of 'numpy.{number.dtype.name}'"
             )
-            assert not CHECKED or value.size == type_.size, (
+            assert not CHECKS_FIELDS or value.size == type_.size, (
                 f"The '{name}' numpy.ndarray() must have a size of {type_.size}"
             )
             return value
@@ -225,16 +225,16 @@ def _number_array_check(name: str, type_: Array, number: Number) -> Check:
     return check
 
 
-def _number_sequence_check(name: str, type_: AbstractNestedType, number: Number) -> Check:
+def _number_sequence_check(name: str, type_: AbstractNestedType, number: NumberFormat) -> Check:
     check_values = _values_check(name, type_)
     maximum_size = type_.maximum_size if isinstance(type_, BoundedSequence) else None
 
     def check(value: Any) -> Any:
         if isinstance(value, array):
-            assert not CHECKED or value.typecode == number.code, (
+            assert not CHECKS_FIELDS or value.typecode == number.code, (
                 f"The '{name}' array.array() must have the type code of '{number.code}'"
             )
-            assert not CHECKED or maximum_size is None or len(value) <= maximum_size, (
+            assert not CHECKS_FIELDS or maximum_size is None or len(value) <= maximum_size, (
                 f"The '{name}' array.array() must have a size <= {maximum_size}"
             )
             return value
@@ -246,7 +246,7 @@ def _number_sequence_check(name: str, type_: AbstractNestedType, number: Number)
 
 
 def _values_check(name: str, type_: AbstractNestedType) -> Check:
-    if not CHECKED:
+    if not CHECKS_FIELDS:
         return lambda value: value
     value_type = type_.value_type
     python_type = _python_type(value_type)

@@ -17,7 +17,7 @@ from coframe.messages._literals import checked
 from coframe.messages._parser import (
     Constant,
     Field,
-    Structure,
+    MessageStructure,
     add_member,
     add_unique,
     bounded_size,
@@ -57,8 +57,19 @@ _BASIC = {
     **{name: name for name in ("float", "double", "boolean", "octet")},
     **{f"{sign}int{bits}": f"{sign}int{bits}" for sign in ("", "u") for bits in (8, 16, 32, 64)},
 }
-_NOT_IN_ROSIDL = {"enum", "union", "bitset", "bitmask", "interface", "valuetype", "native", "map", "fixed", "any"}
-_WITHOUT_PYTHON_TYPE = {"char": "uint8", "wchar": "uint16", "long double": "double"}
+_UNSUPPORTED_BY_ROSIDL = {
+    "enum",
+    "union",
+    "bitset",
+    "bitmask",
+    "interface",
+    "valuetype",
+    "native",
+    "map",
+    "fixed",
+    "any",
+}
+_TYPES_WITHOUT_PYTHON = {"char": "uint8", "wchar": "uint16", "long double": "double"}
 _FIELD = re.compile(r"[A-Za-z](?:_?[A-Za-z0-9])*")
 _RECORDED_FIELD = re.compile(r"[A-Za-z]\w*", re.ASCII)
 _DDS_MODULE = "dds_"  # rosidl's DDS names: std_msgs::msg::dds_::Header_, with fields such as stamp_
@@ -73,7 +84,7 @@ class _Annotations(NamedTuple):
     comment: str
 
 
-def parse_idl(text: str, package: str, kind: str, name: str, *, file: str | None = None) -> list[Structure]:
+def parse_idl(text: str, package: str, kind: str, name: str, *, file: str | None = None) -> list[MessageStructure]:
     """Parse the text of an ``.idl`` file.
 
     Args:
@@ -103,7 +114,7 @@ def parse_idl(text: str, package: str, kind: str, name: str, *, file: str | None
     return parts
 
 
-def parse_recorded_idl(texts: Iterable[tuple[int, str]]) -> dict[tuple[str, ...], Structure]:
+def parse_recorded_idl(texts: Iterable[tuple[int, str]]) -> dict[tuple[str, ...], MessageStructure]:
     """Parse IDL in a recording, which can have names that rosidl does not allow.
 
     Args:
@@ -128,7 +139,7 @@ class _IdlParser:
 
     def __init__(self, *, is_recorded: bool = False) -> None:
         self._is_recorded = is_recorded
-        self._structures: dict[tuple[str, ...], Structure] = {}
+        self._structures: dict[tuple[str, ...], MessageStructure] = {}
         self._constants: dict[tuple[str, ...], Constant] = {}
         self._typedefs: dict[tuple[str, ...], AbstractType] = {}
 
@@ -138,7 +149,7 @@ class _IdlParser:
         while tokens.peek().kind != "end":
             self._definition(())
 
-    def structures(self) -> dict[tuple[str, ...], Structure]:
+    def structures(self) -> dict[tuple[str, ...], MessageStructure]:
         """Return the structures, each with its constants."""
         for path, constant in self._constants.items():
             *module, name = path[:-1] or ("",)
@@ -162,13 +173,17 @@ class _IdlParser:
             elif word == "typedef":
                 self._typedef(scope)
             else:
-                known = "rosidl does not support it" if word in _NOT_IN_ROSIDL else "expected module, struct or const"
+                known = (
+                    "rosidl does not support it"
+                    if word in _UNSUPPORTED_BY_ROSIDL
+                    else "expected module, struct or const"
+                )
                 raise self._tokens.error(f"'{word}': {known}", line)
         except ValueError as error:
-            raise self._located(error, line) from None
+            raise self._with_line(error, line) from None
         self._tokens.expect(";")
 
-    def _located(self, error: ValueError, line: int) -> InterfaceError:
+    def _with_line(self, error: ValueError, line: int) -> InterfaceError:
         return self._tokens.error(str(error), line) if getattr(error, "line", None) is None else error  # type: ignore[return-value]
 
     def _module(self, scope: tuple[str, ...]) -> None:
@@ -186,7 +201,7 @@ class _IdlParser:
         if len(self._structures) == MAX_TYPES:
             raise self._tokens.error(f"more than {MAX_TYPES} structures")
         self._tokens.expect("{")
-        structure = Structure([], [], annotations.comment)
+        structure = MessageStructure([], [], annotations.comment)
         names: set[str] = set()
         while not self._tokens.accept("}"):
             line = self._tokens.peek().line
@@ -195,7 +210,7 @@ class _IdlParser:
                     add_unique(names, field.name)
                     add_member(structure, field)
             except ValueError as error:
-                raise self._located(error, line) from None
+                raise self._with_line(error, line) from None
         if [field.name for field in structure.fields] == ["structure_needs_at_least_one_member"]:
             structure.fields.clear()  # rosidl writes this member into structures without fields.
         self._structures.setdefault(self._without_dds((*scope, name)), structure)
@@ -259,11 +274,11 @@ class _IdlParser:
             return BasicType(_BASIC[name])
         if name == "char" and self._is_recorded:
             return BasicType("uint8")
-        if name in _WITHOUT_PYTHON_TYPE:
-            raise self._tokens.error(f"the type {name} is not supported; use {_WITHOUT_PYTHON_TYPE[name]}")
-        if name in _NOT_IN_ROSIDL:
+        if name in _TYPES_WITHOUT_PYTHON:
+            raise self._tokens.error(f"the type {name} is not supported; use {_TYPES_WITHOUT_PYTHON[name]}")
+        if name in _UNSUPPORTED_BY_ROSIDL:
             raise self._tokens.error(f"the type {name} is not supported by rosidl")
-        return self._named(name, scope)
+        return self._named_type(name, scope)
 
     def _string(self, name: str, scope: tuple[str, ...]) -> AbstractType:
         bound = None
@@ -274,7 +289,7 @@ class _IdlParser:
             return UnboundedString() if bound is None else BoundedString(bound)
         return UnboundedWString() if bound is None else BoundedWString(bound)
 
-    def _named(self, name: str, scope: tuple[str, ...]) -> AbstractType:
+    def _named_type(self, name: str, scope: tuple[str, ...]) -> AbstractType:
         parts = tuple(name.removeprefix("::").split("::"))
         for known in _scopes(scope, parts):
             if known in self._typedefs:
@@ -322,7 +337,7 @@ class _IdlParser:
         try:
             return evaluate(self._tokens, constant, in_brackets=in_brackets)
         except ValueError as error:
-            raise self._located(error, line) from None
+            raise self._with_line(error, line) from None
 
     def _annotations(self) -> _Annotations:
         default, comment = None, ""

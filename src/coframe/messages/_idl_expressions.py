@@ -64,7 +64,7 @@ class _Expression:
             return self._unary(depth)
         value = self.binary(level + 1, depth)
         while (symbol := self._operator(level)) is not None:
-            value = _applied(symbol, value, self.binary(level + 1, depth))
+            value = _apply(symbol, value, self.binary(level + 1, depth))
         return value
 
     def _operator(self, level: int) -> str | None:
@@ -87,7 +87,7 @@ class _Expression:
             return _number(token.text)
         if token.kind == "mark" and token.text in _SIGNS:
             value = _require_number(self._unary(depth + 1), token.text)
-            return _limited(_SIGNS[token.text](value))
+            return _check_bits(_SIGNS[token.text](value))
         if token.kind == "mark" and token.text == "(":
             in_brackets, self._in_brackets = self._in_brackets, False
             value = self.binary(0, depth + 1)
@@ -99,23 +99,23 @@ class _Expression:
         return self._constant(token)
 
 
-def _applied(symbol: str, left: Any, right: Any) -> Any:
+def _apply(symbol: str, left: Any, right: Any) -> Any:
     _require_number(left, symbol)
     _require_number(right, symbol)
     if symbol in {"<", ">"} and not 0 <= right < _BITS:
         raise ValueError(f"a shift by {right} bits; from 0 to {_BITS - 1} are possible")
     if symbol in {"/", "%"}:
-        return _divided(symbol, left, right)
-    return _limited(_FUNCTIONS[symbol](left, right))
+        return _divide_checked(symbol, left, right)
+    return _check_bits(_FUNCTIONS[symbol](left, right))
 
 
-def _divided(symbol: str, left: Any, right: Any) -> Any:
+def _divide_checked(symbol: str, left: Any, right: Any) -> Any:
     if right == 0:
         raise ValueError("a division by zero")
     if isinstance(left, float) or isinstance(right, float):
         return left / right if symbol == "/" else math.fmod(left, right)
     quotient = abs(left) // abs(right) * (1 if (left < 0) == (right < 0) else -1)  # as in C, towards zero
-    return _limited(quotient if symbol == "/" else left - quotient * right)
+    return _check_bits(quotient if symbol == "/" else left - quotient * right)
 
 
 def _require_number(value: Any, symbol: str) -> Any:
@@ -125,7 +125,7 @@ def _require_number(value: Any, symbol: str) -> Any:
     return value
 
 
-def _limited(value: Any) -> Any:
+def _check_bits(value: Any) -> Any:
     if isinstance(value, int) and value.bit_length() > _BITS:
         raise ValueError(f"a value of {value.bit_length()} bits, more than {_BITS}")
     return value
@@ -135,4 +135,4 @@ def _number(text: str) -> int | float:
     check_digits(text)
     if re.fullmatch(r"0[0-7]+", text):
         return int(text, 8)
-    return int(_limited(int(text, 0))) if re.fullmatch(r"0[xX].*|0|[1-9]\d*", text) else float(text)
+    return int(_check_bits(int(text, 0))) if re.fullmatch(r"0[xX].*|0|[1-9]\d*", text) else float(text)

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
 CODES = {"boolean": "?", "octet": "c", **{name: number.code for name, number in NUMBERS.items()}}
-WITHOUT_MEMBERS = "B"  # C has no empty structures, so rosidl adds one byte to messages without fields.
+EMPTY_STRUCT_CODE = "B"  # C has no empty structures, so rosidl adds one byte to messages without fields.
 ROS1_PREFIX = "I"  # Headers of ROS 1 begin with a sequence number, which those of ROS 2 do not have.
 _SIZES = {code: struct.calcsize(f"<{code}") for code in "?cbBhHiIqQfd"}
 

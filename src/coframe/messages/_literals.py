@@ -100,7 +100,7 @@ def _single(text: str, type_: AbstractType) -> Any:
     if isinstance(type_, NamespacedType):
         return text  # checked() explains why this is not possible.
     if not isinstance(type_, BasicType):
-        return _unquoted(text)
+        return _unquote(text)
     if type_.typename == "boolean":
         return _BOOLEANS.get(text.lower(), text)
     check_digits(text)
@@ -117,7 +117,7 @@ def _integer(text: str) -> int:
         return int(text)  # Numbers such as 007, which rosidl allows.
 
 
-def _unquoted(text: str) -> str:
+def _unquote(text: str) -> str:
     if text[:1] not in {'"', "'"}:
         return text
     try:

@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 _IDL_NAMES = {"bool": "boolean", "byte": "octet", "char": "uint8", "float32": "float", "float64": "double"}
 _INTEGERS = {f"{sign}int{bits}" for sign in ("", "u") for bits in (8, 16, 32, 64)}
 # Names of types that ROS 1, Python, C++ and IDL have.
-_ELSEWHERE = {
+_REPLACEMENTS = {
     "time": "builtin_interfaces/Time",
     "duration": "builtin_interfaces/Duration",
     "boolean": "bool",
@@ -75,7 +75,7 @@ class Constant(NamedTuple):
     value: Any
 
 
-class Structure(NamedTuple):
+class MessageStructure(NamedTuple):
     """The fields and constants of one message in file order, and the comment at the beginning of the file."""
 
     fields: list[Field]
@@ -102,7 +102,7 @@ class Rules(NamedTuple):
     named: Callable[[str, str], NamespacedType]
 
 
-def parse(text: str, package: str, parts: int = 1, *, file: str | None = None) -> list[Structure]:
+def parse(text: str, package: str, parts: int = 1, *, file: str | None = None) -> list[MessageStructure]:
     """Parse the text of a definition file.
 
     Args:
@@ -142,7 +142,7 @@ def add_unique(names: set[str], name: str) -> None:
 
 def parse_structure(
     lines: Iterable[tuple[int, str]], package: str, rules: Rules, *, file: str | None = None
-) -> Structure:
+) -> MessageStructure:
     """Parse the lines of one message.
 
     Args:
@@ -155,7 +155,7 @@ def parse_structure(
         InterfaceError: A line is not valid, or there are too many.
     """
     lines = list(lines)
-    structure = Structure([], [], _opening_comment(line for _, line in lines))
+    structure = MessageStructure([], [], _opening_comment(line for _, line in lines))
     names: set[str] = set()
     for number, line in lines:
         content = without_comment(line)
@@ -170,7 +170,7 @@ def parse_structure(
     return structure
 
 
-def add_member(structure: Structure, member: Field | Constant) -> None:
+def add_member(structure: MessageStructure, member: Field | Constant) -> None:
     """Add a field or constant to a message; raise ValueError if there are too many."""
     if isinstance(member, Field):
         structure.fields.append(member)
@@ -198,7 +198,7 @@ def _parse_line(content: str, package: str, rules: Rules) -> Field | Constant:
         return Constant(name, value_type, literal(match["value"], value_type))
     if not rules.field.fullmatch(name):
         raise ValueError(f"the name of a field has {rules.field_text}, not {name!r}")
-    field_type = _nested(value_type, match["many"]) if match["many"] else value_type
+    field_type = _nested_type(value_type, match["many"]) if match["many"] else value_type
     return Field(name, field_type, literal(match["value"], field_type) if match["value"] else None)
 
 
@@ -244,15 +244,15 @@ def _nestable(name: str, package: str, rules: Rules) -> AbstractNestableType:
     return rules.named(name, package)
 
 
-def _named(name: str, package: str) -> NamespacedType:
+def _named_type(name: str, package: str) -> NamespacedType:
     owner, _, message = name.rpartition("/")
     if not (_MESSAGE.fullmatch(message) and _PACKAGE.fullmatch(owner or package)):
-        known = f"; use {_ELSEWHERE[name]}" if name in _ELSEWHERE else ""
+        known = f"; use {_REPLACEMENTS[name]}" if name in _REPLACEMENTS else ""
         raise ValueError(f"no type {name!r}{known}")
     return NamespacedType((owner or package, "msg"), message)
 
 
-def _nested(value_type: AbstractNestableType, brackets: str) -> AbstractType:
+def _nested_type(value_type: AbstractNestableType, brackets: str) -> AbstractType:
     size = brackets[1:-1]
     if not size:
         return UnboundedSequence(value_type)
@@ -267,5 +267,5 @@ RULES = Rules(
     "small letters, digits and single underscores",
     _CONSTANT,
     "capital letters, digits and single underscores",
-    _named,
+    _named_type,
 )

@@ -14,7 +14,7 @@ from coframe.messages.definition import AbstractNestedType, AbstractType, Array,
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
 
-    from coframe.messages._parser import Constant, Field, Structure
+    from coframe.messages._parser import Constant, Field, MessageStructure
 
 __all__ = ["field_hint", "parameter_hint", "stub", "value_type"]
 
@@ -51,7 +51,7 @@ def parameter_hint(type_: AbstractType, class_name: Callable[[NamespacedType], s
     return field_hint(type_, class_name)
 
 
-def stub(package: str, kind: str, definitions: Mapping[str, Sequence[Structure]]) -> str:
+def stub(package: str, kind: str, definitions: Mapping[str, Sequence[MessageStructure]]) -> str:
     """Return the stub of a module with all messages, services or actions of a package.
 
     Args:
@@ -70,7 +70,7 @@ class _Stub:
         self._kind = kind
         self._modules = {"numpy as np"}
 
-    def text(self, definitions: Mapping[str, Sequence[Structure]]) -> str:
+    def text(self, definitions: Mapping[str, Sequence[MessageStructure]]) -> str:
         classes = [line for name, parts in definitions.items() for line in self._definition(name, parts)]
         return "\n".join(
             [
@@ -88,7 +88,7 @@ class _Stub:
             ]
         )
 
-    def _definition(self, name: str, parts: Sequence[Structure]) -> list[str]:
+    def _definition(self, name: str, parts: Sequence[MessageStructure]) -> list[str]:
         lines: list[str] = []
         for message, structure in member_messages(self._package, self._kind, name, parts).items():
             lines += self._message(message, structure)
@@ -98,7 +98,7 @@ class _Stub:
             lines += self._action(name)
         return lines
 
-    def _message(self, name: str, structure: Structure) -> list[str]:
+    def _message(self, name: str, structure: MessageStructure) -> list[str]:
         # A field whose name is a keyword of Python can only be used with getattr() and setattr().
         fields = [field for field in structure.fields if not keyword.iskeyword(field.name)]
         parameters = "".join(f", {field.name}: {parameter_hint(field.type, self._name)} = ..." for field in fields)

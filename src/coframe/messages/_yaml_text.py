@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 __all__ = ["to_yaml"]
 
-_PLAIN = re.compile(r"[A-Za-z_/][A-Za-z0-9_/.-]*")
+_PLAIN_STRING = re.compile(r"[A-Za-z_/][A-Za-z0-9_/.-]*")
 # Plain words that YAML 1.1 reads as something other than text.
 _RESERVED = {"true", "false", "yes", "no", "on", "off", "y", "n", "null"}
 
@@ -113,7 +113,7 @@ def _number(value: Any) -> str:
 
 
 def _text(value: str) -> str:
-    if _PLAIN.fullmatch(value) and value.lower() not in _RESERVED:
+    if _PLAIN_STRING.fullmatch(value) and value.lower() not in _RESERVED:
         return value
     return '"' + "".join(map(_escaped, value)) + '"'
 

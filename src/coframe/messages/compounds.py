@@ -5,22 +5,24 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from coframe.messages._parser import Field, Structure
+from coframe.messages._parser import Field, MessageStructure
 from coframe.messages.definition import BasicType, BoundedSequence, NamespacedType
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-__all__ = ["PARTS", "event", "member_messages"]
+__all__ = ["NUMBER_OF_PARTS", "event", "member_messages"]
 
 # The number of parts, separated by "---", in a definition of each kind.
-PARTS = {"msg": 1, "srv": 2, "action": 3}
+NUMBER_OF_PARTS = {"msg": 1, "srv": 2, "action": 3}
 
 _GOAL_ID = Field("goal_id", NamespacedType(("unique_identifier_msgs", "msg"), "UUID"), None)
 _TIME = NamespacedType(("builtin_interfaces", "msg"), "Time")
 
 
-def member_messages(package: str, kind: str, name: str, parts: Sequence[Structure]) -> dict[str, Structure]:
+def member_messages(
+    package: str, kind: str, name: str, parts: Sequence[MessageStructure]
+) -> dict[str, MessageStructure]:
     """Return the messages of one definition by name: one of a message, two of a service, eight of an action."""
     if kind == "msg":
         return {name: parts[0]}
@@ -47,7 +49,7 @@ def member_messages(package: str, kind: str, name: str, parts: Sequence[Structur
     }
 
 
-def event(package: str, name: str, kind: str = "srv") -> Structure:
+def event(package: str, name: str, kind: str = "srv") -> MessageStructure:
     """Return the message in which a service of ROS 2 Iron and later publishes its requests and responses.
 
     Args:
@@ -63,9 +65,9 @@ def event(package: str, name: str, kind: str = "srv") -> Structure:
     return _structure(info, Field("request", of("Request"), None), Field("response", of("Response"), None))
 
 
-def _service(name: str, request: Structure, response: Structure) -> dict[str, Structure]:
+def _service(name: str, request: MessageStructure, response: MessageStructure) -> dict[str, MessageStructure]:
     return {f"{name}_Request": request, f"{name}_Response": response}
 
 
-def _structure(*fields: Field) -> Structure:
-    return Structure(list(fields), [], "")
+def _structure(*fields: Field) -> MessageStructure:
+    return MessageStructure(list(fields), [], "")

@@ -23,7 +23,7 @@ from coframe.messages.packages import find_package, is_generated, shipped
 from coframe.messages.registry import class_of, find
 
 if TYPE_CHECKING:
-    from coframe.messages._parser import Structure
+    from coframe.messages._parser import MessageStructure
     from coframe.messages.message import Message
     from coframe.messages.schema_classes import ResolvedSchema
 
@@ -47,7 +47,7 @@ def definition_of(ros_type: str) -> str:
         _collect(ros_type, texts)
     except LookupError:
         return ""
-    return _joined(texts)
+    return _join(texts)
 
 
 def source_of(ros_type: str) -> tuple[str, str]:
@@ -77,10 +77,10 @@ def recorded_definition(cls: type[Message], schema: ResolvedSchema) -> str:
     """
     texts: dict[str, str] = {}
     _collect_recorded(cls, schema, texts)
-    return _joined(texts)
+    return _join(texts)
 
 
-def _joined(texts: dict[str, str]) -> str:
+def _join(texts: dict[str, str]) -> str:
     parts: list[str] = []
     for name, text in texts.items():
         package, _, own = name.split("/")
@@ -90,7 +90,7 @@ def _joined(texts: dict[str, str]) -> str:
 
 class _Definition(NamedTuple):
     text: str
-    structure: Structure
+    structure: MessageStructure
 
 
 def _collect(ros_type: str, texts: dict[str, str]) -> None:
@@ -111,7 +111,7 @@ def _collect_recorded(cls: type[Message], schema: ResolvedSchema, texts: dict[st
         _collect(cls.ROS_TYPE, texts)
     elif cls.ROS_TYPE not in texts:
         structure = schema.structures[cls.ROS_TYPE]
-        texts[cls.ROS_TYPE] = _written(structure).text
+        texts[cls.ROS_TYPE] = _write_definition(structure).text
         for type_ in cls.SLOT_TYPES:
             inner = type_.value_type if isinstance(type_, AbstractNestedType) else type_
             if isinstance(inner, NamespacedType):
@@ -128,7 +128,7 @@ def _definition(ros_type: str) -> _Definition:
     kind, _, name = rest.partition("/")
     if kind in ("srv", "action") and name.endswith(_EVENT):
         find(ros_type.removesuffix(_EVENT))
-        return _written(event(package, name.removesuffix(_EVENT), kind))
+        return _write_definition(event(package, name.removesuffix(_EVENT), kind))
     find(ros_type)
     found = shipped(package) if is_generated(package) else find_package(package)
     if found is None:
@@ -139,10 +139,10 @@ def _definition(ros_type: str) -> _Definition:
             (structure,) = parse(definition.text, package, file=definition.file)
             return _Definition(definition.text.replace("\r\n", "\n").rstrip("\n") + "\n", structure)
     owner = name.partition("_")[0]
-    return _written(member_messages(package, kind, owner, found.parse(kind, owner))[name])
+    return _write_definition(member_messages(package, kind, owner, found.parse(kind, owner))[name])
 
 
-def _written(structure: Structure) -> _Definition:
+def _write_definition(structure: MessageStructure) -> _Definition:
     """Return the definition of a message, written from its class."""
     # ROS 1 and IDL allow small letters in names of constants, and readers of ROS 2's definitions refuse them.
     constants = {constant.name.upper(): constant for constant in structure.constants}

@@ -175,13 +175,13 @@ class StampReader:
         rows = np.flatnonzero(starts + self._offset + 8 <= ends)
         is_little: NDArray[np.bool_] | None = None
         if self._is_cdr:
-            identifiers = _overlapping(messages.data, "<u2")[starts[rows]]
+            identifiers = _overlapping_view(messages.data, "<u2")[starts[rows]]
             is_plain = (identifiers == _CDR_LE) | (identifiers == _CDR_BE)
             rows, is_little = rows[is_plain], identifiers[is_plain] == _CDR_LE
         if self._length_offset is not None:
-            has_elements = _overlapping(messages.data, "<u4")[starts[rows] + self._length_offset] != 0
+            has_elements = _overlapping_view(messages.data, "<u4")[starts[rows] + self._length_offset] != 0
             rows, is_little = rows[has_elements], None if is_little is None else is_little[has_elements]
-        words = _overlapping(messages.data, "<u8")[starts[rows] + self._offset]
+        words = _overlapping_view(messages.data, "<u8")[starts[rows] + self._offset]
         seconds, nanoseconds = words & _LOW, words >> _HALF
         if is_little is not None and not is_little.all():
             swapped = words.byteswap()
@@ -193,7 +193,7 @@ class StampReader:
         return stamps
 
 
-def _overlapping(data: bytes, kind: str) -> NDArray[Any]:
+def _overlapping_view(data: bytes, kind: str) -> NDArray[Any]:
     """Return a view of bytes as numbers that begin at each byte."""
     size = np.dtype(kind).itemsize
     if len(data) < size:

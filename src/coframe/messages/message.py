@@ -9,7 +9,7 @@ from typing import Any, ClassVar, Final
 import numpy as np
 
 from coframe._output import html_tables
-from coframe.messages._fields import CHECKED, Check, attribute, constructor_conversion, number_of
+from coframe.messages._fields import CHECKS_FIELDS, Check, attribute, constructor_conversion, number_of
 from coframe.messages._yaml_text import to_yaml
 from coframe.messages.definition import AbstractSequence, AbstractType, describe
 from coframe.messages.registry import classes, find
@@ -50,7 +50,7 @@ class Message(metaclass=MessageType):
     def __init__(self, **fields: Any) -> None:
         """Set the fields that are passed to the constructor; generated constructors have set the defaults before."""
         known = self._fields_and_field_types
-        assert not CHECKED or fields.keys() <= known.keys(), (
+        assert not CHECKS_FIELDS or fields.keys() <= known.keys(), (
             f"Invalid arguments passed to constructor: {', '.join(sorted(fields.keys() - known.keys()))}"
         )
         for name in known:

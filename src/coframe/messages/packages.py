@@ -14,13 +14,12 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from coframe.distributions import removal
 from coframe.interfaces import sources
 from coframe.interfaces.definition_files import Definition, definitions_in, read
-from coframe.messages import _archive as archive
-from coframe.messages import registry
+from coframe.messages import _archive, registry
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
-    from coframe.messages._parser import Structure
+    from coframe.messages._parser import MessageStructure
 
 __all__ = [
     "Exports",
@@ -68,7 +67,7 @@ class InterfacePackage:
         definition = self._definitions[f"{kind}/{name}"]
         return read(definition) if isinstance(definition, Path) else definition
 
-    def parse(self, kind: str, name: str) -> list[Structure]:
+    def parse(self, kind: str, name: str) -> list[MessageStructure]:
         """Return the structures of a message, service or action.
 
         Raises:
@@ -78,7 +77,7 @@ class InterfacePackage:
         from coframe.errors import InterfaceError  # noqa: PLC0415 - until a class is used, none of these is needed
         from coframe.messages._idl import parse_idl  # noqa: PLC0415
         from coframe.messages._parser import check_message_name, parse  # noqa: PLC0415
-        from coframe.messages.compounds import PARTS  # noqa: PLC0415
+        from coframe.messages.compounds import NUMBER_OF_PARTS  # noqa: PLC0415
 
         definition = self.definition(kind, name)
         try:
@@ -87,7 +86,7 @@ class InterfacePackage:
             raise InterfaceError(str(error), file=definition.file) from None
         if definition.is_idl:
             return parse_idl(definition.text, self.name, kind, name, file=definition.file)
-        return parse(definition.text, self.name, PARTS[kind], file=definition.file)
+        return parse(definition.text, self.name, NUMBER_OF_PARTS[kind], file=definition.file)
 
     def create(self, kind: str, name: str) -> None:
         """Create and register the classes of a definition; do nothing if the package does not have it.
@@ -115,11 +114,11 @@ class InterfacePackage:
                 f"field {error.field!r}: {error.problem}",
                 file=file,
                 line=_line_of(error.field, text),
-                hint=_elsewhere(error.missing),
+                hint=_other_packages_hint(error.missing),
             ) from None
 
 
-def _elsewhere(ros_type: str) -> str:
+def _other_packages_hint(ros_type: str) -> str:
     """Return a hint about packages that contain a type with the name of a missing one; "" if there are none."""
     _, _, name = ros_type.rpartition("/")
     found = [package for package in map(shipped, shipped_names()) if package and name in package.names("msg")]
@@ -168,7 +167,7 @@ def shipped(name: str) -> InterfacePackage | None:
     path = _SHIPPED / f"{name}.txt"
     if not path.is_file():
         return None
-    texts = archive.unpack(path.read_text("utf-8"))
+    texts = _archive.unpack(path.read_text("utf-8"))
     return InterfacePackage(name, {key: Definition(text) for key, text in texts.items()})
 
 
@@ -176,7 +175,7 @@ def shipped_other_form(ros_type: str) -> str | None:
     """Return the definition that other distributions have of a type of coframe; None if all have the same one."""
     package, _, name = ros_type.partition("/")
     path = _SHIPPED / f"{package}.txt"
-    return archive.other_forms(path.read_text("utf-8")).get(name) if path.is_file() else None
+    return _archive.other_forms(path.read_text("utf-8")).get(name) if path.is_file() else None
 
 
 def shipped_names() -> list[str]:

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 from coframe.errors import InterfaceError
 from coframe.messages._class_factory import class_name, new_message_class
 from coframe.messages._class_limits import check_limits
-from coframe.messages._parser import Field, Structure
+from coframe.messages._parser import Field, MessageStructure
 from coframe.messages.definition import (
     AbstractNestedType,
     AbstractType,
@@ -83,7 +83,7 @@ class SchemaClasses:
             made[name] = self._class(name, structure, made, is_ros1=is_ros1)
         return made[schema.name]
 
-    def _class(self, name: str, structure: Structure, made: dict[str, Any], *, is_ros1: bool) -> Any:
+    def _class(self, name: str, structure: MessageStructure, made: dict[str, Any], *, is_ros1: bool) -> Any:
         fields = [field._replace(type=_with_class(field.type, made)) for field in structure.fields]
         known = known_class(name)
         if known is not None and _matches(name, fields, known, is_ros1=is_ros1):
@@ -96,7 +96,7 @@ class SchemaClasses:
             inner = {
                 class_name(type_): class_of(type_) for type_ in map(_value_type, (f.type for f in fields)) if type_
             }
-            new = Structure(fields, structure.constants, structure.comment)
+            new = MessageStructure(fields, structure.constants, structure.comment)
             self._classes[key] = new_message_class(name, new, inner, is_recorded=True)
         return self._classes[key]
 
@@ -114,7 +114,7 @@ class ResolvedSchema:
 
     def __init__(self, schema: Schema) -> None:
         self.name = schema.name
-        self.structures: dict[str, Structure] = {}
+        self.structures: dict[str, MessageStructure] = {}
         self._schema = schema
         self._add(schema.name, schema.structures[schema.name], [])
         try:
@@ -143,7 +143,7 @@ class ResolvedSchema:
         """Return whether the message has a field."""
         return any(field.name == name for field in self.structures[self.name].fields)
 
-    def _add(self, name: str, structure: Structure, above: list[str]) -> None:
+    def _add(self, name: str, structure: MessageStructure, above: list[str]) -> None:
         if name in self.structures:
             return
         if name in above:
@@ -156,7 +156,7 @@ class ResolvedSchema:
         if [field.name for field in fields] == ["structure_needs_at_least_one_member"]:
             fields = []  # rosidl writes this member into structures without fields.
         above.pop()
-        self.structures[name] = Structure(fields, structure.constants, structure.comment)
+        self.structures[name] = MessageStructure(fields, structure.constants, structure.comment)
 
     def _field(self, field: Field, owner: str, above: list[str]) -> Field:
         type_ = _value_type(field.type)
@@ -179,7 +179,7 @@ class ResolvedSchema:
                 line=self._schema.line_of(owner, field.name),
             )
         *namespaces, last = name.split("/")
-        return field._replace(type=_replaced(field.type, NamespacedType(tuple(namespaces), last)))
+        return field._replace(type=_replace_value_type(field.type, NamespacedType(tuple(namespaces), last)))
 
 
 def _known_name(type_: NamespacedType, home: str) -> str | None:
@@ -196,18 +196,18 @@ def _matches(name: str, fields: list[Field], known: Any, *, is_ros1: bool) -> bo
         fields = fields[1:]  # Bags have this field also if they were converted with the definition of ROS 2.
     names = [slot[1:].lower() for slot in known.__slots__]
     return [field.name.lower() for field in fields] == names and all(
-        _same(field.type, type_) for field, type_ in zip(fields, known.SLOT_TYPES, strict=True)
+        _is_same(field.type, type_) for field, type_ in zip(fields, known.SLOT_TYPES, strict=True)
     )
 
 
-def _same(recorded: AbstractType, known: AbstractType) -> bool:
+def _is_same(recorded: AbstractType, known: AbstractType) -> bool:
     if isinstance(recorded, NamespacedType) and isinstance(known, NamespacedType):
         return class_of(recorded) is class_of(known)
     if isinstance(recorded, AbstractNestedType) and isinstance(known, AbstractNestedType):
         return (
             type(recorded) is type(known)
-            and recorded == _replaced(known, recorded.value_type)
-            and _same(recorded.value_type, known.value_type)
+            and recorded == _replace_value_type(known, recorded.value_type)
+            and _is_same(recorded.value_type, known.value_type)
         )
     return recorded == known
 
@@ -218,7 +218,7 @@ def _with_class(type_: AbstractType, made: dict[str, Any]) -> AbstractType:
     cls = None if inner is None else made.get("/".join(inner.namespaced_name()))
     if inner is None or cls is None or not (cls.__recorded__ or "/".join(inner.namespaced_name()) != cls.ROS_TYPE):
         return type_
-    return _replaced(type_, ResolvedType(inner.namespaces, inner.name, cls))
+    return _replace_value_type(type_, ResolvedType(inner.namespaces, inner.name, cls))
 
 
 def _value_type(type_: AbstractType) -> NamespacedType | None:
@@ -227,7 +227,7 @@ def _value_type(type_: AbstractType) -> NamespacedType | None:
     return value_type if isinstance(value_type, NamespacedType) else None
 
 
-def _replaced(type_: AbstractType, value_type: Any) -> AbstractType:
+def _replace_value_type(type_: AbstractType, value_type: Any) -> AbstractType:
     """Return the type of a field with another type of its values."""
     if isinstance(type_, Array):
         return Array(value_type, type_.size)

@@ -12,8 +12,8 @@ from typing import NamedTuple
 
 from coframe.errors import InterfaceError
 from coframe.messages._idl import parse_recorded_idl
-from coframe.messages._parser import Rules, Structure, parse_structure, shortened
-from coframe.messages.compounds import PARTS, event, member_messages
+from coframe.messages._parser import MessageStructure, Rules, parse_structure, shortened
+from coframe.messages.compounds import NUMBER_OF_PARTS, event, member_messages
 from coframe.messages.definition import NamespacedType
 from coframe.messages.limits import MAX_DEFINITION, MAX_TYPES
 
@@ -44,7 +44,7 @@ class Schema:
         structures: The messages by names such as ``std_msgs/msg/Header``.
     """
 
-    def __init__(self, name: str, structures: dict[str, Structure], text: str = "") -> None:
+    def __init__(self, name: str, structures: dict[str, MessageStructure], text: str = "") -> None:
         self.structures = structures
         self._text = text
         self._by_last_name: dict[str, list[str]] = {}
@@ -153,7 +153,7 @@ def _split(text: str) -> list[_Block]:
     return blocks
 
 
-def _idl_structures(blocks: list[_Block]) -> dict[str, Structure]:
+def _idl_structures(blocks: list[_Block]) -> dict[str, MessageStructure]:
     texts = [
         (block.lines[0][0], "\n".join(line for _, line in block.lines)) for block in reversed(blocks) if block.lines
     ]
@@ -165,8 +165,8 @@ def _with_kind(path: tuple[str, ...]) -> tuple[str, ...]:
     return (path[0], "msg", path[1]) if len(path) == 2 else path
 
 
-def _structures(blocks: list[_Block], name: str, *, is_ros1: bool) -> dict[str, Structure]:
-    structures: dict[str, Structure] = {}
+def _structures(blocks: list[_Block], name: str, *, is_ros1: bool) -> dict[str, MessageStructure]:
+    structures: dict[str, MessageStructure] = {}
     rules = _ROS1 if is_ros1 else _ROS2
     for block in blocks[1:]:
         try:
@@ -181,7 +181,7 @@ def _structures(blocks: list[_Block], name: str, *, is_ros1: bool) -> dict[str, 
     return structures
 
 
-def _parse_block(lines: _Lines, name: str, rules: Rules) -> dict[str, Structure]:
+def _parse_block(lines: _Lines, name: str, rules: Rules) -> dict[str, MessageStructure]:
     """Return the messages of one file: one of a message, several of a service or an action."""
     package, kind, own = _parts_of(name)
     pieces: list[_Lines] = [[]]
@@ -194,7 +194,7 @@ def _parse_block(lines: _Lines, name: str, rules: Rules) -> dict[str, Structure]
     if len(structures) == 1:
         return {name: structures[0]}
     own = own.partition("_")[0]
-    kind = next((kind for kind, parts in PARTS.items() if parts == len(structures)), "")
+    kind = next((kind for kind, parts in NUMBER_OF_PARTS.items() if parts == len(structures)), "")
     if not kind:
         raise InterfaceError(f"expected at most 3 parts separated by '---', found {len(structures)}", line=lines[0][0])
     members = member_messages(package, kind, own, structures)
@@ -210,7 +210,7 @@ def _parts_of(name: str) -> tuple[str, str, str]:
     return package, kind or "msg", own
 
 
-def _named(name: str, _package: str) -> NamespacedType:
+def _find_named(name: str, _package: str) -> NamespacedType:
     """Return the type with a name in a text, which :meth:`Schema.find` looks up."""
     if name in _TIMES:
         return NamespacedType(("builtin_interfaces", "msg"), _TIMES[name])
@@ -222,9 +222,9 @@ def _named(name: str, _package: str) -> NamespacedType:
 
 def _named_in_ros1(name: str, package: str) -> NamespacedType:
     # ROS 1 has one Header for all packages.
-    return NamespacedType(("std_msgs", "msg"), "Header") if name == "Header" else _named(name, package)
+    return NamespacedType(("std_msgs", "msg"), "Header") if name == "Header" else _find_named(name, package)
 
 
 _TEXT = "letters, digits and underscores"
 _ROS1 = Rules(_MEMBER, _TEXT, _MEMBER, _TEXT, _named_in_ros1)
-_ROS2 = Rules(_MEMBER, _TEXT, _MEMBER, _TEXT, _named)
+_ROS2 = Rules(_MEMBER, _TEXT, _MEMBER, _TEXT, _find_named)

@@ -112,10 +112,10 @@ def _is_interface(interface: Any) -> bool:
 def _description(interface: Any) -> _Description:
     name = interface.ROS_TYPE
     if issubclass(interface, Message):
-        return _described(name, _message_fields(interface))
+        return _describe_type(name, _message_fields(interface))
     if issubclass(interface, Service):
         return _described_service(name)
-    return _described(
+    return _describe_type(
         name,
         {
             "goal": _named(f"{name}_Goal"),
@@ -137,18 +137,18 @@ def _message_fields(message: type[Message]) -> dict[str, AbstractType]:
 
 def _described_service(name: str) -> _Description:
     request, response = _named(f"{name}_Request"), _named(f"{name}_Response")
-    info = _described(_EVENT_INFO, dict(_EVENT_INFO_FIELDS))
+    info = _describe_type(_EVENT_INFO, dict(_EVENT_INFO_FIELDS))
     fields = {
         "info": _named(_EVENT_INFO),
         "request": BoundedSequence(request, 1),
         "response": BoundedSequence(response, 1),
     }
-    event = _described(f"{name}_Event", fields, {_EVENT_INFO: info})
+    event = _describe_type(f"{name}_Event", fields, {_EVENT_INFO: info})
     fields = {"request_message": request, "response_message": response, "event_message": _named(event.name)}
-    return _described(name, fields, {event.name: event})
+    return _describe_type(name, fields, {event.name: event})
 
 
-def _described(
+def _describe_type(
     name: str, fields: dict[str, AbstractType], without_class: dict[str, _Description] | None = None
 ) -> _Description:
     """Return the description of a type with these fields.

@@ -6,7 +6,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from coframe._output.escaping import one_line
-from coframe.frame_names import kept, prefix_advice
+from coframe.frame_names import prefix_advice, shared_frames
 from coframe.nodes.program import program, spin_until_shutdown
 from coframe.robots import Robot, RobotDescriptionError, load, parse_urdf
 from coframe.robots.publishing import StatePublisher
@@ -52,7 +52,7 @@ class RobotStatePublisher(Node):
         frequency = self.declare_parameter("publish_frequency", 20.0, hertz).value
         self._prefix = self.declare_parameter("frame_prefix", "").value
         # An extension of upstream: links without prefix, such as "map,world".
-        self._kept = set(kept(self.declare_parameter("frame_prefix_keep", "").value))
+        self._kept = set(shared_frames(self.declare_parameter("frame_prefix_keep", "").value))
         self._advise()
         ignore_stamps = self.declare_parameter("ignore_timestamp", False).value
         # The first name is Lyrical's, the second one Kilted's.
@@ -127,7 +127,7 @@ class RobotStatePublisher(Node):
                 text = "Robot state publisher ignored an invalid JointState message"
                 self.get_logger().error(text, throttle_duration_sec=_WARNING_PERIOD)
             return
-        if states.turned_back(self.get_clock().now().nanoseconds):
+        if states.has_jumped_back(self.get_clock().now().nanoseconds):
             text = "Moved backwards in time, re-publishing joint transforms!"
             self.get_logger().warning(text, throttle_duration_sec=_WARNING_PERIOD)
         stamp = Time.from_msg(state.header.stamp).nanoseconds
@@ -171,7 +171,7 @@ class RobotStatePublisher(Node):
             self._prefix = given["frame_prefix"]
             self._advise()
         if "frame_prefix_keep" in given:
-            self._kept = set(kept(given["frame_prefix_keep"]))
+            self._kept = set(shared_frames(given["frame_prefix_keep"]))
         self._frequency = given.get("publish_frequency", self._frequency)
         self._ignore_stamps = given.get("ignore_timestamp", self._ignore_stamps)
         if self._states is not None:

@@ -39,7 +39,7 @@ __all__ = ["check_edge", "evaluate"]
 
 _BATCH = 5_000  # messages
 _REPORTED = 500  # messages between two reports of the progress
-_MANY = 12  # names in a hint
+_MAX_LISTED_NAMES = 12  # names in a hint
 
 
 def evaluate(
@@ -250,5 +250,9 @@ def _existing_topic(recording: Recording, name: str) -> str:
     if name in recording.topics:
         return name
     names = list(recording.topics)
-    known = f"Topics: {', '.join(names[:_MANY])}{', ...' if len(names) > _MANY else ''}." if names else ""
+    known = (
+        f"Topics: {', '.join(names[:_MAX_LISTED_NAMES])}{', ...' if len(names) > _MAX_LISTED_NAMES else ''}."
+        if names
+        else ""
+    )
     raise PlotError(f"{recording.path} has no topic {name!r}", hint=f"{did_you_mean(name, names)} {known}".strip())

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from coframe._output.formatting import did_you_mean, listed
+from coframe._output.formatting import did_you_mean, join_names
 from coframe.errors import CoframeError, PlotError
 from coframe.plotting.expressions import (
     ANGLES,
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 __all__ = ["NoElementError", "axis_title", "coordinate", "field_names", "field_value", "rates"]
 
 _WINDOW = SECOND  # of rates
-_MANY = 12  # names in a hint
+_MAX_LISTED_NAMES = 12  # names in a hint
 
 
 def axis_title(expression: Expression) -> str:
@@ -77,7 +77,7 @@ def field_value(message: Any, expression: FieldExpression, type_: str) -> float:
         raise PlotError(f"{expression.text} is a string, not a number: {value[:40]!r}")
     names = field_names(value)
     if names:
-        hint = f"Choose a field: {listed(f'{written}.{name}' for name in names)}."
+        hint = f"Choose a field: {join_names(f'{written}.{name}' for name in names)}."
         raise PlotError(f"{expression.text} is a message, not a number", hint=hint)
     raise PlotError(f"{expression.text} is a sequence, not a number", hint=f"Choose an element, such as {written}[0].")
 
@@ -97,7 +97,11 @@ def _step(value: Any, step: str | int, written: str, expression: FieldExpression
                 f"{expression.text}: {written} is a sequence, which has no field {step!r}",
                 hint=f"Choose an element, such as {written}[0].{step}.",
             )
-        known = f"Fields: {', '.join(names[:_MANY])}{', ...' if len(names) > _MANY else ''}." if names else ""
+        known = (
+            f"Fields: {', '.join(names[:_MAX_LISTED_NAMES])}{', ...' if len(names) > _MAX_LISTED_NAMES else ''}."
+            if names
+            else ""
+        )
         hint = f"{did_you_mean(step, names)} {known}".strip()
         raise PlotError(f"{expression.text}: {written} has no field {step!r}", hint=hint)
     return value[step] if isinstance(value, dict) else getattr(value, step)

@@ -6,7 +6,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from coframe.bags.message_frames import FrameNames
-from coframe.frame_names import belongs
+from coframe.frame_names import is_robot_topic
 from coframe.messages.schema_classes import known_class
 
 if TYPE_CHECKING:
@@ -48,7 +48,7 @@ class FrameRenamer:
             return data
 
     def _plan(self, source: MessageSource) -> FrameNames | None:
-        if not belongs(source.topic, *self._topics):
+        if not is_robot_topic(source.topic, *self._topics):
             return None
         cls = known_class(source.type)
         if cls is None:

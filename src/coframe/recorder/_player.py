@@ -36,7 +36,7 @@ __all__ = ["MAX_RATE", "Player", "play"]
 MAX_RATE = 1000.0  # times as fast as recorded
 _CLOCK, _CLOCK_TYPE = "/clock", "rosgraph_msgs/msg/Clock"
 _MAX_CLOCK_RATE = 1000.0  # Hz
-_LINGER = 0.3  # seconds to keep the publishers open so that the last messages are delivered
+_CLOSE_DELAY = 0.3  # seconds to keep the publishers open so that the last messages are delivered
 
 
 class Player:
@@ -85,7 +85,7 @@ class Player:
         except BaseException:
             self._participant.close()
             raise
-        self._threads = [threading.Thread(target=self._guarded, name="coframe-play", daemon=True)]
+        self._threads = [threading.Thread(target=self._run_guarded, name="coframe-play", daemon=True)]
         if clock is not None:
             publisher = self._publishers.publisher(_CLOCK, _CLOCK_TYPE, QoS(depth=1))
             self._threads.append(
@@ -176,13 +176,13 @@ class Player:
     def __exit__(self, *_: object) -> None:
         self.close()
 
-    def _guarded(self) -> None:
+    def _run_guarded(self) -> None:
         try:
             self._play()
         except Exception as error:  # noqa: BLE001 - `wait` raises it in the thread of the caller
             self._error = error
         finally:
-            self.clock.sleep(_LINGER)
+            self.clock.sleep(_CLOSE_DELAY)
             self.clock.stop()
 
     def _play(self) -> None:
@@ -296,7 +296,7 @@ def play(
     )
     recording = open_merged([Path(each) for each in ([path] if isinstance(path, str | os.PathLike) else path)])
     try:
-        chosen = _chosen(recording, chooses)
+        chosen = _chosen_channels(recording, chooses)
         start = _start(recording, duration_ns(start_offset))
         if duration is not None:
             end = start + duration_ns(duration) if end is None else min(end, start + duration_ns(duration))
@@ -320,7 +320,7 @@ def play(
         raise
 
 
-def _chosen(recording: Recording | MergedRecordings, chooses: TopicFilter) -> set[str]:
+def _chosen_channels(recording: Recording | MergedRecordings, chooses: TopicFilter) -> set[str]:
     available = set(recording.topics)
     if missing := chooses.missing(map(absolute, available)):
         raise RecordingError(

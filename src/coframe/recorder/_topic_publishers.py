@@ -161,7 +161,7 @@ class TopicPublishers:
                 f"{channel.encoding} cannot be converted to ROS 2"
             )
             return None
-        ros_type, convert = converted.type, self._renamed(channel, converted.type, converted.convert)
+        ros_type, convert = converted.type, self._renaming_converter(channel, converted.type, converted.convert)
         topic = self._remap.get(absolute(channel.topic), channel.topic)
         if is_static(channel.topic) and ros_type == TF_MESSAGE:
             writer = self._participant.static_broadcaster(self._node, topic)
@@ -170,7 +170,9 @@ class TopicPublishers:
         qos = _combined_qos(offered)
         return _ChannelPublisher(self.publisher(topic, ros_type, qos).write, convert, qos.transient_local)
 
-    def _renamed(self, channel: Channel, ros_type: str, convert: Callable[[bytes], bytes]) -> Callable[[bytes], bytes]:
+    def _renaming_converter(
+        self, channel: Channel, ros_type: str, convert: Callable[[bytes], bytes]
+    ) -> Callable[[bytes], bytes]:
         """Return the function that converts a message of the channel and renames its frames."""
         if self._names is None:
             return convert

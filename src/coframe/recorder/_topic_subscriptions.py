@@ -62,7 +62,7 @@ class TopicSubscriptions:
         self._offers: dict[int, _Offer] = {}  # by publisher, including those that have left
         self._readers: dict[_Offer, Subscription] = {}
         self._topic_offers: dict[tuple[str, str], list[_Offer]] = {}  # by topic and type
-        self._refused: set[_Offer] = set()
+        self._unrecordable: set[_Offer] = set()
 
     def refresh(self) -> list[tuple[str, str, list[QoS]]]:
         """Subscribe to new topics. Return the name, the type and the offered QoS profiles of each new topic."""
@@ -77,9 +77,9 @@ class TopicSubscriptions:
         """Return the subscribed topics."""
         return {topic for topic, _ in list(self._topic_offers)}
 
-    def refused(self) -> set[str]:
+    def unrecordable(self) -> set[str]:
         """Return the topics that cannot be recorded: their type is not a ROS type, or there are too many topics."""
-        return {offer.topic for offer in list(self._refused)}
+        return {offer.topic for offer in list(self._unrecordable)}
 
     def take(self) -> Iterator[ReceivedMessage]:
         """Yield the received messages, starting with latched topics, because other messages depend on them."""
@@ -105,7 +105,7 @@ class TopicSubscriptions:
         self._offers[handle] = offer
         while len(self._offers) > MAX_PUBLISHERS:  # Those that exist are added again by each refresh.
             del self._offers[next(iter(self._offers))]
-        if offer in self._refused or (offer not in self._readers and not self._subscribe(offer)):
+        if offer in self._unrecordable or (offer not in self._readers and not self._subscribe(offer)):
             return
         offers = self._topic_offers.setdefault(key, [])
         if key in new or not offers:
@@ -121,8 +121,8 @@ class TopicSubscriptions:
                     self._node, offer.topic, offer.type, qos, on_data=self._event, adapts=True
                 )
                 return True
-        if len(self._refused) < MAX_PUBLISHERS:
-            self._refused.add(offer)
+        if len(self._unrecordable) < MAX_PUBLISHERS:
+            self._unrecordable.add(offer)
         return False
 
     def _accepts(self, offer: _Offer, publisher: int) -> bool:

@@ -55,7 +55,7 @@ class RecorderStatistics(NamedTuple):
     waiting: int
     dropped: dict[str, int]
     missing: list[str]
-    refused: list[str]
+    unrecordable: list[str]
     not_renamed: list[str]
 
 
@@ -116,7 +116,7 @@ class Recorder:
             waiting=self._queue.size,
             dropped=dict(self._queue.dropped),
             missing=self._filter.missing(subscribed),
-            refused=sorted(self._subscriptions.refused()),
+            unrecordable=sorted(self._subscriptions.unrecordable()),
             not_renamed=[] if self._frames is None else list(self._frames.not_renamed),
         )
 

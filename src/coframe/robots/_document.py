@@ -74,7 +74,7 @@ class Element:
             second.warn(f"there is a second <{tag}> in one <{self.tag}>; the first one is used")
         return first
 
-    def need(self, tag: str) -> Element:
+    def required_child(self, tag: str) -> Element:
         """Return the first child element with a tag.
 
         Raises:
@@ -119,7 +119,7 @@ class Element:
             self.fail(f'<{self.tag} {name}="...">: {_short(word)!r} is not a finite number')
         return float(word)
 
-    def tolerate(self, parse: Callable[[Element], T], ignored: str) -> T | None:
+    def parse_or_warn(self, parse: Callable[[Element], T], ignored: str) -> T | None:
         """Return the result of `parse` for this element; None if it has a fault, which becomes a warning.
 
         Args:

@@ -10,7 +10,7 @@ from urllib.parse import unquote
 from coframe._files.existence import is_dir, resolved
 from coframe._files.regular_files import UnsuitableFileError, check_regular
 from coframe.errors import PackageError
-from coframe.workspace.packages.folders import crawl, listed, named, package_around
+from coframe.workspace.packages.folders import by_name, crawl, existing_folders, package_around
 from coframe.workspace.packages.share_view import share_of_source, source_of
 
 if TYPE_CHECKING:
@@ -22,8 +22,8 @@ __all__ = ["Packages"]
 _MAX_DEPTH = 4  # levels of folders between a workspace and its packages
 _NEIGHBOR_DEPTH = 2  # fewer, because the folder around a package may be large, such as a home folder
 # The meshes of the lab's robot are part of coframe.
-_OWN = {"coframe_lab": Path(__file__).parents[1] / "lab"}
-_SEARCHED = "coframe searches the folders of COFRAME_PACKAGE_PATH."
+_OWN_PACKAGES = {"coframe_lab": Path(__file__).parents[1] / "lab"}
+_SEARCH_HINT = "coframe searches the folders of COFRAME_PACKAGE_PATH."
 
 
 class Packages:
@@ -56,9 +56,9 @@ class Packages:
             try:
                 found = self._search(name)
             except PackageError:
-                if name not in _OWN:
+                if name not in _OWN_PACKAGES:
                     raise
-                found = _OWN[name]
+                found = _OWN_PACKAGES[name]
             self._found[name] = share_of_source(found.resolve(), name)
         return self._found[name]
 
@@ -73,9 +73,9 @@ class Packages:
         """
         scheme, separator, rest = url.partition("://")
         if not separator:
-            return self._inside(url, *self._surroundings(url))
+            return self._inside(url, *self._surrounding_packages(url))
         if scheme != "package":
-            raise PackageError(f"{url!r} is not a package URL", hint=f"Use package://PACKAGE/PATH. {_SEARCHED}")
+            raise PackageError(f"{url!r} is not a package URL", hint=f"Use package://PACKAGE/PATH. {_SEARCH_HINT}")
         name, _, path = unquote(rest).partition("/")
         root = self.find(name)
         return self._inside(url, root, root / path)
@@ -85,25 +85,25 @@ class Packages:
             real = path.resolve()
             if not (real.is_relative_to(root) or real.is_relative_to(source_of(root))):
                 raise PackageError(
-                    f"{url!r} is outside {root}", hint=f"Only files inside the package can be read. {_SEARCHED}"
+                    f"{url!r} is outside {root}", hint=f"Only files inside the package can be read. {_SEARCH_HINT}"
                 )
             check_regular(real)
         except FileNotFoundError:
             raise PackageError(
                 f"{url!r} does not exist: there is no file {real}",
-                hint=f"Check the spelling, and whether this is the right copy of the package. {_SEARCHED}",
+                hint=f"Check the spelling, and whether this is the right copy of the package. {_SEARCH_HINT}",
             ) from None
         except UnsuitableFileError as error:
-            raise PackageError(f"{url!r}: {error}", hint=_SEARCHED) from None
+            raise PackageError(f"{url!r}: {error}", hint=_SEARCH_HINT) from None
         except (OSError, ValueError, RuntimeError) as error:  # circular links, NUL characters, names that are too long
-            raise PackageError(f"{url!r} is not a valid file name: {error}", hint=_SEARCHED) from None
+            raise PackageError(f"{url!r} is not a valid file name: {error}", hint=_SEARCH_HINT) from None
         return real
 
-    def _surroundings(self, url: str) -> tuple[Path, Path]:
+    def _surrounding_packages(self, url: str) -> tuple[Path, Path]:
         if self.near is None:
             raise PackageError(
                 f"{url!r} is relative, but the robot description has no file",
-                hint=f"Use package://PACKAGE/PATH. {_SEARCHED}",
+                hint=f"Use package://PACKAGE/PATH. {_SEARCH_HINT}",
             )
         folder = self.near if self.near.is_dir() else self.near.parent
         return package_around(folder) or folder, folder / unquote(url)
@@ -112,21 +112,21 @@ class Packages:
         # The name must not contain path separators or anything else that points to another folder.
         if not name or name.startswith(".") or not all(c.isalnum() or c in "_-." for c in name):
             raise PackageError(
-                f"{name!r} is not a valid package name", hint=f"Use letters, digits, '_', '-' and '.'. {_SEARCHED}"
+                f"{name!r} is not a valid package name", hint=f"Use letters, digits, '_', '-' and '.'. {_SEARCH_HINT}"
             )
         for folder in self._nearby_folders():
-            if name in self._below(folder, _NEIGHBOR_DEPTH):
-                return self._below(folder, _NEIGHBOR_DEPTH)[name]
-        for folder in [*self.folders, *listed("COFRAME_PACKAGE_PATH")]:
-            found = self._below(folder, _MAX_DEPTH).get(name) or folder / name
+            if name in self._packages_below(folder, _NEIGHBOR_DEPTH):
+                return self._packages_below(folder, _NEIGHBOR_DEPTH)[name]
+        for folder in [*self.folders, *existing_folders("COFRAME_PACKAGE_PATH")]:
+            found = self._packages_below(folder, _MAX_DEPTH).get(name) or folder / name
             if is_dir(found):
                 return found
-        for prefix in listed("AMENT_PREFIX_PATH"):
+        for prefix in existing_folders("AMENT_PREFIX_PATH"):
             if is_dir(prefix / "share" / name):
                 return prefix / "share" / name
-        for folder in listed("ROS_PACKAGE_PATH"):
-            if name in self._below(folder, _MAX_DEPTH):
-                return self._below(folder, _MAX_DEPTH)[name]
+        for folder in existing_folders("ROS_PACKAGE_PATH"):
+            if name in self._packages_below(folder, _MAX_DEPTH):
+                return self._packages_below(folder, _MAX_DEPTH)[name]
         raise PackageError(
             f"no package named {name!r}",
             hint="Add the folder that contains it to COFRAME_PACKAGE_PATH (folders are separated as in PATH).",
@@ -139,7 +139,7 @@ class Packages:
         package = package_around(self.near)
         return [] if package is None else [package, package.parent]
 
-    def _below(self, folder: Path, max_depth: int) -> dict[str, Path]:
+    def _packages_below(self, folder: Path, max_depth: int) -> dict[str, Path]:
         if (folder, max_depth) not in self._crawled:
-            self._crawled[folder, max_depth] = named(list(crawl(folder, max_depth)))
+            self._crawled[folder, max_depth] = by_name(list(crawl(folder, max_depth)))
         return self._crawled[folder, max_depth]

@@ -112,7 +112,7 @@ class Robot:
         found = None if out is not None else self._kinematics.transforms(positions or {}, in_root=True)
         if found is not None:
             return found
-        known, shape = self._known(positions)
+        known, shape = self._given_positions(positions)
         if out is None and not shape:
             return self._of_one(known, in_root=True)
         poses = np.empty((len(self.links), *shape, 7)) if out is None else _checked_rows(out, (len(self.links), *shape))
@@ -139,7 +139,7 @@ class Robot:
         found = self._kinematics.transforms(positions, in_root=False)
         if found is not None:
             return found
-        known, shape = self._known(positions)
+        known, shape = self._given_positions(positions)
         if not shape:
             return self._of_one(known, in_root=False)
         poses = np.empty((len(self.joints), *shape, 7))
@@ -175,8 +175,8 @@ class Robot:
         axes = self.root if expressed_in is None else expressed_in
         for link in (frame, axes):
             if link not in self.links:
-                raise ValueError(_unknown("link", link, list(self.links)))
-        known, shape = self._known(positions)
+                raise ValueError(_unknown_name_error("link", link, list(self.links)))
+        known, shape = self._given_positions(positions)
         poses = np.empty((len(self.joints), *shape, 7))
         self._fill(poses, known, shape, in_root=True)
         t, q = poses[..., :3], poses[..., 3:]
@@ -225,7 +225,7 @@ class Robot:
 
     def clip(self, positions: Positions) -> dict[str, Array]:
         """Return positions by joint that are moved into the limits; see :meth:`limit_violations`."""
-        known, _ = self._known(positions)
+        known, _ = self._given_positions(positions)
         return {name: value - self.limit_violations({name: value}).get(name, 0.0) for name, value in known.items()}
 
     def buffer(self, joint_states: Iterable[Any] | Any, stamps: ArrayLike | None = None) -> Buffer:
@@ -244,7 +244,7 @@ class Robot:
             ValueError: The positions are not valid, or there are none.
         """
         if stamps is not None:
-            groups = [(np.asarray(stamps), self._known(joint_states)[0])]
+            groups = [(np.asarray(stamps), self._given_positions(joint_states)[0])]
         else:
             messages = [joint_states] if is_joint_state(joint_states) else joint_states
             groups = groups_of(messages, self.joints)
@@ -316,7 +316,7 @@ class Robot:
         Raises:
             ValueError: The positions are not valid, see :meth:`frames`.
         """
-        known, shape = self._known(given)
+        known, shape = self._given_positions(given)
         for name, value in known.items():
             if not np.isfinite(value).all() or (self.joints[name].size == 7 and not value[..., 3:].any(axis=-1).all()):
                 raise ValueError(_no_position(name))
@@ -325,18 +325,20 @@ class Robot:
             joint.name: np.broadcast_to(self._position(joint, known), (*shape, *_axes(joint))) for joint in moving
         }, shape
 
-    def _known(self, given: Positions | None) -> tuple[dict[str, Array], tuple[int, ...]]:
+    def _given_positions(self, given: Positions | None) -> tuple[dict[str, Array], tuple[int, ...]]:
         """Return the given positions as arrays, and the batch shape."""
         named = by_joint(given, self.joints, self.free_joints)
-        known = {name: self._checked(name, value) for name, value in named.items()}
+        known = {name: self._check_position(name, value) for name, value in named.items()}
         shape = np.broadcast_shapes(*(self._batch_axes(name, value) for name, value in known.items()))
         if len(shape) > 1:
             raise ValueError(f"positions can have one batch axis, (N,), not {shape}")
         return known, shape
 
-    def _checked(self, name: str, value: ArrayLike) -> Array:
+    def _check_position(self, name: str, value: ArrayLike) -> Array:
         if name not in self.joints:
-            raise ValueError(_unknown("joint", name, [joint.name for joint in self.joints.values() if joint.size]))
+            raise ValueError(
+                _unknown_name_error("joint", name, [joint.name for joint in self.joints.values() if joint.size])
+            )
         size = self.joints[name].size
         if not size:
             raise ValueError(f"joint {name!r} is fixed and has no position")
@@ -432,6 +434,6 @@ def _no_position(joint: str) -> str:
     return f"the position of joint {joint!r} is not finite, or its quaternion is zero"
 
 
-def _unknown(what: str, name: str, known: list[str]) -> str:
+def _unknown_name_error(what: str, name: str, known: list[str]) -> str:
     known_names = ", ".join(map(repr, sorted(known))) or "none"
     return f"No {what} named {name!r}. " + (did_you_mean(name, known) or f"Known {what}s: {known_names}.")

@@ -45,7 +45,7 @@ class Materials:
                 )
         for link in root.all("link"):
             for visual in link.all("visual"):
-                for element in filter(_defines, visual.all("material")):
+                for element in filter(_defines_material, visual.all("material")):
                     material = _material(element)
                     self.defined.setdefault(material.name, material)
 
@@ -54,7 +54,7 @@ class Materials:
         element = visual.one("material")
         if element is None:
             return None
-        if _defines(element):
+        if _defines_material(element):
             return _material(element)
         name = element.attributes.get("name", "").strip()
         if name and name not in self.defined:
@@ -62,13 +62,13 @@ class Materials:
         return self.defined.get(name)
 
 
-def _defines(element: Element) -> bool:
+def _defines_material(element: Element) -> bool:
     return bool(element.children)
 
 
 def _material(element: Element) -> Material:
     color, texture = element.one("color"), element.one("texture")
-    rgba = None if color is None else color.tolerate(_rgba, "the color")
+    rgba = None if color is None else color.parse_or_warn(_rgba, "the color")
     filename = None if texture is None else texture.attributes.get("filename", "").strip() or None
     return Material(element.attributes.get("name", "").strip(), rgba, filename)
 
@@ -94,9 +94,9 @@ def parse_link(name: str, element: Element, materials: Materials) -> Link:
     mass = element.one("inertial")
     return Link(
         name,
-        tuple(filter(None, (part.tolerate(visual, "the <visual>") for part in element.all("visual")))),
-        tuple(filter(None, (part.tolerate(collision, "the <collision>") for part in element.all("collision")))),
-        None if mass is None else mass.tolerate(inertial, "the <inertial>"),
+        tuple(filter(None, (part.parse_or_warn(visual, "the <visual>") for part in element.all("visual")))),
+        tuple(filter(None, (part.parse_or_warn(collision, "the <collision>") for part in element.all("collision")))),
+        None if mass is None else mass.parse_or_warn(inertial, "the <inertial>"),
     )
 
 
@@ -125,7 +125,7 @@ def origin(element: Element, target: str, source: str | None = None) -> Transfor
 
 
 def _geometry(element: Element) -> Geometry:
-    geometry = element.need("geometry")
+    geometry = element.required_child("geometry")
     if not geometry.children:
         geometry.fail("<geometry> contains no shape")
     shape, *others = geometry.children
@@ -147,6 +147,8 @@ def _geometry(element: Element) -> Geometry:
 
 
 def _inertial(element: Element, link: str) -> Inertial:
-    inertia = element.need("inertia")
+    inertia = element.required_child("inertia")
     ixx, ixy, ixz, iyy, iyz, izz = (inertia.number(component) for component in _INERTIA)
-    return Inertial(origin(element, link), element.need("mass").number("value"), (ixx, ixy, ixz, iyy, iyz, izz))
+    return Inertial(
+        origin(element, link), element.required_child("mass").number("value"), (ixx, ixy, ixz, iyy, iyz, izz)
+    )

@@ -82,7 +82,7 @@ def without_faulty_mimics(joints: list[Joint], elements: Mapping[str, Element]) 
     by_name = {joint.name: joint for joint in joints}
     faults = {joint.name: fault for joint in joints if (fault := _fault(joint, by_name))}
     leaders = {j.name: j.mimic.joint for j in joints if j.mimic is not None and j.name not in faults}
-    for circle in _circles(leaders):
+    for circle in _mimic_cycles(leaders):
         faults |= dict.fromkeys(circle, f"joints mimic each other in a circle: {', '.join(circle[:10])}")
     for name, fault in faults.items():
         elements[name].warn(f"{fault}; the <mimic> of joint {name!r} is ignored")
@@ -102,7 +102,7 @@ def _fault(follower: Joint, by_name: Mapping[str, Joint]) -> str:
     return ""
 
 
-def _circles(leaders: Mapping[str, str]) -> Iterator[list[str]]:
+def _mimic_cycles(leaders: Mapping[str, str]) -> Iterator[list[str]]:
     """Return the joints of each circle of joints that mimic each other."""
     checked: set[str] = set()
     for start in leaders:

@@ -87,7 +87,7 @@ def expand_xacro(
         reason = "the file is xacro, and the package xacro is not installed"
         raise RobotDescriptionError(reason, file=str(path), hint=pip_install("robots"))
     check_regular(path)
-    answer = _expanded(
+    answer = _expand(
         {
             "path": os.fspath(path),
             "arguments": dict(arguments or {}),
@@ -108,7 +108,7 @@ def _run(words: Sequence[str], request: bytes) -> subprocess.CompletedProcess[by
     return subprocess.run(command, input=request, capture_output=True, timeout=MAX_SECONDS, check=False)  # noqa: S603
 
 
-def _expanded(
+def _expand(
     request: dict[str, Any], run: Callable[[Sequence[str], bytes], subprocess.CompletedProcess[bytes]]
 ) -> dict[str, Any]:
     """Expand a file in a separate process, because Python expressions in it can take any amount of time and memory."""

@@ -40,7 +40,7 @@ class StatePublisher:
         transforms = self.robot.joint_transforms()
         return [transforms[name] for name, joint in self.robot.joints.items() if joint.type in {"fixed", "planar"}]
 
-    def turned_back(self, now: int) -> bool:
+    def has_jumped_back(self, now: int) -> bool:
         """Return whether the clock has jumped back since the last call. If so, all joints may be published again."""
         back = now < self._last_call
         self._last_call = now
@@ -66,13 +66,13 @@ class StatePublisher:
         joints = self.robot.joints
         pairs = zip(names, positions, strict=True)
         given = {name: position for name, position in pairs if name in joints and joints[name].size == 1}
-        if not given or not self._due(stamp, given):
+        if not given or not self._due_joints(stamp, given):
             return []
         self._published.update(dict.fromkeys(given, stamp))
         transforms = self.robot.joint_transforms(given)
-        return [transforms[name] for name in joints if name in given or self._follows(name, given)]
+        return [transforms[name] for name in joints if name in given or self._is_follower(name, given)]
 
-    def _due(self, stamp: int, names: Collection[str]) -> bool:
+    def _due_joints(self, stamp: int, names: Collection[str]) -> bool:
         if self.ignore_stamps:
             return True
         if any(name not in self._published for name in names):
@@ -80,7 +80,7 @@ class StatePublisher:
         last = min(self._published[name] for name in names)
         return self.frequency > 0 and stamp >= last + int(1000 / self.frequency) * MILLISECOND
 
-    def _follows(self, name: str, given: dict[str, float]) -> bool:
+    def _is_follower(self, name: str, given: dict[str, float]) -> bool:
         joint = self.robot.joints[name]
         while joint.mimic is not None:
             joint = self.robot.joints[joint.mimic.joint]

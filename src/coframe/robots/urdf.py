@@ -8,7 +8,7 @@ import re
 from typing import TYPE_CHECKING, get_args
 
 from coframe.errors import RobotDescriptionError
-from coframe.robots import _document as document
+from coframe.robots import _document
 from coframe.robots._robot import Robot
 from coframe.robots._shapes import Materials, origin, parse_link
 from coframe.robots._structure import ordered, without_faulty_mimics
@@ -56,7 +56,7 @@ def parse_urdf(text: str | bytes) -> Robot:
         >>> robot.frames({"turn": 1.5})["tip"].rpy.round(3).tolist()
         [0.0, 0.0, 1.5]
     """
-    read = document.read(text)
+    read = _document.read(text)
     _check_kind(read.root)
     xacro = next((element for element in read.root.children if element.tag.startswith("xacro:")), None)
     try:
@@ -80,7 +80,7 @@ def _check_kind(root: Element) -> None:
         )
 
 
-def _robot(read: document.Document) -> Robot:
+def _robot(read: _document.Document) -> Robot:
     root = read.root
     for element in root.children:
         if element.tag.startswith("xacro:"):
@@ -88,14 +88,14 @@ def _robot(read: document.Document) -> Robot:
     if _version(root) < _FIRST_WITH_QUATERNIONS:
         _ignore_quaternions(root)
     materials = Materials(root)
-    parts = _named(root, "link")
+    parts = _named_elements(root, "link")
     if not parts:
         root.fail("the robot has no links", hint="Add at least one <link>.")
     links = {name: parse_link(name, element, materials) for name, element in parts.items()}
     for name, element in parts.items():
         if name.startswith("/"):
             element.warn(f"link {name!r} begins with a slash, which tf2 removes")
-    elements = _named(root, "joint")
+    elements = _named_elements(root, "joint")
     spellings = {name.strip(): name for name in parts} | {name: name for name in parts}
     joints = [_joint(name, element, spellings) for name, element in elements.items()]
     return Robot(
@@ -129,7 +129,7 @@ def _ignore_quaternions(root: Element) -> None:
             element.warn('quat_xyzw is ignored, because it needs <robot version="1.1">')
 
 
-def _named(root: Element, tag: str) -> dict[str, Element]:
+def _named_elements(root: Element, tag: str) -> dict[str, Element]:
     found: dict[str, Element] = {}
     for element in root.all(tag):
         name = element.attributes.get("name")
@@ -165,7 +165,7 @@ def _joint(name: str, element: Element, links: Mapping[str, str]) -> Joint:
 
 def _link_name(joint: Element, role: str, links: Mapping[str, str]) -> str:
     """Return the link that a joint names; `links` has each name as it is and without spaces around it."""
-    element = joint.need(role)
+    element = joint.required_child(role)
     written = element.attributes.get("link") or element.text("link")
     return links.get(written) or links.get(written.strip(), written)
 
@@ -199,23 +199,23 @@ def _limits(joint: Element, name: str, kind: JointType) -> JointLimits | None:
     if element is None and safety is None:
         return None
     needed = kind in _NEEDS_LIMITS
-    lower, upper = (_given(element, part, required=needed) for part in ("lower", "upper"))
-    effort, velocity = (_given(element, part) for part in ("effort", "velocity"))
+    lower, upper = (_limit_value(element, part, required=needed) for part in ("lower", "upper"))
+    effort, velocity = (_limit_value(element, part) for part in ("effort", "velocity"))
     if element is not None and needed:
         lower, upper = lower or 0.0, upper or 0.0
         if lower > upper:
             element.fail(f"joint {name!r} has the lower limit {lower:g} above the upper limit {upper:g}")
-    soft_lower, soft_upper = (_given(safety, part) for part in ("soft_lower_limit", "soft_upper_limit"))
+    soft_lower, soft_upper = (_limit_value(safety, part) for part in ("soft_lower_limit", "soft_upper_limit"))
     return JointLimits(lower, upper, effort, velocity, soft_lower, soft_upper)
 
 
-def _given(element: Element | None, attribute: str, *, required: bool = False) -> float | None:
+def _limit_value(element: Element | None, attribute: str, *, required: bool = False) -> float | None:
     """Return a limit; None if it is not given, or is not valid and not required."""
     if element is None or attribute not in element.attributes:
         return None
     if required:
         return element.number(attribute)
-    return element.tolerate(lambda limit: limit.number(attribute), f"the limit {attribute}")
+    return element.parse_or_warn(lambda limit: limit.number(attribute), f"the limit {attribute}")
 
 
 def _mimic(joint: Element, name: str, kind: JointType) -> Mimic | None:

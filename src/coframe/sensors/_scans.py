@@ -139,7 +139,7 @@ def project_scan(
         raise TypeError("project_scan() needs both a buffer and a target, or neither")
     has_intensities = len(scan.intensities) == len(ranges) > 0
     intensities = np.asarray(scan.intensities, dtype=np.float32)[hits] if has_intensities else None
-    return ScanPoints(points, hits.astype(np.int32), times, intensities, frame, stamp, _classes_beside(scan))
+    return ScanPoints(points, hits.astype(np.int32), times, intensities, frame, stamp, _message_classes(scan))
 
 
 @lru_cache(maxsize=8)  # Cached, because all scans of a sensor have the same beams.
@@ -151,7 +151,7 @@ def _directions(start: float, increment: float, count: int) -> NDArray[np.float6
     return directions
 
 
-def _classes_beside(message: Any) -> tuple[Any, Any]:
+def _message_classes(message: Any) -> tuple[Any, Any]:
     """Return PointCloud2 and PointField: ROS's classes for a ROS message, otherwise coframe's."""
     if type(message).__module__.startswith("sensor_msgs.msg._"):
         module = importlib.import_module("sensor_msgs.msg")

@@ -77,7 +77,7 @@ def field_of(points: Any, name: str | int) -> NDArray[Any]:
             raise ValueError(f"an array of {points.shape[-1]} columns has no column {name!r}")
         return points[..., name]  # type: ignore[no-any-return]
     if name not in points.dtype.names:
-        raise _no_field(name, list(points.dtype.names))
+        raise _missing_field_error(name, list(points.dtype.names))
     field: NDArray[Any] = points[name]
     return _single(field, name, field.size // max(points.size, 1))
 
@@ -239,7 +239,7 @@ def _number_field(points: Any, name: str | int) -> NDArray[Any]:
 def _message_field(cloud: Any, name: str) -> NDArray[Any]:
     field = next((field for field in cloud.fields if field.name == name), None)
     if field is None:
-        raise _no_field(name, [field.name for field in cloud.fields])
+        raise _missing_field_error(name, [field.name for field in cloud.fields])
     dtype = _DTYPES[bool(cloud.is_bigendian)].get(field.datatype)
     if dtype is None:
         raise ValueError(f"the field {name!r} has the unknown datatype {field.datatype}")
@@ -277,5 +277,5 @@ def _single(field: NDArray[Any], name: object, count: int) -> NDArray[Any]:
     return field
 
 
-def _no_field(name: object, names: list[str]) -> ValueError:
+def _missing_field_error(name: object, names: list[str]) -> ValueError:
     return ValueError(f"the points have no field {name!r}. Their fields: {', '.join(map(repr, names)) or 'none'}.")

@@ -20,9 +20,9 @@ if TYPE_CHECKING:
 __all__ = ["still_frame"]
 
 _MIN_MOTION = 1e-7  # meters, and parts of a quaternion: more than rounding, less than any motion
-_MAX_ABOVE = 100  # frames above the target
+_MAX_ANCESTORS = 100  # frames above the target
 _FIXED = ("odom", "map", "world", "earth", "utm", "camera_init")
-_TRIED = 33  # times over all samples
+_SAMPLED_TIMES = 33  # times over all samples
 
 
 def still_frame(buffer: _core.Buffer, target: str, source: str, stamps: NDArray[np.int64]) -> str | None:
@@ -75,7 +75,7 @@ def _moved_in(buffer: _core.Buffer, robot: str, stamps: NDArray[np.int64]) -> st
 
 def _edges_above(buffer: _core.Buffer, frame: str) -> Iterator[tuple[str, str]]:
     """Yield child and parent of the edges from a frame up to its root."""
-    for _ in range(_MAX_ABOVE):
+    for _ in range(_MAX_ANCESTORS):
         state = buffer._edge_at(frame, 0)
         if state is None or not state[1]:
             return
@@ -103,7 +103,11 @@ def _motion(buffer: _core.Buffer, target: str, source: str, stamps: NDArray[np.i
     with suppress(TransformException):  # The edges have no common time if a frame changes its parent.
         buffer._lookup_rows(target, source, ends, np.empty((2, 7)), None, None, "clip", 1)  # noqa: SLF001
         first, last = int(ends[0]), int(ends[1])
-        tried.append(np.array([first + (last - first) * i // (_TRIED - 1) for i in range(_TRIED)], dtype=np.int64))
+        tried.append(
+            np.array(
+                [first + (last - first) * i // (_SAMPLED_TIMES - 1) for i in range(_SAMPLED_TIMES)], dtype=np.int64
+            )
+        )
     return max(_extent(_poses(buffer, target, source, times)) for times in tried)
 
 

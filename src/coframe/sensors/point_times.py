@@ -43,13 +43,13 @@ UNITS = {"s": SECOND, "ms": MILLISECOND, "us": MICROSECOND, "ns": 1}
 NO_TIME = np.iinfo(np.int64).min  # The integer of NumPy's NaT.
 _MAX_SWEEP = 10 * SECOND  # Values that differ more from the message's stamp are not times of its points.
 _MAX_OFFSET = 100_000_000 * SECOND  # About three years: larger values are absolute times.
-_LATEST = 2.0**62  # Nanoseconds, in the year 2116.
+_MAX_TIME = 2.0**62  # Nanoseconds, in the year 2116.
 # Sweeps of spinning and solid-state lidars, also of those whose messages were thinned out.
 _MIN_USUAL_SWEEP, _MAX_USUAL_SWEEP = 5 * MILLISECOND, SECOND
 # The sweep of a message in periods: two lidars may share a topic, and some lidars rest between two sweeps.
 _MIN_PERIODS, _MAX_PERIODS = 1 / 30, 3.0
 # Not of points that were deskewed already.
-_LIKE_TIMES = re.compile(r"^(?!deskewed_).*(time|stamp)|^(t|dt)?_?(ms|us|ns|sec|usec|nsec)$|^d?t_", re.IGNORECASE)
+_TIME_FIELD_NAME = re.compile(r"^(?!deskewed_).*(time|stamp)|^(t|dt)?_?(ms|us|ns|sec|usec|nsec)$|^d?t_", re.IGNORECASE)
 _USUAL_PERIOD = 100 * MILLISECOND  # Of a topic with one message.
 
 
@@ -128,7 +128,7 @@ def times_in(
 
 def likely_times(names: Sequence[str]) -> list[str]:
     """Return the names that are no known field of times, but sound like one."""
-    return [name for name in names if name not in TIME_FIELDS and _LIKE_TIMES.search(name)]
+    return [name for name in names if name not in TIME_FIELDS and _TIME_FIELD_NAME.search(name)]
 
 
 def implausible(times: PointTimes, period: int) -> str:
@@ -162,7 +162,7 @@ def _read(values: NDArray[Any], stamp: int, field: str, unit: str) -> PointTimes
     """Return the times in a field in one unit; None if they are not near the stamp."""
     known = np.isfinite(values)
     largest = float(np.abs(values[known].astype(np.float64)).max()) * UNITS[unit]
-    if not largest < _LATEST:
+    if not largest < _MAX_TIME:
         return None
     numbers = np.where(known, values, 0)
     # A float64 holds the current time in seconds with a resolution of a quarter of a microsecond.

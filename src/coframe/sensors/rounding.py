@@ -17,11 +17,11 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-__all__ = ["MIN_FAR", "as_float64", "float32_step", "rounding_text", "warn_of_rounding"]
+__all__ = ["MIN_FAR_DISTANCE", "as_float64", "float32_step", "rounding_text", "warn_of_rounding"]
 
-MIN_FAR = 16_384.0
+MIN_FAR_DISTANCE = 16_384.0
 """From this distance in meters on, neighboring float32 numbers differ by more than 1 mm."""
-_TRIED = 64  # points that are looked at: those of a cloud are close to each other
+_SAMPLED_POINTS = 64  # points that are looked at: those of a cloud are close to each other
 _MIN_MILLIMETRES, _METER = 0.9995, 1000.0
 
 
@@ -41,14 +41,14 @@ def farthest(coordinates: Iterable[NDArray[Any]]) -> float:
     """Return the largest coordinate of some of the points in meters; infinite and NaN are ignored."""
     largest = 0.0
     for each in coordinates:
-        some = np.abs(each.reshape(-1)[:: max(1, each.size // _TRIED)].astype(np.float64))
+        some = np.abs(each.reshape(-1)[:: max(1, each.size // _SAMPLED_POINTS)].astype(np.float64))
         largest = max(largest, float(some[np.isfinite(some)].max(initial=0.0)))
     return largest
 
 
 def warn_of_rounding(distance: float, position: tuple[NDArray[Any], ...], advice: str) -> None:
     """Warn if coordinates that are stored as float32 are far from the origin."""
-    if distance >= MIN_FAR and any(each.dtype.itemsize == 4 for each in position):
+    if distance >= MIN_FAR_DISTANCE and any(each.dtype.itemsize == 4 for each in position):
         message = f"{rounding_text(distance)}. {advice}"
         warnings.warn(message, CoframeWarning, stacklevel=_caller_level())
 
@@ -70,9 +70,9 @@ def as_float64(points: Any) -> Any:
 def _caller_level() -> int:
     """Return the stack level of the first caller outside of coframe and its ROS packages' conversions."""
     level, frame = 2, sys._getframe(2)  # noqa: SLF001
-    while frame.f_back is not None and str(frame.f_globals.get("__name__", "")).startswith(_OURS):
+    while frame.f_back is not None and str(frame.f_globals.get("__name__", "")).startswith(_OWN_MODULES):
         level, frame = level + 1, frame.f_back
     return level
 
 
-_OURS = ("coframe.", "tf2_ros", "tf2_sensor_msgs")
+_OWN_MODULES = ("coframe.", "tf2_ros", "tf2_sensor_msgs")

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 _REQUIREMENT: Final = re.compile(r"""([\w.-]+).*?extra == ['"](\w+)['"]""")
 # The extra for developers, and the one that combines others.
-_NOT_FOR_USERS: Final = {"all", "dev"}
+_INTERNAL_EXTRAS: Final = {"all", "dev"}
 
 
 @dataclass(frozen=True)
@@ -69,7 +69,7 @@ def _extras() -> dict[str, dict[str, str | None]]:
         return {}
     for requirement in requirements:
         found = _REQUIREMENT.match(requirement)
-        if found and found[1] != "coframe" and found[2] not in _NOT_FOR_USERS:
+        if found and found[1] != "coframe" and found[2] not in _INTERNAL_EXTRAS:
             extras.setdefault(found[2], {})[found[1]] = _version(found[1])
     return extras
 

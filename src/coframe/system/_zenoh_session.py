@@ -13,7 +13,7 @@ from coframe.wire.zenoh import config, connecting
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-_PATIENCE: Final = 2.0  # seconds; a router on another network answers within a few round trips
+_ROUTER_TIMEOUT: Final = 2.0  # seconds; a router on another network answers within a few round trips
 _VARIABLES: Final = (config.SESSION_FILE, config.OVERRIDE)
 
 
@@ -45,7 +45,7 @@ def probe_session(environment: Mapping[str, str]) -> ZenohProbe:
     chosen = config.session_config(environment)
     session = connecting.open_with(chosen)
     try:
-        end = time.monotonic() + _PATIENCE
+        end = time.monotonic() + _ROUTER_TIMEOUT
         while not session.info.routers_zid() and time.monotonic() < end:
             time.sleep(0.02)
         return ZenohProbe(

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
 _GROUP: Final = "239.255.0.1"  # the multicast group in which RTPS announces participants
-_PATIENCE: Final = 2.0  # seconds; much longer than a datagram or sample takes within one machine
+_RECEIVE_TIMEOUT: Final = 2.0  # seconds; much longer than a datagram or sample takes within one machine
 _REQUESTED_BUFFER: Final = 64 << 20  # bytes; more than any system grants without configuration
 
 
@@ -103,7 +103,7 @@ def _exchange(participant: int) -> bool:
         writer = _core.Writer(participant, topics[1], qos, "")
         arrived.clear()
         writer.write(message)
-        deadline = time.monotonic() + _PATIENCE
+        deadline = time.monotonic() + _RECEIVE_TIMEOUT
         received: list[tuple[bytes, int, int]] = []
         while not received and time.monotonic() < deadline:
             arrived.wait(20_000_000)
@@ -160,7 +160,7 @@ def multicast_problem(address: str) -> str:
             socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sender,
         ):
             receiver.bind(("", 0))
-            receiver.settimeout(_PATIENCE)
+            receiver.settimeout(_RECEIVE_TIMEOUT)
             group = socket.inet_aton(_GROUP) + interface
             receiver.setsockopt(socket.IPPROTO_IP, socket.IP_ADD_MEMBERSHIP, group)
             sender.setsockopt(socket.IPPROTO_IP, socket.IP_MULTICAST_IF, interface)

@@ -9,10 +9,10 @@ import time
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Final
 
-from coframe.system._examination import Attempts
 from coframe.system._installation import Installation, installation
+from coframe.system._middleware_check import StepRunner
 from coframe.system._variables import Variable, variables
-from coframe.system.examinations import examination_of
+from coframe.system.middleware_checks import check_of
 from coframe.system.network import Probe, SocketLimits, limits
 from coframe.wire import domains, selection
 from coframe.wire.dds import config, library
@@ -21,11 +21,11 @@ from coframe.wire.participant import Participant
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from coframe.system._examination import Problem
+    from coframe.system._middleware_check import FailedStep
     from coframe.system._zenoh_session import ZenohProbe
     from coframe.wire.dds.library import Place
 
-_SETTLED: Final = 1.0  # seconds without a new node; the others are found within a few round trips of the first one
+_SETTLE_TIME: Final = 1.0  # seconds without a new node; the others are found within a few round trips of the first one
 
 
 @dataclass(frozen=True)
@@ -36,7 +36,7 @@ class LibraryReport:
     path: str
     version: str
     searched: list[Place]
-    refused: list[str]
+    rejected: list[str]
 
 
 @dataclass(frozen=True)
@@ -73,7 +73,7 @@ class SystemReport:
     probe: Probe | None = None
     zenoh: ZenohProbe | None = None
     middleware: list[str] = field(default_factory=list)
-    problems: list[Problem] = field(default_factory=list)
+    problems: list[FailedStep] = field(default_factory=list)
 
 
 def collect(
@@ -86,11 +86,11 @@ def collect(
         listen: How long to search for other nodes, in seconds.
         environment: The environment variables.
     """
-    attempt = Attempts()
+    attempt = StepRunner()
     number = attempt(lambda: domains.domain_id(environment) if domain is None else domains.check_domain_id(domain))
     discovery = attempt(lambda: config.discovery_range(environment))
     wire = attempt(lambda: selection.select(environment))
-    examined = examination_of(wire).examine(number, environment, attempt)
+    examined = check_of(wire).examine(number, environment, attempt)
     nodes = None
     if examined.joins and number is not None and wire is not None:
         nodes = attempt(functools.partial(_other_nodes, number, wire.wire, listen))
@@ -113,7 +113,7 @@ def _library_report(environment: Mapping[str, str]) -> LibraryReport:
     searched, found = list(library.places(environment)), library.loaded()
     if found is None:
         return LibraryReport("", "", "", searched, [])
-    return LibraryReport(found.place.source, str(found.place.path), found.version, searched, list(found.refused))
+    return LibraryReport(found.place.source, str(found.place.path), found.version, searched, list(found.rejected))
 
 
 def _other_nodes(domain: int, wire: str, listen: float) -> list[str]:
@@ -123,7 +123,7 @@ def _other_nodes(domain: int, wire: str, listen: float) -> list[str]:
         end = time.monotonic() + listen
         nodes: list[str] = []
         changed = time.monotonic()
-        while time.monotonic() < end and not (nodes and time.monotonic() > changed + _SETTLED):
+        while time.monotonic() < end and not (nodes and time.monotonic() > changed + _SETTLE_TIME):
             now = sorted(f"{namespace.rstrip('/')}/{name}" for namespace, name in participant.nodes())
             if now != nodes:
                 nodes, changed = now, time.monotonic()

@@ -12,7 +12,7 @@ from coframe import _core
 from coframe._output.warn_once import WarnOnce
 from coframe.connection.tf_publishers import TfPublisher, publisher_state, tf_publisher
 from coframe.errors import WireError
-from coframe.frame_names import kept, renaming
+from coframe.frame_names import renaming, shared_frames
 from coframe.tf_relay._robots import RobotTopics, topic_of_kind
 from coframe.tf_relay._status import NotRelayed, RelayedEdge, RelayedRobot
 from coframe.time import MILLISECOND, SECOND
@@ -105,7 +105,7 @@ class Relay:
         warn: Callable[[str], None] | None,
     ) -> None:
         self._robots = robots
-        self._keep = kept(keep)
+        self._keep = shared_frames(keep)
         self._split = split
         self._period = 0 if rate is None else round(SECOND / rate)
         self._max_error = max_error

@@ -52,7 +52,7 @@ def associate(
         return reference, estimate
     is_estimate_longer = len(estimate) > len(reference)
     short, long = (reference.stamps, estimate.stamps) if is_estimate_longer else (estimate.stamps, reference.stamps)
-    in_short, in_long = _nearest(short, long, limit)
+    in_short, in_long = _nearest_pairs(short, long, limit)
     if not in_short.size:
         spans = [f"{seconds(int(s.min()))} to {seconds(int(s.max()))}" for s in (reference.stamps, estimate.stamps)]
         raise TrajectoryError(
@@ -65,7 +65,7 @@ def associate(
     return reference[in_long], estimate[in_short]
 
 
-def _nearest(
+def _nearest_pairs(
     stamps: NDArray[np.int64], others: NDArray[np.int64], limit: int
 ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
     """Return the indices of the pairs; if two stamps are equally near, the earlier one is used."""

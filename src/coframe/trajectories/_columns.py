@@ -75,7 +75,7 @@ def header_columns(line: str) -> Columns | None:
     for index, cell in enumerate(names):
         brackets = _UNIT.search(cell)
         name = _UNIT.sub("", cell).strip(' "').replace("/", ".").lstrip("._%")
-        meaning = _meaning(name)
+        meaning = _column_meaning(name)
         if meaning == "stamp" and "stamp" in found:
             if "header" not in name:
                 continue  # The stamp of the header is the time of the measurement.
@@ -116,7 +116,7 @@ def _unit_in(name: str) -> str:
     return (stamp[1] or "") if stamp else ""
 
 
-def _meaning(name: str) -> str:
+def _column_meaning(name: str) -> str:
     """Return which value has this name; "" for another one."""
     for meaning, pattern in (("nanoseconds", _NANOSECONDS), ("seconds", _WHOLE_SECONDS), ("stamp", _STAMP)):
         if pattern.fullmatch(name):

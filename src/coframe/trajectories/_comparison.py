@@ -180,7 +180,12 @@ def compare_trajectories(
     alignment = None if align == "none" else _align(reference, estimate, align)
     estimate = estimate if alignment is None else alignment.apply(estimate)
     return Comparison(
-        reference, estimate, alignment, _absolute(reference, estimate), _relative(reference, estimate, chosen), chosen
+        reference,
+        estimate,
+        alignment,
+        _absolute_errors(reference, estimate),
+        _relative(reference, estimate, chosen),
+        chosen,
     )
 
 
@@ -230,14 +235,14 @@ def _as_dict(errors: PoseErrors) -> dict[str, Any]:
     }
 
 
-def _absolute(reference: Transform, estimate: Transform) -> PoseErrors:
+def _absolute_errors(reference: Transform, estimate: Transform) -> PoseErrors:
     distance = np.linalg.norm(estimate.translation - reference.translation, axis=1)
     turn = quaternion.multiply(quaternion.inverse(estimate.quaternion), reference.quaternion)
     return PoseErrors(distance, _angles(turn), np.arange(len(distance)))
 
 
 def _relative(reference: Transform, estimate: Transform, delta: Delta) -> PoseErrors:
-    ends = _ends(estimate, reference.stamps if estimate.stamps is None else estimate.stamps, delta)
+    ends = _motion_ends(estimate, reference.stamps if estimate.stamps is None else estimate.stamps, delta)
     if len(ends) < 2:
         raise TrajectoryError(
             f"The relative error needs two poses that are {delta} apart; the {len(estimate)} paired poses have none",
@@ -256,7 +261,7 @@ def _motions(poses: Transform, ends: NDArray[np.intp]) -> tuple[NDArray[np.float
     return quaternion.rotate(inverse, t[1:] - t[:-1]), quaternion.multiply(inverse, q[1:])
 
 
-def _ends(poses: Transform, stamps: NDArray[np.int64] | None, delta: Delta) -> NDArray[np.intp]:
+def _motion_ends(poses: Transform, stamps: NDArray[np.int64] | None, delta: Delta) -> NDArray[np.intp]:
     """Return the indices at which the relative errors begin and end."""
     if delta.unit == "frames":
         return np.arange(0, len(poses), int(delta.value))

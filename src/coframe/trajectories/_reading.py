@@ -41,7 +41,7 @@ _ZIP = b"PK"
 _UTF_16 = (b"\xff\xfe", b"\xfe\xff")  # as PowerShell writes text
 _COMMAND = "`coframe trajectory BAG TARGET SOURCE -o FILE` writes the trajectory of a frame in a recording."
 _SECONDS = re.compile(r"(-?)(\d+)(?:\.(\d*))?", re.ASCII)
-_LATEST = 1 << 63
+_MAX_STAMP = 1 << 63
 # The columns of files without a header line.
 _W_LAST, _W_FIRST = (Columns(0, pose, None) for pose in ((1, 2, 3, 4, 5, 6, 7), (1, 2, 3, 5, 6, 7, 4)))
 _OPENVINS_COLUMNS = 20  # TUM, and twelve values of the covariance
@@ -219,7 +219,7 @@ class _Rows:
         numbers = np.frombuffer(self._numbers)
         if self._columns is None:
             return _matrices(self._file, numbers)
-        return _checked(self._file, numbers.reshape(-1, 7), self._times.nanoseconds(self._file))
+        return _checked_poses(self._file, numbers.reshape(-1, 7), self._times.nanoseconds(self._file))
 
 
 class _Times:
@@ -239,7 +239,7 @@ class _Times:
         if self._is_open and "." in text and abs(float(text)) < MAX_SECONDS:
             self._values = array("q", [value * SECOND for value in self._values])
             self._unit, self._is_open = SECOND, False
-        if self._unit == SECOND and MAX_SECONDS <= abs(float(text)) < _LATEST and len(text) <= _MAX_DIGITS:
+        if self._unit == SECOND and MAX_SECONDS <= abs(float(text)) < _MAX_STAMP and len(text) <= _MAX_DIGITS:
             raise _UnitError(f"the time {text} looks like nanoseconds, but times in this format are seconds")
         self._values.append(_nanoseconds(text, self._unit) + (int(nanoseconds) if nanoseconds else 0))
 
@@ -268,7 +268,7 @@ def _layout(file: Path, kind: str | None, cells: int, has_commas: bool) -> str:
     return found
 
 
-def _checked(
+def _checked_poses(
     file: Path,
     rows: NDArray[np.float64],
     stamps: NDArray[np.int64],
@@ -343,7 +343,7 @@ def _nanoseconds(text: str, unit: int) -> int:
     if match and unit == 1:
         return int(match[1] + match[2])
     time = decimal.Decimal(text) * unit
-    if abs(time) > _LATEST:
+    if abs(time) > _MAX_STAMP:
         raise OverflowError  # before int(), which takes half a minute for 1e999999
     if unit == 1 and time != time.to_integral_value():
         raise _UnitError(f"the time {text[:_MAX_DIGITS]} has a fraction, so it cannot be in nanoseconds")
@@ -357,7 +357,7 @@ def _read_npz(file: Path, stream: BinaryIO) -> _Poses:
             target, source = (str(data[name]) or None for name in ("target", "source"))
             rows = np.concatenate([data["translation"], data["quaternion"]], axis=1)
             _check_number(file, len(rows))
-            return _checked(file, rows, data["stamps"], target, source)
+            return _checked_poses(file, rows, data["stamps"], target, source)
     except (OSError, TrajectoryError):
         raise
     except Exception as error:  # noqa: BLE001 - NumPy and zipfile raise ten types for broken files

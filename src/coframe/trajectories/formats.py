@@ -94,7 +94,7 @@ def write_trajectory(
     first = next(batches, None)
     if first is None:
         raise ValueError("A trajectory needs at least one batch of poses; the iterable has none.")
-    batches = _reporting(chain([first], batches), progress or (lambda _written: None))
+    batches = _report_progress(chain([first], batches), progress or (lambda _written: None))
     rows = ((batch, {} if columns is None else columns(batch)) for batch in batches)
     if kind in _TEXT:
         with _text_stream(target) as stream:
@@ -124,7 +124,7 @@ def _checked(batches: Iterable[Transform]) -> Iterator[Transform]:
         yield poses
 
 
-def _reporting(batches: Iterable[Transform], progress: Callable[[int], object]) -> Iterator[Transform]:
+def _report_progress(batches: Iterable[Transform], progress: Callable[[int], object]) -> Iterator[Transform]:
     """Yield the batches in parts of at most `_ROWS` rows, and report how many have been written."""
     written = 0
     for poses in batches:

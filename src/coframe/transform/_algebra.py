@@ -9,7 +9,7 @@ import numpy as np
 
 from coframe import _core, quaternion
 from coframe.errors import FrameMismatchException, InvalidArgumentException
-from coframe.transform import _covariance as covariances
+from coframe.transform import _covariance
 from coframe.transform.interpolation import is_screw
 from coframe.transform.values import (
     TransformValues,
@@ -109,7 +109,7 @@ class TransformAlgebra(TransformValues):
         found = _of_rows(rows, self.shape, self.source, self.target, any_stamp(self))
         if self.covariance is None:
             return found
-        return _with(found, covariances.inverted(self.covariance, self.rotation, self.translation), self.exact_edges)
+        return _with(found, _covariance.inverted(self.covariance, self.rotation, self.translation), self.exact_edges)
 
     def interpolate(
         self, other: Transform, fraction: ArrayLike, *, interpolation: Interpolation = "decoupled"
@@ -147,9 +147,9 @@ class TransformAlgebra(TransformValues):
         found = _of_rows(rows, shape, target, source, _between_stamps(self, other, s))
         if self.covariance is None or other.covariance is None:
             return found
-        ends = [covariances.in_body(known_covariance(t, ""), t.rotation) for t in (self, other)]
+        ends = [_covariance.in_body(known_covariance(t, ""), t.rotation) for t in (self, other)]
         body = (1.0 - s)[..., None, None] * ends[0] + s[..., None, None] * ends[1]
-        return _with(found, covariances.from_body(body, found.rotation), (*self.exact_edges, *other.exact_edges))
+        return _with(found, _covariance.from_body(body, found.rotation), (*self.exact_edges, *other.exact_edges))
 
     def adjoint(self) -> Array:
         """Return the matrix that turns twists along the axes of ``source`` into twists along those of ``target``.
@@ -158,7 +158,7 @@ class TransformAlgebra(TransformValues):
             Shape (6, 6), for a batch (..., 6, 6), in the order linear, angular: ``t @ exp(xi)`` is the same as
             ``exp(t.adjoint() @ xi) @ t``.
         """
-        return covariances.adjoint(self.rotation, self.translation)
+        return _covariance.adjoint(self.rotation, self.translation)
 
     def distance(self, other: Transform) -> tuple[Any, Any]:
         """Return how far another pose is away.
@@ -255,8 +255,8 @@ class TransformAlgebra(TransformValues):
         """
         if covariance is None:
             return _with(self, None, ())
-        given = covariances.checked(covariance, self.shape)
-        return _with(self, covariances.from_convention(given, self.rotation, convention), ())
+        given = _covariance.checked(covariance, self.shape)
+        return _with(self, _covariance.from_convention(given, self.rotation, convention), ())
 
     def fuse(self, other: Transform) -> Transform:
         """Return the most likely pose given two independent estimates of it, with its covariance.
@@ -273,13 +273,13 @@ class TransformAlgebra(TransformValues):
         """
         target = common_frame(self.target, other.target, "fuse", self, other)
         source = common_frame(self.source, other.source, "fuse", self, other)
-        mine = covariances.in_body(known_covariance(self, "fuse()"), self.rotation)
-        others = covariances.in_body(known_covariance(other, "fuse()"), other.rotation)
-        x, body = covariances.fused(
+        mine = _covariance.in_body(known_covariance(self, "fuse()"), self.rotation)
+        others = _covariance.in_body(known_covariance(other, "fuse()"), other.rotation)
+        x, body = _covariance.fused(
             mine, others, lambda twist: (other.inverse() @ (self.with_covariance(None) @ self.exp(twist))).log()
         )
         pose = self.with_covariance(None) @ self.exp(x)
-        covariance = covariances.from_body(body, pose.rotation)
+        covariance = _covariance.from_body(body, pose.rotation)
         stamp = common_stamp(any_stamp(self), any_stamp(other))
         exact = (*self.exact_edges, *other.exact_edges)
         return derived(pose.translation, pose.quaternion, target, source, stamp, covariance, exact)
@@ -310,7 +310,7 @@ class TransformAlgebra(TransformValues):
             [quaternion.rotate(self.quaternion, error[..., :3]), quaternion.rotate(self.quaternion, error[..., 3:])],
             axis=-1,
         )
-        found = covariances.mahalanobis(turned, total)
+        found = _covariance.mahalanobis(turned, total)
         return float(found) if np.ndim(found) == 0 else found
 
     def ellipsoid(self, confidence: float = 0.95) -> Ellipsoid:
@@ -326,10 +326,10 @@ class TransformAlgebra(TransformValues):
         Raises:
             ValueError: There is no covariance, or ``confidence`` is not between 0 and 1.
         """
-        radii, axes = covariances.ellipsoid(known_covariance(self, "ellipsoid()"), confidence)
+        radii, axes = _covariance.ellipsoid(known_covariance(self, "ellipsoid()"), confidence)
         stamp = any_stamp(self)
         pose = derived(self.translation, quaternion.from_matrix(axes), self.target, None, stamp)
-        return covariances.Ellipsoid(pose, radii)
+        return _covariance.Ellipsoid(pose, radii)
 
     def _compose(self, other: Transform) -> Transform:
         if (single := _core.compose_single(self, other)) is not None:
@@ -348,7 +348,7 @@ class TransformAlgebra(TransformValues):
         found = _of_rows(rows, shape, self.target, other.source, stamp)
         if self.covariance is None and other.covariance is None:
             return found
-        moved = covariances.compounded(self.covariance, other.covariance, self.rotation, other.translation)
+        moved = _covariance.compounded(self.covariance, other.covariance, self.rotation, other.translation)
         return _with(found, moved, (*self.exact_edges, *other.exact_edges))
 
 

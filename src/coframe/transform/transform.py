@@ -13,8 +13,7 @@ from coframe import _core, quaternion
 from coframe._output import html_tables
 from coframe.errors import InvalidArgumentException
 from coframe.time import stamp_ns
-from coframe.transform import _covariance as covariances
-from coframe.transform import _messages as messages
+from coframe.transform import _covariance, _messages
 from coframe.transform._algebra import TransformAlgebra
 from coframe.transform.values import IDENTITY, any_stamp, arrow, batch_of, broadcast_stamps, derived
 
@@ -89,7 +88,7 @@ class Transform(TransformAlgebra):
             nanoseconds = None if stamp is None else stamp_ns(stamp)
             super().__init__(*values, target, source, nanoseconds, None)
             return
-        if messages.is_message(translation):
+        if _messages.is_message(translation):
             self._init_from_message(translation, target, source, stamp, covariance)
             return
         t = _vectors(translation, 3, "translation")
@@ -97,7 +96,7 @@ class Transform(TransformAlgebra):
         shape = np.broadcast_shapes(t.shape[:-1], q.shape[:-1])
         uncertainty = None
         if covariance is not None:
-            matrices = covariances.checked(covariance, shape)
+            matrices = _covariance.checked(covariance, shape)
             matrices.setflags(write=False)
             uncertainty = (matrices, ())
         if not shape:
@@ -113,7 +112,7 @@ class Transform(TransformAlgebra):
     def _init_from_message(
         self, message: Any, target: str | None, source: str | None, stamp: Any, covariance: ArrayLike | None
     ) -> None:
-        found = messages.contents(message)
+        found = _messages.contents(message)
         values = np.array([pose.values() for pose in found.poses]).reshape(-1, 7)
         values = values if found.is_list else values[0]
         if stamp is None:
@@ -421,7 +420,7 @@ class Transform(TransformAlgebra):
             ('map', 2.0)
         """
         time = self.stamp if stamp is None else stamp_ns(stamp)
-        return messages.filled(message_type, self, self.target if frame is None else frame, time)
+        return _messages.filled(message_type, self, self.target if frame is None else frame, time)
 
     @overload
     def __matmul__(self, other: Transform) -> Transform: ...
@@ -450,8 +449,8 @@ class Transform(TransformAlgebra):
         """
         if isinstance(other, Transform):
             return self._compose(other)
-        if messages.is_message(other):
-            return messages.moved(self, other, Transform)
+        if _messages.is_message(other):
+            return _messages.moved(self, other, Transform)
         points = _points(other)
         if self.shape:
             turned = quaternion.rotate(self.quaternion, points.astype(np.float64, copy=False)) + self.translation
@@ -508,9 +507,9 @@ class Transform(TransformAlgebra):
             ValueError: A covariance has another shape.
         """
         given = np.asarray(covariance, dtype=np.float64)
-        theirs = covariances.square(given, "covariance")
-        own = None if own_covariance is None else covariances.square(own_covariance, "own_covariance")
-        moved = covariances.compounded(own, theirs, self.rotation, pose.translation)
+        theirs = _covariance.square(given, "covariance")
+        own = None if own_covariance is None else _covariance.square(own_covariance, "own_covariance")
+        moved = _covariance.compounded(own, theirs, self.rotation, pose.translation)
         return self @ pose, moved.reshape(*moved.shape[:-2], 36) if given.shape[-2:] != (6, 6) else moved
 
     def is_close(self, other: Transform, *, translation: float = 1e-9, rotation: float = 1e-9) -> bool:
@@ -562,7 +561,7 @@ class Transform(TransformAlgebra):
         if stamp is not _KEEP:
             when = stamp_ns(stamp) if stamp is not None and not shape else stamp
         if covariance is not _KEEP:
-            matrices = None if covariance is None else covariances.checked(covariance, shape)
+            matrices = None if covariance is None else _covariance.checked(covariance, shape)
         new_target = self.target if target is _KEEP else target
         new_source = self.source if source is _KEEP else source
         exact = self.exact_edges if covariance is _KEEP else ()

@@ -9,7 +9,7 @@ import numpy as np
 
 from coframe import _core, quaternion
 from coframe.errors import FrameMismatchException
-from coframe.transform import _covariance as covariances
+from coframe.transform import _covariance
 
 if TYPE_CHECKING:
     from numpy.typing import DTypeLike, NDArray
@@ -205,7 +205,7 @@ class TransformValues(_core.Transform):
         Raises:
             ValueError: The convention is unknown, or the transform has no covariance.
         """
-        return covariances.to_convention(known_covariance(self, "as_covariance()"), self.rotation, convention)
+        return _covariance.to_convention(known_covariance(self, "as_covariance()"), self.rotation, convention)
 
     def as_scipy(self) -> tuple[Any, Array]:
         """Return the rotation as a SciPy object, and the translation.
@@ -298,7 +298,7 @@ def derived(
 
 def with_body_covariance(transform: TransformValues, matrices: Array, exact_edges: tuple[str, ...] = ()) -> Transform:
     """Return a pose with covariances along the axes of its source that need no check."""
-    covariance = covariances.from_body(matrices, transform.rotation)
+    covariance = _covariance.from_body(matrices, transform.rotation)
     t, q, stamp = transform.translation, transform.quaternion, any_stamp(transform)
     return derived(t, q, transform.target, transform.source, stamp, covariance, exact_edges)
 

@@ -5,7 +5,7 @@ The package is built in layers:
 
 - A `Forest` contains the frames in drawing order, each below its parent, with the statistics of its edges. `grow`
   builds it from an observation (`coframe.doctor`), live or recorded; the statistics are those of
-  `coframe.doctor.figures`.
+  `coframe.doctor.statistics`.
 - `labels` formats the statistics of a frame as short lines, and makes any name printable.
 - Each format has a module: `text` (rows for a terminal), `graphviz`, `mermaid`, `plain` (data for JSON), and `svg`,
   `pdf` and `png`, which write the boxes and lines that `layout` places.

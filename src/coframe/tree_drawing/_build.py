@@ -6,13 +6,13 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from coframe.analysis.tree import FrameTrees
-from coframe.doctor.figures import edge_figures
+from coframe.doctor.statistics import edge_statistics
 from coframe.doctor.wrong_stamps import wrong_offset
 from coframe.tree_drawing._forest import Forest, Frame
 
 if TYPE_CHECKING:
     from coframe.doctor import Observation
-    from coframe.doctor.figures import EdgeFigures
+    from coframe.doctor.statistics import EdgeStatistics
 
 __all__ = ["grow"]
 
@@ -22,8 +22,8 @@ def grow(observation: Observation) -> Forest:
     parents = {child: edge.parent for child, edge in observation.last.items()}
     # Children are drawn in alphabetical order.
     trees = FrameTrees.from_parents(parents, sorted(observation.frames))
-    figures: dict[str, list[EdgeFigures]] = {}
-    for edge in edge_figures(observation):
+    figures: dict[str, list[EdgeStatistics]] = {}
+    for edge in edge_statistics(observation):
         figures.setdefault(edge.child, []).append(edge)
     by_tree: list[list[int]] = [[] for _ in trees.roots]
     for number in trees.order:
@@ -39,7 +39,7 @@ def grow(observation: Observation) -> Forest:
     return Forest(observation.start, observation.end, observation.live, frames, counts, loops)
 
 
-def _frame(number: int, trees: FrameTrees, figures: list[EdgeFigures], seen: Observation) -> Frame:
+def _frame(number: int, trees: FrameTrees, figures: list[EdgeStatistics], seen: Observation) -> Frame:
     name, root = trees.names[number], trees.roots[trees.components[number]]
     edge = seen.last.get(name)
     parent = "" if edge is None else edge.parent

@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from coframe.analysis.clock_offset import ClockOffset
-    from coframe.doctor.figures import EdgeFigures
+    from coframe.doctor.statistics import EdgeStatistics
 
 __all__ = ["Forest", "Frame"]
 
@@ -37,8 +37,8 @@ class Frame:
     root: str
     depth: int
     children: tuple[str, ...]
-    edges: tuple[EdgeFigures, ...]
-    other_edges: tuple[EdgeFigures, ...]
+    edges: tuple[EdgeStatistics, ...]
+    other_edges: tuple[EdgeStatistics, ...]
     silence: int | None
     offset: ClockOffset | None = None
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 import unicodedata
 from typing import TYPE_CHECKING, NamedTuple
 
-from coframe._output.escaping import shown
+from coframe._output.escaping import display_name
 from coframe.tree_drawing.labels import alarms, figures, summary
 
 if TYPE_CHECKING:
@@ -29,9 +29,9 @@ _COLORS = {
 }
 _LINE = "#5c6873"
 _NAME, _SMALL, _TITLE = 14.0, 11.0, 20.0  # font sizes
-_LEADING = 1.35
+_LINE_SPACING = 1.35
 _PAD = 9.0
-_BROAD = frozenset("mwMW@%\N{HORIZONTAL ELLIPSIS}")
+_WIDE_CHARACTERS = frozenset("mwMW@%\N{HORIZONTAL ELLIPSIS}")
 _GAP, _COLUMN_GAP, _TREE_GAP, _MARGIN = 10.0, 44.0, 40.0, 24.0
 
 
@@ -110,14 +110,14 @@ def draw(forest: Forest, title: str, spell: Callable[[str], str] = str) -> TreeL
     """
     blocks = {name: _block(frame, spell) for name, frame in forest.frames.items()}
     shapes: list[Box | Line | Label] = []
-    shapes.append(Label(_MARGIN, _MARGIN + _TITLE, spell(shown(title)), _TITLE, bold=True))
+    shapes.append(Label(_MARGIN, _MARGIN + _TITLE, spell(display_name(title)), _TITLE, bold=True))
     shapes.append(Label(_MARGIN, _MARGIN + _TITLE + 22.0, spell(summary(forest)), _NAME, FAINT))
     shapes += _legend(_MARGIN + _TITLE + 38.0)
     top = _MARGIN + _TITLE + 76.0
     places: dict[str, _Place] = {}
     for number, tree in enumerate(forest.by_tree(), 1):
         if len(forest.trees) > 1:
-            heading = spell(f"Tree {number} of {len(forest.trees)}: {shown(tree[0].name)}")
+            heading = spell(f"Tree {number} of {len(forest.trees)}: {display_name(tree[0].name)}")
             shapes.append(Label(_MARGIN, top, heading, _NAME, FAINT, bold=True))
             top += 16.0
         top = _place(tree, blocks, top, places) + _TREE_GAP
@@ -131,15 +131,15 @@ def draw(forest: Forest, title: str, spell: Callable[[str], str] = str) -> TreeL
 
 
 def _block(frame: Frame, spell: Callable[[str], str]) -> _Block:
-    name = spell(shown(frame.name))
+    name = spell(display_name(frame.name))
     lines = [(spell(line), FAINT) for line in figures(frame)] + [(spell(line), ALARM) for line in alarms(frame)]
     width = max([_width(name, _NAME, bold=True), *(_width(line, _SMALL) for line, _ in lines)])
-    return _Block(name, lines, width + 2 * _PAD, (_NAME + _SMALL * len(lines)) * _LEADING + _PAD)
+    return _Block(name, lines, width + 2 * _PAD, (_NAME + _SMALL * len(lines)) * _LINE_SPACING + _PAD)
 
 
 def _width(text: str, size: float, bold: bool = False) -> float:
     """Return the estimated width in a sans-serif font; most text is narrower."""
-    units = sum(2.0 if unicodedata.east_asian_width(c) in "WF" else 1.4 if c in _BROAD else 1.0 for c in text)
+    units = sum(2.0 if unicodedata.east_asian_width(c) in "WF" else 1.4 if c in _WIDE_CHARACTERS else 1.0 for c in text)
     return units * size * (0.62 if bold else 0.54)
 
 
@@ -214,7 +214,7 @@ def _frame(frame: Frame, block: _Block, place: _Place) -> Iterator[Box | Label]:
     base = place.y + _PAD / 2 + _NAME
     yield Label(place.x + _PAD, base, block.name, _NAME, bold=True)
     for number, (line, color) in enumerate(block.lines, 1):
-        yield Label(place.x + _PAD, base + number * _SMALL * _LEADING, line, _SMALL, color)
+        yield Label(place.x + _PAD, base + number * _SMALL * _LINE_SPACING, line, _SMALL, color)
 
 
 def _legend(top: float) -> Iterator[Box | Label]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-from coframe._output.escaping import shown
+from coframe._output.escaping import display_name
 from coframe._output.formatting import duration
 
 if TYPE_CHECKING:
@@ -36,17 +36,19 @@ def changes(before: Forest, after: Forest) -> Iterator[Change]:
     for name, frame in after.frames.items():
         old = before.frames.get(name)
         if old is None:
-            yield Change("new", name, f"{shown(name)} is new: {_position(frame)}")
+            yield Change("new", name, f"{display_name(name)} is new: {_position(frame)}")
         elif old.parent != frame.parent:
-            yield Change("moved", name, f"{shown(name)} moved: now {_position(frame)}, previously {_position(old)}")
+            yield Change(
+                "moved", name, f"{display_name(name)} moved: now {_position(frame)}, previously {_position(old)}"
+            )
         elif frame.silence is not None and old.silence is None:
-            yield Change("stale", name, f"{shown(name)} is stale: no transform for {duration(frame.silence)}")
+            yield Change("stale", name, f"{display_name(name)} is stale: no transform for {duration(frame.silence)}")
         elif frame.silence is None and old.silence is not None:
-            yield Change("resumed", name, f"{shown(name)} is published again")
+            yield Change("resumed", name, f"{display_name(name)} is published again")
     for name, old in before.frames.items():
         if name not in after.frames:
-            yield Change("gone", name, f"{shown(name)} is gone; it was {_position(old)}")
+            yield Change("gone", name, f"{display_name(name)} is gone; it was {_position(old)}")
 
 
 def _position(frame: Frame) -> str:
-    return f"below {shown(frame.parent)}" if frame.parent else "a root"
+    return f"below {display_name(frame.parent)}" if frame.parent else "a root"

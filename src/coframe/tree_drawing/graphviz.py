@@ -5,13 +5,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from coframe._output.escaping import shown
-from coframe.tree_drawing.labels import alarms, edge_figures, figures, summary
+from coframe._output.escaping import display_name
+from coframe.tree_drawing.labels import alarms, edge_statistics, figures, summary
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
-    from coframe.doctor.figures import EdgeFigures
+    from coframe.doctor.statistics import EdgeStatistics
     from coframe.tree_drawing._forest import Forest, Frame
 
 __all__ = ["as_graphviz"]
@@ -24,18 +24,18 @@ def as_graphviz(forest: Forest, title: str) -> str:
     """Return the file as text: one cluster per tree; edges from other parents and those that close a loop in red."""
     ids = {name: _id(number, name) for number, name in enumerate(forest.frames)}
     head = ["digraph frames {", "  rankdir=LR;", "  node [shape=box, fontname=Helvetica];"]
-    head += ["  edge [fontname=Helvetica, fontsize=10];", f"  label={_quoted([shown(title), summary(forest)])};"]
+    head += ["  edge [fontname=Helvetica, fontsize=10];", f"  label={_quoted([display_name(title), summary(forest)])};"]
     return "\n".join([*head, *_trees(forest, ids), *_edges(forest, ids), "}", ""])
 
 
 def _trees(forest: Forest, ids: dict[str, str]) -> Iterator[str]:
     for number, tree in enumerate(forest.by_tree()):
         yield f"  subgraph cluster_{number} {{"
-        yield f"    label={_quoted([f'tree of {shown(tree[0].name)}'])};"
+        yield f"    label={_quoted([f'tree of {display_name(tree[0].name)}'])};"
         for name in (frame.name for frame in tree):
             # Without a label Graphviz shows the name, in which it reads backslashes as escapes.
-            is_label = shown(name) == ids[name] and "\\" not in name
-            label = "" if is_label else f" [label={_quoted([shown(name)])}]"
+            is_label = display_name(name) == ids[name] and "\\" not in name
+            label = "" if is_label else f" [label={_quoted([display_name(name)])}]"
             yield f"    {_quoted([ids[name]])}{label};"
         yield "  }"
 
@@ -46,8 +46,8 @@ def _edges(forest: Forest, ids: dict[str, str]) -> Iterator[str]:
             style = _style(forest, frame)
             label = _quoted([*figures(frame), *alarms(frame)])
             yield f"  {_quoted([ids[frame.parent]])} -> {_quoted([ids[frame.name]])} [label={label}{style}];"
-        for parent, edges in _by_parent(frame.other_edges).items():
-            lines = [line for edge in edges[:_MAX_LISTED] for line in edge_figures(edge)]
+        for parent, edges in _group_by_parent(frame.other_edges).items():
+            lines = [line for edge in edges[:_MAX_LISTED] for line in edge_statistics(edge)]
             ends = f"{_quoted([ids[parent]])} -> {_quoted([ids[frame.name]])}"
             yield f"  {ends} [label={_quoted(lines)}, color=red, constraint=false];"
 
@@ -60,8 +60,8 @@ def _style(forest: Forest, frame: Frame) -> str:
     return ", style=dashed" if frame.static else ""
 
 
-def _by_parent(edges: Iterable[EdgeFigures]) -> dict[str, list[EdgeFigures]]:
-    found: dict[str, list[EdgeFigures]] = {}
+def _group_by_parent(edges: Iterable[EdgeStatistics]) -> dict[str, list[EdgeStatistics]]:
+    found: dict[str, list[EdgeStatistics]] = {}
     for edge in edges:
         found.setdefault(edge.parent, []).append(edge)
     return found

@@ -6,7 +6,7 @@ from __future__ import annotations
 import json
 from typing import TYPE_CHECKING
 
-from coframe._output.escaping import shown
+from coframe._output.escaping import display_name
 from coframe.tree_drawing.labels import alarms, figures, summary
 
 if TYPE_CHECKING:
@@ -33,16 +33,16 @@ def as_markdown(forest: Forest, title: str) -> str:
 
 def as_mermaid(forest: Forest, title: str) -> str:
     """Return the flowchart alone."""
-    head = ["---", f"title: {json.dumps(f'{shown(title)}: {summary(forest)}')}", "---", "flowchart LR"]
+    head = ["---", f"title: {json.dumps(f'{display_name(title)}: {summary(forest)}')}", "---", "flowchart LR"]
     return "\n".join([*head, *_trees(forest), *_arrows(forest), *_classes(), ""])
 
 
 def _trees(forest: Forest) -> Iterator[str]:
     names = _ids(forest)
     for tree in forest.by_tree():
-        yield f'  subgraph t{names[tree[0].name]}["tree of {_escaped(shown(tree[0].name))}"]'
+        yield f'  subgraph t{names[tree[0].name]}["tree of {_escaped(display_name(tree[0].name))}"]'
         for frame in tree:
-            label = "<br/>".join(map(_escaped, [shown(frame.name), *figures(frame), *alarms(frame)]))
+            label = "<br/>".join(map(_escaped, [display_name(frame.name), *figures(frame), *alarms(frame)]))
             yield f'    {names[frame.name]}["{label}"]:::{frame.kind}'
         yield "  end"
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import pydyf
 
-from coframe._output.escaping import shown
+from coframe._output.escaping import display_name
 from coframe.tree_drawing._layout import Box, Line, draw
 
 if TYPE_CHECKING:
@@ -25,7 +25,7 @@ _MAX_PAGE_LENGTH = 14_400.0  # points; PDF readers may not support larger pages
 
 def as_pdf(forest: Forest, title: str) -> bytes:
     """Return the file as bytes."""
-    drawing = draw(forest, title, _spelled)
+    drawing = draw(forest, title, _replace_unsupported)
     scale = min(_POINT, _MAX_PAGE_LENGTH / max(drawing.width, drawing.height))
     page = pydyf.Stream(compress=True)
     page.set_matrix(scale, 0, 0, -scale, 0, drawing.height * scale)
@@ -33,7 +33,7 @@ def as_pdf(forest: Forest, title: str) -> bytes:
     for shape in drawing.shapes:
         _draw(page, shape)
     document = pydyf.PDF()
-    document.info["Title"] = pydyf.String(shown(title))
+    document.info["Title"] = pydyf.String(display_name(title))
     document.add_object(page)
     fonts = pydyf.Dictionary({name: _font(base) for name, base in _FONTS.items()})
     document.add_page(
@@ -86,5 +86,5 @@ def _rgb(color: str) -> tuple[float, float, float]:
     return red / 255, green / 255, blue / 255
 
 
-def _spelled(text: str) -> str:
+def _replace_unsupported(text: str) -> str:
     return text.encode(_ENCODING, "backslashreplace").decode(_ENCODING)

@@ -34,7 +34,7 @@ _POINT = 0.75  # points of 1/72 inch per pixel of the drawing
 
 def as_png(forest: Forest, title: str) -> bytes:
     """Return the file as bytes."""
-    drawing = draw(forest, title, _spelled)
+    drawing = draw(forest, title, _replace_unsupported)
     width, height = drawing.width / _INCH, drawing.height / _INCH
     density = min(_DENSITY, _MAX_SIDE / max(width, height), (_MAX_PIXELS / (width * height)) ** 0.5)
     figure = Figure(figsize=(width, height), facecolor="white")
@@ -74,6 +74,6 @@ def _draw(axes: Axes, shape: Box | Line | Label) -> None:
         )
 
 
-def _spelled(text: str) -> str:
+def _replace_unsupported(text: str) -> str:
     known = get_font(findfont(FontProperties(family=[_FONT]))).get_charmap()
     return "".join(c if ord(c) in known else c.encode("ascii", "backslashreplace").decode() for c in text)

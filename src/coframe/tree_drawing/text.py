@@ -5,14 +5,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-from coframe._output.escaping import shown
+from coframe._output.escaping import display_name
 from coframe.time import MILLISECOND
 from coframe.tree_drawing.labels import stamps_off
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from coframe.doctor.figures import EdgeFigures
+    from coframe.doctor.statistics import EdgeStatistics
     from coframe.tree_drawing._forest import Forest, Frame
 
 __all__ = ["COLUMNS", "Row", "rows"]
@@ -54,14 +54,14 @@ def rows(forest: Forest) -> Iterator[Row]:
 def _rows(frame: Frame, last: list[bool]) -> Iterator[Row]:
     to_name, below = _branches(frame, last)
     for number, edge in enumerate(frame.edges or (None,)):
-        name = "" if number else shown(frame.name)
+        name = "" if number else display_name(frame.name)
         yield Row(below if number else to_name, name, _cells(edge), frame.name, frame.kind)
     if frame.is_root and frame.parent:
-        yield Row(f"{below}in a loop: below ", shown(frame.parent), ("",) * 6, frame.name, "other")
+        yield Row(f"{below}in a loop: below ", display_name(frame.parent), ("",) * 6, frame.name, "other")
     if frame.offset is not None:
         yield Row(below, stamps_off(frame.offset), ("",) * 6, frame.name, "other")
     for edge in frame.other_edges:
-        yield Row(f"{below}also below ", shown(edge.parent), _cells(edge), frame.name, "other")
+        yield Row(f"{below}also below ", display_name(edge.parent), _cells(edge), frame.name, "other")
 
 
 def _branches(frame: Frame, last: list[bool]) -> tuple[str, str]:
@@ -75,15 +75,15 @@ def _branches(frame: Frame, last: list[bool]) -> tuple[str, str]:
     return trunks + deep + ("└─ " if last[-1] else "├─ "), trunks + deep + ("   " if last[-1] else "│  ") + stem
 
 
-def _cells(edge: EdgeFigures | None) -> tuple[str, ...]:
+def _cells(edge: EdgeStatistics | None) -> tuple[str, ...]:
     if edge is None:
         return ("", "root", *[""] * 4)
     if edge.static:
-        return (shown(edge.publisher), "static", *[""] * 4)
+        return (display_name(edge.publisher), "static", *[""] * 4)
     times = (edge.jitter, edge.delay, edge.delay_p99, edge.age)
     rate = "" if edge.rate is None else f"{edge.rate:.1f}"
     return (
-        shown(edge.publisher),
+        display_name(edge.publisher),
         rate,
         *("" if time is None else f"{round(time / MILLISECOND, 1) + 0.0:.1f}" for time in times),
     )

@@ -54,30 +54,30 @@ class FindingsWatcher:
 
     def __init__(self) -> None:
         self.report = FindingsReport("none")
-        self._examination: _Examination | None = None
+        self._job: _FindingsJob | None = None
         self._source: ViewerSource | None = None
 
     def watch(self, source: ViewerSource) -> None:
         """Examine a source and update the report, as long as this is called every few seconds."""
         if source is not self._source:
-            if self._examination is not None:
-                self._examination.end()
-                self._examination = None
+            if self._job is not None:
+                self._job.end()
+                self._job = None
             self._source, self.report = source, FindingsReport("none")
-        if self._examination is None or self._examination.has_timed_out:
-            self._examination = _Examination(source)
-        self._examination.last_request = time.monotonic()
-        self.report = self._examination.report
+        if self._job is None or self._job.has_timed_out:
+            self._job = _FindingsJob(source)
+        self._job.last_request = time.monotonic()
+        self.report = self._job.report
 
     def close(self) -> None:
         """End the examination and wait for its thread."""
-        if self._examination is not None:
-            self._examination.end()
-            self._examination.join()
-            self._examination = None
+        if self._job is not None:
+            self._job.end()
+            self._job.join()
+            self._job = None
 
 
-class _Examination:
+class _FindingsJob:
     """The examination of one source."""
 
     def __init__(self, source: ViewerSource) -> None:
@@ -147,12 +147,12 @@ def _row(finding: dict[str, Any], origin: int) -> FindingEntry:
         code=finding["code"],
         severity=finding["severity"],
         title=finding["title"],
-        subject=_shortened(" → ".join(edge) if edge else finding["topic"] or ""),
+        subject=_shorten(" → ".join(edge) if edge else finding["topic"] or ""),
         # An edge is shown in the row of its child.
         frames=[child for _, child in finding["edges"][:_MAX_FRAMES]] if edge else finding["frames"][:_MAX_FRAMES],
-        text=_shortened(finding["text"]),
+        text=_shorten(finding["text"]),
         why=finding["why"],
-        fix=_shortened(finding["fix"]),
+        fix=_shorten(finding["fix"]),
         publishers=finding["publishers"][:_MAX_FRAMES],
         first=None if stamp is None else stamp - origin,
         namespace=finding.get("namespace", ""),
@@ -160,5 +160,5 @@ def _row(finding: dict[str, Any], origin: int) -> FindingEntry:
     )
 
 
-def _shortened(text: str) -> str:
+def _shorten(text: str) -> str:
     return text if len(text) <= _MAX_TEXT else f"{text[:_MAX_TEXT]} …"

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
     from coframe.wire.endpoints import LocalEndpoint
 
-_COLLECTED: Final = 1.0  # seconds to wait after the first one, so that the warning contains the total number
+_COLLECTION_TIME: Final = 1.0  # seconds to wait after the first one, so that the warning contains the total number
 _REPEAT_AFTER: Final = 10.0  # seconds
 
 
@@ -34,6 +34,6 @@ class IgnoredMessageMonitor:
         for endpoint in endpoints:
             if not endpoint.has_warning:
                 continue
-            if now >= self._due.setdefault(endpoint, now + _COLLECTED):
+            if now >= self._due.setdefault(endpoint, now + _COLLECTION_TIME):
                 self._due[endpoint] = now + _REPEAT_AFTER
                 self._warn(endpoint.take_warning())

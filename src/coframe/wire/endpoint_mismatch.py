@@ -162,7 +162,7 @@ class MismatchMonitor:
                 about = own.guid
             unnamed: bytes = peer.guid[:_PREFIX_SIZE] if reason == "services" else peer.guid
             key = (about, node or unnamed, reason)
-            if self._warn_once.knows(key) or self._warn_once.knows((about, unnamed, reason)):
+            if self._warn_once.is_suppressed(key) or self._warn_once.is_suppressed((about, unnamed, reason)):
                 continue
             suspect = (own.guid, peer.guid, reason)
             since = suspects.get(suspect, now)

@@ -137,7 +137,7 @@ class LocalEndpoint:
     @property
     def matched(self) -> int:
         """The number of matched endpoints on the other side; 0 after `close`."""
-        return self._unless_closed(lambda: self._endpoint.matched, 0)
+        return self._read_unless_closed(lambda: self._endpoint.matched, 0)
 
     def writer(self, handle: int) -> DiscoveredEndpoint | None:
         """Return the writer that sent a `Sample`, given its handle; None if it has left."""
@@ -147,12 +147,12 @@ class LocalEndpoint:
 
     def matched_handles(self) -> set[int]:
         """Return the handles of the matched endpoints on the other side."""
-        return self._unless_closed(lambda: set(self._endpoint.matched_handles()), set())
+        return self._read_unless_closed(lambda: set(self._endpoint.matched_handles()), set())
 
     @property
     def refused_policy(self) -> int:
         """The DDS number of the QoS policy that made the last match fail; 0 if no match failed."""
-        return self._unless_closed(lambda: self._endpoint.refused_policy, 0)
+        return self._read_unless_closed(lambda: self._endpoint.refused_policy, 0)
 
     def take_status(self, kind: int) -> StatusCounts | None:
         """Return the counts of a status if it has changed since the last call.
@@ -201,7 +201,7 @@ class LocalEndpoint:
         if last:
             self._endpoint.close()
 
-    def _unless_closed(self, read: Callable[[], ValueT], closed: ValueT) -> ValueT:
+    def _read_unless_closed(self, read: Callable[[], ValueT], closed: ValueT) -> ValueT:
         try:
             return closed if self._closed else read()
         except _core.EndpointError:

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from typing import Literal, NamedTuple
 
-from coframe._output.escaping import shown
+from coframe._output.escaping import display_name
 from coframe.errors import WireError
 
 Kind = Literal["topic", "request", "reply"]
@@ -26,10 +26,11 @@ def check_name(name: str) -> None:
     """
     if (size := len(name.encode(errors="surrogatepass"))) > MAX_NAME:
         raise WireError(
-            f"The name {shown(name)!r} has {size} bytes. The limit is {MAX_NAME} bytes.", hint="Choose a shorter name."
+            f"The name {display_name(name)!r} has {size} bytes. The limit is {MAX_NAME} bytes.",
+            hint="Choose a shorter name.",
         )
     if any("\ud800" <= c <= "\udfff" for c in name):  # surrogates, which represent non-UTF-8 bytes in program arguments
-        raise WireError(f"The name {shown(name)!r} is not valid UTF-8.", hint="Choose another name.")
+        raise WireError(f"The name {display_name(name)!r} is not valid UTF-8.", hint="Choose another name.")
 
 
 def dds_topic(name: str, kind: Kind = "topic") -> str:

@@ -136,10 +136,10 @@ def select(environment: Mapping[str, str] = os.environ) -> Selection:
     Raises:
         WireError: COFRAME_WIRE has an invalid value.
     """
-    return _requested(environment) or _installed(environment)
+    return _requested_middleware(environment) or _installed_middleware(environment)
 
 
-def _requested(environment: Mapping[str, str]) -> Selection | None:
+def _requested_middleware(environment: Mapping[str, str]) -> Selection | None:
     """Return the middleware that the user has selected; None if there is no selection."""
     if environment is os.environ and _chosen:
         return Selection(_chosen["wire"], "--wire is given")
@@ -160,7 +160,7 @@ def _requested(environment: Mapping[str, str]) -> Selection | None:
     return None
 
 
-def _installed(environment: Mapping[str, str]) -> Selection:
+def _installed_middleware(environment: Mapping[str, str]) -> Selection:
     """Return the first middleware that is available; the default if there is none."""
     first = next((row for row in middlewares() if row.load().is_available(environment)), DEFAULT)
     if first is DEFAULT:
@@ -197,9 +197,9 @@ def resolve(wire: str | None) -> str:
     """
     if wire is not None:
         return row_of(wire).wire
-    if requested := _requested(os.environ):
+    if requested := _requested_middleware(os.environ):
         return requested.wire
-    found = _installed(os.environ)
+    found = _installed_middleware(os.environ)
     if found.wire != DEFAULT.wire and found.wire not in _logged:
         _logged.add(found.wire)
         title, reason = row_of(found.wire).title, found.reason

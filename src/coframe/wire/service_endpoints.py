@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from coframe.wire.request_header import RequestHeader
 
 
-class RefusedRequestError(WireError):
+class RejectedRequestError(WireError):
     """A request was not sent because the server would misread it."""
 
 
@@ -101,7 +101,7 @@ class ServicePublisher(RawPublisher):
             WireError: As for `Publisher.write`.
         """
         if self._sends_requests and (reason := self.refusal):
-            raise RefusedRequestError(reason)
+            raise RejectedRequestError(reason)
         super().write(cdr)
 
     def report_unreachable(self) -> None:

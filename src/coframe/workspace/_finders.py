@@ -33,7 +33,7 @@ _KINDS = ("msg", "srv", "action")
 _PACKAGE = re.compile(r"[a-z](?:_?[a-z0-9])*")
 # Packages of messages and services that many programs import, and whose names do not show what they are.
 _INTERFACES = {"robot_localization", "unitree_api", "unitree_go", "unitree_hg"}
-_LOOKS_LIKE_INTERFACES = re.compile(r".*_(?:msgs?|srvs?|actions?|interfaces?)")
+_INTERFACE_PACKAGE_NAME = re.compile(r".*_(?:msgs?|srvs?|actions?|interfaces?)")
 
 
 def install() -> None:
@@ -79,7 +79,7 @@ def find_module(name: str, path: Sequence[str] | None = None, _target: object = 
         return _spec(name, _DefinitionLoader()) if re.fullmatch(r"_[a-z0-9_]+", definition) else None
     if _is_foreign():
         return None
-    return _guarded(partial(_find_kind, package, kind, list(path or ())))
+    return _search_guarded(partial(_find_kind, package, kind, list(path or ())))
 
 
 def find_package(name: str, path: Sequence[str] | None = None, _target: object = None) -> ModuleSpec | None:
@@ -91,7 +91,7 @@ def find_package(name: str, path: Sequence[str] | None = None, _target: object =
     """
     if path is not None or not _PACKAGE.fullmatch(name) or name in sys.stdlib_module_names or _is_foreign():
         return None
-    return _guarded(partial(_find_package, name)) if _is_wanted(name) else None
+    return _search_guarded(partial(_find_package, name)) if _is_wanted(name) else None
 
 
 def _find_package(name: str) -> ModuleSpec | None:
@@ -99,7 +99,7 @@ def _find_package(name: str) -> ModuleSpec | None:
 
     if find_folder(name) is not None:
         return _spec(name, _PackageLoader())
-    if _LOOKS_LIKE_INTERFACES.fullmatch(name) or name in _INTERFACES:
+    if _INTERFACE_PACKAGE_NAME.fullmatch(name) or name in _INTERFACES:
         raise ModuleNotFoundError(_advice(name), name=name)
     return None
 
@@ -137,7 +137,7 @@ def _is_wanted(package: str) -> bool:
     return any(f"{package}.{kind}" in importing for kind in _KINDS)
 
 
-def _guarded(find: Callable[[], ModuleSpec | None]) -> ModuleSpec | None:
+def _search_guarded(find: Callable[[], ModuleSpec | None]) -> ModuleSpec | None:
     """Search, and report any error other than ImportError, because programs expect only ImportError from an import."""
     try:
         return find()

@@ -11,7 +11,7 @@ from pathlib import Path
 from ament_index_python.constants import AMENT_PREFIX_PATH_ENV_VAR
 from coframe.errors import PackageError
 from coframe.workspace.packages.finding import find_package, package_names
-from coframe.workspace.packages.folders import listed
+from coframe.workspace.packages.folders import existing_folders
 
 __all__ = [
     "PackageNotFoundError",
@@ -77,7 +77,9 @@ def _find(package_name: str) -> tuple[Path, Path]:
         package = find_package(package_name)
     except PackageError as error:
         searched = [
-            str(folder) for name in (AMENT_PREFIX_PATH_ENV_VAR, COFRAME_PACKAGE_PATH) for folder in listed(name)
+            str(folder)
+            for name in (AMENT_PREFIX_PATH_ENV_VAR, COFRAME_PACKAGE_PATH)
+            for folder in existing_folders(name)
         ]
         raise PackageNotFoundError(
             f"package '{package_name}' not found, searching: {searched}. {error.hint} "

@@ -46,7 +46,7 @@ def convert(image: Image, source: str, target: str) -> Image:
         if before.colors not in _PLAIN_COLORS and before != after:
             raise RuntimeError(f"Unsupported conversion from [{source}] to [{target}]")
         return _with_depth(image, before, after)
-    return _with_depth(_recolored(image, before.colors, after.colors, source, target), before, after)
+    return _with_depth(_convert_color(image, before.colors, after.colors, source, target), before, after)
 
 
 def _check_channels(before: Encoding, after: Encoding, source: str, target: str) -> None:
@@ -62,7 +62,7 @@ def _check_channels(before: Encoding, after: Encoding, source: str, target: str)
     raise RuntimeError(f"[{source}] and [{target}] do not have the same number of channel")
 
 
-def _recolored(image: Image, before: str, after: str, source: str, target: str) -> Image:
+def _convert_color(image: Image, before: str, after: str, source: str, target: str) -> Image:
     if after not in _PLAIN_COLORS or (before.startswith("Bayer") and len(after) == 4 and after != "GRAY"):
         raise RuntimeError(f"Unsupported conversion from [{source}] to [{target}]")
     cv2 = opencv("The conversion of colors by cv_bridge")
@@ -96,13 +96,13 @@ def _with_depth(image: Image, before: Encoding, after: Encoding) -> Image:
     if before.depth == after.depth:
         return image
     if (before.bits, after.bits) == (8, 16):
-        return _saturated(image * (65535.0 / 255.0), after.dtype)
+        return _saturate(image * (65535.0 / 255.0), after.dtype)
     if (before.bits, after.bits) == (16, 8):
-        return _saturated(image * (255.0 / 65535.0), after.dtype)
-    return _saturated(image, after.dtype)
+        return _saturate(image * (255.0 / 65535.0), after.dtype)
+    return _saturate(image, after.dtype)
 
 
-def _saturated(image: Image, dtype: str) -> Image:
+def _saturate(image: Image, dtype: str) -> Image:
     """Return the values as another type. Integers are rounded to even and limited to the range of the type."""
     if np.issubdtype(dtype, np.floating):
         return image.astype(dtype)

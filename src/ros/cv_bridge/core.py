@@ -98,7 +98,7 @@ class CvBridge:
             ModuleNotFoundError: OpenCV is needed and not installed.
         """
         pixels = self.__pixels(img_msg)
-        return pixels if desired_encoding == "passthrough" else _converted(pixels, img_msg.encoding, desired_encoding)
+        return pixels if desired_encoding == "passthrough" else _convert(pixels, img_msg.encoding, desired_encoding)
 
     def compressed_imgmsg_to_cv2(
         self, cmprs_img_msg: CompressedImage, desired_encoding: str = "passthrough"
@@ -128,7 +128,7 @@ class CvBridge:
                 f"'{cmprs_img_msg.format}'."
             )
         colors = _COLORS[pixels.shape[2] if pixels.ndim > 2 else 1]
-        return _converted(pixels, f"{colors}{8 * pixels.itemsize}", desired_encoding)
+        return _convert(pixels, f"{colors}{8 * pixels.itemsize}", desired_encoding)
 
     def cv2_to_imgmsg(self, cvim: Pixels, encoding: str = "passthrough", header: Header | None = None) -> Image:
         """Return an image message with a copy of pixels.
@@ -207,7 +207,7 @@ class CvBridge:
         return np.ascontiguousarray(pixels, dtype=dtype.newbyteorder("="))
 
 
-def _converted(pixels: Pixels, source: str, target: str) -> Pixels:
+def _convert(pixels: Pixels, source: str, target: str) -> Pixels:
     try:
         return cvtColor2(pixels, source, target)
     except RuntimeError as error:

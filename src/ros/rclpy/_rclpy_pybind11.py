@@ -18,7 +18,7 @@ from importlib import import_module
 from typing import Any, Final
 
 # Names that upstream defines in its native module and that are defined in a separate module here.
-_ELSEWHERE: Final = {
+_OTHER_MODULES: Final = {
     "ClockChange": "rclpy.clock",
     "ClockType": "rclpy._clock_type",
     "GoalEvent": "rclpy.action.server",
@@ -63,8 +63,8 @@ class InvalidHandle(RuntimeError):
 
 
 def __getattr__(name: str) -> Any:
-    if name in _ELSEWHERE:
-        module, _, attribute = _ELSEWHERE[name].partition(":")
+    if name in _OTHER_MODULES:
+        module, _, attribute = _OTHER_MODULES[name].partition(":")
         return getattr(import_module(module), attribute or name)
     raise AttributeError(
         f"{__name__} has no attribute {name!r}: coframe has no native module of rclpy. Use rclpy's public classes."

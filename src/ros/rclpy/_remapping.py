@@ -16,12 +16,12 @@ if TYPE_CHECKING:
 
 def remap_node(name: str, namespace: str, rules: list[Remap]) -> tuple[str, str]:
     """Return a node's name and namespace after `__node:=` and `__ns:=`. The first matching rule applies."""
-    new_name = _first(rules, "name", name) or name
-    new_namespace = _first(rules, "namespace", new_name) or namespace
+    new_name = _first_match(rules, "name", name) or name
+    new_namespace = _first_match(rules, "namespace", new_name) or namespace
     return new_name, new_namespace
 
 
-def _first(rules: list[Remap], kind: str, node_name: str) -> str | None:
+def _first_match(rules: list[Remap], kind: str, node_name: str) -> str | None:
     for rule in rules:
         if rule.kind == kind and rule.node in {None, node_name}:
             return rule.replacement

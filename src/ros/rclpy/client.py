@@ -18,7 +18,7 @@ from coframe.messages import codec
 from coframe.time import MILLISECOND
 from coframe.wire import request_header
 from coframe.wire.request_header import RequestHeader
-from coframe.wire.service_endpoints import RefusedRequestError
+from coframe.wire.service_endpoints import RejectedRequestError
 from rclpy._absent import Handle
 from rclpy._destroyable import LoggingEntity, destroyed
 from rclpy.constants import S_TO_NS
@@ -140,7 +140,7 @@ class Client(LoggingEntity):
         try:
             self.__requests.write(request_header.join(header, cdr))
             self.__events.publish(REQUEST_SENT, header, request=request)
-        except RefusedRequestError as error:
+        except RejectedRequestError as error:
             future.set_exception(error)
         return future
 
@@ -260,7 +260,7 @@ class Client(LoggingEntity):
             pending, self.__pending = self.__pending, {}
         for future, _ in pending.values():
             future._set_executor(self.__executor())
-            future.set_exception(RefusedRequestError(reason))
+            future.set_exception(RejectedRequestError(reason))
 
 
 def take_responses_until(clients: Sequence[Client], future: Future[Any], timeout_sec: float | None) -> None:

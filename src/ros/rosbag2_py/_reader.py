@@ -126,7 +126,7 @@ class SequentialReader:
         self.__begin(timestamp)
 
     def set_read_order(self, read_order: ReadOrder) -> bool:
-        """Return whether the order is supported: that of receipt is, which is the default."""
+        """Return whether the order is supported; only the receive order is, which is the default."""
         return read_order.sort_by is ReadOrderSortBy.ReceivedTimestamp and not read_order.reverse
 
     def __recording(self) -> Recording:

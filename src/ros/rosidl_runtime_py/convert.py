@@ -87,7 +87,7 @@ def message_to_ordereddict(
     options: dict[str, Any] = {"truncate_length": truncate_length, "no_arr": no_arr, "no_str": no_str}
     # Jazzy's messages have one more slot than types.
     slots = zip(msg.__slots__, msg.SLOT_TYPES, strict=False)
-    return OrderedDict((slot[1:], _plain(getattr(msg, slot), type_, **options)) for slot, type_ in slots)
+    return OrderedDict((slot[1:], _as_plain_value(getattr(msg, slot), type_, **options)) for slot, type_ in slots)
 
 
 def get_message_slot_types(msg: Any) -> OrderedDict[str, Any]:
@@ -99,7 +99,7 @@ def get_message_slot_types(msg: Any) -> OrderedDict[str, Any]:
     return OrderedDict((slot[1:], type_) for slot, type_ in zip(msg.__slots__, msg.SLOT_TYPES, strict=False))
 
 
-def _plain(
+def _as_plain_value(
     value: Any, type_: Any = None, *, truncate_length: int | None = None, no_arr: bool = False, no_str: bool = False
 ) -> Any:
     """Return a value of a field as YAML can represent it."""
@@ -119,7 +119,7 @@ def _items(sequence: Any, options: dict[str, Any]) -> list[Any]:
     limit = options["truncate_length"]
     shown = sequence[:limit]
     numbers = isinstance(shown, (array.array, np.ndarray))
-    items: list[Any] = shown.tolist() if numbers else [_plain(item, **options) for item in shown]
+    items: list[Any] = shown.tolist() if numbers else [_as_plain_value(item, **options) for item in shown]
     return items if limit is None or len(sequence) <= limit else [*items, "..."]
 
 

@@ -60,7 +60,7 @@ def _set_fields(message: Any, values: Any, setters: list[StampSetter], auto: boo
             new = type(field)()
             _set_fields(new, value, setters, auto, now)
         else:
-            new = _converted(field, value)
+            new = _convert(field, value)
         elements = getattr(type_, "value_type", None)
         if hasattr(elements, "namespaced_name"):
             new = [_element(elements, element, setters, auto, now) for element in new]
@@ -79,7 +79,7 @@ def _element(type_: Any, value: Any, setters: list[StampSetter], auto: bool, now
     return message
 
 
-def _converted(field: Any, value: Any) -> Any:
+def _convert(field: Any, value: Any) -> Any:
     """Return a value of a field that is not a message, with the type of its present value."""
     if isinstance(field, array.array):
         return array.array(field.typecode, value)

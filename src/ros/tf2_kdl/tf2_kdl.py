@@ -30,7 +30,7 @@ def transform_to_kdl(t: TransformStamped) -> Any:
 
 def do_transform_vector(vector: Any, transform: TransformStamped) -> Any:
     """Transform a point, a PyKDL.Vector. The result has the header of the transform."""
-    return _stamped(transform_to_kdl(transform) * vector, transform.header)
+    return _with_header(transform_to_kdl(transform) * vector, transform.header)
 
 
 def to_msg_vector(vector: Any) -> PointStamped:
@@ -42,12 +42,12 @@ def to_msg_vector(vector: Any) -> PointStamped:
 
 def from_msg_vector(msg: PointStamped) -> Any:
     """Return a message as a PyKDL.Vector with a header."""
-    return _stamped(_vector(msg.point), msg.header)
+    return _with_header(_vector(msg.point), msg.header)
 
 
 def do_transform_frame(frame: Any, transform: TransformStamped) -> Any:
     """Transform a pose, a PyKDL.Frame. The result has the header of the transform."""
-    return _stamped(transform_to_kdl(transform) * frame, transform.header)
+    return _with_header(transform_to_kdl(transform) * frame, transform.header)
 
 
 def to_msg_frame(frame: Any) -> PoseStamped:
@@ -61,12 +61,12 @@ def to_msg_frame(frame: Any) -> PoseStamped:
 
 def from_msg_frame(msg: PoseStamped) -> Any:
     """Return a message as a PyKDL.Frame with a header."""
-    return _stamped(_frame(msg.pose.position, msg.pose.orientation), msg.header)
+    return _with_header(_frame(msg.pose.position, msg.pose.orientation), msg.header)
 
 
 def do_transform_twist(twist: Any, transform: TransformStamped) -> Any:
     """Transform a twist, a PyKDL.Twist, to the origin and the axes of another frame."""
-    return _stamped(transform_to_kdl(transform) * twist, transform.header)
+    return _with_header(transform_to_kdl(transform) * twist, transform.header)
 
 
 def to_msg_twist(twist: Any) -> TwistStamped:
@@ -79,12 +79,12 @@ def to_msg_twist(twist: Any) -> TwistStamped:
 
 def from_msg_twist(msg: TwistStamped) -> Any:
     """Return a message as a PyKDL.Twist with a header."""
-    return _stamped(PyKDL.Twist(_vector(msg.twist.linear), _vector(msg.twist.angular)), msg.header)
+    return _with_header(PyKDL.Twist(_vector(msg.twist.linear), _vector(msg.twist.angular)), msg.header)
 
 
 def do_transform_wrench(wrench: Any, transform: TransformStamped) -> Any:
     """Transform a wrench, a PyKDL.Wrench, to the origin and the axes of another frame."""
-    return _stamped(transform_to_kdl(transform) * wrench, transform.header)
+    return _with_header(transform_to_kdl(transform) * wrench, transform.header)
 
 
 def to_msg_wrench(wrench: Any) -> WrenchStamped:
@@ -97,7 +97,7 @@ def to_msg_wrench(wrench: Any) -> WrenchStamped:
 
 def from_msg_wrench(msg: WrenchStamped) -> Any:
     """Return a message as a PyKDL.Wrench with a header."""
-    return _stamped(PyKDL.Wrench(_vector(msg.wrench.force), _vector(msg.wrench.torque)), msg.header)
+    return _with_header(PyKDL.Wrench(_vector(msg.wrench.force), _vector(msg.wrench.torque)), msg.header)
 
 
 def _vector(message: Any) -> Any:
@@ -112,7 +112,7 @@ def _store(vector: Any, message: Vector3 | Any) -> None:
     message.x, message.y, message.z = vector[0], vector[1], vector[2]
 
 
-def _stamped(value: Any, header: Any) -> Any:
+def _with_header(value: Any, header: Any) -> Any:
     """Return a copy of an object of PyKDL with a header."""
     stamped = _STAMPED[type(value)](value)
     stamped.header = header
@@ -132,10 +132,12 @@ def _register() -> None:
             transforms.add(class_, transform)
             conversions.add_to_msg(class_, to_msg)
             conversions.add_from_msg(class_, from_msg)
-            conversions.add_convert((_STAMPED[plain], class_), lambda value: _stamped(_plain(value), value.header))
+            conversions.add_convert(
+                (_STAMPED[plain], class_), lambda value: _with_header(_without_header(value), value.header)
+            )
 
 
-def _plain(value: Any) -> Any:
+def _without_header(value: Any) -> Any:
     """Return a copy of an object without its header."""
     return type(value).__mro__[1](value)
 

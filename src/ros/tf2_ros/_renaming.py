@@ -10,10 +10,10 @@ from geometry_msgs.msg import TransformStamped
 
 def renamed(transforms: Iterable[TransformStamped], renaming: Renaming | None) -> list[TransformStamped]:
     """Return the transforms with renamed frames. The given transforms are not modified."""
-    return list(transforms) if renaming is None else [_renamed(transform, renaming) for transform in transforms]
+    return list(transforms) if renaming is None else [_rename(transform, renaming) for transform in transforms]
 
 
-def _renamed(transform: TransformStamped, renaming: Renaming) -> TransformStamped:
+def _rename(transform: TransformStamped, renaming: Renaming) -> TransformStamped:
     result = copy(transform)
     result.header = copy(transform.header)
     result.header.frame_id = renaming(transform.header.frame_id)

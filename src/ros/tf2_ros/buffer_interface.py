@@ -59,7 +59,7 @@ class BufferInterface:
         do_transform = self.registration.get(type(object_stamped))
         header = object_stamped.header
         found = self.lookup_transform(target_frame, header.frame_id, header.stamp, timeout)
-        return _converted(do_transform(object_stamped, found), new_type)
+        return _convert(do_transform(object_stamped, found), new_type)
 
     def transform_full(
         self,
@@ -81,7 +81,7 @@ class BufferInterface:
         found = self.lookup_transform_full(
             target_frame, target_time, header.frame_id, header.stamp, fixed_frame, timeout
         )
-        return _converted(do_transform(object_stamped, found), new_type)
+        return _convert(do_transform(object_stamped, found), new_type)
 
     def lookup_transform(
         self, target_frame: str, source_frame: str, time: Time | TimeMessage, timeout: Duration = _NO_WAIT
@@ -128,7 +128,7 @@ def _not_implemented() -> NoReturn:
     raise NotImplementedException
 
 
-def _converted(result: Any, new_type: type | None) -> Any:
+def _convert(result: Any, new_type: type | None) -> Any:
     return result if new_type is None else convert(result, new_type)
 
 
@@ -173,7 +173,7 @@ class TransformRegistration:
         Raises:
             TypeException: The type is not registered.
         """
-        return _registered(self.__type_map, key)
+        return _find_conversion(self.__type_map, key)
 
 
 class ConvertRegistration:
@@ -197,22 +197,22 @@ class ConvertRegistration:
 
     def get_from_msg(self, key: type) -> Callable[[Any], Any]:
         """Return the function that converts a message to a type, or raise `TypeException`."""
-        return _registered(self.__from_msg_map, key)
+        return _find_conversion(self.__from_msg_map, key)
 
     def get_to_msg(self, key: type) -> Callable[[Any], Any]:
         """Return the function that converts a type to a message, or raise `TypeException`."""
-        return _registered(self.__to_msg_map, key)
+        return _find_conversion(self.__to_msg_map, key)
 
     def get_convert(self, key: tuple[type, type]) -> Callable[[Any], Any]:
         """Return the direct converter between two types, or raise `TypeException`."""
-        return _registered(self.__convert_map, key)
+        return _find_conversion(self.__convert_map, key)
 
 
 _Key = TypeVar("_Key")
 _Value = TypeVar("_Value")
 
 
-def _registered(table: dict[_Key, _Value], key: _Key) -> _Value:
+def _find_conversion(table: dict[_Key, _Value], key: _Key) -> _Value:
     try:
         return table[key]
     except KeyError:

@@ -45,7 +45,7 @@ def do_transform_imu(imu: Imu, transform: TransformStamped) -> Imu:
     for name in ("angular_velocity", "linear_acceleration"):
         covariance = getattr(imu, f"{name}_covariance")
         if covariance[0] != _NOT_MEASURED:
-            setattr(result, name, _rotated(getattr(imu, name), rotation))
+            setattr(result, name, _rotate(getattr(imu, name), rotation))
             rotated = rotation @ np.reshape(covariance, (3, 3)) @ rotation.T
             setattr(result, f"{name}_covariance", rotated.reshape(9))
     return result
@@ -66,7 +66,7 @@ def _target_orientation(orientation: Quaternion, frame_rotation: Array) -> Quate
     return result
 
 
-def _rotated(vector: Vector3, rotation: Array) -> Vector3:
+def _rotate(vector: Vector3, rotation: Array) -> Vector3:
     result = Vector3()
     result.x, result.y, result.z = (rotation @ [vector.x, vector.y, vector.z]).tolist()
     return result

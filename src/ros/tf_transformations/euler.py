@@ -88,7 +88,7 @@ def euler_from_matrix(matrix: ArrayLike, axes: str = "sxyz") -> Angles:
     """
     convention = _parse(axes)
     rotation = np.asarray(matrix, dtype=np.float64)[:3, :3]
-    angles = (_repeated if convention.i == convention.k else _distinct)(rotation, convention)
+    angles = (_proper_euler_angles if convention.i == convention.k else _distinct)(rotation, convention)
     return angles[::-1] if convention.reverse else angles
 
 
@@ -107,7 +107,7 @@ def _distinct(m: Array, axes: _Axes) -> Angles:
     return math.atan2(-sign * m[j, k], m[j, j]), second, 0.0
 
 
-def _repeated(m: Array, axes: _Axes) -> Angles:
+def _proper_euler_angles(m: Array, axes: _Axes) -> Angles:
     """Return the angles of a convention whose first and last axis are equal (proper Euler).
 
     There are two solutions. As in `transforms3d`, the second angle has the sign of the axes.

@@ -57,7 +57,7 @@ class DrawSquare(Node):
         if pose is None:
             return
         if self.__goal is None:
-            self.__set_goal(_ahead(pose), _State.FORWARD)
+            self.__set_goal(_target_ahead(pose), _State.FORWARD)
         elif self.__state in {_State.FORWARD, _State.TURN}:
             self.__approach(self.__goal, pose)
         elif pose.linear_velocity >= _STOPPED or pose.angular_velocity >= _STOPPED:
@@ -65,9 +65,9 @@ class DrawSquare(Node):
         else:
             self.get_logger().info("Reached goal")
             if self.__state is _State.STOP_FORWARD:
-                self.__set_goal(_turned(pose), _State.TURN)
+                self.__set_goal(_target_turned(pose), _State.TURN)
             else:
-                self.__set_goal(_ahead(pose), _State.FORWARD)
+                self.__set_goal(_target_ahead(pose), _State.FORWARD)
 
     def __approach(self, goal: _Goal, pose: Pose) -> None:
         forward = self.__state is _State.FORWARD
@@ -87,11 +87,11 @@ class DrawSquare(Node):
         self.__commands.publish(command)
 
 
-def _ahead(pose: Pose) -> _Goal:
+def _target_ahead(pose: Pose) -> _Goal:
     return _Goal(math.cos(pose.theta) * _SIDE + pose.x, math.sin(pose.theta) * _SIDE + pose.y, pose.theta)
 
 
-def _turned(pose: Pose) -> _Goal:
+def _target_turned(pose: Pose) -> _Goal:
     theta = math.fmod(pose.theta + math.pi / 2, math.tau)
     return _Goal(pose.x, pose.y, theta - math.tau if theta >= math.pi else theta)
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from coframe._output.escaping import printable, shown
+from coframe._output.escaping import display_name, printable
 from coframe.nodes.program import program, spin_until_shutdown
 from rcl_interfaces.msg import IntegerRange, ParameterDescriptor
 from rclpy.exceptions import NameValidationException
@@ -84,7 +84,7 @@ class TurtleSim(Node):
     def __fault(self, request: Spawn.Request) -> str:
         """Return why a turtle cannot be spawned; "" if it can be."""
         if request.name in self.__turtles:
-            return f"A turtle named [{shown(request.name)}] already exists"
+            return f"A turtle named [{display_name(request.name)}] already exists"
         if len(self.__turtles) >= MAX_TURTLES:
             return f"There are already {MAX_TURTLES} turtles, which is the maximum"
         if not is_in_range(request.x, request.y, request.theta):
@@ -95,13 +95,13 @@ class TurtleSim(Node):
             if request.name:
                 validate_full_topic_name(f"/{request.name}")
         except NameValidationException as error:
-            return f"[{shown(request.name)}] cannot be the name of a turtle: {printable(str(error))}"
+            return f"[{display_name(request.name)}] cannot be the name of a turtle: {printable(str(error))}"
         return ""
 
     def __kill(self, request: Kill.Request, response: Kill.Response) -> Kill.Response:
         turtle = self.__turtles.pop(request.name, None)
         if turtle is None:
-            self.get_logger().error(f"Tried to kill turtle [{shown(request.name)}], which does not exist")
+            self.get_logger().error(f"Tried to kill turtle [{display_name(request.name)}], which does not exist")
         else:
             turtle.destroy()
         return response

@@ -239,8 +239,7 @@ function lines(item: DrawableMarker, points: Float32Array, colors: Float32Array)
 
 function linear(colors: Float32Array, count: number): Float32Array {
   const out = new Float32Array(count * 3);
-  for (let i = 0; i < count; i++)
-    colorOf(colors.subarray(i * 4, i * 4 + 3) as unknown as number[]).toArray(out, i * 3);
+  for (let i = 0; i < count; i++) colorOf(colors.subarray(i * 4, i * 4 + 3) as unknown as number[]).toArray(out, i * 3);
   return out;
 }
 

@@ -3,7 +3,7 @@
 
 import type { Pane } from "../dock/dock";
 import type { Model } from "../model/model";
-import type { LogEntry, LogLevel, Problem } from "../protocol/messages";
+import type { LogEntry, LogLevel, ProblemReport } from "../protocol/messages";
 import { fillSelect, h, select, setText, shorten } from "../util/dom";
 import * as format from "../util/format";
 import { remember, remembered } from "../util/storage";
@@ -106,7 +106,7 @@ export class LogPane implements Pane {
     this.schedule();
   }
 
-  private entryOf({ text, hint }: Problem): LogEntry {
+  private entryOf({ text, hint }: ProblemReport): LogEntry {
     const stamp = Number(BigInt(Date.now()) * 1_000_000n - this.model.origin);
     return { stamp, level: "warning", node: "coframe.viewer", text: `${text} ${hint}`.trim(), place: "" };
   }

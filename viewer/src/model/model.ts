@@ -17,15 +17,15 @@ import type {
   LogEntries,
   NodeGeometry,
   NodeGraph,
-  Problem,
-  Published,
+  ProblemReport,
+  PublishResult,
   RemovedNodes,
   RemovedWidgets,
   Relation,
   ReplayPrepared,
   RobotModel,
   RvizConfiguration,
-  Saved,
+  RvizSaved,
   SceneNode,
   Stats,
   FrameUpdate,
@@ -47,12 +47,12 @@ export interface ModelEvents {
   rviz: RvizConfiguration;
   relation: Relation;
   timeline: Timeline;
-  problem: Problem;
+  problem: ProblemReport;
   findings: FindingEntries;
   page: CodePage;
-  published: Published;
+  published: PublishResult;
   replay: ReplayPrepared;
-  saved: Saved;
+  saved: RvizSaved;
   curve: CurveStatus;
   curves: Curves;
   inspection: Inspection;
@@ -165,7 +165,7 @@ export class Model extends Emitter<ModelEvents> {
   solo: string | null = null;
   clock: Clock = { live: true, playing: false, speed: 1, loop: null };
   /** The last problems that the server has reported. */
-  readonly problems: Problem[] = [];
+  readonly problems: ProblemReport[] = [];
   /** The number of invalid messages received. */
   invalidMessages = 0;
   /** The last seek that is not yet visible in frame updates: its time, and when it was requested. */
@@ -240,7 +240,7 @@ export class Model extends Emitter<ModelEvents> {
   }
 
   /** Stores and announces a problem. */
-  report(problem: Problem): void {
+  report(problem: ProblemReport): void {
     this.problems.push(problem);
     if (this.problems.length > MAX_PROBLEMS) this.problems.shift();
     this.emit("problem", problem);

@@ -19,7 +19,7 @@ __all__ = ["child_environment", "pass_to_children", "python_command", "python_en
 
 _START = str(Path(__file__).with_name("start.py"))
 # Variables that would make a process without a terminal wait for input, or run a file at startup or exit.
-_OMITTED = ("PYTHONINSPECT", "PYTHONSTARTUP")
+_OMITTED_VARIABLES = ("PYTHONINSPECT", "PYTHONSTARTUP")
 _PATH = "PYTHONPATH"
 
 # What this process passes on: variable -> (value, value in the environment of this process at that time).
@@ -68,7 +68,7 @@ def python_environment(base: Mapping[str, str] | None = None) -> dict[str, str]:
         base: The base environment; None for the environment of this process.
     """
     environment = child_environment(base)
-    for name in _OMITTED:
+    for name in _OMITTED_VARIABLES:
         environment.pop(name, None)
     if _PATH in environment:
         elements = [str(Path(element).absolute()) for element in environment.pop(_PATH).split(os.pathsep) if element]

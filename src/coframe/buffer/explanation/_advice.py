@@ -41,7 +41,7 @@ def advice(found: Explanation, error: TransformException, *, recorded: bool) -> 
     if recorded:
         first, last = found.span
         return hint("outside", first=seconds(first), last=seconds(last))
-    return _late(found, edge) if edge.by > 0 else _early(found, edge)
+    return _late_advice(found, edge) if edge.by > 0 else _early_advice(found, edge)
 
 
 def no_common_time(found: Explanation) -> ExtrapolationException:
@@ -65,7 +65,7 @@ def _no_common_time(found: Explanation) -> str:
     return hint("no_common_time", limit=ends.name, parent=begins.parent, child=begins.child)
 
 
-def _late(found: Explanation, edge: ChainEdge) -> str:
+def _late_advice(found: Explanation, edge: ChainEdge) -> str:
     facts = {"parent": edge.parent, "child": edge.child, "target": found.target, "source": found.source}
     if found.now is not None and edge.stale:
         publisher = f", {edge.publisher}," if edge.publisher else ""
@@ -78,7 +78,7 @@ def _late(found: Explanation, edge: ChainEdge) -> str:
     return hint("too_new", timeout=f"{timeout:g}", **facts)
 
 
-def _early(found: Explanation, edge: ChainEdge) -> str:
+def _early_advice(found: Explanation, edge: ChainEdge) -> str:
     cache_is_full = 0 <= found.cache <= edge.newest - edge.oldest + 2 * edge.period
     if cache_is_full:
         return hint("too_old", parent=edge.parent, child=edge.child)

@@ -11,7 +11,7 @@ from dataclasses import replace
 from itertools import pairwise
 from typing import TYPE_CHECKING, NamedTuple
 
-from coframe.analysis.clocks import present_for
+from coframe.analysis.clocks import current_time_for
 from coframe.analysis.liveness import buffered_period, is_stale
 from coframe.analysis.missing_edges import MissingEdge, missing_edge
 from coframe.analysis.tree import FrameTrees
@@ -88,7 +88,7 @@ def explain(
         edges=edges,
         frames=frames,
         roots=roots,
-        missing=None if roots is None else _missing(seen, roots),
+        missing=None if roots is None else _find_missing_edge(seen, roots),
         limit=_limit(edges, when) if stamp == 0 else None,
         span=_span(edges) if roots is None else None,
         possible_at=None if roots is None else _possible_at(seen, target, source, edges),
@@ -140,7 +140,7 @@ def _steps_above(buffer: Buffer, frames: tuple[str, ...], stamp: int) -> dict[st
 def _present(now: StampLike | None, newest: int, *, recorded: bool) -> int | None:
     if now is not None:
         return stamp_ns(now)
-    return None if recorded else present_for(newest)
+    return None if recorded else current_time_for(newest)
 
 
 def _edge(buffer: Buffer, step: _Step, info: EdgeInfo, when: int, stamp: int, present: int | None) -> ChainEdge:
@@ -181,7 +181,7 @@ def _span(edges: tuple[ChainEdge, ...]) -> tuple[int, int] | None:
     return (first, last) if first <= last else None
 
 
-def _missing(buffer: Buffer, roots: tuple[str, str]) -> MissingEdge | None:
+def _find_missing_edge(buffer: Buffer, roots: tuple[str, str]) -> MissingEdge | None:
     """Return the edge that the frame names suggest, or else the one between the roots."""
     trees = FrameTrees.from_parents({frame.name: frame.parent for frame in buffer.frames()})
     if not all(root in trees.index for root in roots):

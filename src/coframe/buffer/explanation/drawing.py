@@ -6,7 +6,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, NamedTuple
 
 from coframe._output import html_tables
-from coframe._output.escaping import one_line, shown
+from coframe._output.escaping import display_name, one_line
 from coframe._output.formatting import count, duration, seconds
 from coframe.analysis.liveness import stale_limit, usual_gap
 
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
     from coframe.buffer.explanation._facts import ChainEdge, Explanation
 
-__all__ = ["draw", "draw_html", "remark", "verdict"]
+__all__ = ["draw", "draw_html", "edge_remark", "verdict"]
 
 _MAX_INDENTED_LEVELS = 20  # levels of indentation; more would leave no room for the columns
 _LOOP_LINES = "\nFrame "  # after the first line of tf2's message about a loop, which lists all frames
@@ -57,7 +57,7 @@ def _advice(found: Explanation) -> Iterator[str]:
 
 def verdict(found: Explanation) -> str:
     """Return a sentence that says whether there is a transform and, if not, which edge is the reason."""
-    frames = f"from {shown(found.source)} to {shown(found.target)}"
+    frames = f"from {display_name(found.source)} to {display_name(found.target)}"
     if found.answered is None:
         when = f" at {seconds(found.stamp)}" if found.stamp else ""
         return f"no: there is no transform {frames}{when}: {_reason(found)}"
@@ -66,11 +66,13 @@ def verdict(found: Explanation) -> str:
     if not found.answered:
         return f"yes: there is a transform {frames} at any time"
     age = f", {duration(found.now - found.answered)} old" if found.now is not None else ""
-    limit = f", limited by {' -> '.join(map(shown, found.limit))}" if found.limit and len(found.edges) > 1 else ""
+    limit = (
+        f", limited by {' -> '.join(map(display_name, found.limit))}" if found.limit and len(found.edges) > 1 else ""
+    )
     return f"yes: there is a transform {frames}, the latest at {seconds(found.answered)}{age}{limit}"
 
 
-def remark(found: Explanation, edge: ChainEdge) -> str:
+def edge_remark(found: Explanation, edge: ChainEdge) -> str:
     """Return what is wrong or unusual about an edge, and by how much; "" if nothing is."""
     return _anomaly(found, edge) if edge.state == "ok" else _fault(found, edge)
 
@@ -94,7 +96,7 @@ def _fault(found: Explanation, edge: ChainEdge) -> str:
 
 def _anomaly(found: Explanation, edge: ChainEdge) -> str:
     if edge.later:
-        return f"the parent is now {shown(edge.later)}"
+        return f"the parent is now {display_name(edge.later)}"
     if edge.gap > usual_gap(edge.period):
         return f"in a gap of {duration(edge.gap)}"
     return f"stale: no transform for {duration(edge.age or 0)}" if found.stamp == 0 and edge.stale else ""
@@ -111,19 +113,22 @@ def _reason(found: Explanation) -> str:
         worst = max(found.broken, key=lambda edge: abs(edge.by))
         more = len(found.broken) - 1
         others = f"; {count(more, 'more edge')} {'has' if more == 1 else 'have'} no data for that time" if more else ""
-        reasons.append(f"{shown(worst.parent or '?')} -> {shown(worst.child)} is {remark(found, worst)}{others}")
+        reasons.append(
+            f"{display_name(worst.parent or '?')} -> {display_name(worst.child)} is {edge_remark(found, worst)}{others}"
+        )
     if found.roots is not None:
         reasons.append(
             f"{_quoted(found.roots[0])} and {_quoted(found.roots[1])} are roots of two trees that are not connected"
         )
     if found.missing is not None:
-        named = f"a transform such as {shown(found.missing.parent)} -> {shown(found.missing.child)} is missing"
+        edge = f"{display_name(found.missing.parent)} -> {display_name(found.missing.child)}"
+        named = f"a transform such as {edge} is missing"
         reasons.append(named if found.missing[:2] == found.roots else found.missing.text)
     return "; ".join(reasons)
 
 
 def _quoted(name: str) -> str:
-    return f"'{shown(name)}'"
+    return f"'{display_name(name)}'"
 
 
 _REASONS = {
@@ -151,16 +156,16 @@ def _rows(found: Explanation) -> Iterator[_Row]:
         role = {found.target: " (target)", found.source: " (source)"}.get(frame, "")
         edge = edges.get(frame)
         cells = ("",) * (len(_TITLES) - 1) if edge is None else _cells(edge)
-        yield _Row((f"  {indent}{shown(frame)}{role}", *cells), "" if edge is None else remark(found, edge))
+        yield _Row((f"  {indent}{display_name(frame)}{role}", *cells), "" if edge is None else edge_remark(found, edge))
 
 
 def _cells(edge: ChainEdge) -> tuple[str, ...]:
     if edge.static:
-        return "static", "", "", "", shown(edge.publisher)
+        return "static", "", "", "", display_name(edge.publisher)
     if edge.state == "no_data":
-        return "", "", "", "", shown(edge.publisher)
+        return "", "", "", "", display_name(edge.publisher)
     age = duration(edge.age) if edge.age is not None and edge.age >= 0 else ""
-    return seconds(edge.oldest), seconds(edge.newest), age, f"{edge.rate:.3g} Hz", shown(edge.publisher)
+    return seconds(edge.oldest), seconds(edge.newest), age, f"{edge.rate:.3g} Hz", display_name(edge.publisher)
 
 
 def _tree(found: Explanation, edges: dict[str, ChainEdge]) -> Iterator[tuple[str, str]]:

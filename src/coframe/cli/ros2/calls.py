@@ -10,7 +10,7 @@ import click
 
 from coframe.cli.options import PositiveDuration
 from coframe.cli.output import fail, one_line, warn
-from coframe.cli.ros2.graph import PATIENCE, fail_once
+from coframe.cli.ros2.graph import TIMEOUT, fail_once
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 __all__ = [
     "Deadline",
     "call_service",
-    "fail_if_refused",
+    "fail_if_incompatible",
     "response_timeout_option",
     "result_of",
     "timeout_option",
@@ -65,7 +65,7 @@ class Deadline:
         return time.monotonic() >= self._end
 
 
-def fail_if_refused(client: Any) -> None:
+def fail_if_incompatible(client: Any) -> None:
     """End the command if the middleware of all servers would misread requests.
 
     Args:
@@ -91,8 +91,8 @@ def wait_for_server(
         hint: Returns what to do, such as similar names in the graph.
     """
     reported = False
-    while not wait(deadline.remaining(PATIENCE)):
-        fail_if_refused(client)
+    while not wait(deadline.remaining(TIMEOUT)):
+        fail_if_incompatible(client)
         if deadline.has_passed:
             fail(f"There was no {one_line(name)} within {deadline.limit}.", hint())
         if not reported:
@@ -141,8 +141,8 @@ def call_service(
     seconds = _RESPONSE if timeout is None else timeout.seconds
     client = node.create_client(service_class, name)
     try:
-        if not client.wait_for_service(PATIENCE if timeout is None else min(PATIENCE, seconds)):
-            fail_if_refused(client)
+        if not client.wait_for_service(TIMEOUT if timeout is None else min(TIMEOUT, seconds)):
+            fail_if_incompatible(client)
             fail(f"There is no service {name}.", "coframe service list shows all services.")
         future = client.call_async(request)
         rclpy.spin_until_future_complete(node, future, timeout_sec=seconds)

@@ -21,7 +21,7 @@ __all__ = ["origin", "shown_definition"]
 _FIELD = re.compile(
     r"\s*(?P<type>[A-Za-z][\w/]*)(?:<=\d+)?(?:\[[^\]]*\])?\s+[A-Za-z]\w*\s*(?!\s*=)(?:[^=].*)?", re.ASCII
 )
-_PRIMITIVE = re.compile(r"bool|byte|char|u?int(8|16|32|64)|float(32|64)|w?string|time|duration", re.ASCII)
+_PRIMITIVE_TYPE = re.compile(r"bool|byte|char|u?int(8|16|32|64)|float(32|64)|w?string|time|duration", re.ASCII)
 _MAX_LEVELS = 16
 _KINDS = ("msg", "srv", "action")
 
@@ -41,7 +41,7 @@ def shown_definition(name: str, *, comments: bool, nested_comments: bool, level:
         if shown or comments:
             yield "\t" * level + shown
         field = _FIELD.fullmatch(line.partition("#")[0].rstrip())
-        if field is None or _PRIMITIVE.fullmatch(field["type"]) or level == _MAX_LEVELS:
+        if field is None or _PRIMITIVE_TYPE.fullmatch(field["type"]) or level == _MAX_LEVELS:
             continue
         nested = "std_msgs/Header" if field["type"] == "Header" else field["type"]
         yield from shown_definition(

@@ -108,7 +108,7 @@ def echo_action(
         stream = MessageStream(node)
         for interface, topic, message_class, qos in _interfaces(action_name, load_type(kind, get_action)):
             stream.subscribe(topic, message_class, qos, label=interface)
-        for interface, message in stream.labelled():
+        for interface, message in stream.labeled():
             text = _text(message, form)
             print_bounded(f"{interface},{text}" if form.csv else f"interface: {interface}\n{text}")
 

@@ -31,7 +31,7 @@ _ALIASES = {"wtf": "doctor"}
 _DOCTOR_OPTIONS = {"--report", "-r", "--report-failed", "-rf", "--include-warnings", "-iw", "--exclude-packages", "-ep"}
 _EXTENSIONS = "Packages extend coframe by entry points, such as those of the group coframe.commands."
 # Commands of ros2 that coframe does not have, and what to do instead.
-_ABSENT = {
+_UNSUPPORTED_COMMANDS = {
     "control": "The controllers of ros2_control are C++ programs: they run where ROS is installed.",
     "trace": "Record the graph with ros2 bag record; coframe monitor shows rates, delays and ages of transforms.",
     "plugin": _EXTENSIONS,
@@ -54,8 +54,8 @@ def ros2() -> None:
     if name == "daemon":
         print("coframe has no daemon: each command reads the ROS graph itself.")
         return
-    if name in _ABSENT:
-        sys.exit(f"ros2: The command {name} does not exist in coframe. {_ABSENT[name]}")
+    if name in _UNSUPPORTED_COMMANDS:
+        sys.exit(f"ros2: The command {name} does not exist in coframe. {_UNSUPPORTED_COMMANDS[name]}")
     from coframe.cli import run  # noqa: PLC0415 - not needed where ROS is installed
 
     if name == "doctor" and not set(words[1:]) - _DOCTOR_OPTIONS:

@@ -51,7 +51,7 @@ __all__ = [
 DISCOVERY = NonNegativeDuration("0.4s")  # ros2cli waits 0.5 s without its daemon
 AT_ONCE = NonNegativeDuration("0s")
 # Fast DDS may take seconds to announce an endpoint, so commands wait longer for a specific name than for a list.
-PATIENCE = 3.0  # seconds
+TIMEOUT = 3.0  # seconds
 _PERIOD = 0.02  # seconds between two checks of the graph
 
 _warned: set[str] = set()  # the warnings that were printed
@@ -151,7 +151,7 @@ def _wait_for_nodes(participant: Participant) -> None:
     print(f"Waiting for the nodes of {_processes(unnamed)}.", file=sys.stderr)
     if not wait_until(lambda: not participant.unnamed_participants()):
         unnamed = participant.unnamed_participants()
-        warn(f"The nodes of {_processes(unnamed)} are still unknown after {PATIENCE:g} s, so they are not listed.")
+        warn(f"The nodes of {_processes(unnamed)} are still unknown after {TIMEOUT:g} s, so they are not listed.")
 
 
 def _processes(middlewares: list[str]) -> str:
@@ -173,7 +173,7 @@ def fail_once(text: str) -> NoReturn:
 
 def wait_until(condition: Callable[[], Any]) -> Any:
     """Return the first true result of a function, or its last result after PATIENCE."""
-    deadline = time.monotonic() + PATIENCE
+    deadline = time.monotonic() + TIMEOUT
     while not (result := condition()) and time.monotonic() < deadline:
         time.sleep(_PERIOD)
     return result

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import click
 from click.exceptions import Exit
 
-from coframe._output.formatting import count, listed
+from coframe._output.formatting import count, join_names
 from coframe.cli.declaration import PATH, Command, argument
 from coframe.cli.output import fail, printable, warn
 from coframe.errors import InterfaceError
@@ -104,7 +104,10 @@ def remove(path: Path) -> None:
     folder = path.expanduser().absolute()
     added = added_paths()
     if folder not in added:
-        fail(f"{folder} was not added", f"Added: {listed(list(map(str, added)))}." if added else "No folder was added.")
+        fail(
+            f"{folder} was not added",
+            f"Added: {join_names(list(map(str, added)))}." if added else "No folder was added.",
+        )
     try:
         set_added_paths([other for other in added if other != folder])
     except OSError as error:

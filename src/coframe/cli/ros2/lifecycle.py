@@ -52,7 +52,11 @@ def get(
     Example: coframe lifecycle get /lidar
     """
     with graph_node(AT_ONCE if node_name else spin_time) as node:
-        names = [_existing(node, node_name)] if node_name else _lifecycle_nodes(node, include_hidden=include_hidden)
+        names = (
+            [_check_node_exists(node, node_name)]
+            if node_name
+            else _lifecycle_nodes(node, include_hidden=include_hidden)
+        )
         for name in names:
             state = _call(node, name, timeout, "GetState", "get_state").current_state
             print(one_line(f"{'' if node_name else f'{name}: '}{state.label} [{state.id}]"))
@@ -75,7 +79,7 @@ def list_transitions(
     """
     service = ("GetAvailableTransitions", "get_transition_graph" if show_all else "get_available_transitions")
     with graph_node(spin_time) as node:
-        for each in _call(node, _existing(node, node_name), timeout, *service).available_transitions:
+        for each in _call(node, _check_node_exists(node, node_name), timeout, *service).available_transitions:
             print(one_line(f"- {each.transition.label} [{each.transition.id}]"))
             print(f"\tStart: {one_line(each.start_state.label)}\n\tGoal: {one_line(each.goal_state.label)}")
 
@@ -114,7 +118,7 @@ def set_state(
     Example: coframe lifecycle set /lidar configure
     """
     with graph_node(spin_time) as node:
-        name = _existing(node, node_name)
+        name = _check_node_exists(node, node_name)
         available = [
             each.transition
             for each in _call(
@@ -137,7 +141,7 @@ def _lifecycle_nodes(node: Node, *, include_hidden: bool) -> list[str]:
     return [name for name in names if _GET_STATE in services.get(f"{name}/get_state", [])]
 
 
-def _existing(node: Node, name: str) -> str:
+def _check_node_exists(node: Node, name: str) -> str:
     name = name if name.startswith("/") else f"/{name}"
     if not wait_until(lambda: name in node_names(node, include_hidden=True)):
         fail(f"Node not found: {name}", "coframe lifecycle nodes shows all lifecycle nodes.")

@@ -76,7 +76,7 @@ class MessageStream:
             event_callbacks=_lost_events() if report_lost else None,
         )
 
-    def take_labelled(self, seconds: float) -> tuple[str, Any] | None:
+    def take_labeled(self, seconds: float) -> tuple[str, Any] | None:
         """Return the label of the next message and the message; None after the timeout."""
         deadline = time.monotonic() + seconds
         while not self._arrived:
@@ -86,17 +86,17 @@ class MessageStream:
             self._executor.spin_once(timeout_sec=min(left, _MAX_WAIT))
         return self._arrived.popleft()
 
-    def labelled(self) -> Iterator[tuple[str, Any]]:
+    def labeled(self) -> Iterator[tuple[str, Any]]:
         """Yield messages with their labels, forever."""
         while True:
-            pair = self.take_labelled(_MAX_WAIT)
+            pair = self.take_labeled(_MAX_WAIT)
             if pair is not None:
                 yield pair
 
     def messages(self, timeout: float | None = None) -> Iterator[Any]:
         """Yield messages until none arrives within `timeout` seconds; forever if it is None."""
         while True:
-            pair = self.take_labelled(_MAX_WAIT if timeout is None else timeout)
+            pair = self.take_labeled(_MAX_WAIT if timeout is None else timeout)
             if pair is not None:
                 yield pair[1]
             elif timeout is not None:

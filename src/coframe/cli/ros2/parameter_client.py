@@ -6,8 +6,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from coframe.cli.output import fail
-from coframe.cli.ros2.calls import call_service, fail_if_refused
-from coframe.cli.ros2.graph import PATIENCE, fail_without_node, node_names, wait_until
+from coframe.cli.ros2.calls import call_service, fail_if_incompatible
+from coframe.cli.ros2.graph import TIMEOUT, fail_without_node, node_names, wait_until
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 __all__ = ["ParameterClient"]
 
 # How long to wait for the services of each node in a list; nodes without them are common.
-_SHORT_PATIENCE = 1.0  # seconds
+_SHORT_TIMEOUT = 1.0  # seconds
 
 
 class ParameterClient:
@@ -51,9 +51,9 @@ class ParameterClient:
             probe = self._node.create_client(ListParameters, f"{self._target}/list_parameters")
         except InvalidServiceNameException:  # Other programs can announce nodes with arbitrary names.
             return False
-        found: bool = probe.wait_for_service(PATIENCE if required else _SHORT_PATIENCE)
+        found: bool = probe.wait_for_service(TIMEOUT if required else _SHORT_TIMEOUT)
         if required and not found:
-            fail_if_refused(probe)
+            fail_if_incompatible(probe)
         self._node.destroy_client(probe)
         return found
 

@@ -84,16 +84,16 @@ class QoSWords(NamedTuple):
                 history=start.history,
                 depth=max([start.depth, *(qos.depth for qos, late in zip(offered, transient, strict=True) if late)]),
                 reliability=ReliabilityPolicy.RELIABLE
-                if _all("reliability", "RELIABLE", reliable)
+                if _do_all_offer("reliability", "RELIABLE", reliable)
                 else ReliabilityPolicy.BEST_EFFORT,
                 durability=DurabilityPolicy.TRANSIENT_LOCAL
-                if _all("durability", "TRANSIENT_LOCAL", transient)
+                if _do_all_offer("durability", "TRANSIENT_LOCAL", transient)
                 else DurabilityPolicy.VOLATILE,
             )
         )
 
 
-def _all(policy: str, value: str, offers: list[bool]) -> bool:
+def _do_all_offer(policy: str, value: str, offers: list[bool]) -> bool:
     """Return whether all publishers offer the stronger policy; print a message on stderr if only some do."""
     if any(offers) and not all(offers):
         print(

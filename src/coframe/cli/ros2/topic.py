@@ -117,7 +117,7 @@ def list_topics(
         if count:
             print(len(topics))
         elif verbose:
-            _print_counts("Published", "publisher", [(*each, node.count_publishers(each[0])) for each in topics])
+            _print_counts("PublishResult", "publisher", [(*each, node.count_publishers(each[0])) for each in topics])
             _print_counts("Subscribed", "subscriber", [(*each, node.count_subscribers(each[0])) for each in topics])
         else:
             for name, types in topics:

@@ -216,7 +216,7 @@ def _report_every_second(
     due = time.monotonic() + 1.0
     arrived = 0
     while True:
-        arrival = stream.take_labelled(max(0.0, due - time.monotonic()))
+        arrival = stream.take_labeled(max(0.0, due - time.monotonic()))
         if arrival is not None:
             store(*arrival)
             arrived += 1

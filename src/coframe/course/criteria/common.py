@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from coframe.course._program import Program
+from coframe.course._program import StudentProgram
 from coframe.course.submitted import check_submitted, is_submitted
 from coframe.errors import CoframeError, CourseError
 from coframe.robots.files import expand_xacro
@@ -61,7 +61,7 @@ class Task(NamedTuple):
 
 
 @contextlib.contextmanager
-def run_program(task: Task, sheet: Sheet, *, wrong_topic: str = "") -> Iterator[Program | None]:
+def run_program(task: Task, sheet: Sheet, *, wrong_topic: str = "") -> Iterator[StudentProgram | None]:
     """Yield the program of a sheet, or None if its file does not exist; stop it after the block.
 
     Problems of the program are then recorded on the sheet. A program that publishes nothing, or publishes on topics
@@ -75,12 +75,12 @@ def run_program(task: Task, sheet: Sheet, *, wrong_topic: str = "") -> Iterator[
     """
     first = len(sheet.facts)
     file = task.folder / sheet.file
-    if reason := _unusable(task.folder, sheet.file):
+    if reason := _file_problem(task.folder, sheet.file):
         yield None
         task.world.stop()
         sheet.withdraw(first, reason)
         return
-    program = Program(file, task.scratch, task.confinement)
+    program = StudentProgram(file, task.scratch, task.confinement)
     try:
         yield program
         intruder = _intruder(task.world)
@@ -98,7 +98,7 @@ def run_program(task: Task, sheet: Sheet, *, wrong_topic: str = "") -> Iterator[
     elif silence and not problem:
         sheet.withdraw(first, silence)
     elif silence:
-        sheet.blame(first, "the program exited before it published anything")
+        sheet.set_cause(first, "the program exited before it published anything")
 
 
 def _silence(file: str, world: World, wrong_topic: str) -> str:
@@ -121,7 +121,7 @@ def expanded_xacro(task: Task, file: Path) -> tuple[str, str]:
     Raises:
         CourseError: xacro fails.
     """
-    program = Program(file, task.scratch, task.confinement)
+    program = StudentProgram(file, task.scratch, task.confinement)
 
     def run(words: Sequence[str], request: bytes) -> subprocess.CompletedProcess[bytes]:
         code = program.run(MAX_SECONDS, words, request)
@@ -137,7 +137,7 @@ def expanded_xacro(task: Task, file: Path) -> tuple[str, str]:
     return text, program.attempt()
 
 
-def _unusable(folder: Path, name: str) -> str:
+def _file_problem(folder: Path, name: str) -> str:
     """Return why a program cannot be started; "" if it can."""
     if not is_submitted(folder, name):
         return f"There is no file {name}."

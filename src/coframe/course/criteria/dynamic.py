@@ -27,7 +27,7 @@ __all__ = ["check"]
 _EDGES = (("base_link", "link1"), ("link1", "link2"), ("link2", "end_effector"))
 _ANGLE = 1e-3  # radians; far below the effect of a wrong amplitude, frequency or phase
 _JOINT_STATE_PERIOD = 2 * STEP
-_SETTLING = SECOND // 5
+_STARTUP_TIME = SECOND // 5
 _READ = "handbook chapter 3, static and dynamic transforms"
 
 
@@ -136,7 +136,7 @@ def _law_observation(samples: list[Any], tilted: bool) -> str:
     return f"angles from {min(angles):.3f} to {max(angles):.3f} rad"
 
 
-def _law(index: int, seconds: NDArray[np.float64]) -> NDArray[np.float64]:
+def _angle_at(index: int, seconds: NDArray[np.float64]) -> NDArray[np.float64]:
     angles = (
         0.5 * np.sin(2 * np.pi * 0.2 * seconds) if index == 0 else 0.3 * np.sin(2 * np.pi * 0.3 * seconds + np.pi / 4)
     )
@@ -145,15 +145,15 @@ def _law(index: int, seconds: NDArray[np.float64]) -> NDArray[np.float64]:
 
 def _residuals(received: list[Received], index: int, starts: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return the maximum deviation from the specified motion, in radians, for each possible start time."""
-    samples = _settled(_samples(received, ("link1", "link2")[index]))
+    samples = _without_startup(_samples(received, ("link1", "link2")[index]))
     times = np.array([seconds_of(stamp_ns(each) % round(JOINT_PERIOD * SECOND)) for each in samples])
     angles = np.array([_angle(each) for each in samples])
-    return np.asarray(np.abs(_law(index, times[None, :] - starts[:, None]) - angles[None, :]).max(axis=1))
+    return np.asarray(np.abs(_angle_at(index, times[None, :] - starts[:, None]) - angles[None, :]).max(axis=1))
 
 
-def _settled(samples: list[Any]) -> list[Any]:
+def _without_startup(samples: list[Any]) -> list[Any]:
     """Return the samples without the initial ones, when the simulated clock jumps to its start time."""
-    return [each for each in samples if stamp_ns(each) - stamp_ns(samples[0]) > _SETTLING]
+    return [each for each in samples if stamp_ns(each) - stamp_ns(samples[0]) > _STARTUP_TIME]
 
 
 def _starts() -> NDArray[np.float64]:
@@ -161,7 +161,7 @@ def _starts() -> NDArray[np.float64]:
 
 
 def _follows_law(received: list[Received], index: int) -> bool:
-    if len(_settled(_samples(received, ("link1", "link2")[index]))) < 3:
+    if len(_without_startup(_samples(received, ("link1", "link2")[index]))) < 3:
         return False
     return bool(_residuals(received, index, _starts()).min() <= _ANGLE)
 

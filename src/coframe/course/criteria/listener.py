@@ -31,7 +31,7 @@ _TOPIC = "/end_effector_pose"
 _LATENCY = STEP  # the transforms arrive one step after their stamps, delayed as on a real robot
 _PERIOD = 2 * STEP
 # Between two samples, tf2 interpolates linearly; the arm moves on circles, which deviates by less than this.
-_INTERPOLATED = 1e-4  # meters
+_INTERPOLATION_TOLERANCE = 1e-4  # meters
 _MAX_AGE = 3 * SECOND // 2  # age of a transform that a listener may still use while the broadcaster is missing
 _READ = "handbook chapter 4, what lookup_transform(target, source) means"
 
@@ -118,7 +118,7 @@ def _check_poses(sheet: Sheet, robot: SimulatedRobot, poses: list[Received]) -> 
     sheet.check(
         7,
         "each pose is correct at its stamp",
-        0.0 if not poses else 1.0 if not wrong else 0.5 if _right_at_other_time(robot, poses) else 0.0,
+        0.0 if not poses else 1.0 if not wrong else 0.5 if _is_correct_at_other_time(robot, poses) else 0.0,
         expected="the analytic pose of the arm at the stamp of the pose",
         observed=f"{len(wrong)} of {len(poses)} poses are wrong: {wrong[-1]}" if wrong else "no poses",
         cause=_cause(robot, poses),
@@ -129,10 +129,12 @@ def _check_poses(sheet: Sheet, robot: SimulatedRobot, poses: list[Received]) -> 
 def _difference(robot: SimulatedRobot, received: Received) -> str:
     stamp = stamp_ns(received.message)
     at_sample = (stamp + _LATENCY) % _PERIOD == 0
-    return differs(pose_of(received.message), robot.end_effector(stamp), TOLERANCE if at_sample else _INTERPOLATED)
+    return differs(
+        pose_of(received.message), robot.end_effector(stamp), TOLERANCE if at_sample else _INTERPOLATION_TOLERANCE
+    )
 
 
-def _right_at_other_time(robot: SimulatedRobot, poses: list[Received]) -> bool:
+def _is_correct_at_other_time(robot: SimulatedRobot, poses: list[Received]) -> bool:
     """Return whether all poses are right at an earlier time instead of at their stamps."""
     return all(_true_time(robot, each) is not None for each in poses)
 
@@ -149,7 +151,7 @@ def _true_time(robot: SimulatedRobot, received: Received) -> int | None:
 def _cause(robot: SimulatedRobot, poses: list[Received]) -> str:
     if not poses:
         return "see the facts above"
-    if _right_at_other_time(robot, poses):
+    if _is_correct_at_other_time(robot, poses):
         late = min(stamp_ns(each.message) - (_true_time(robot, each) or 0) for each in poses)
         return (
             f"the stamp is {seconds_of(late) * 1000:.0f} ms later than the transform: "

@@ -37,7 +37,7 @@ _TOLERANCE = 1e-3  # meters
 _WAIT = 0.03
 _GRIPPER = "gripper_link"
 _GRIPPER_OFFSET = (0.1, 0.0, 0.0)
-_TOO_EARLY = "the lookup does not wait: the transform of a scan arrives after it. Use a timeout or a MessageFilter"
+_NO_WAIT_CAUSE = "the lookup does not wait: the transform of a scan arrives after it. Use a timeout or a MessageFilter"
 _READ = "handbook chapter 6, sensors in the base frame"
 
 
@@ -145,7 +145,7 @@ def _check_messages(sheet: Sheet, world: World, scans: dict[int, _Scan], clouds:
         bool(scans) and answered >= 0.95 * len(scans),
         expected="a cloud for each scan; 5 % may be missing",
         observed=f"{answered} of {len(scans)} scans",
-        cause=_TOO_EARLY,
+        cause=_NO_WAIT_CAUSE,
         read="handbook chapter 5, time, interpolation, waiting",
     )
 

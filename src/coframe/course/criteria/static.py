@@ -21,9 +21,11 @@ if TYPE_CHECKING:
 __all__ = ["check"]
 
 _TOPIC = "/tf_static"
-_NOT_UNIT = "0.707 is not the square root of one half: use math.sqrt(0.5)"
-_ON_TF = "TransformBroadcaster sends on /tf, where late-joining listeners miss it: use StaticTransformBroadcaster"
-_LATE = 3.0  # seconds of real time in which a late listener receives stored transforms
+_NOT_UNIT_CAUSE = "0.707 is not the square root of one half: use math.sqrt(0.5)"
+_WRONG_BROADCASTER_CAUSE = (
+    "TransformBroadcaster sends on /tf, where late-joining listeners miss it: use StaticTransformBroadcaster"
+)
+_LATE_JOINER_TIME = 3.0  # seconds of real time in which a late listener receives stored transforms
 _READ = "handbook chapter 3, static and dynamic transforms"
 
 
@@ -40,17 +42,17 @@ def check(task: Task) -> Sheet:
         late = world.watch(_TOPIC, TFMessage, latched=True)
         if program is not None:
             frames = {mount.frame for mount in task.assignment.mounts}
-            world.wait_until(lambda: frames <= _by_child(late).keys(), _LATE)
+            world.wait_until(lambda: frames <= _group_by_child(late).keys(), _LATE_JOINER_TIME)
             world.run(0.3)
-        sent, repeated = _by_child(static), _repeated(_by_child(dynamic))
-        missing = _ON_TF if world.publishers_of("/tf") else "a misspelled child_frame_id"
+        sent, repeated = _group_by_child(static), _repeated_transforms(_group_by_child(dynamic))
+        missing = _WRONG_BROADCASTER_CAUSE if world.publishers_of("/tf") else "a misspelled child_frame_id"
         for mount in task.assignment.mounts:
             _check_mount(sheet, mount, sent.get(mount.frame) or repeated.get(mount.frame, []), missing)
-        _check_delivery(sheet, task, sent, repeated, _by_child(late))
+        _check_delivery(sheet, task, sent, repeated, _group_by_child(late))
     return sheet
 
 
-def _by_child(received: list[Received]) -> dict[str, list[Any]]:
+def _group_by_child(received: list[Received]) -> dict[str, list[Any]]:
     found: dict[str, list[Any]] = {}
     for each in received:
         for message in each.message.transforms:
@@ -58,7 +60,7 @@ def _by_child(received: list[Received]) -> dict[str, list[Any]]:
     return found
 
 
-def _repeated(sent: dict[str, list[Any]]) -> dict[str, list[Any]]:
+def _repeated_transforms(sent: dict[str, list[Any]]) -> dict[str, list[Any]]:
     """Return the transforms that were sent repeatedly; one sent only once on /tf may or may not arrive."""
     return {child: messages for child, messages in sent.items() if len(messages) > 1}
 
@@ -81,14 +83,14 @@ def _check_mount(sheet: Sheet, mount: Mount, messages: list[Any], missing: str) 
         3,
         f"{mount.frame} is at the correct position",
         1.0 if not difference and is_unit else 2 / 3 if not difference else 0.0,
-        expected=f"position {list(mount.translation)} m, rotation {_rounded(mount.quaternion)} (x, y, z, w)",
+        expected=f"position {list(mount.translation)} m, rotation {_round(mount.quaternion)} (x, y, z, w)",
         observed=difference or f"the quaternion has the length {norm:.6f} instead of 1",
-        cause=_pose_cause(messages, mount) if difference else _NOT_UNIT,
+        cause=_pose_cause(messages, mount) if difference else _NOT_UNIT_CAUSE,
         read="handbook chapter 2, rotations and quaternions",
     )
 
 
-def _rounded(values: tuple[float, ...]) -> list[float]:
+def _round(values: tuple[float, ...]) -> list[float]:
     return [round(value, 7) for value in values]
 
 
@@ -128,7 +130,7 @@ def _check_delivery(
         len(on_static) / len(frames),
         expected="all three on /tf_static, none on /tf",
         observed=f"{len(on_static)} of 3 on /tf_static, {len(set(frames) & dynamic.keys())} on /tf",
-        cause=_ON_TF,
+        cause=_WRONG_BROADCASTER_CAUSE,
         read=_READ,
     )
     offers = [info.qos_profile for info in task.world.publishers_of(_TOPIC)]

@@ -16,7 +16,7 @@ __all__ = ["check"]
 _TOPIC = "/past_end_effector_pose"
 _AGE = SECOND
 _PERIOD = 2 * STEP
-_INTERPOLATED = 2e-4  # meters
+_INTERPOLATION_TOLERANCE = 2e-4  # meters
 _READ = "handbook chapter 9, recordings and time travel"
 
 
@@ -60,7 +60,7 @@ def check(task: Task) -> Sheet:
             now = stamp_ns(each.message)
             then = now - _AGE
             correct = robot.base(now).inverse() @ robot.base(then) @ robot.end_effector(then)
-            wrong.append(differs(pose_of(each.message), correct, _INTERPOLATED))
+            wrong.append(differs(pose_of(each.message), correct, _INTERPOLATION_TOLERANCE))
         bad = [text for text in wrong if text]
         sheet.check(
             5,

@@ -32,7 +32,7 @@ _TREE = {
     "camera_link": "end_effector",
 }
 _FRAMES = {*_TREE, "world"}
-_MOVING = ("base_link", "link1", "link2")
+_MOVING_FRAMES = ("base_link", "link1", "link2")
 # Display, its topic, and its points.
 _DISPLAYS = (("TF", None, 2), ("LaserScan", "/scan", 2), ("PointCloud2", "/scan_base_frame", 2))
 _FILE_NAMES = ("*.rviz", "rviz_config.yaml")
@@ -129,15 +129,15 @@ def _check_tree(sheet: Sheet, edges: list[Any]) -> None:
 
 def _check_motion(sheet: Sheet, edges: list[Any]) -> None:
     moving = []
-    for child in _MOVING:
+    for child in _MOVING_FRAMES:
         poses = [edge_of(edge).matrix for edge in edges if edge.child_frame_id == child]
         if len(poses) > 10 and abs(poses[-1] - poses[0]).max() > 1e-4:
             moving.append(child)
     sheet.check(
         2,
         "its frames move",
-        len(moving) / len(_MOVING),
-        expected=f"new poses of {', '.join(_MOVING)}",
+        len(moving) / len(_MOVING_FRAMES),
+        expected=f"new poses of {', '.join(_MOVING_FRAMES)}",
         observed=f"only {', '.join(moving)} moves" if moving else "no frame moves",
         cause="the time of the simulation does not advance, or the timer is missing",
         read=_READ,

@@ -20,11 +20,11 @@ _DEVICE_LINKS = {"fd": "", "stdin": "/0", "stdout": "/1", "stderr": "/2"}
 _READ_ONLY, _NO_SET_ID, _NO_DEVICES, _NO_PROGRAMS = 1, 2, 4, 8
 _REMOUNT, _BIND, _RECURSIVE, _PRIVATE = 32, 4096, 16384, 1 << 18
 _OPTIONS = {"ro": 1, "nosuid": 2, "nodev": 4, "noexec": 8, "noatime": 1024, "nodiratime": 2048, "relatime": 1 << 21}
-_MOUNTED = "/proc/self/mountinfo"
+_MOUNT_INFO = "/proc/self/mountinfo"
 _PIVOT_ROOT = {"x86_64": 155}
 _PIVOT_ROOT_ELSEWHERE = 41
 _DETACH = 2
-_SMALL = b"size=1m,mode=755"
+_SMALL_DISK = b"size=1m,mode=755"
 
 
 def enter_own_root(
@@ -48,12 +48,12 @@ def enter_own_root(
         OSError: The system does not allow it.
     """
     _mount(None, "/", None, _RECURSIVE | _PRIVATE)
-    _mount(b"coframe", root, b"tmpfs", 0, _SMALL)
+    _mount(b"coframe", root, b"tmpfs", 0, _SMALL_DISK)
     for path, is_readable in entries:
         if is_readable or path in decoys:
             _bind(path if is_readable else decoys[path], root + path)
         elif os.path.isdir(path):  # noqa: PTH112 - without other imports
-            _mount(b"coframe", root + path, b"tmpfs", 0, _SMALL)
+            _mount(b"coframe", root + path, b"tmpfs", 0, _SMALL_DISK)
         else:
             _bind(os.devnull, root + path)
     for path, target in links:
@@ -92,7 +92,7 @@ def _mount(source: bytes | None, target: str, kind: bytes | None, flags: int, op
 
 def _restrict(folder: str, flags: int) -> None:
     """Add flags to all mounts at or below a folder."""
-    with open(_MOUNTED, "rb") as mounted:  # noqa: PTH123 - without other imports
+    with open(_MOUNT_INFO, "rb") as mounted:  # noqa: PTH123 - without other imports
         lines = [line.split() for line in mounted]
     for fields in lines:
         path = os.fsdecode(fields[4].decode("unicode_escape").encode("latin-1"))  # spaces are escaped as octal numbers

@@ -20,7 +20,7 @@ _SET_DUMPABLE = 4
 _CAPBSET_DROP, _SET_SECUREBITS, _CAP_AMBIENT, _SET_NO_NEW_PRIVS = 24, 28, 47, 38
 _CLEAR_ALL = 4
 _CAPABILITY_VERSION_3 = 0x20080522
-_LAST_POSSIBLE = 63
+_MAX_CAPABILITY = 63
 # User ID 0 grants no capabilities at execve and setuid; no ambient capabilities; all of this is locked.
 _SECURE_BITS = 0xEF
 
@@ -36,7 +36,7 @@ def drop_privileges(user: User | None = None) -> None:
     with suppress(OSError):
         control_process(_SET_SECUREBITS, _SECURE_BITS)
     with suppress(OSError):  # This capability and all higher ones do not exist.
-        for number in range(_LAST_POSSIBLE + 1):
+        for number in range(_MAX_CAPABILITY + 1):
             control_process(_CAPBSET_DROP, number)
     with suppress(OSError):
         control_process(_CAP_AMBIENT, _CLEAR_ALL)

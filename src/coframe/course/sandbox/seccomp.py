@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Block system calls that no node needs with a kernel filter (seccomp), which needs no privileges.
 
-`REFUSED` and `CONDITIONS` are the tables of blocked calls. The filter is the only protection against sockets of the
-file system, such as those of a desktop session or of Docker, which Landlock does not restrict, and against memory that
-belongs to no process.
+`BLOCKED_CALLS` and `CONDITIONS` are the tables of blocked calls. The filter is the only protection against sockets in
+the file system, such as the sockets of a desktop session or of Docker, which Landlock does not restrict, and against
+memory that belongs to no process.
 """
 
 from __future__ import annotations
@@ -20,11 +20,11 @@ from .kernel import control_process
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
-__all__ = ["can_filter", "refuse_system_calls"]
+__all__ = ["block_system_calls", "can_filter"]
 
 # System call numbers on x86-64 and aarch64; they are the same from 424 on, and some do not exist on aarch64.
 _Numbers = tuple[int, "int | None"]
-REFUSED: Final[dict[str, _Numbers]] = {
+BLOCKED_CALLS: Final[dict[str, _Numbers]] = {
     # other processes
     "ptrace": (101, 117),
     "process_vm_readv": (310, 270),
@@ -98,7 +98,7 @@ REFUSED: Final[dict[str, _Numbers]] = {
 _UNKNOWN: Final[dict[str, _Numbers]] = {
     "clone3": (435, 435)
 }  # its flags cannot be inspected; libraries fall back to clone
-_LAST_KNOWN: Final = 469  # newer calls and those of the x32 ABI are also unknown
+_MAX_KNOWN_CALL: Final = 469  # newer calls and those of the x32 ABI are also unknown
 
 _INTERNET, _INTERNET_6, _ROUTES, _UNIX = 2, 10, 16, 1  # families of sockets
 _STREAM, _SEQUENCE, _TYPE_MASK = 1, 5, 0xF
@@ -157,7 +157,7 @@ def can_filter() -> bool:
     return False
 
 
-def refuse_system_calls(protected: Iterable[int] = ()) -> None:
+def block_system_calls(protected: Iterable[int] = ()) -> None:
     """Install the filter for this process and its children; it must already have set no_new_privs.
 
     Args:
@@ -178,7 +178,7 @@ def _program(column: int, architecture: int, protected: Sequence[int]) -> list[_
         (_EQUAL, 1, 0, architecture),
         (_RETURN, 0, 0, _KILL),
         (_LOAD, 0, 0, _OFFSET_NUMBER),
-        (_GREATER, 0, 1, _LAST_KNOWN),
+        (_GREATER, 0, 1, _MAX_KNOWN_CALL),
         _NOT_IMPLEMENTED,
     ]
 
@@ -189,15 +189,15 @@ def _program(column: int, architecture: int, protected: Sequence[int]) -> list[_
 
     for numbers in _UNKNOWN.values():
         add(numbers, [_NOT_IMPLEMENTED])
-    for numbers in REFUSED.values():
+    for numbers in BLOCKED_CALLS.values():
         add(numbers, [_NOT_PERMITTED])
     for numbers, conditions in CONDITIONS.values():
-        add(numbers, [each for condition in conditions for each in _only(*condition)] + [_ALLOWED])
-    add(_INPUT_OF_TERMINALS[0], _all_but(_INPUT_OF_TERMINALS[1], (_TERMINAL_INPUT, _CONSOLE)))
+        add(numbers, [each for condition in conditions for each in _require_value(*condition)] + [_ALLOWED])
+    add(_INPUT_OF_TERMINALS[0], _reject_values(_INPUT_OF_TERMINALS[1], (_TERMINAL_INPUT, _CONSOLE)))
     if protected:
         targets = [-1, *protected, *(-each for each in protected)]  # all processes, these, and their groups
         for numbers in SIGNALS.values():
-            add(numbers, _all_but(0, [each & _ALL for each in targets]))
+            add(numbers, _reject_values(0, [each & _ALL for each in targets]))
     return [*program, _ALLOWED]
 
 
@@ -206,14 +206,14 @@ def _load(argument: int) -> _Instruction:
     return (_LOAD, 0, 0, _OFFSET_ARGUMENTS + 8 * argument)
 
 
-def _only(argument: int, mask: int, values: Sequence[int]) -> list[_Instruction]:
+def _require_value(argument: int, mask: int, values: Sequence[int]) -> list[_Instruction]:
     """Return instructions that fail unless an argument has one of the given values."""
     last = len(values)
     tests = [(_EQUAL, last - position, 0, value) for position, value in enumerate(values)]
     return [_load(argument), (_AND, 0, 0, mask), *tests, _NOT_PERMITTED]
 
 
-def _all_but(argument: int, values: Sequence[int]) -> list[_Instruction]:
+def _reject_values(argument: int, values: Sequence[int]) -> list[_Instruction]:
     """Return instructions that fail if an argument has one of the given values."""
     tests = [each for value in values for each in ((_EQUAL, 0, 1, value), _NOT_PERMITTED)]
     return [_load(argument), *tests, _ALLOWED]

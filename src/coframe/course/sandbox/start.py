@@ -71,7 +71,7 @@ def _run(plan: dict[str, Any], program: list[str], *, visible: list[int]) -> NoR
         program: The program and its arguments.
         visible: The ancestors of this process, unless the program has its own process namespace.
     """
-    user = users.choose_user(_users(plan), _needed(plan, program), os.path.dirname(plan["home"]))  # noqa: PTH120
+    user = users.choose_user(_users(plan), _needed_files(plan, program), os.path.dirname(plan["home"]))  # noqa: PTH120
     if user is not None:
         os.chown(plan["home"], *user)
     privileges.drop_privileges(user)
@@ -86,7 +86,7 @@ def _run(plan: dict[str, Any], program: list[str], *, visible: list[int]) -> NoR
         readable = [path for path, is_readable in plan["entries"] if is_readable]
         landlock.restrict_files([*readable, *mounts.DEVICES, "/proc"], hidden, plan["home"], shown=shown)
     if seccomp.can_filter():
-        seccomp.refuse_system_calls(visible)
+        seccomp.block_system_calls(visible)
     os.execv(program[0], program)  # noqa: S606 - the purpose of this file
 
 
@@ -99,7 +99,7 @@ def _users(plan: dict[str, Any]) -> list[users.User]:
     return [(plan["user"], plan["user"]), (status.st_uid, status.st_gid)]
 
 
-def _needed(plan: dict[str, Any], program: list[str]) -> list[str]:
+def _needed_files(plan: dict[str, Any], program: list[str]) -> list[str]:
     """Return the files that the user must be able to read: Python, packages, and the files of the folder."""
     with os.scandir(plan["folder"]) as entries:
         own = [entry.path for entry in entries if not entry.is_symlink()]

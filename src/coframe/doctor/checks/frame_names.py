@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from coframe._output.formatting import count, quoted
+from coframe._output.formatting import count, join_quoted
 from coframe.doctor._finding import Finding, Severity
 
 if TYPE_CHECKING:
@@ -20,7 +20,7 @@ __all__ = ["CODE", "find"]
 
 CODE = "TF006"
 _MAX_PREFIXES = 5  # in front of one name
-_PLAIN = re.compile(r"[\w./-]+")
+_PLAIN_NAME = re.compile(r"[\w./-]+")
 
 
 def find(observation: Observation) -> Iterator[Finding]:
@@ -41,7 +41,7 @@ def _slashes(observation: Observation) -> Iterator[Finding]:
         yield Finding(
             code=CODE,
             severity=Severity.WARNING,
-            text=f"{count(len(names), 'frame name')} with a leading slash: {quoted(names)}",
+            text=f"{count(len(names), 'frame name')} with a leading slash: {join_quoted(names)}",
             fix=f"Remove the slash where the name is set: {names[0].lstrip('/')!r}. tf2 rejects such names in lookups. "
             "The parameter frame_prefix is put in front of names unchanged and must end with the slash: 'robot1/'.",
             frames=frozenset(transforms.names[number].lstrip("/") for number in numbers),
@@ -51,13 +51,13 @@ def _slashes(observation: Observation) -> Iterator[Finding]:
 
 
 def _characters(observation: Observation) -> Iterator[Finding]:
-    unusual = [frame for frame in observation.frames if not _PLAIN.fullmatch(frame)]
+    unusual = [frame for frame in observation.frames if not _PLAIN_NAME.fullmatch(frame)]
     if unusual:
         yield Finding(
             code=CODE,
             severity=Severity.NOTE,
             text=f"{count(len(unusual), 'frame name')} with spaces or other characters that some tools do not accept: "
-            f"{quoted(unusual)}",
+            f"{join_quoted(unusual)}",
             fix=f"Use only letters, digits and '_': {re.sub(r'[^0-9A-Za-z_/]+', '_', unusual[0]).strip('_')!r}.",
             frames=frozenset(unusual),
         )
@@ -72,7 +72,7 @@ def _near_duplicates(observation: Observation) -> Iterator[Finding]:
             yield Finding(
                 code=CODE,
                 severity=Severity.WARNING,
-                text=f"frame names that differ only in case, spaces or punctuation: {quoted(names)}",
+                text=f"frame names that differ only in case, spaces or punctuation: {join_quoted(names)}",
                 fix=f"If they are meant to be one frame, use {names[0]!r} everywhere.",
                 frames=frozenset(names),
             )

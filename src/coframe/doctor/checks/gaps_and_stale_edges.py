@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from coframe._output.formatting import duration, listed
+from coframe._output.formatting import duration, join_names
 from coframe.analysis.liveness import median_interval, stamp_intervals, usual_gap
 from coframe.analysis.static_command import static_command
 from coframe.doctor._edge import publishers_of
@@ -23,14 +23,16 @@ if TYPE_CHECKING:
 __all__ = ["CODE", "find"]
 
 CODE = "TF013"
-_SLOW = 400 * MILLISECOND  # the maximum period of a moving edge without a finding
-_SENSED = 110 * MILLISECOND  # the same for an edge that sensors with a higher rate need: 10 Hz, and some jitter
-_FASTER = 2.0  # minimum ratio of the sensor rate to the edge rate; poses of the base concern every sensor
+_MAX_PERIOD = 400 * MILLISECOND  # the maximum period of a moving edge without a finding
+_MAX_SENSOR_EDGE_PERIOD = (
+    110 * MILLISECOND
+)  # the same for an edge that sensors with a higher rate need: 10 Hz, and some jitter
+_MIN_RATE_RATIO = 2.0  # minimum ratio of the sensor rate to the edge rate; poses of the base concern every sensor
 _BASES = {"base_link", "base_footprint"}
 _CORRECTIONS = {"odom"}  # localization intentionally corrects map -> odom at a low rate
 _MIN_TRANSFORMS = 5  # minimum number of transforms to judge the rate and gaps
 # For these sensors, the robot's poses between two transforms matter.
-_NEED_POSES = {
+_SENSOR_TYPES = {
     "sensor_msgs/msg/CameraInfo",
     "sensor_msgs/msg/CompressedImage",
     "sensor_msgs/msg/Image",
@@ -44,18 +46,20 @@ _NEED_POSES = {
 def find(observation: Observation) -> Iterator[Finding]:
     """Yield one finding per slow edge, or edge slower than its sensors; one for all gaps, one for all stale edges."""
     edges = [edge for edge in observation.dynamic if edge.count >= _MIN_TRANSFORMS and edge.period]
-    slow = [edge for edge in edges if edge.period > _SLOW]
+    slow = [edge for edge in edges if edge.period > _MAX_PERIOD]
     gaps = [edge for edge in edges if int(edge.intervals.max()) > usual_gap(edge.period)]
     stale = [edge for edge in observation.dynamic if observation.is_stale(edge)]
-    yield from map(_slow, slow)
-    yield from _below_sensors(observation, [edge for edge in edges if edge.period <= _SLOW and not edge.is_unset])
+    yield from map(_slow_edge, slow)
+    yield from _edges_slower_than_sensors(
+        observation, [edge for edge in edges if edge.period <= _MAX_PERIOD and not edge.is_unset]
+    )
     if gaps:
-        yield _gaps(gaps)
+        yield _gap_finding(gaps)
     if stale:
-        yield _stale(observation, stale)
+        yield _stale_finding(observation, stale)
 
 
-def _slow(edge: Edge) -> Finding:
+def _slow_edge(edge: Edge) -> Finding:
     command = static_command(*edge.key, edge.values[-1].tolist())
     return _finding(
         [edge],
@@ -71,9 +75,9 @@ def _slow(edge: Edge) -> Finding:
     )
 
 
-def _below_sensors(observation: Observation, edges: list[Edge]) -> Iterator[Finding]:
+def _edges_slower_than_sensors(observation: Observation, edges: list[Edge]) -> Iterator[Finding]:
     """Yield edges below 10 Hz that messages with a higher rate need."""
-    edges = [edge for edge in edges if edge.period > _SENSED and not edge.constant]
+    edges = [edge for edge in edges if edge.period > _MAX_SENSOR_EDGE_PERIOD and not edge.constant]
     edges = [edge for edge in edges if edge.child.rpartition("/")[2] not in _CORRECTIONS]
     if not edges:
         return
@@ -84,18 +88,18 @@ def _below_sensors(observation: Observation, edges: list[Edge]) -> Iterator[Find
             observation.path(sensor.frame),
         )
         for sensor in observation.sensors
-        if len(sensor.stamp) >= _MIN_TRANSFORMS and sensor.type in _NEED_POSES
+        if len(sensor.stamp) >= _MIN_TRANSFORMS and sensor.type in _SENSOR_TYPES
     ]
     for edge in edges:
-        factor = 1.1 if edge.child.rpartition("/")[2] in _BASES else _FASTER
+        factor = 1.1 if edge.child.rpartition("/")[2] in _BASES else _MIN_RATE_RATIO
         faster = [
             (period, topic) for period, topic, path in users if 0 < period * factor < edge.period and edge in path
         ]
         if faster:
-            yield _below_sensor(edge, *min(faster))
+            yield _edge_slower_than_sensor(edge, *min(faster))
 
 
-def _below_sensor(edge: Edge, period: float, topic: str) -> Finding:
+def _edge_slower_than_sensor(edge: Edge, period: float, topic: str) -> Finding:
     rate, sensor_rate = SECOND / edge.period, SECOND / period
     return _finding(
         [edge],
@@ -110,35 +114,35 @@ def _below_sensor(edge: Edge, period: float, topic: str) -> Finding:
     )
 
 
-def _gaps(edges: list[Edge]) -> Finding:
+def _gap_finding(edges: list[Edge]) -> Finding:
     worst = max(edges, key=lambda edge: int(edge.intervals.max()))
     row = int(np.argmax(worst.intervals))
     return _finding(
         edges,
         Severity.WARNING,
-        f"a gap of {duration(int(worst.intervals.max()))}; the usual period is {duration(worst.period)}{_all(edges)}; "
-        "tf2 interpolates across the gap",
+        f"a gap of {duration(int(worst.intervals.max()))}; the usual period is {duration(worst.period)}"
+        f"{_edge_list(edges)}; tf2 interpolates across the gap",
         "Find out what delayed the publisher: a blocking callback (time.sleep, a service call), an overloaded "
         "processor, or a lossy network. Give its timer a dedicated thread (MultiThreadedExecutor).",
         int(np.unique(worst.stamp)[row]),
     )
 
 
-def _stale(observation: Observation, edges: list[Edge]) -> Finding:
+def _stale_finding(observation: Observation, edges: list[Edge]) -> Finding:
     worst = max(edges, key=observation.silence)
     usual = f"; the usual period is {duration(worst.period)}" if worst.period else ""
-    publishers = f" ({listed(worst.publishers)})" if worst.publishers else ""
+    publishers = f" ({join_names(worst.publishers)})" if worst.publishers else ""
     return _finding(
         edges,
         Severity.WARNING,
-        f"stale: no transform for the last {duration(observation.silence(worst))}{usual}{_all(edges)}",
+        f"stale: no transform for the last {duration(observation.silence(worst))}{usual}{_edge_list(edges)}",
         f"Restart the publisher{publishers}. Until then, lookups at now() fail, and the latest transform is outdated.",
         int(worst.stamp[-1]),
     )
 
 
-def _all(edges: list[Edge]) -> str:
-    return f" (on {len(edges)} edges: {listed(edge.name for edge in edges)})" if len(edges) > 1 else ""
+def _edge_list(edges: list[Edge]) -> str:
+    return f" (on {len(edges)} edges: {join_names(edge.name for edge in edges)})" if len(edges) > 1 else ""
 
 
 def _finding(edges: list[Edge], severity: Severity, text: str, fix: str, stamp: int) -> Finding:

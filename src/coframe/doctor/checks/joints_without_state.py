@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from coframe._output.formatting import listed
+from coframe._output.formatting import join_names
 from coframe.doctor._finding import Finding, Severity
 from coframe.doctor._robot_model import model
 
@@ -43,8 +43,8 @@ def find(observation: Observation) -> Iterator[Finding]:
         yield Finding(
             code=CODE,
             severity=Severity.WARNING,
-            text=f"no joint state for {len(missing)} of {len(movable)} movable joints: {listed(missing)}; the links "
-            "below them have no transform",
+            text=f"no joint state for {len(missing)} of {len(movable)} movable joints: {join_names(missing)}; the "
+            "links below them have no transform",
             fix="Publish their positions on /joint_states (joint_state_publisher publishes zeros), or change their "
             "type to fixed in the URDF.",
             topic="/joint_states",
@@ -55,9 +55,9 @@ def find(observation: Observation) -> Iterator[Finding]:
         yield Finding(
             code=CODE,
             severity=Severity.WARNING,
-            text=f"the joint states contain {listed(unknown)}, but the robot description has no such joint",
+            text=f"the joint states contain {join_names(unknown)}, but the robot description has no such joint",
             fix="Use the names of the joints in the URDF"
-            + (f": {listed(missing)}." if missing else ", or load the description that contains these joints."),
+            + (f": {join_names(missing)}." if missing else ", or load the description that contains these joints."),
             topic="/joint_states",
         )
     mimicking = sorted(name for name, joint in robot.joints.items() if joint.mimic is not None and name in published)
@@ -65,8 +65,8 @@ def find(observation: Observation) -> Iterator[Finding]:
         yield Finding(
             code=CODE,
             severity=Severity.NOTE,
-            text=f"{listed(mimicking)}: published on /joint_states, but the URDF defines a mimic joint; the published "
-            "position is used",
+            text=f"{join_names(mimicking)}: published on /joint_states, but the URDF defines a mimic joint; the "
+            "published position is used",
             fix="Remove the joint from /joint_states, or remove <mimic> from the URDF.",
             topic="/joint_states",
         )

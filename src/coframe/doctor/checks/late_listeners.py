@@ -21,7 +21,7 @@ __all__ = ["CODE", "find"]
 
 CODE = "TF025"
 _MIN_TRANSFORMS = 3
-_STALL = 500 * MILLISECOND
+_MIN_PAUSE = 500 * MILLISECOND
 _WAIT = (
     "Request the latest transform: lookup_transform(target, source, rclpy.time.Time()), or wait for the requested "
     "time: lookup_transform(target, source, stamp, timeout=Duration(seconds=0.1))."
@@ -75,14 +75,14 @@ def _logged_errors(observation: Observation) -> Iterator[Finding]:
 
 def _bursts(observation: Observation) -> Iterator[Finding]:
     """Yield a simultaneous pause of all edges followed by a burst of the delayed messages: the recorder was blocked."""
-    edges = [edge for edge in observation.dynamic if edge.count > 10 and edge.period < _STALL / 5]
+    edges = [edge for edge in observation.dynamic if edge.count > 10 and edge.period < _MIN_PAUSE / 5]
     if not edges:
         return
     arrived = np.sort(np.concatenate([edge.arrived for edge in edges]))
     stamps = np.concatenate([edge.stamp for edge in edges])[
         np.argsort(np.concatenate([edge.arrived for edge in edges]), kind="stable")
     ]
-    pauses = np.flatnonzero(np.diff(arrived) > _STALL)
+    pauses = np.flatnonzero(np.diff(arrived) > _MIN_PAUSE)
     for row in pauses.tolist():
         pause = int(arrived[row + 1] - arrived[row])
         # The stamps of the messages that arrive within a tenth of the pause after it cover most of the pause.

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from coframe._output.formatting import duration, listed
+from coframe._output.formatting import duration, join_names
 from coframe.doctor._finding import Finding, Severity
 
 if TYPE_CHECKING:
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 __all__ = ["CODE", "find"]
 
 CODE = "TF027"
-_COVER_ALL = "Observe for a shorter --duration, or record with `coframe record` and examine the recording."
+_ADVICE = "Observe for a shorter --duration, or record with `coframe record` and examine the recording."
 
 
 def find(observation: Observation) -> Iterator[Finding]:
@@ -43,14 +43,14 @@ def find(observation: Observation) -> Iterator[Finding]:
             severity=Severity.NOTE,
             text=f"only the transforms of the last {duration(observation.end - observation.transforms_since)} were "
             "examined: there are too many",
-            fix=_COVER_ALL,
+            fix=_ADVICE,
             harm="This report does not contain problems that ended before that time.",
         )
     if observation.incomplete:
         yield Finding(
             code=CODE,
             severity=Severity.NOTE,
-            text=f"some messages of {listed(observation.incomplete)} were not examined: there are too many",
-            fix=_COVER_ALL,
+            text=f"some messages of {join_names(observation.incomplete)} were not examined: there are too many",
+            fix=_ADVICE,
             harm="This report does not contain problems with these messages.",
         )

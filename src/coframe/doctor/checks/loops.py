@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from coframe._output.formatting import quoted, times
+from coframe._output.formatting import join_quoted, times
 from coframe.doctor._edge import publishers_of
 from coframe.doctor._finding import Finding, Severity
 
@@ -25,7 +25,7 @@ _MAX_NAMES = 20  # maximum number of frames of a loop to list in a finding
 def find(observation: Observation) -> Iterator[Finding]:
     """Yield the loops, then the transforms that tf2 rejects, then damaged and empty messages."""
     yield from _loops(observation)
-    yield from _refused(observation)
+    yield from _rejected_transforms(observation)
     if observation.damaged_messages:
         yield Finding(
             code=CODE,
@@ -63,7 +63,7 @@ def _loops(observation: Observation) -> Iterator[Finding]:
         )
 
 
-def _refused(observation: Observation) -> Iterator[Finding]:
+def _rejected_transforms(observation: Observation) -> Iterator[Finding]:
     transforms = observation.transforms
     for number in range(len(transforms.pairs)):
         parent, child = transforms.pair(number)
@@ -77,7 +77,7 @@ def _refused(observation: Observation) -> Iterator[Finding]:
         yield Finding(
             code=CODE,
             severity=Severity.ERROR,
-            text=f"{quoted([child])} {problem}, published {times(len(rows))}; tf2 ignores the transform",
+            text=f"{join_quoted([child])} {problem}, published {times(len(rows))}; tf2 ignores the transform",
             fix="Set both names before publishing: t.header.frame_id = 'PARENT', t.child_frame_id = 'CHILD'.",
             frames=frozenset({parent.lstrip("/"), child.lstrip("/")} - {""}),
             first_stamp=int(transforms.stamp[rows[0]]),

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from coframe._output.formatting import duration, listed
+from coframe._output.formatting import duration, join_names
 from coframe.doctor._edge import publishers_of
 from coframe.doctor._finding import Finding, Severity
 from coframe.time import MILLISECOND
@@ -23,10 +23,10 @@ __all__ = ["CODE", "find"]
 CODE = "TF010"
 _MIN_MESSAGES = 20  # messages
 # A message that arrives before it was sent proves that the clocks differ; a network may take 100 ms.
-_AHEAD = 1 * MILLISECOND
-_BEHIND = 100 * MILLISECOND
+_MAX_LEAD = 1 * MILLISECOND
+_MAX_LAG = 100 * MILLISECOND
 # The stamps of one machine are off by nearly the same amount.
-_SPREAD = 20 * MILLISECOND
+_MAX_SPREAD = 20 * MILLISECOND
 _FIX = (
     "Synchronize the clocks of all machines: install chrony and make one machine the server of the others; check with "
     "`chronyc tracking`."
@@ -36,17 +36,17 @@ _FIX = (
 def find(observation: Observation) -> Iterator[Finding]:
     """Yield findings based on the send times of messages if known, else on constant stamp offsets."""
     if observation.live:
-        yield from _by_travel(observation)
+        yield from _find_by_transport_time(observation)
     else:
-        yield from _by_stamps(observation)
+        yield from _find_by_stamps(observation)
 
 
-def _by_travel(observation: Observation) -> Iterator[Finding]:
+def _find_by_transport_time(observation: Observation) -> Iterator[Finding]:
     for publisher, travel in observation.travel.items():
         if len(travel) < _MIN_MESSAGES or not publisher:
             continue
         least = int(travel.min())
-        if -_AHEAD < least < _BEHIND:
+        if -_MAX_LEAD < least < _MAX_LAG:
             continue
         frames = {name for edge in observation.edges if publisher in edge.publishers for name in edge.key}
         offset = f"{duration(abs(least))} {'ahead of' if least < 0 else 'behind'}"
@@ -60,25 +60,25 @@ def _by_travel(observation: Observation) -> Iterator[Finding]:
         )
 
 
-def _by_stamps(observation: Observation) -> Iterator[Finding]:
+def _find_by_stamps(observation: Observation) -> Iterator[Finding]:
     """Yield a finding if two edges or more share an offset that the others do not have."""
     offsets: list[tuple[float, Edge]] = []
     for edge in observation.dynamic:
         lags = observation.lags(edge.stamp, edge.arrived)
         if lags is not None and edge.count >= _MIN_MESSAGES:
             median = float(np.median(lags))
-            if np.median(np.abs(lags - median)) < _SPREAD:
+            if np.median(np.abs(lags - median)) < _MAX_SPREAD:
                 offsets.append((median, edge))
-    correct = [edge for offset, edge in offsets if abs(offset) < _BEHIND]
-    off = sorted(((offset, edge) for offset, edge in offsets if abs(offset) >= _BEHIND), key=lambda pair: pair[0])
-    if not correct or len(off) < 2 or off[-1][0] - off[0][0] > _SPREAD:
+    correct = [edge for offset, edge in offsets if abs(offset) < _MAX_LAG]
+    off = sorted(((offset, edge) for offset, edge in offsets if abs(offset) >= _MAX_LAG), key=lambda pair: pair[0])
+    if not correct or len(off) < 2 or off[-1][0] - off[0][0] > _MAX_SPREAD:
         return
     edges = [edge for _, edge in off]
     shared = observation.offset(edges[len(edges) // 2].name)
     yield Finding(
         code=CODE,
         severity=Severity.WARNING,
-        text=f"the stamps of {listed(edge.name for edge in edges)} are all {shared.size} "
+        text=f"the stamps of {join_names(edge.name for edge in edges)} are all {shared.size} "
         f"{shared.direction} their arrival, but those of other edges are not: the clock of "
         "their machine is wrong",
         fix=_FIX,

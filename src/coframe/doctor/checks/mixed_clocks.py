@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from coframe._output.formatting import duration, listed, seconds
+from coframe._output.formatting import duration, join_names, seconds
 from coframe.analysis.clocks import SAME_CLOCK
 from coframe.doctor._edge import publishers_of
 from coframe.doctor._finding import Finding, Severity
@@ -54,8 +54,8 @@ def _finding(observation: Observation, usual: str, usual_names: list[str], clock
     return Finding(
         code=CODE,
         severity=Severity.ERROR,
-        text=f"two clocks: the stamps of {_offsets(observation, names)} {_called(usual)} ({seconds(stamps[0])}"
-        f"{_KINDS.get(clock, '')}), which those of {listed(usual_names)} are on",
+        text=f"two clocks: the stamps of {_offsets(observation, names)} {_clock_name(usual)} ({seconds(stamps[0])}"
+        f"{_KINDS.get(clock, '')}), which those of {join_names(usual_names)} are on",
         fix="Use one clock for all nodes. "
         + (
             "Start these nodes with --ros-args -p use_sim_time:=true."
@@ -115,7 +115,7 @@ def _offsets(observation: Observation, names: list[str]) -> str:
     shown = [*pairs[: _MAX_OFFSETS - 1], pairs[-1]] if len(pairs) > _MAX_OFFSETS else pairs
     last = shown[-1][0][1]
     parts = [
-        f"{listed(same)} {'are ' if number == 0 else ''}{size}"
+        f"{join_names(same)} {'are ' if number == 0 else ''}{size}"
         + (f" {direction}" if direction != last or number + 1 == len(shown) else "")
         for number, ((size, direction), same) in enumerate(shown)
     ]
@@ -127,7 +127,7 @@ def _is_whole_hours(offset: float) -> bool:
     return 1 <= hours <= _MAX_HOURS and abs(abs(offset) - hours * HOUR) < SECOND
 
 
-def _called(clock: str) -> str:
+def _clock_name(clock: str) -> str:
     return {"wall": "the system clock", "simulated": "simulated time"}.get(
         clock, "a clock that is off the system clock"
     )

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from coframe._output.formatting import count, listed
+from coframe._output.formatting import count, join_names
 from coframe.doctor._finding import Finding, Severity
 
 if TYPE_CHECKING:
@@ -23,7 +23,7 @@ CODE = "TF028"
 _MIN_CHANGES = 5  # from one source to another
 _MIN_SHARE = 0.05  # of the messages that follow a message of another source
 _MIN_TRACKED = 20  # successive positions
-_APART = 10  # times the usual step: the distance between two sources
+_MIN_DISTANCE_RATIO = 10  # times the usual step: the distance between two sources
 _MIN_DISTANCE = 0.05  # meters
 _ONE_SOURCE = {
     *(f"sensor_msgs/msg/{name}" for name in ("CameraInfo", "CompressedImage", "FluidPressure", "Image", "Imu")),
@@ -53,11 +53,11 @@ def find(observation: Observation) -> Iterator[Finding]:
         nodes = tuple(dict.fromkeys(node for sensor in sensors for node in sensor.publishers))
         if _alternate(sensors, [np.full(len(sensor.stamp), number) for number, sensor in enumerate(sensors)]):
             found.add(topic)
-            names = listed(f"{sensor.frame!r} ({count(len(sensor.stamp), 'message')})" for sensor in sensors)
+            names = join_names(f"{sensor.frame!r} ({count(len(sensor.stamp), 'message')})" for sensor in sensors)
             yield _finding(topic, f"the messages alternate between {len(sensors)} frames: {names}", nodes)
         elif len(nodes) > 1 and _alternate(sensors, [_nodes(sensor, nodes) for sensor in sensors]):
             found.add(topic)
-            yield _finding(topic, f"the messages alternate between {len(nodes)} publishers: {listed(nodes)}", nodes)
+            yield _finding(topic, f"the messages alternate between {len(nodes)} publishers: {join_names(nodes)}", nodes)
     for one in observation.positions:
         if one.topic not in found and (distance := _distance(one)):
             text = f"the positions jump back and forth between two tracks, {distance:.3g} m apart"
@@ -80,10 +80,10 @@ def _alternate(sensors: list[Sensor], sources: list[NDArray[np.int64]]) -> bool:
 
 def _distance(positions: ObservedPositions) -> float:
     """Return how far apart two tracks are between which the positions jump; 0 if they are one track."""
-    return max((_between(part) for part in positions.parts if len(part) >= _MIN_TRACKED), default=0.0)
+    return max((_track_distance(part) for part in positions.parts if len(part) >= _MIN_TRACKED), default=0.0)
 
 
-def _between(points: NDArray[np.float64]) -> float:
+def _track_distance(points: NDArray[np.float64]) -> float:
     """Return how far apart two tracks are between which successive positions jump; 0 if they are one track."""
     farthest = int(np.argmax(np.linalg.norm(points[: _MIN_TRACKED // 2] - points[0], axis=1)))
     ends = [points[0], points[farthest]]
@@ -101,7 +101,7 @@ def _between(points: NDArray[np.float64]) -> float:
         return 0.0
     step = max(float(np.median(each)) for each in steps)
     distance = float(np.median(apart))
-    return distance if distance > max(_APART * step, _MIN_DISTANCE) else 0.0
+    return distance if distance > max(_MIN_DISTANCE_RATIO * step, _MIN_DISTANCE) else 0.0
 
 
 def _finding(topic: str, text: str, publishers: tuple[str, ...] = ()) -> Finding:

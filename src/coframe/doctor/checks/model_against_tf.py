@@ -128,7 +128,7 @@ def find(observation: Observation) -> Iterator[Finding]:
 def _other_parents(observation: Observation, robot: Robot) -> Iterator[Finding]:
     """Yield findings for links whose parent differs from that of their joint, with a movable joint in between."""
     link_of = {observation.link_name(link): link for link in robot.links}
-    rigid = _rigid(robot)
+    rigid = _rigid_parents(robot)
     for joint in robot.joints.values():
         edge = observation.last.get(observation.link_name(joint.child))
         parent = link_of.get(edge.parent) if edge is not None else None
@@ -147,7 +147,7 @@ def _other_parents(observation: Observation, robot: Robot) -> Iterator[Finding]:
         )
 
 
-def _rigid(robot: Robot) -> dict[str, str]:
+def _rigid_parents(robot: Robot) -> dict[str, str]:
     """Return the topmost link to which each link is rigidly connected."""
     joint_above = {joint.child: joint for joint in robot.joints.values()}
     rigid = {}
@@ -163,7 +163,7 @@ def _other_mounts(observation: Observation, robot: Robot) -> Iterator[Finding]:
     """Yield findings for static transforms between two links that several fixed joints connect."""
     link_of = {observation.link_name(link): link for link in robot.links}
     joint_above = {joint.child: joint for joint in robot.joints.values()}
-    rigid = _rigid(robot)
+    rigid = _rigid_parents(robot)
     poses = None
     for edge in observation.static:
         parent, child = link_of.get(edge.parent, ""), link_of.get(edge.child, "")
@@ -184,8 +184,8 @@ def _mount(edge: Edge, joint: str, expected: Transform, found: _Difference) -> F
     return Finding(
         code=CODE,
         severity=Severity.WARNING,
-        text=f"differs from {joint} of the robot description by {found.text}: published {_described(published)}, "
-        f"described {_described(expected)}{_agreement(found)}",
+        text=f"differs from {joint} of the robot description by {found.text}: published {_describe_pose(published)}, "
+        f"described {_describe_pose(expected)}{_agreement(found)}",
         fix=(found.mistake.fix if found.mistake else "Decide which pose is right.")
         + " If that of the robot description is right, let only robot_state_publisher publish "
         f"it (its values: `{static_command(*edge.key, pose)}`); otherwise correct <origin> in the URDF to "
@@ -201,7 +201,7 @@ def _agreement(found: _Difference) -> str:
     return f"; {found.mistake.text('it')}" if found.mistake is not None else ""
 
 
-def _described(pose: Transform) -> str:
+def _describe_pose(pose: Transform) -> str:
     x, y, z = _numbers(pose.translation, 4)
     roll, pitch, yaw = _numbers(np.degrees(pose.rpy), 2)
     return f"x {x}, y {y}, z {z} m, roll {roll}, pitch {pitch}, yaw {yaw} degrees"

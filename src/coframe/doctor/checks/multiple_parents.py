@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from coframe._output.formatting import listed, times
+from coframe._output.formatting import join_names, times
 from coframe.doctor._edge import publishers_of
 from coframe.doctor._finding import Finding, Severity
 
@@ -67,4 +67,4 @@ def _changes(edges: list[Edge]) -> int:
 
 def _source(edge: Edge) -> str:
     topic = "static" if edge.static else "dynamic"
-    return f"{topic}, from {listed(edge.publishers)}" if edge.publishers else topic
+    return f"{topic}, from {join_names(edge.publishers)}" if edge.publishers else topic

@@ -22,11 +22,11 @@ if TYPE_CHECKING:
 __all__ = ["CODE", "find"]
 
 CODE = "TF020"
-_FAST = 30.0  # m/s
-_FAR = 0.5  # meters
-_TURNED = 1.5  # radians
-_SPINNING = 30.0  # rad/s
-_UNUSUAL = 20.0  # times the median step
+_MIN_SPEED = 30.0  # m/s
+_MIN_DISTANCE = 0.5  # meters
+_MIN_ANGLE = 1.5  # radians
+_MIN_ANGULAR_SPEED = 30.0  # rad/s
+_MIN_STEP_RATIO = 20.0  # times the median step
 _MIN_JUMPS = 10
 
 
@@ -54,10 +54,10 @@ def find(observation: Observation) -> Iterator[Finding]:
 
 def _jumps(edge: Edge) -> Iterator[Finding]:
     seconds = np.maximum(np.abs(edge.steps), 1) / SECOND
-    far = (edge.distances > _FAR) & (edge.distances > _UNUSUAL * np.median(edge.distances))
-    far &= edge.distances / seconds > _FAST
-    turned = (edge.turns > _TURNED) & (edge.turns > _UNUSUAL * np.median(edge.turns))
-    turned &= edge.turns / seconds > _SPINNING
+    far = (edge.distances > _MIN_DISTANCE) & (edge.distances > _MIN_STEP_RATIO * np.median(edge.distances))
+    far &= edge.distances / seconds > _MIN_SPEED
+    turned = (edge.turns > _MIN_ANGLE) & (edge.turns > _MIN_STEP_RATIO * np.median(edge.turns))
+    turned &= edge.turns / seconds > _MIN_ANGULAR_SPEED
     rows = np.flatnonzero(far | turned)
     if not len(rows):
         return

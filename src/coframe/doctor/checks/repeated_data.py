@@ -27,13 +27,13 @@ def find(observation: Observation) -> Iterator[Finding]:
     for edge in observation.dynamic:
         if edge.is_unset:
             continue
-        yield from _repeated(edge.current)
-        yield from _old(edge, observation.cache)
+        yield from _repeated_stamps(edge.current)
+        yield from _old_transforms(edge, observation.cache)
     for states in observation.joint_states:
         yield from _repeated_states(states)
 
 
-def _repeated(edge: Edge) -> Iterator[Finding]:
+def _repeated_stamps(edge: Edge) -> Iterator[Finding]:
     order = np.argsort(edge.stamp, kind="stable")
     repeated = np.flatnonzero(np.diff(edge.stamp[order]) == 0)
     if len(repeated) < _MIN_REPETITIONS:
@@ -52,7 +52,7 @@ def _repeated(edge: Edge) -> Iterator[Finding]:
     )
 
 
-def _old(edge: Edge, cache: int) -> Iterator[Finding]:
+def _old_transforms(edge: Edge, cache: int) -> Iterator[Finding]:
     behind = np.maximum.accumulate(edge.stamp) - edge.stamp
     old = np.flatnonzero(behind > cache)
     if len(old):

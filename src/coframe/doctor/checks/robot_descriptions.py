@@ -5,9 +5,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from coframe._output.formatting import count, listed
+from coframe._output.formatting import count, join_names
 from coframe.doctor._finding import Finding, Severity
-from coframe.doctor._robot_model import parsed
+from coframe.doctor._robot_model import parse_robot
 from coframe.errors import PackageError, RobotDescriptionError
 from coframe.robots import Mesh, Packages
 
@@ -31,7 +31,7 @@ def find(observation: Observation) -> Iterator[Finding]:
         superseded = number + 1 < len(observation.descriptions)
         later = "; a later description replaces it" if superseded else ""
         try:
-            last = parsed(text)
+            last = parse_robot(text)
         except RobotDescriptionError as error:
             empty = not text.strip() or "no link" in str(error)
             yield Finding(
@@ -74,7 +74,7 @@ def _missing_meshes(robot: Robot) -> Iterator[Finding]:
         yield Finding(
             code=CODE,
             severity=Severity.NOTE,
-            text=f"{len(missing)} of {len(meshes)} meshes do not exist on this machine: {listed(missing)}",
+            text=f"{len(missing)} of {len(meshes)} meshes do not exist on this machine: {join_names(missing)}",
             fix="Add the folder that contains the packages to COFRAME_PACKAGE_PATH (folders are separated as in PATH). "
             "Only visualization needs the meshes.",
             harm="Visualization tools do not show these parts of the robot; its transforms are not affected.",

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from coframe._output.formatting import count, duration, listed
+from coframe._output.formatting import count, duration, join_names
 from coframe.analysis.missing_edges import BASE_FRAMES, estimator_advice, is_sensor_frame
 from coframe.analysis.similar_frames import similar_frames
 from coframe.analysis.static_command import static_command
@@ -26,7 +26,7 @@ __all__ = ["CODE", "find"]
 
 CODE = "TF014"
 _MAX_WAIT = 200 * MILLISECOND
-_TOO_MANY = 0.05
+_MAX_MISSING_SHARE = 0.05
 _MIN_MESSAGES = 5
 _USUAL_ENDINGS = ("_link", "_frame", "_footprint")
 
@@ -40,19 +40,19 @@ def find(observation: Observation) -> Iterator[Finding]:
         if sensor.frame not in observation.frames:
             unknown.setdefault(sensor.frame, []).append(sensor)
         elif len(sensor.stamp):
-            yield from _late(observation, sensor)
+            yield from _late_transforms(observation, sensor)
     for frame, sensors in unknown.items():
-        yield _unknown(observation, frame, sensors)
+        yield _unknown_frame(observation, frame, sensors)
 
 
-def _unknown(observation: Observation, frame: str, sensors: list[Sensor]) -> Finding:
+def _unknown_frame(observation: Observation, frame: str, sensors: list[Sensor]) -> Finding:
     similar = similar_frames(frame, observation.frames)
     publishers = tuple(dict.fromkeys(sensor.publisher for sensor in sensors if sensor.publisher))
     messages = sum(len(sensor.stamp) for sensor in sensors)
     return Finding(
         code=CODE,
         severity=Severity.WARNING,
-        text=f"{count(messages, 'message')} of {listed(sensor.topic for sensor in sensors)} "
+        text=f"{count(messages, 'message')} of {join_names(sensor.topic for sensor in sensors)} "
         f"{'is' if messages == 1 else 'are'} expressed in frame {frame!r}, but no transform connects {frame!r} to the "
         f"tree" + (f"; did you mean {similar[0]!r}?" if similar else ""),
         fix=_one_name(observation, frame, similar[0]) if similar else _missing_frame(observation, frame, publishers),
@@ -72,7 +72,7 @@ def _one_name(observation: Observation, frame: str, similar: str) -> str:
     if not frame.endswith(_USUAL_ENDINGS) or similar.endswith(_USUAL_ENDINGS):
         return in_messages
     nodes = sorted({node for edge in observation.edges if edge.child == similar for node in edge.publishers})
-    publisher = f" ({listed(nodes)})" if nodes else ""
+    publisher = f" ({join_names(nodes)})" if nodes else ""
     return (
         f"In the publisher of {similar!r}{publisher}: child_frame_id = {frame!r}. Or, if {similar!r} is right, in the "
         f"node of the sensor: msg.header.frame_id = {similar!r}"
@@ -107,11 +107,11 @@ def _missing_frame(observation: Observation, frame: str, publishers: tuple[str, 
     )
 
 
-def _late(observation: Observation, sensor: Sensor) -> Iterator[Finding]:
+def _late_transforms(observation: Observation, sensor: Sensor) -> Iterator[Finding]:
     waits = observation.waits(sensor)
     counted = _countable(observation, sensor)
     missing = np.flatnonzero(counted & (waits > _MAX_WAIT))
-    if np.count_nonzero(counted) < _MIN_MESSAGES or len(missing) <= _TOO_MANY * np.count_nonzero(counted):
+    if np.count_nonzero(counted) < _MIN_MESSAGES or len(missing) <= _MAX_MISSING_SHARE * np.count_nonzero(counted):
         return
     never = int(np.count_nonzero(waits[missing] == NEVER))
     longest = int(waits[missing][waits[missing] != NEVER].max()) if never < len(missing) else None

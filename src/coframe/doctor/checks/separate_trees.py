@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from coframe._output.formatting import count, listed, quoted
+from coframe._output.formatting import count, join_names, join_quoted
 from coframe.analysis.missing_edges import missing_edge, unknown_mount
 from coframe.doctor._edge import publishers_of
 from coframe.doctor._finding import Finding, Severity
@@ -39,7 +39,7 @@ def find(observation: Observation) -> Iterator[Finding]:
         if missing is None and len(unknown) >= _MIN_ALIKE:
             continue
         members = [frame for frame in observation.trees[root] if frame != root]
-        below = f" with {listed(members)}" if members else ""
+        below = f" with {join_names(members)}" if members else ""
         edges = by_root.get(root, [])
         yield Finding(
             code=CODE,
@@ -61,7 +61,7 @@ def _several(observation: Observation, main: str, roots: list[str], by_root: dic
         code=CODE,
         severity=Severity.WARNING,
         text=f"{_trees(observation, main)}, and {len(roots)} trees to whose roots no transform is published: "
-        f"{quoted(roots)}{creates}",
+        f"{join_quoted(roots)}{creates}",
         fix="Find the publisher that creates new frame names, or connect the frames of one robot to one root."
         if creates
         else f"{unknown_mount(roots[0])} Do the same for the other roots.",

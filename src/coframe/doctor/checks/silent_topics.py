@@ -6,7 +6,7 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
-from coframe._output.formatting import duration, listed
+from coframe._output.formatting import duration, join_names
 from coframe.doctor._finding import Finding, Severity
 from coframe.time import SECOND
 from coframe.type_names import TF_MESSAGE
@@ -21,7 +21,7 @@ __all__ = ["CODE", "find"]
 CODE = "TF026"
 _MIN_DURATION = 4 * SECOND  # a GPS publishes once per second, and a driver may still be starting
 # These types are published regularly; others, such as goals or maps, only on an event.
-_REGULAR = {
+_REGULAR_TYPES = {
     "nav_msgs/msg/Odometry",
     "sensor_msgs/msg/CameraInfo",
     "sensor_msgs/msg/Imu",
@@ -35,7 +35,7 @@ _REGULAR = {
 }
 # Also this type, if its node receives transforms: the node may compute poses from them, and every lookup may fail. Some
 # nodes publish a pose only on an event, so this is a note.
-_COMPUTED = "geometry_msgs/msg/PoseStamped"
+_COMPUTED_TYPE = "geometry_msgs/msg/PoseStamped"
 _EVENT = re.compile("cmd|command|goal|desired|target|request|map|debug|trigger|snapshot|initial|click")
 
 
@@ -43,7 +43,7 @@ def find(observation: Observation) -> Iterator[Finding]:
     """Yield one finding per group of publishers."""
     silent: dict[tuple[str, ...], list[str]] = {}
     for facts in observation.topics.values():
-        if facts.messages == 0 and facts.observed >= _MIN_DURATION and _is_promised(observation, facts):
+        if facts.messages == 0 and facts.observed >= _MIN_DURATION and _is_published_regularly(observation, facts):
             nodes = tuple(dict.fromkeys(endpoint.node for endpoint in facts.publishers if endpoint.node))
             silent.setdefault(nodes, []).append(facts.name)
     for nodes, topics in silent.items():
@@ -53,11 +53,11 @@ def find(observation: Observation) -> Iterator[Finding]:
         yield Finding(
             code=CODE,
             severity=Severity.NOTE
-            if all(observation.topics[topic].type == _COMPUTED for topic in topics)
+            if all(observation.topics[topic].type == _COMPUTED_TYPE for topic in topics)
             else Severity.WARNING,
             text=f"it has a publisher, but {nothing}"
             if len(topics) == 1
-            else f"{len(topics)} topics have a publisher, but {nothing}: {listed(topics)}",
+            else f"{len(topics)} topics have a publisher, but {nothing}: {join_names(topics)}",
             fix=f"Look at the output of {node}: is its device connected, does it wait for another topic, for a "
             "transform or for /clock (use_sim_time)? Is the method that publishes called: "
             "self.create_timer(0.05, self.publish)?",
@@ -66,7 +66,7 @@ def find(observation: Observation) -> Iterator[Finding]:
         )
 
 
-def _is_promised(observation: Observation, facts: TopicFacts) -> bool:
+def _is_published_regularly(observation: Observation, facts: TopicFacts) -> bool:
     """Return whether messages are published regularly on a topic that has publishers."""
     if not facts.publishers or all(endpoint.transient_local for endpoint in facts.publishers):
         return False  # latched messages are published once, whenever there is something new
@@ -78,7 +78,7 @@ def _is_promised(observation: Observation, facts: TopicFacts) -> bool:
         return False  # other joint states are usually commands
     if _EVENT.search(name) is not None:
         return False
-    return facts.type in _REGULAR or (facts.type == _COMPUTED and _receives_transforms(observation, facts))
+    return facts.type in _REGULAR_TYPES or (facts.type == _COMPUTED_TYPE and _receives_transforms(observation, facts))
 
 
 def _receives_transforms(observation: Observation, facts: TopicFacts) -> bool:

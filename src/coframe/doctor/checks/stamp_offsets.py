@@ -31,15 +31,15 @@ def find(observation: Observation) -> Iterator[Finding]:
     starts_at_zero = observation.clock is not None and bool((observation.clock.stamp == 0).any())
     for edge in observation.dynamic:
         if edge.is_unset and not starts_at_zero:
-            yield _unset(edge)
+            yield _unset_stamps(edge)
             continue
         lags = observation.lags(edge.stamp, edge.arrived)
         if lags is None or edge.count < MIN_MESSAGES:
             continue
         if is_ahead(lags):
-            yield _ahead(edge, lags, observation.offset(edge.name))
+            yield _stamps_ahead(edge, lags, observation.offset(edge.name))
         elif is_behind(lags):
-            yield _behind(edge, lags, observation.offset(edge.name))
+            yield _stamps_behind(edge, lags, observation.offset(edge.name))
     for sensor in observation.sensors:
         unset = int(np.count_nonzero(sensor.stamp == 0))
         # A few stamps of 0 are normal, because simulations begin at 0.
@@ -58,7 +58,7 @@ def find(observation: Observation) -> Iterator[Finding]:
             )
 
 
-def _unset(edge: Edge) -> Finding:
+def _unset_stamps(edge: Edge) -> Finding:
     return Finding(
         code=CODE,
         severity=Severity.WARNING,
@@ -73,7 +73,7 @@ def _unset(edge: Edge) -> Finding:
     )
 
 
-def _ahead(edge: Edge, lags: NDArray[np.int64], offset: ClockOffset) -> Finding:
+def _stamps_ahead(edge: Edge, lags: NDArray[np.int64], offset: ClockOffset) -> Finding:
     most = -int(lags.min())
     usual = is_ahead_by_design(edge, lags)
     row = int(np.argmax(lags < -AHEAD))
@@ -94,7 +94,7 @@ def _ahead(edge: Edge, lags: NDArray[np.int64], offset: ClockOffset) -> Finding:
     )
 
 
-def _behind(edge: Edge, lags: NDArray[np.int64], offset: ClockOffset) -> Finding:
+def _stamps_behind(edge: Edge, lags: NDArray[np.int64], offset: ClockOffset) -> Finding:
     timeout = np.ceil(lags.max() / (100 * MILLISECOND)) / 10
     return Finding(
         code=CODE,

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from coframe._output.formatting import duration, listed, times
+from coframe._output.formatting import duration, join_names, times
 from coframe.doctor._finding import Finding, Severity
 from coframe.doctor.pose_mistakes import explain_either
 from coframe.time import SECOND
@@ -38,9 +38,9 @@ def find(observation: Observation) -> Iterator[Finding]:
             if not endpoint.transient_local:
                 yield _subscriber(facts.name, endpoint.node)
     if observation.live:
-        yield from _overwritten(observation)
+        yield from _overwritten_statics(observation)
     for edge in observation.static:
-        yield from _outdated(edge)
+        yield from _outdated_statics(edge)
 
 
 def _publisher(topic: str, node: str) -> Finding:
@@ -72,7 +72,7 @@ def _subscriber(topic: str, node: str) -> Finding:
     )
 
 
-def _overwritten(observation: Observation) -> Iterator[Finding]:
+def _overwritten_statics(observation: Observation) -> Iterator[Finding]:
     """Yield static transforms that late joiners miss, because a publisher usually keeps only its last message."""
     transforms = observation.transforms
     for number, publisher in enumerate(transforms.publishers):
@@ -88,7 +88,7 @@ def _overwritten(observation: Observation) -> Iterator[Finding]:
                 code=CODE,
                 severity=Severity.WARNING,
                 text=f"{publisher} has published {len(messages)} messages of static transforms, and the last one does "
-                f"not contain {listed(lost)}: nodes that start now do not receive these unless the publisher keeps "
+                f"not contain {join_names(lost)}: nodes that start now do not receive these unless the publisher keeps "
                 "more than one message",
                 fix="Publish all of them in one call of one broadcaster: broadcaster.sendTransform([t1, t2, ...]).",
                 frames=frozenset(lost),
@@ -97,7 +97,7 @@ def _overwritten(observation: Observation) -> Iterator[Finding]:
             )
 
 
-def _outdated(edge: Edge) -> Iterator[Finding]:
+def _outdated_statics(edge: Edge) -> Iterator[Finding]:
     """Yield an edge whose messages have very different delays: a process that repeats a message renews its stamp."""
     has_stamp = edge.stamp != 0
     stamps, lags = edge.stamp[has_stamp], edge.arrived[has_stamp] - edge.stamp[has_stamp]

@@ -21,10 +21,10 @@ __all__ = ["CODE", "find"]
 
 CODE = "TF018"
 _MIN_TRANSFORMS = 10  # transforms
-_LONG = 5 * SECOND
+_MIN_DURATION = 5 * SECOND
 # Joints at rest are published in one message with moving ones, with the same stamps.
-_TOGETHER = 0.5
-_USUALLY_MOVING = ("odom", "base_link", "base_footprint")
+_MIN_COMMON_SHARE = 0.5
+_USUALLY_MOVING_FRAMES = ("odom", "base_link", "base_footprint")
 _CHANGES = 3
 
 
@@ -33,7 +33,7 @@ def find(observation: Observation) -> Iterator[Finding]:
     moving = [edge.stamp for edge in observation.dynamic if not edge.constant]
     for edge in filter(_should_be_static, observation.dynamic):
         stamps = np.concatenate(moving) if moving else edge.stamp[:0]
-        if np.mean(np.isin(edge.stamp, stamps)) < _TOGETHER:
+        if np.mean(np.isin(edge.stamp, stamps)) < _MIN_COMMON_SHARE:
             command = static_command(*edge.key, edge.values[-1].tolist())
             yield Finding(
                 code=CODE,
@@ -62,6 +62,6 @@ def find(observation: Observation) -> Iterator[Finding]:
 
 
 def _should_be_static(edge: Edge) -> bool:
-    if edge.child.rpartition("/")[2] in _USUALLY_MOVING or edge.count < _MIN_TRANSFORMS:
+    if edge.child.rpartition("/")[2] in _USUALLY_MOVING_FRAMES or edge.count < _MIN_TRANSFORMS:
         return False
-    return edge.constant and int(edge.stamp.max() - edge.stamp.min()) >= _LONG
+    return edge.constant and int(edge.stamp.max() - edge.stamp.min()) >= _MIN_DURATION

@@ -34,8 +34,8 @@ _SEEING = {
     f"sensor_msgs/msg/{name}"
     for name in ("CameraInfo", "CompressedImage", "Image", "LaserScan", "MultiEchoLaserScan", "PointCloud2")
 }
-_FAR = 10.0  # meters between two frames of a robot
-_TOO_FAR = 1e6  # meters; it would be a kilometer in millimeters
+_MAX_DISTANCE = 10.0  # meters between two frames of a robot
+_MIN_ABSURD_DISTANCE = 1e6  # meters; it would be a kilometer in millimeters
 _WORLDS = ("world", "map", "odom", "earth", "utm", "ecef", "enu", "global", "ned")
 
 
@@ -73,9 +73,9 @@ def _degrees(edge: Edge) -> Iterator[Finding]:
 
 def _other_units(edge: Edge, mounts: list[Edge]) -> Iterator[Finding]:
     """Yield a finding for a mount that is farther from its parent than any part of a robot."""
-    if edge.length < _FAR or _is_in_world(edge):
+    if edge.length < _MAX_DISTANCE or _is_in_world(edge):
         return
-    if edge.length > _TOO_FAR:
+    if edge.length > _MIN_ABSURD_DISTANCE:
         distance = f"the frames are {edge.length:.4g} m apart"
         yield _finding(edge, distance, "Check the values of the translation; they are in meters.")
         return
@@ -91,8 +91,8 @@ def _other_units(edge: Edge, mounts: list[Edge]) -> Iterator[Finding]:
 
 def _likely_units(edge: Edge, mounts: list[Edge]) -> list[tuple[str, float]]:
     """Return the units in which the distance is like those of the robot's other mounts, or possible; at least one."""
-    possible = [unit for unit in _UNITS if _MIN_MOUNT < edge.length / unit[1] < _FAR] or list(_UNITS[:1])
-    others = [other.length for other in mounts if other is not edge and _MIN_MOUNT < other.length < _FAR]
+    possible = [unit for unit in _UNITS if _MIN_MOUNT < edge.length / unit[1] < _MAX_DISTANCE] or list(_UNITS[:1])
+    others = [other.length for other in mounts if other is not edge and _MIN_MOUNT < other.length < _MAX_DISTANCE]
     if not others:
         return possible
     alike = [unit for unit in possible if min(others) / 2.0 <= edge.length / unit[1] <= 2.0 * max(others)]

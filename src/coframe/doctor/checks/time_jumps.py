@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from coframe._output.formatting import duration, listed, times
+from coframe._output.formatting import duration, join_names, times
 from coframe.doctor._edge import publishers_of
 from coframe.doctor._finding import Finding, Severity
 from coframe.time import SECOND
@@ -24,7 +24,7 @@ __all__ = ["CODE", "find"]
 CODE = "TF012"
 _JUMP = -SECOND
 # With two publishers on different clocks, time goes back continuously; a reset is rare.
-_RARE = 0.1
+_MAX_JUMP_SHARE = 0.1
 
 
 def find(observation: Observation) -> Iterator[Finding]:
@@ -40,7 +40,7 @@ def find(observation: Observation) -> Iterator[Finding]:
         assert observation.clock is not None
         stamps = observation.clock.stamp
         back, first, count = -int(np.diff(stamps).min()), int(stamps[on_clock[0] + 1]), len(on_clock)
-    names = listed([*(edge.name for edge, _ in found), *(["/clock"] if len(on_clock) else [])])
+    names = join_names([*(edge.name for edge, _ in found), *(["/clock"] if len(on_clock) else [])])
     yield Finding(
         code=CODE,
         severity=Severity.WARNING,
@@ -60,7 +60,7 @@ def find(observation: Observation) -> Iterator[Finding]:
 def _jumps(stamps: NDArray[np.int64]) -> NDArray[np.intp]:
     """Return the rows after which time goes back and does not return immediately."""
     jumps = np.flatnonzero(np.diff(stamps) < _JUMP)
-    if len(jumps) > max(3, _RARE * len(stamps)):
+    if len(jumps) > max(3, _MAX_JUMP_SHARE * len(stamps)):
         return jumps[:0]
     # With two clocks that alternate, the next row is at the later time again.
     last = len(stamps) - 1

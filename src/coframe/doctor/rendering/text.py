@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from coframe._output.formatting import count, duration, listed, seconds
+from coframe._output.formatting import count, duration, join_names, seconds
 from coframe.type_names import is_tf_message
 
 if TYPE_CHECKING:
@@ -36,7 +36,7 @@ def headline(finding: Finding) -> str:
     """Return the code, severity, subject, text, first stamp and publishers of a finding as one line."""
     subject = f"{finding.subject}: " if finding.subject else ""
     stamp = "" if finding.first_stamp is None else f"; first stamp {seconds(finding.first_stamp)}"
-    publishers = f"; published by {listed(finding.publishers)}" if finding.publishers else ""
+    publishers = f"; published by {join_names(finding.publishers)}" if finding.publishers else ""
     return f"{finding.code} {finding.severity}: {subject}{finding.text}{stamp}{publishers}"
 
 
@@ -50,7 +50,7 @@ def _summary(report: Report) -> Iterator[tuple[str, str]]:
     )
     every = report.every_finding()
     if not len(seen.transforms):
-        yield "warning", f"no transforms in {duration(seen.duration)}: nothing to examine" + _elsewhere(seen)
+        yield "warning", f"no transforms in {duration(seen.duration)}: nothing to examine" + _other_transforms(seen)
     elif not every:
         yield "good", f"healthy: {examined}"
     else:
@@ -61,11 +61,11 @@ def _summary(report: Report) -> Iterator[tuple[str, str]]:
         yield "plain", f"{found}; examined {examined}. For details: `coframe doctor --explain {every[0].code}`"
 
 
-def _elsewhere(seen: Observation) -> str:
+def _other_transforms(seen: Observation) -> str:
     """Return the other topics with transforms, or what to check."""
     topics = [topic.name for topic in seen.topics.values() if is_tf_message(topic.type) and topic.messages]
     if topics:
-        return f"; there are transforms on {listed(topics)}"
+        return f"; there are transforms on {join_names(topics)}"
     return ". Is a broadcaster running in the same ROS domain?" if seen.live else ""
 
 

@@ -24,7 +24,7 @@ from coframe.viewer.protocol.server_messages import (
     DisplayTopics,
     FindingEntries,
     Hello,
-    Problem,
+    ProblemReport,
     Stats,
     Tree,
     TreeComponent,
@@ -261,7 +261,7 @@ def _encode_robot(description: Description) -> str:
 
 
 def _encode_problem(problem: DescriptionProblem) -> str:
-    return encode(Problem(type="problem", text=problem.text, hint=problem.hint))
+    return encode(ProblemReport(type="problem", text=problem.text, hint=problem.hint))
 
 
 def _encode_status(number: int, status: Status) -> str:

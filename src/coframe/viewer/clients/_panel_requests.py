@@ -26,7 +26,7 @@ async def _set_curves(client: ClientState, request: client_messages.SetCurves) -
     client.panels.set_curves(request.curves, CurveSpan(first, last, request.points))
 
 
-async def _inspect(client: ClientState, request: client_messages.Inspect) -> None:
+async def _inspect(client: ClientState, request: client_messages.InspectTopic) -> None:
     client.panels.inspect(request.topic)
 
 
@@ -38,7 +38,7 @@ async def _show_graph(client: ClientState, request: client_messages.ShowGraph) -
     client.panels.show_graph(shown=request.shown)
 
 
-async def _complete(client: ClientState, request: client_messages.Complete) -> Completions:
+async def _complete(client: ClientState, request: client_messages.RequestCompletions) -> Completions:
     from coframe.viewer.panels.completion import (  # noqa: PLC0415 - see above
         MAX_TEXT,
         complete_expression,
@@ -55,8 +55,8 @@ async def _complete(client: ClientState, request: client_messages.Complete) -> C
 
 
 PANEL_HANDLERS: dict[type, Callable[[ClientState, Any], Awaitable[ServerMessage | None]]] = {
-    client_messages.Complete: _complete,
-    client_messages.Inspect: _inspect,
+    client_messages.RequestCompletions: _complete,
+    client_messages.InspectTopic: _inspect,
     client_messages.SetCurves: _set_curves,
     client_messages.ShowGraph: _show_graph,
     client_messages.ShowLog: _show_log,

@@ -13,7 +13,7 @@ from coframe.viewer.displays import Options
 from coframe.viewer.protocol import client_messages
 from coframe.viewer.protocol.requests import BadRequestError
 from coframe.viewer.protocol.schema import shorten
-from coframe.viewer.protocol.server_messages import CodePage, Published, ReplayPrepared, Rviz, Saved, Timeline
+from coframe.viewer.protocol.server_messages import CodePage, PublishResult, ReplayPrepared, Rviz, RvizSaved, Timeline
 from coframe.viewer.replay.displays import ReplayDisplay
 from coframe.viewer.replay.page import MAX_DISPLAYS, ReplaySettings
 from coframe.viewer.rviz.config import RvizConfig
@@ -83,7 +83,7 @@ async def _step(client: ClientState, request: client_messages.Step) -> None:
     client.clock.move(at if found is None else found)
 
 
-async def _relate(client: ClientState, request: client_messages.Relate) -> Relation:
+async def _relate(client: ClientState, request: client_messages.RequestRelation) -> Relation:
     buffer = client.viewer.source.buffer
     return relate(buffer, request.target, request.source, client.at, client.origin, request.id)
 
@@ -120,14 +120,14 @@ async def _set_joints(client: ClientState, request: client_messages.SetJoints) -
         raise BadRequestError(f"joint states cannot be published: {error}") from None
 
 
-async def _publish_point(client: ClientState, request: client_messages.PublishPoint) -> Published:
+async def _publish_point(client: ClientState, request: client_messages.PublishPoint) -> PublishResult:
     _check_fixed_frame(client, request.frame)
     return await _publish(
         client, request.topic, lambda tools: tools.publish_point(request.topic, request.frame, request.point)
     )
 
 
-async def _publish_pose(client: ClientState, request: client_messages.PublishPose) -> Published:
+async def _publish_pose(client: ClientState, request: client_messages.PublishPose) -> PublishResult:
     _check_fixed_frame(client, request.frame)
     return await _publish(
         client,
@@ -138,7 +138,7 @@ async def _publish_pose(client: ClientState, request: client_messages.PublishPos
     )
 
 
-async def _publish_static(client: ClientState, request: client_messages.PublishStatic) -> Published:
+async def _publish_static(client: ClientState, request: client_messages.PublishStatic) -> PublishResult:
     known = client.viewer.scene.structure
     child = known.indices.get(request.child, -1)
     parent = known.parents[child] if child >= 0 else -1
@@ -162,16 +162,16 @@ def _check_fixed_frame(client: ClientState, frame: str) -> None:
         )
 
 
-async def _publish(client: ClientState, topic: str, publish: Callable[[ToolPublisher], int]) -> Published:
+async def _publish(client: ClientState, topic: str, publish: Callable[[ToolPublisher], int]) -> PublishResult:
     try:
         tools = client.viewer.tool_publisher()
         subscribers = await _in_background(client, publish, tools)
     except (ViewerError, WireError) as error:
         raise BadRequestError(f"nothing was published: {error}", error.hint) from None
-    return Published(type="published", topic=topic or client.viewer.static_topic, subscribers=subscribers)
+    return PublishResult(type="published", topic=topic or client.viewer.static_topic, subscribers=subscribers)
 
 
-async def _explain(_client: ClientState, request: client_messages.Explain) -> CodePage:
+async def _explain(_client: ClientState, request: client_messages.RequestCodePage) -> CodePage:
     try:
         found = page(request.code)
     except KeyError:
@@ -191,7 +191,7 @@ async def _load_rviz(client: ClientState, request: client_messages.LoadRviz) -> 
     return Rviz({"type": "rviz", **config.description()})
 
 
-async def _save_rviz(client: ClientState, request: client_messages.SaveRviz) -> Saved:
+async def _save_rviz(client: ClientState, request: client_messages.SaveRviz) -> RvizSaved:
     config = client.rviz or RvizConfig()
     options = request.global_
     if client.requested_rate is not None:
@@ -203,7 +203,7 @@ async def _save_rviz(client: ClientState, request: client_messages.SaveRviz) -> 
         raise BadRequestError(f"the configuration cannot be written: {error}") from None
     client.rviz = merged
     client.viewer.saved_rviz = text
-    return Saved(type="saved", text=text)
+    return RvizSaved(type="saved", text=text)
 
 
 async def _prepare_replay(client: ClientState, request: client_messages.PrepareReplay) -> ReplayPrepared:
@@ -234,13 +234,13 @@ async def _in_background(client: ClientState, function: Callable[..., T], *args:
 
 _HANDLERS: dict[type, Callable[[ClientState, Any], Awaitable[ServerMessage | None]]] = {
     client_messages.ClickNode: _click,
-    client_messages.Explain: _explain,
+    client_messages.RequestCodePage: _explain,
     client_messages.LoadRviz: _load_rviz,
     client_messages.PrepareReplay: _prepare_replay,
     client_messages.PublishPoint: _publish_point,
     client_messages.PublishPose: _publish_pose,
     client_messages.PublishStatic: _publish_static,
-    client_messages.Relate: _relate,
+    client_messages.RequestRelation: _relate,
     client_messages.RequestTimeline: _timeline,
     client_messages.SaveRviz: _save_rviz,
     client_messages.SetFixedFrame: _set_fixed_frame,

@@ -17,10 +17,10 @@ from typing import TYPE_CHECKING, Protocol
 from coframe.viewer.clients._feeds import FRAMES, HELLO, TOPICS, make_feeds
 from coframe.viewer.clients._requests import handle
 from coframe.viewer.clients._state import ClientState
-from coframe.viewer.protocol.client_messages import Ready
+from coframe.viewer.protocol.client_messages import FrameDrawn
 from coframe.viewer.protocol.encoding import encode
 from coframe.viewer.protocol.requests import BadRequestError, parse_request
-from coframe.viewer.protocol.server_messages import Problem
+from coframe.viewer.protocol.server_messages import ProblemReport
 
 if TYPE_CHECKING:
     from collections.abc import Hashable
@@ -90,7 +90,7 @@ class Client:
             request: ClientMessage | BadRequestError = parse_request(message)
         except BadRequestError as error:
             request = error
-        if isinstance(request, Ready):
+        if isinstance(request, FrameDrawn):
             self._ready = True
             return
         self._requests.append(request)
@@ -167,7 +167,7 @@ class Client:
                 raise request
             answer = await handle(self.state, request)
         except BadRequestError as error:
-            answer = Problem(type="problem", text=str(error), hint=error.hint)
+            answer = ProblemReport(type="problem", text=str(error), hint=error.hint)
         if answer is not None:
             await self._socket.cleared()
             self._socket.send(encode(answer))

@@ -38,7 +38,7 @@ _logger = logging.getLogger("coframe.viewer")
 
 # How long a message waits for its transform, in seconds.
 TRANSFORM_TIMEOUT = 1.0
-_HOLD = "15s"
+_CACHE_LENGTH = "15s"
 MAX_DRAWINGS = 1000  # maximum per message
 MAX_LAYERS = 200
 _IDENTITY = np.array([0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0])
@@ -81,7 +81,7 @@ class _Entry:
             return True
         try:
             if drawing.locked:
-                found = buffer.lookup(fixed, self.frame, at, extrapolate=_HOLD, hold=True)
+                found = buffer.lookup(fixed, self.frame, at, extrapolate=_CACHE_LENGTH, hold=True)
             else:
                 found = buffer.lookup(fixed, self.frame, drawing.stamp)
         except TransformException as error:

@@ -54,9 +54,9 @@ def displayable(topics: Iterable[tuple[str, str]]) -> list[DisplayTopic]:
 def make_renderer(messages: TopicMessages, options: Options, mesh_url: MeshUrl) -> Renderer:
     """Return what draws the messages of a topic; drawing messages of other types raises CannotDrawError."""
     row = DISPLAY_OF_TYPE.get(messages.type)
-    draw = each_message(partial(_refuse, messages.type)) if row is None else row.messages[messages.type]
+    draw = each_message(partial(_raise_unknown_type, messages.type)) if row is None else row.messages[messages.type]
     return draw(messages, options, mesh_url)
 
 
-def _refuse(ros_type: str, _message: object, _options: Options) -> Drawing:
+def _raise_unknown_type(ros_type: str, _message: object, _options: Options) -> Drawing:
     raise CannotDrawError(f"the viewer has no display for {ros_type}")

@@ -15,7 +15,7 @@ from coframe.plotting.evaluation import check_edge
 from coframe.plotting.values import NoElementError, axis_title, coordinate, field_value, rates
 from coframe.time import SECOND
 from coframe.viewer.panels._ring import Points, Ring
-from coframe.viewer.panels.curve import CurveStatus, failure
+from coframe.viewer.panels.curve import CurveState, failure
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -42,14 +42,14 @@ class LiveCurve:
     def __init__(self, expression: Expression) -> None:
         self.axis = axis_title(expression)
         self.ring = Ring()
-        self._problem: CurveStatus | None = None
+        self._problem: CurveState | None = None
 
     @property
-    def status(self) -> CurveStatus:
+    def status(self) -> CurveState:
         """The status."""
         if self._problem is not None:
             return self._problem
-        return CurveStatus("ok" if self.ring.total else "waiting", "" if self.ring.total else "no data yet")
+        return CurveState("ok" if self.ring.total else "waiting", "" if self.ring.total else "no data yet")
 
     @property
     def version(self) -> int:
@@ -147,18 +147,18 @@ class TopicCurve(LiveCurve):
     def __init__(self, expression: Expression, arrivals: Arrivals) -> None:
         super().__init__(expression)
         self._arrivals = arrivals
-        self._error: CurveStatus | None = None
+        self._error: CurveState | None = None
         self._open = True
         arrivals.add(self._receive)
 
     @property
-    def status(self) -> CurveStatus:
+    def status(self) -> CurveState:
         """The status; the error of a message remains until another message has a value."""
         return self._error or super().status
 
     def poll(self) -> None:
         """Process new messages, also for the other curves of the topic."""
-        self._problem = None if self._arrivals.problem is None else CurveStatus("waiting", self._arrivals.problem)
+        self._problem = None if self._arrivals.problem is None else CurveState("waiting", self._arrivals.problem)
         self._arrivals.poll()
 
     def close(self) -> None:
@@ -209,7 +209,7 @@ class TopicTimingCurve(TopicCurve):
             self.ring.add(messages.stamps, self._rate.rates(messages.arrived))
         elif not messages.have_stamps:
             text = f"{self._expression.text}: the messages of type {messages.type} have no stamp and therefore no delay"
-            self._error = CurveStatus("error", text, f"Their rate can be plotted: {self._expression.topic}.rate.")
+            self._error = CurveState("error", text, f"Their rate can be plotted: {self._expression.topic}.rate.")
         else:
             self._error = _other_clock(self._expression, messages.stamps, messages.arrived)
             if self._error is None:
@@ -271,11 +271,11 @@ def _named(names: list[str], numbers: NDArray[np.int64], side: int, expression: 
 
 def _other_clock(
     expression: TimingExpression, stamps: NDArray[np.int64], arrived: NDArray[np.int64]
-) -> CurveStatus | None:
+) -> CurveState | None:
     """Return an error if the stamps are not on the clock of this machine."""
     if clock_of(float(np.median(arrived - stamps))) == "wall":
         return None
-    return CurveStatus(
+    return CurveState(
         "error",
         f"{expression.text}: the stamps and the receive times are on different clocks, so there is no delay",
         "For a simulation, record it with /clock and plot the recording.",

@@ -32,7 +32,7 @@ _TYPE = "rcl_interfaces/msg/Log"
 _DEPTH = 1000  # the depth that nodes offer
 _MAX_RECORDED = 20_000
 _PERIOD, _FOLLOW_PERIOD = 0.2, 1.0  # seconds
-_MAX_TAKEN = 2_000  # maximum number of messages per poll
+_MAX_MESSAGES_PER_POLL = 2_000  # maximum number of messages per poll
 _ROS1_LEVELS: dict[int, LogLevel] = {1: "debug", 2: "info", 4: "warning", 8: "error", 16: "fatal"}
 
 
@@ -95,9 +95,11 @@ class Log:
             self._follow_due = now + _FOLLOW_PERIOD
             self._subscription.follow()
         taken = 0
-        while self._subscription.pending() and taken < _MAX_TAKEN and (samples := self._subscription.take()):
+        while (
+            self._subscription.pending() and taken < _MAX_MESSAGES_PER_POLL and (samples := self._subscription.take())
+        ):
             taken += len(samples)
-            self._add([line for sample in samples if (line := _received(sample.data)) is not None])
+            self._add([line for sample in samples if (line := _decode_line(sample.data)) is not None])
 
     def since(self, seen: int, most: int) -> list[LogLine]:
         """Return messages after the first ``seen`` ones, the oldest ones first."""
@@ -166,7 +168,7 @@ class Log:
         self._add(lines)
 
 
-def _received(data: bytes) -> LogLine | None:
+def _decode_line(data: bytes) -> LogLine | None:
     """Return the line of a message; None if its bytes are damaged."""
     try:
         return _line(deserialize(data, find(_TYPE)), time.time_ns())

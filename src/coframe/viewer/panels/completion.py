@@ -32,17 +32,17 @@ def complete_expression(source: ViewerSource, text: str) -> list[str]:
     separator = _SEPARATOR.search(text)
     frames = source.buffer.frame_names()
     if separator is None:
-        return _matching((f"{frame}:" for frame in frames), text)
+        return _matching_names((f"{frame}:" for frame in frames), text)
     target, rest = text[: separator.end()], text[separator.end() :]
     named = max((frame for frame in frames if rest.startswith(f"{frame}.")), key=len, default=None)
     if named is None:
-        return _matching((f"{target}{frame}." for frame in frames), text)
-    return _matching((f"{target}{named}.{quantity}" for quantity in (*POSE_QUANTITIES, *TIMINGS)), text)
+        return _matching_names((f"{target}{frame}." for frame in frames), text)
+    return _matching_names((f"{target}{named}.{quantity}" for quantity in (*POSE_QUANTITIES, *TIMINGS)), text)
 
 
 def complete_topic(source: ViewerSource, text: str) -> list[str]:
     """Return the topics whose names begin with a text or contain it."""
-    return _matching(topic_types(source), text)
+    return _matching_names(topic_types(source), text)
 
 
 def topic_types(source: ViewerSource) -> dict[str, str]:
@@ -58,10 +58,10 @@ def _complete_topic_expression(source: ViewerSource, text: str) -> list[str]:
     types = topic_types(source)
     topic, dot, path = text.partition(".")
     if not dot or topic not in types:
-        return _matching((f"{name}." for name in types), text)
+        return _matching_names((f"{name}." for name in types), text)
     message = _example(source, topic, types[topic])
     fields = [] if message is None else field_paths(message, path)
-    return _matching((f"{topic}.{each}" for each in (*fields, *TIMINGS)), text)
+    return _matching_names((f"{topic}.{each}" for each in (*fields, *TIMINGS)), text)
 
 
 def _example(source: ViewerSource, topic: str, ros_type: str) -> Any:
@@ -74,7 +74,7 @@ def _example(source: ViewerSource, topic: str, ros_type: str) -> Any:
     return None if isinstance(message, bytes) else message
 
 
-def _matching(candidates: Iterable[str], text: str) -> list[str]:
+def _matching_names(candidates: Iterable[str], text: str) -> list[str]:
     """Return the candidates that begin with the text, then those that contain it, except those that are too long."""
     wanted = text.lower()
     names = sorted({name for name in candidates if len(name) <= MAX_TEXT})

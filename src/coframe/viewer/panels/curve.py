@@ -22,12 +22,12 @@ if TYPE_CHECKING:
     from coframe.plotting.expressions import Expression
     from coframe.viewer.protocol.common import DisplayState
 
-__all__ = ["Curve", "CurveSpan", "CurveStatus", "FailedCurve", "RecordedCurve", "failure"]
+__all__ = ["Curve", "CurveSpan", "CurveState", "FailedCurve", "RecordedCurve", "failure"]
 
 _logger = logging.getLogger("coframe.viewer")
 
 
-class CurveStatus(NamedTuple):
+class CurveState(NamedTuple):
     """The status of a curve.
 
     Attributes:
@@ -70,7 +70,7 @@ class Curve(Protocol):
     axis: str
 
     @property
-    def status(self) -> CurveStatus:
+    def status(self) -> CurveState:
         """The status."""
 
     @property
@@ -135,7 +135,7 @@ class RecordedCurve:
 
     def __init__(self, expression: Expression, recording: Recording, executor: Executor) -> None:
         self.axis = axis_title(expression)
-        self.status = CurveStatus("waiting", "reading the recording")
+        self.status = CurveState("waiting", "reading the recording")
         self.version = self.total = 0
         self._series: Series | None = None
         self._closed = False
@@ -152,11 +152,11 @@ class RecordedCurve:
             self.status = failure(error)
         except Exception as error:  # An unexpected error in one curve must not stop the viewer.
             _logger.exception("a curve failed")
-            self.status = CurveStatus("error", f"the curve cannot be evaluated: {type(error).__name__}: {error}")
+            self.status = CurveState("error", f"the curve cannot be evaluated: {type(error).__name__}: {error}")
         else:
             skipped = self._series.skipped
             text = f"{skipped} messages have no value" if skipped else ""
-            self.status = CurveStatus("ok", text, points=len(self._series.stamps))
+            self.status = CurveState("ok", text, points=len(self._series.stamps))
         self.version += 1
 
     def points(self, seen: int, shown: CurveSpan) -> Points:
@@ -189,13 +189,13 @@ class RecordedCurve:
     def _report(self, _text: str, done: int, total: int) -> None:
         if self._closed:
             raise _ClosedError
-        self.status = CurveStatus("waiting", f"reading the recording: {100 * done // max(total, 1)} %")
+        self.status = CurveState("waiting", f"reading the recording: {100 * done // max(total, 1)} %")
 
 
 class _ClosedError(CoframeError):
     """The curve is no longer shown."""
 
 
-def failure(error: Exception) -> CurveStatus:
+def failure(error: Exception) -> CurveState:
     """Return the status of a curve that failed."""
-    return CurveStatus("error", str(error), str(getattr(error, "hint", "") or ""))
+    return CurveState("error", str(error), str(getattr(error, "hint", "") or ""))

@@ -70,7 +70,7 @@ def _value(value: Any, path: str, depth: int, name: str, type_: str) -> Iterator
     if isinstance(value, bool | int | float | np.number | np.bool_):
         yield _row(path, depth, name, type_, _number(value), is_number=True)
     elif isinstance(value, str):
-        yield _row(path, depth, name, type_, _shortened(value))
+        yield _row(path, depth, name, type_, _shorten(value))
     elif isinstance(value, bytes | bytearray | memoryview | array.array | np.ndarray):
         yield from _numbers(value, path, depth, name, type_)
     elif isinstance(value, list | tuple):
@@ -80,7 +80,7 @@ def _value(value: Any, path: str, depth: int, name: str, type_: str) -> Iterator
         yield _row(path, depth, name, type_, "")
         yield from _fields(value, path, depth + 1)
     else:
-        yield _row(path, depth, name, type_, _shortened(str(value)))
+        yield _row(path, depth, name, type_, _shorten(str(value)))
 
 
 def _numbers(value: Any, path: str, depth: int, name: str, type_: str) -> Iterator[InspectedField]:
@@ -103,7 +103,7 @@ def _elements(
 
 def _row(path: str, depth: int, name: str, type_: str, text: str, *, is_number: bool = False) -> InspectedField:
     return InspectedField(
-        path=path, depth=depth, name=_shortened(name), type=_shortened(type_), text=text, is_number=is_number
+        path=path, depth=depth, name=_shorten(name), type=_shorten(type_), text=text, is_number=is_number
     )
 
 
@@ -120,7 +120,7 @@ def _array_text(numbers: np.ndarray[Any, Any]) -> str:
     return f"[{first} … {last}] ({len(numbers)})"
 
 
-def _shortened(text: str) -> str:
+def _shorten(text: str) -> str:
     return text if len(text) <= _MAX_TEXT else f"{text[:_MAX_TEXT]} … ({len(text)} characters)"
 
 

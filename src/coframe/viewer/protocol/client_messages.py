@@ -100,7 +100,7 @@ class Unsubscribe:
 
 
 @dataclass(frozen=True)
-class Relate:
+class RequestRelation:
     """Requests the pose of ``source`` relative to ``target`` at the displayed time."""
 
     type: ClassVar[str] = "relate"
@@ -223,7 +223,7 @@ class SetFrameRate:
 
 
 @dataclass(frozen=True)
-class Explain:
+class RequestCodePage:
     """Requests the page of a doctor code."""
 
     type: ClassVar[str] = "explain"
@@ -255,7 +255,7 @@ class SetCurves:
 
 
 @dataclass(frozen=True)
-class Inspect:
+class InspectTopic:
     """Inspects the messages of a topic instead of the previous one; "" stops the inspection."""
 
     type: ClassVar[str] = "inspect"
@@ -279,7 +279,7 @@ class ShowGraph:
 
 
 @dataclass(frozen=True)
-class Complete:
+class RequestCompletions:
     """Requests completions for the beginning of an expression or topic name."""
 
     type: ClassVar[str] = "complete"
@@ -320,7 +320,7 @@ class UseWidget:
 
 
 @dataclass(frozen=True)
-class Ready:
+class FrameDrawn:
     """Confirms that the last frame update was drawn, so that the next one can be sent; ``drawn`` is its time."""
 
     type: ClassVar[str] = "ready"
@@ -333,7 +333,7 @@ ClientMessage: TypeAlias = (
     | Step
     | Subscribe
     | Unsubscribe
-    | Relate
+    | RequestRelation
     | RequestTimeline
     | SetJoints
     | PublishPoint
@@ -344,13 +344,13 @@ ClientMessage: TypeAlias = (
     | PrepareReplay
     | SetFrameTimeout
     | SetFrameRate
-    | Explain
+    | RequestCodePage
     | SetCurves
-    | Inspect
+    | InspectTopic
     | ShowLog
     | ShowGraph
-    | Complete
+    | RequestCompletions
     | ClickNode
     | UseWidget
-    | Ready
+    | FrameDrawn
 )

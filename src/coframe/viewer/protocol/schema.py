@@ -285,14 +285,14 @@ def field_type(annotation: Any) -> FieldType:  # noqa: PLR0911 - one per kind of
         return Tuple(tuple(field_type(argument) for argument in arguments))
     if origin is dict:
         return Json() if arguments[1] is Any else Map(field_type(arguments[1]))
-    if annotation in _PLAIN:
-        return _PLAIN[annotation]
+    if annotation in _PLAIN_TYPES:
+        return _PLAIN_TYPES[annotation]
     if typing.is_typeddict(annotation) or dataclasses.is_dataclass(annotation):
         return record(annotation)
     raise TypeError(f"the viewer's protocol has no type for {annotation!r}")
 
 
-_PLAIN: dict[Any, FieldType] = {str: Text(), bool: Flag(), int: Number(whole=True), float: Number()}
+_PLAIN_TYPES: dict[Any, FieldType] = {str: Text(), bool: Flag(), int: Number(whole=True), float: Number()}
 
 
 def shorten(value: object) -> str:

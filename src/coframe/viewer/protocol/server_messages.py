@@ -431,7 +431,7 @@ class Completions(TypedDict):
     items: list[str]
 
 
-class Saved(TypedDict):
+class RvizSaved(TypedDict):
     """The answer to ``save_rviz``: the text of the .rviz file."""
 
     type: Literal["saved"]
@@ -445,7 +445,7 @@ class ReplayPrepared(TypedDict):
     settings: str
 
 
-class Published(TypedDict):
+class PublishResult(TypedDict):
     """The answer to requests that publish a message; ``subscribers`` is the number of matched subscriptions."""
 
     type: Literal["published"]
@@ -519,7 +519,7 @@ class RemovedWidgets(TypedDict):
     ids: list[int]
 
 
-class Problem(TypedDict):
+class ProblemReport(TypedDict):
     """A request that failed, or a problem with the source."""
 
     type: Literal["problem"]
@@ -544,12 +544,12 @@ ServerMessage: TypeAlias = (
     | LogEntries
     | NodeGraph
     | Completions
-    | Saved
+    | RvizSaved
     | ReplayPrepared
-    | Published
+    | PublishResult
     | SceneNode
     | RemovedNodes
     | Widget
     | RemovedWidgets
-    | Problem
+    | ProblemReport
 )

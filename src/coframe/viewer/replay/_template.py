@@ -8,7 +8,7 @@ import hashlib
 from typing import TYPE_CHECKING
 
 from coframe.errors import ViewerError
-from coframe.viewer import _page_files as page_files
+from coframe.viewer import _page_files
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -29,7 +29,7 @@ def replay_template(static: Path) -> tuple[str, str]:
     """
     try:
         page, script, style = (
-            page_files.read(static / name).decode() for name in ("replay.html", "assets/page.js", "assets/viewer.css")
+            _page_files.read(static / name).decode() for name in ("replay.html", "assets/page.js", "assets/viewer.css")
         )
     except OSError:
         raise ViewerError("the page for replays is missing from this installation: build it in viewer/") from None

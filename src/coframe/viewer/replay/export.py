@@ -90,7 +90,7 @@ def export_replay(
         first, last = max(span[0], first or span[0]), min(span[1], last or span[1])
         frames = max(len(scene.structure.names), 1)
         rate = rate or _suitable_rate(frames, (last - first) / SECOND)
-        shown = _shown(displays, last)
+        shown = _enabled_displays(displays, last)
         look: ReplayRviz = {
             "displays": displays,
             "global": {},
@@ -138,7 +138,7 @@ def _shows_topic(display: RvizDisplay) -> bool:
     return bool(display["enabled"] and display["topic"] and DISPLAYS[display["class"]].messages)
 
 
-def _shown(displays: Sequence[RvizDisplay], origin: int) -> list[ReplayDisplay]:
+def _enabled_displays(displays: Sequence[RvizDisplay], origin: int) -> list[ReplayDisplay]:
     """Return the topics of enabled displays, with the options with which the page would subscribe to them."""
     return [
         ReplayDisplay(

@@ -112,7 +112,7 @@ class MeshTable:
         file = root.folder
         for part in below.split("/"):
             file = (file.parent if file.suffix.lower() in MESH_TYPES and _is_file(file) else file) / part
-        found = _resolved(file)
+        found = _resolve(file)
         self._root_of(found, below)
         _check_file(found, below)
         return found
@@ -125,13 +125,13 @@ class MeshTable:
         if parts is None:
             if folder is None:
                 raise MeshError(f"{_shown(reference)} is neither package:// nor file://")
-            return _resolved(folder / reference)
+            return _resolve(folder / reference)
         if parts.scheme == "file":
             if parts.netloc not in {"", "localhost"}:
                 raise MeshError(f"{_shown(reference)} is on another machine")
-            return _resolved(Path(unquote(parts.path)))
+            return _resolve(Path(unquote(parts.path)))
         if parts.scheme == "package":
-            return _resolved(self._package(parts.netloc) / unquote(parts.path).lstrip("/"))
+            return _resolve(self._package(parts.netloc) / unquote(parts.path).lstrip("/"))
         raise MeshError(f"{_shown(reference)} is neither package:// nor file://")
 
     def _package(self, name: str) -> Path:
@@ -159,7 +159,7 @@ class MeshTable:
         raise MeshError(f"{_shown(reference)} is outside the served folders. Add its folder to the mesh roots.")
 
 
-def _resolved(path: Path) -> Path:
+def _resolve(path: Path) -> Path:
     """Return the path without symbolic links and dots."""
     try:
         return path.resolve()

@@ -64,13 +64,13 @@ def robot_message(robot: Robot, number: int, source: str, topic: str | None, mes
         links=[_link(link) for link in robot.links.values()],
         joints=list(_joints_of(robot)),
         meshes=urls,
-        problems=_shortened(problems),
-        warnings=_shortened(list(robot.warnings)),
+        problems=_shorten(problems),
+        warnings=_shorten(list(robot.warnings)),
         description_topic=topic,
     )
 
 
-def _shortened(sentences: list[str]) -> list[str]:
+def _shorten(sentences: list[str]) -> list[str]:
     left_out = len(sentences) - _MAX_PROBLEMS
     return [*sentences[:_MAX_PROBLEMS], f"... and {left_out} more"] if left_out > 0 else sentences
 

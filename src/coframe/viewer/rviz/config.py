@@ -26,7 +26,7 @@ __all__ = ["RvizConfig"]
 VIEW_CLASSES = frozenset({"FPS", "FrameAligned", "Orbit", "ThirdPersonFollower", "TopDownOrtho", "XYOrbit"})
 
 _MANAGER = "Visualization Manager"
-_NEW: dict[str, Any] = {
+_NEW_CONFIGURATION: dict[str, Any] = {
     "Panels": [{"Class": "rviz_common/Displays", "Name": "Displays"}, {"Class": "rviz_common/Views", "Name": "Views"}],
     _MANAGER: {
         "Class": "",
@@ -64,7 +64,7 @@ class RvizConfig:
     """
 
     def __init__(self, document: dict[str, Any] | None = None) -> None:
-        self._document = copy.deepcopy(_NEW) if document is None else document
+        self._document = copy.deepcopy(_NEW_CONFIGURATION) if document is None else document
 
     @classmethod
     def parse(cls, text: str, source: str = "the file") -> RvizConfig:

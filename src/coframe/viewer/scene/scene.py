@@ -22,10 +22,10 @@ if TYPE_CHECKING:
     from coframe.buffer.buffer import Buffer
     from coframe.buffer.edge_info import FrameInfo
 
-__all__ = ["LocalOrigin", "PlacedFrames", "Scene", "Structure"]
+__all__ = ["LocalOrigin", "PlacedFrames", "Scene", "SceneStructure"]
 
 
-class Structure(NamedTuple):
+class SceneStructure(NamedTuple):
     """The trees of the frames.
 
     Attributes:
@@ -73,7 +73,7 @@ class Scene:
         self.buffer = buffer
         self.ages = ages
         self.revision = 0
-        self.structure = Structure([], {}, [], [], [], [], [], "")
+        self.structure = SceneStructure([], {}, [], [], [], [], [], "")
         self.span: tuple[int, int] | None = None
         self.infos: list[FrameInfo] = []
         self._changes: int | None = None
@@ -158,12 +158,12 @@ class Scene:
             self._tables.clear()
 
 
-def _structure_of(infos: list[FrameInfo]) -> Structure:
+def _structure_of(infos: list[FrameInfo]) -> SceneStructure:
     trees = FrameTrees.from_parents({info.name: info.parent for info in infos})
     static = [info.static or not info.parent for info in infos]
     roots = [trees.names[root] for root in trees.roots]
     largest = roots[int(np.bincount(trees.components).argmax())] if roots else ""
-    return Structure(
+    return SceneStructure(
         list(trees.names), trees.index, trees.parents, static, trees.components, roots, trees.order, largest
     )
 

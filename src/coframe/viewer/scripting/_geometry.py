@@ -29,7 +29,7 @@ __all__ = [
 ]
 
 # Coordinates beyond this are sent relative to their center: float32 resolves 0.06 mm up to here.
-_MAX_NEAR = 1000.0
+_MAX_EXACT_COORDINATE = 1000.0
 
 
 class Geometry(NamedTuple):
@@ -128,7 +128,7 @@ def sphere_mesh(radius: float | NDArray[np.float64], rows: int = 16) -> tuple[ND
 
 def _geometry(positions: NDArray[np.float64], indices: NDArray[np.uint32], colors: NDArray[np.uint8]) -> Geometry:
     offset = np.zeros(3)
-    if positions.size and float(np.abs(positions).max()) > _MAX_NEAR:
+    if positions.size and float(np.abs(positions).max()) > _MAX_EXACT_COORDINATE:
         offset = np.round((positions.min(axis=0) + positions.max(axis=0)) / 2)
     x, y, z = offset.tolist()
     return Geometry((positions - offset).astype(np.float32), indices, colors.copy(), 0, (x, y, z))

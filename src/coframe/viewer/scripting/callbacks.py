@@ -69,13 +69,13 @@ class CallbackThread:
             )
 
     def _run(self) -> None:
-        while (callback := self._next()) is not None:
+        while (callback := self._next_callback()) is not None:
             try:
                 callback()
             except Exception:
                 _logger.exception("a callback of the viewer failed; the viewer continues")
 
-    def _next(self) -> Callable[[], object] | None:
+    def _next_callback(self) -> Callable[[], object] | None:
         """Wait for the oldest event and return its callback; None at the end."""
         with self._condition:
             self._condition.wait_for(lambda: self._waiting or self._closed)

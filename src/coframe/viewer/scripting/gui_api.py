@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from coframe.viewer.scripting import _arguments as arguments
+from coframe.viewer.scripting import _arguments
 from coframe.viewer.scripting.errors import SceneError
 from coframe.viewer.scripting.widget_handles import (
     ButtonHandle,
@@ -97,8 +97,8 @@ class GuiApi:
             disabled: Whether it is grayed out and cannot be moved.
             visible: Whether it is shown.
         """
-        low = arguments.number_of(min, "min", -_LIMIT, _LIMIT)
-        high = arguments.number_of(max, "max", -_LIMIT, _LIMIT)
+        low = _arguments.number_of(min, "min", -_LIMIT, _LIMIT)
+        high = _arguments.number_of(max, "max", -_LIMIT, _LIMIT)
         if high <= low:
             raise SceneError(f"max: expected a number above min, {low:g}, not {high:g}")
         return self._add_number("slider", label, initial_value, low, high, step, (min, max), hint, disabled, visible)
@@ -127,8 +127,8 @@ class GuiApi:
             disabled: Whether it is grayed out and cannot be changed.
             visible: Whether it is shown.
         """
-        low = None if min is None else arguments.number_of(min, "min", -_LIMIT, _LIMIT)
-        high = None if max is None else arguments.number_of(max, "max", -_LIMIT, _LIMIT)
+        low = None if min is None else _arguments.number_of(min, "min", -_LIMIT, _LIMIT)
+        high = None if max is None else _arguments.number_of(max, "max", -_LIMIT, _LIMIT)
         if low is not None and high is not None and high < low:
             raise SceneError(f"max: expected a number of at least min, {low:g}, not {high:g}")
         return self._add_number("number", label, initial_value, low, high, step, (min, max), hint, disabled, visible)
@@ -178,7 +178,7 @@ class GuiApi:
             disabled: Whether it is grayed out and cannot be changed, for example to show a result.
             visible: Whether it is shown.
         """
-        value = arguments.text_of(initial_value, "initial_value")
+        value = _arguments.text_of(initial_value, "initial_value")
         return TextFieldHandle(self._store, self._add("text", label, hint, disabled, visible, value=value))
 
     def add_checkbox(
@@ -199,7 +199,7 @@ class GuiApi:
             disabled: Whether it is grayed out and cannot be changed.
             visible: Whether it is shown.
         """
-        value = arguments.flag_of(initial_value, "initial_value")
+        value = _arguments.flag_of(initial_value, "initial_value")
         return CheckboxHandle(self._store, self._add("checkbox", label, hint, disabled, visible, value=value))
 
     def add_folder(self, label: str, *, expand: bool = True, visible: bool = True) -> FolderHandle:
@@ -210,7 +210,7 @@ class GuiApi:
             expand: Whether it is open at first.
             visible: Whether it is shown.
         """
-        value = arguments.flag_of(expand, "expand")
+        value = _arguments.flag_of(expand, "expand")
         return FolderHandle(
             self._store, self._add("folder", label, "", False, visible, value=value), self._open_folders
         )
@@ -232,9 +232,9 @@ class GuiApi:
         disabled: bool,
         visible: bool,
     ) -> NumberHandle[Any]:
-        first = arguments.number_of(initial, "initial_value", -_LIMIT, _LIMIT)
+        first = _arguments.number_of(initial, "initial_value", -_LIMIT, _LIMIT)
         is_whole = all(isinstance(one, int) for one in (initial, *limits, step) if one is not None)
-        size = 1.0 if step is None and is_whole else None if step is None else arguments.number_of(step, "step", 1e-12)
+        size = 1.0 if step is None and is_whole else None if step is None else _arguments.number_of(step, "step", 1e-12)
         if (low is not None and first < low) or (high is not None and first > high):
             raise SceneError(f"initial_value: {first:g} is not in the range from {low} to {high}")
         value = nearest_step(first, low, high, size)
@@ -248,11 +248,11 @@ class GuiApi:
             id=self._store.next_id(),
             version=0,
             kind=kind,
-            label=arguments.text_of(label, "label", arguments.MAX_NAME),
+            label=_arguments.text_of(label, "label", _arguments.MAX_NAME),
             parent=folders[-1] if folders else None,
-            hint=arguments.text_of(hint, "hint"),
-            disabled=arguments.flag_of(disabled, "disabled"),
-            visible=arguments.flag_of(visible, "visible"),
+            hint=_arguments.text_of(hint, "hint"),
+            disabled=_arguments.flag_of(disabled, "disabled"),
+            visible=_arguments.flag_of(visible, "visible"),
             **fields,
         )
         return self._store.add(record).id

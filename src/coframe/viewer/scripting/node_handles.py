@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import numpy as np
 
 from coframe.transform.transform import Transform
-from coframe.viewer.scripting import _arguments as arguments
+from coframe.viewer.scripting import _arguments
 from coframe.viewer.scripting._colors import color_of, flat_colors_of
 from coframe.viewer.scripting._geometry import (
     Geometry,
@@ -97,7 +97,7 @@ class NodeHandle:
 
     @pose.setter
     def pose(self, value: Transform) -> None:
-        pose = arguments.pose_of(value)
+        pose = _arguments.pose_of(value)
         frame = {} if value.target is None else {"frame": self._known_frame(value.target)}
         self._update(pose=pose, **frame)
 
@@ -108,7 +108,7 @@ class NodeHandle:
 
     @position.setter
     def position(self, value: ArrayLike) -> None:
-        position = arguments.vector_of(value, "position")
+        position = _arguments.vector_of(value, "position")
         with self._store.lock:
             self._update(pose=(*position, *self._record.pose[3:]))
 
@@ -119,7 +119,7 @@ class NodeHandle:
 
     @quaternion.setter
     def quaternion(self, value: ArrayLike) -> None:
-        quaternion = arguments.quaternion_of(value)
+        quaternion = _arguments.quaternion_of(value)
         with self._store.lock:
             self._update(pose=(*self._record.pose[:3], *quaternion))
 
@@ -130,7 +130,7 @@ class NodeHandle:
 
     @visible.setter
     def visible(self, value: bool) -> None:
-        self._update(visible=arguments.flag_of(value, "visible"))
+        self._update(visible=_arguments.flag_of(value, "visible"))
 
     @property
     def is_removed(self) -> bool:
@@ -189,7 +189,7 @@ class FrameHandle(NodeHandle):
 
     @axes_length.setter
     def axes_length(self, value: float) -> None:
-        self._update(size=arguments.number_of(value, "axes_length", 0.0, arguments.MAX_COORDINATE))
+        self._update(size=_arguments.number_of(value, "axes_length", 0.0, _arguments.MAX_COORDINATE))
 
 
 class _ColoredHandle(NodeHandle):
@@ -210,7 +210,7 @@ class _ColoredHandle(NodeHandle):
 
     @opacity.setter
     def opacity(self, value: float) -> None:
-        self._update(opacity=arguments.number_of(value, "opacity", 0.0, 1.0))
+        self._update(opacity=_arguments.number_of(value, "opacity", 0.0, 1.0))
 
 
 class _VertexColoredHandle(_ColoredHandle):
@@ -266,7 +266,7 @@ class PointsHandle(_VertexColoredHandle):
 
     @point_size.setter
     def point_size(self, value: float) -> None:
-        self._update(size=arguments.number_of(value, "point_size", 0.0, arguments.MAX_COORDINATE))
+        self._update(size=_arguments.number_of(value, "point_size", 0.0, _arguments.MAX_COORDINATE))
 
 
 class LinesHandle(_VertexColoredHandle):
@@ -298,7 +298,7 @@ class LinesHandle(_VertexColoredHandle):
 
     @line_width.setter
     def line_width(self, value: float) -> None:
-        self._update(size=arguments.number_of(value, "line_width", 0.1, 100.0))
+        self._update(size=_arguments.number_of(value, "line_width", 0.1, 100.0))
 
 
 class MeshHandle(_VertexColoredHandle):
@@ -330,7 +330,7 @@ class MeshHandle(_VertexColoredHandle):
 
     @wireframe.setter
     def wireframe(self, value: bool) -> None:
-        self._update(wireframe=arguments.flag_of(value, "wireframe"))
+        self._update(wireframe=_arguments.flag_of(value, "wireframe"))
 
 
 class TextHandle(_ColoredHandle):
@@ -343,7 +343,7 @@ class TextHandle(_ColoredHandle):
 
     @text.setter
     def text(self, value: str) -> None:
-        self._update(text=arguments.text_of(value, "text"))
+        self._update(text=_arguments.text_of(value, "text"))
 
     @property
     def height(self) -> float:
@@ -352,7 +352,7 @@ class TextHandle(_ColoredHandle):
 
     @height.setter
     def height(self, value: float) -> None:
-        self._update(size=arguments.number_of(value, "height", 0.0, arguments.MAX_COORDINATE))
+        self._update(size=_arguments.number_of(value, "height", 0.0, _arguments.MAX_COORDINATE))
 
 
 class ImageHandle(NodeHandle):
@@ -376,7 +376,7 @@ class ImageHandle(NodeHandle):
 
     @width.setter
     def width(self, value: float) -> None:
-        self._update(size=arguments.number_of(value, "width", 0.0, arguments.MAX_COORDINATE))
+        self._update(size=_arguments.number_of(value, "width", 0.0, _arguments.MAX_COORDINATE))
 
     @property
     def opacity(self) -> float:
@@ -385,4 +385,4 @@ class ImageHandle(NodeHandle):
 
     @opacity.setter
     def opacity(self, value: float) -> None:
-        self._update(opacity=arguments.number_of(value, "opacity", 0.0, 1.0))
+        self._update(opacity=_arguments.number_of(value, "opacity", 0.0, 1.0))

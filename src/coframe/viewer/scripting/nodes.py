@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from coframe._output.formatting import did_you_mean, quoted
+from coframe._output.formatting import did_you_mean, join_quoted
 from coframe.viewer.protocol.server_messages import SceneNode
 from coframe.viewer.scripting.errors import SceneError
 from coframe.viewer.scripting.records import Record, RecordStore
@@ -129,7 +129,7 @@ class NodeStore(RecordStore[NodeRecord]):
             if record is None:
                 return
             is_only_one = len(self._ids_by_name[record.name]) == 1
-            self._remove_records(self._at_or_below(record.name) if is_only_one else [record])
+            self._remove_records(self._subtree(record.name) if is_only_one else [record])
 
     def remove_name(self, name: str) -> None:
         """Remove all nodes with a name, and everything below them.
@@ -138,10 +138,10 @@ class NodeStore(RecordStore[NodeRecord]):
             SceneError: There is no such node.
         """
         with self.lock:
-            found = self._at_or_below(name)
+            found = self._subtree(name)
             if not found:
                 names = self.names()
-                known = f"Nodes: {quoted(names)}." if names else "The scene has no nodes."
+                known = f"Nodes: {join_quoted(names)}." if names else "The scene has no nodes."
                 raise SceneError(f"name: no node {name!r}", hint=f"{did_you_mean(name, names)} {known}".strip())
             self._remove_records(found)
 
@@ -178,7 +178,7 @@ class NodeStore(RecordStore[NodeRecord]):
         replaced = [number for time, number in ids.items() if record.time is None or time in {None, record.time}]
         return [found for number in replaced if (found := self.get(number)) is not None]
 
-    def _at_or_below(self, name: str) -> list[NodeRecord]:
+    def _subtree(self, name: str) -> list[NodeRecord]:
         return [one for one in self.all() if one.name == name or one.name.startswith(f"{name}/")]
 
     def _remove_records(self, records: list[NodeRecord]) -> None:

@@ -5,9 +5,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from coframe._output.formatting import did_you_mean, quoted
+from coframe._output.formatting import did_you_mean, join_quoted
 from coframe.time import stamp_ns
-from coframe.viewer.scripting import _arguments as arguments
+from coframe.viewer.scripting import _arguments
 from coframe.viewer.scripting._colors import color_of
 from coframe.viewer.scripting._geometry import (
     box_mesh,
@@ -109,7 +109,7 @@ class SceneApi:
         Raises:
             SceneError: An argument is invalid.
         """
-        size = arguments.number_of(axes_length, "axes_length", 0.0, arguments.MAX_COORDINATE)
+        size = _arguments.number_of(axes_length, "axes_length", 0.0, _arguments.MAX_COORDINATE)
         return self._add(FrameHandle, "frame", name, placement, size=size)
 
     def add_points(
@@ -154,8 +154,8 @@ class SceneApi:
             placement,
             geometry=points_geometry(points, colors),
             color=color_of(color),
-            size=arguments.number_of(point_size, "point_size", 0.0, arguments.MAX_COORDINATE),
-            opacity=arguments.number_of(opacity, "opacity", 0.0, 1.0),
+            size=_arguments.number_of(point_size, "point_size", 0.0, _arguments.MAX_COORDINATE),
+            opacity=_arguments.number_of(opacity, "opacity", 0.0, 1.0),
         )
 
     def add_lines(
@@ -190,8 +190,8 @@ class SceneApi:
             placement,
             geometry=lines_geometry(points, colors),
             color=color_of(color),
-            size=arguments.number_of(line_width, "line_width", 0.1, 100.0),
-            opacity=arguments.number_of(opacity, "opacity", 0.0, 1.0),
+            size=_arguments.number_of(line_width, "line_width", 0.1, 100.0),
+            opacity=_arguments.number_of(opacity, "opacity", 0.0, 1.0),
         )
 
     def add_mesh(
@@ -233,8 +233,8 @@ class SceneApi:
             placement,
             geometry=mesh_geometry(vertices, faces, colors),
             color=color_of(color),
-            opacity=arguments.number_of(opacity, "opacity", 0.0, 1.0),
-            wireframe=arguments.flag_of(wireframe, "wireframe"),
+            opacity=_arguments.number_of(opacity, "opacity", 0.0, 1.0),
+            wireframe=_arguments.flag_of(wireframe, "wireframe"),
         )
 
     def add_box(
@@ -258,7 +258,7 @@ class SceneApi:
         Raises:
             SceneError: An argument is invalid.
         """
-        vertices, faces = box_mesh(arguments.vector_of(size, "size"))
+        vertices, faces = box_mesh(_arguments.vector_of(size, "size"))
         return self.add_mesh(name, vertices, faces, color=color, opacity=opacity, **placement)
 
     def add_sphere(
@@ -283,7 +283,7 @@ class SceneApi:
         Raises:
             SceneError: An argument is invalid.
         """
-        vertices, faces = sphere_mesh(arguments.radii_of(radius))
+        vertices, faces = sphere_mesh(_arguments.radii_of(radius))
         return self.add_mesh(name, vertices, faces, color=color, opacity=opacity, **placement)
 
     def add_text(
@@ -314,10 +314,10 @@ class SceneApi:
             "text",
             name,
             placement,
-            text=arguments.text_of(text, "text"),
+            text=_arguments.text_of(text, "text"),
             color=color_of(color),
-            size=arguments.number_of(height, "height", 0.0, arguments.MAX_COORDINATE),
-            opacity=arguments.number_of(opacity, "opacity", 0.0, 1.0),
+            size=_arguments.number_of(height, "height", 0.0, _arguments.MAX_COORDINATE),
+            opacity=_arguments.number_of(opacity, "opacity", 0.0, 1.0),
         )
 
     def add_image(
@@ -350,8 +350,8 @@ class SceneApi:
             name,
             placement,
             geometry=image_geometry(image),
-            size=arguments.number_of(width, "width", 0.0, arguments.MAX_COORDINATE),
-            opacity=arguments.number_of(opacity, "opacity", 0.0, 1.0),
+            size=_arguments.number_of(width, "width", 0.0, _arguments.MAX_COORDINATE),
+            opacity=_arguments.number_of(opacity, "opacity", 0.0, 1.0),
         )
 
     def remove(self, name: str) -> None:
@@ -360,7 +360,7 @@ class SceneApi:
         Raises:
             SceneError: There is no such node.
         """
-        self._store.remove_name(arguments.name_of(name))
+        self._store.remove_name(_arguments.name_of(name))
 
     def reset(self) -> None:
         """Remove all nodes."""
@@ -376,12 +376,12 @@ class SceneApi:
         record = NodeRecord(
             id=self._store.next_id(),
             version=0,
-            name=arguments.name_of(name),
+            name=_arguments.name_of(name),
             kind=kind,
             frame=self._frame(placement),
             pose=_pose(placement),
             time=None if time is None else _stamp(time),
-            visible=arguments.flag_of(placement.get("visible", True), "visible"),
+            visible=_arguments.flag_of(placement.get("visible", True), "visible"),
             **fields,
         )
         return make_handle(self._store, self._store.add(record).id, self._check_frame)
@@ -395,11 +395,11 @@ class SceneApi:
         return None if chosen is None else self._check_frame(chosen)
 
     def _check_frame(self, frame: Any) -> str:
-        name = arguments.text_of(frame, "frame").removeprefix("/")
+        name = _arguments.text_of(frame, "frame").removeprefix("/")
         buffer = self._complete_buffer()
         if name and buffer is not None and name not in buffer:
             known = sorted(buffer.frame_names())
-            frames = f"Known frames: {quoted(known)}." if known else "There are no frames yet."
+            frames = f"Known frames: {join_quoted(known)}." if known else "There are no frames yet."
             raise SceneError(f"frame: no frame named {name!r}", hint=f"{did_you_mean(name, known)} {frames}".strip())
         return name
 
@@ -407,11 +407,11 @@ class SceneApi:
 def _pose(placement: Placement) -> Pose:
     pose, position, quaternion = placement.get("pose"), placement.get("position"), placement.get("quaternion")
     if pose is None:
-        x, y, z = IDENTITY[:3] if position is None else arguments.vector_of(position, "position")
-        return x, y, z, *(IDENTITY[3:] if quaternion is None else arguments.quaternion_of(quaternion))
+        x, y, z = IDENTITY[:3] if position is None else _arguments.vector_of(position, "position")
+        return x, y, z, *(IDENTITY[3:] if quaternion is None else _arguments.quaternion_of(quaternion))
     if position is not None or quaternion is not None:
         raise SceneError("pose: pass either pose, or position and quaternion")
-    return arguments.pose_of(pose)
+    return _arguments.pose_of(pose)
 
 
 def _stamp(time: StampLike) -> int:

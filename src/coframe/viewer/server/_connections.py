@@ -23,7 +23,7 @@ MAX_CONNECTIONS = 512  # a tab has one for its data and, briefly, a few for its 
 _RESERVED = 32
 _BACKLOG = 100  # listen backlog, unless file descriptors are scarce
 # asyncio accepts up to a whole backlog in each cycle of its loop, and closes a refused connection 3 cycles later.
-_BACKLOGS_IN_FLIGHT = 4
+_MAX_BACKLOGS = 4
 _REPEAT_AFTER = 60.0  # seconds between warnings
 
 
@@ -36,8 +36,8 @@ class Connections:
 
     def __init__(self) -> None:
         spare = _descriptors() - _RESERVED
-        self.backlog = max(1, min(_BACKLOG, spare // (2 * _BACKLOGS_IN_FLIGHT)))
-        self._limit = max(1, min(MAX_CONNECTIONS, spare - _BACKLOGS_IN_FLIGHT * self.backlog))
+        self.backlog = max(1, min(_BACKLOG, spare // (2 * _MAX_BACKLOGS)))
+        self._limit = max(1, min(MAX_CONNECTIONS, spare - _MAX_BACKLOGS * self.backlog))
         self._open: set[WebSocket] = set()
         self._warned_at = -_REPEAT_AFTER
 

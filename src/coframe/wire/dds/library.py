@@ -67,7 +67,7 @@ class Library:
 
     place: Place
     release: str
-    refused: tuple[str, ...] = ()
+    rejected: tuple[str, ...] = ()
 
     @property
     def version(self) -> str:
@@ -102,7 +102,7 @@ def check() -> None:
     """
     searched = list(places())
     if all(place.path is None for place in searched):
-        raise _missing(searched)
+        raise _missing_library_error(searched)
 
 
 def places(environment: Mapping[str, str] = os.environ) -> Iterator[Place]:
@@ -141,23 +141,23 @@ def how_to_get_one() -> str:
 
 
 def _first_usable(searched: Iterator[Place]) -> Library:
-    looked, refused = [], []
+    looked, rejected = [], []
     for place in searched:
         looked.append(place)
         if place.path is None:
             continue
         if place.version and not _SUPPORTED_VERSION.fullmatch(place.version):
-            refused.append(_refusal(place, "has an incompatible binary interface"))
+            rejected.append(_refusal(place, "has an incompatible binary interface"))
             continue
         try:
             release = _core.load_dds(str(place.path))
         except RuntimeError as error:
-            refused.append(_refusal(place, str(error)))
+            rejected.append(_refusal(place, str(error)))
             continue
-        return Library(place, release, tuple(refused))
-    if refused:
-        raise WireError(" ".join(refused), hint=how_to_get_one())
-    raise _missing(looked)
+        return Library(place, release, tuple(rejected))
+    if rejected:
+        raise WireError(" ".join(rejected), hint=how_to_get_one())
+    raise _missing_library_error(looked)
 
 
 def _refusal(place: Place, reason: str) -> str:
@@ -168,7 +168,7 @@ def _refusal(place: Place, reason: str) -> str:
     )
 
 
-def _missing(looked: list[Place]) -> WireError:
+def _missing_library_error(looked: list[Place]) -> WireError:
     if len(looked) == 1:  # named by the environment variable
         text = f"The DDS library {looked[0].searched} in {VARIABLE} does not exist."
         return WireError(text, hint=f"Unset {VARIABLE} to search the usual places. {how_to_get_one()}")

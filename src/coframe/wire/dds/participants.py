@@ -7,7 +7,7 @@ import socket
 
 from coframe import _core
 from coframe.errors import WireError
-from coframe.wire import _descriptors as descriptors
+from coframe.wire import _descriptors
 from coframe.wire.dds import config
 
 _DESCRIPTORS = 16  # Cyclone DDS opens about 8, and more for each network interface; it crashes if none are left.
@@ -24,7 +24,7 @@ def join(domain: int, xml: str, user_data: str) -> _core.DomainParticipant:
     Raises:
         WireError: DDS cannot create the participant.
     """
-    descriptors.check(_DESCRIPTORS, "DDS", domain)
+    _descriptors.check(_DESCRIPTORS, "DDS", domain)
     try:
         return _core.DomainParticipant(domain, xml, user_data)
     except _core.EndpointError as error:

@@ -8,7 +8,7 @@ import threading
 from typing import TYPE_CHECKING, NamedTuple
 
 from coframe import _core
-from coframe.wire.zenoh import _keys as keys
+from coframe.wire.zenoh import _keys
 
 if TYPE_CHECKING:
     import zenoh
@@ -129,4 +129,4 @@ class Sequence:
     def next(self) -> bytes:
         """Return the attachment of the next message. The caller must send messages in this order."""
         self._last += 1
-        return keys.attachment(self._last, self._gid)
+        return _keys.attachment(self._last, self._gid)

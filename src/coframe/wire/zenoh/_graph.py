@@ -9,9 +9,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 from coframe.wire import names
 from coframe.wire.graph import DiscoveredEndpoint, Graph, NodeInfo
-from coframe.wire.zenoh import _keys as keys
-from coframe.wire.zenoh import _library as library
-from coframe.wire.zenoh import _tokens as tokens
+from coframe.wire.zenoh import _keys, _library, _tokens
 from coframe.wire.zenoh._token_limits import TokenLimits
 
 if TYPE_CHECKING:
@@ -65,7 +63,7 @@ class ZenohGraph(Graph):
 
     def __init__(self, session: zenoh.Session, domain: int, changed: _core.Event) -> None:
         super().__init__()
-        module = library.load()
+        module = _library.load()
         self._pending: deque[tuple[bool, str]] = deque()  # (declared, token)
         self._limits = TokenLimits()
         self._members: dict[bytes, _Node] = {}  # by session and node
@@ -76,7 +74,7 @@ class ZenohGraph(Graph):
         self._user_data: dict[bytes, bytes] = {}  # by the identifier of the endpoint
         self._subscribers: list[Any] = [
             session.liveliness().declare_subscriber(space, module.handlers.RingChannel(_MAX_QUEUED), history=True)
-            for space in (tokens.all_user_data(domain), tokens.all_tokens(domain))
+            for space in (_tokens.all_user_data(domain), _tokens.all_tokens(domain))
         ]
         self._threads = [
             threading.Thread(target=self._receive, args=(subscriber.handler,), name="coframe-graph", daemon=True)
@@ -112,7 +110,7 @@ class ZenohGraph(Graph):
             return {
                 handle: other
                 for handle, other in others.items()
-                if other.type == wanted and type_hash in (other.type_hash, keys.ANY_HASH)
+                if other.type == wanted and type_hash in (other.type_hash, _keys.ANY_HASH)
             }
 
     def known_hash(self, endpoint: Endpoint) -> str:
@@ -131,7 +129,7 @@ class ZenohGraph(Graph):
             while True:
                 sample = handler.recv()
                 while sample is not None:
-                    text = str(sample.key_expr)[: tokens.MAX_BYTES + 1]  # longer ones are not valid
+                    text = str(sample.key_expr)[: _tokens.MAX_BYTES + 1]  # longer ones are not valid
                     self._pending.append((sample.kind != self._delete, text))
                     if len(self._pending) >= _MAX_PENDING:
                         self.refresh()
@@ -144,9 +142,9 @@ class ZenohGraph(Graph):
         touched: set[bytes] = set()
         for _ in range(len(self._pending)):
             declared, text = self._pending.popleft()
-            if (token := tokens.decode_token(text)) is not None:
+            if (token := _tokens.decode_token(text)) is not None:
                 touched |= self._apply(text, token, declared=declared)
-            elif (user_data := tokens.decode_user_data(text)) is not None:
+            elif (user_data := _tokens.decode_user_data(text)) is not None:
                 self._apply_user_data(text, *user_data, declared=declared)
             else:
                 self._limits.warn_of_invalid_token(text)
@@ -165,21 +163,21 @@ class ZenohGraph(Graph):
             return set()
         participant = f"{token.session}/{token.node}".encode()
         node = self._members.setdefault(participant, _Node())
-        if token.kind == tokens.NODE:
+        if token.kind == _tokens.NODE:
             node.token = token if declared else None
         elif declared:
             node.endpoints[text] = token
             for is_writer, end in _endpoints_of(token):
                 self._store(is_writer, end._replace(user_data=self._user_data.get(end.guid, b"")))
         if not declared:
-            for left in [text] if token.kind != tokens.NODE else [text, *node.endpoints]:
+            for left in [text] if token.kind != _tokens.NODE else [text, *node.endpoints]:
                 self._limits.remove(left)
                 if (endpoint := node.endpoints.pop(left, None)) is not None:
                     self._remove(endpoint)
         return {participant}
 
     def _store(self, is_writer: bool, end: DiscoveredEndpoint) -> None:
-        handle = keys.handle_of(end.guid)
+        handle = _keys.handle_of(end.guid)
         (self._writers if is_writer else self._readers)[handle] = end
         self._topics.setdefault((is_writer, end.topic), {})[handle] = end
 
@@ -190,12 +188,12 @@ class ZenohGraph(Graph):
             self._user_data.pop(gid, None)
         elif self._limits.add(text):
             self._user_data[gid] = user_data
-            if (writer := self._writers.get(keys.handle_of(gid))) is not None:
+            if (writer := self._writers.get(_keys.handle_of(gid))) is not None:
                 self._store(True, writer._replace(user_data=user_data))
 
     def _remove(self, token: Token) -> None:
         for is_writer, end in _endpoints_of(token):
-            handle = keys.handle_of(end.guid)
+            handle = _keys.handle_of(end.guid)
             (self._writers if is_writer else self._readers).pop(handle, None)
             topic = self._topics.get((is_writer, end.topic), {})
             topic.pop(handle, None)
@@ -207,16 +205,16 @@ def _endpoints_of(token: Token) -> Iterator[tuple[bool, DiscoveredEndpoint]]:
     """Yield the endpoints that a token represents, each with whether it is a writer."""
     participant = f"{token.session}/{token.node}".encode()
     ros_type = names.ros_type(token.type)
-    if token.kind in (tokens.PUBLISHER, tokens.SUBSCRIPTION):
+    if token.kind in (_tokens.PUBLISHER, _tokens.SUBSCRIPTION):
         topic = names.dds_topic(token.topic)
         end = DiscoveredEndpoint(token.gid, participant, topic, token.type, token.qos, b"", token.type_hash)
-        yield token.kind == tokens.PUBLISHER, end
+        yield token.kind == _tokens.PUBLISHER, end
         return
     halves: tuple[tuple[Kind, bytes, str], ...] = (
         ("request", token.gid, "Request"),
-        ("reply", keys.other_half(token.gid), "Response"),
+        ("reply", _keys.other_half(token.gid), "Response"),
     )
     for kind, gid, suffix in halves:
         topic, type_name = names.dds_topic(token.topic, kind), names.dds_type(f"{ros_type}_{suffix}")
         end = DiscoveredEndpoint(gid, participant, topic, type_name, token.qos, b"", token.type_hash)
-        yield (token.kind == tokens.CLIENT) == (kind == "request"), end
+        yield (token.kind == _tokens.CLIENT) == (kind == "request"), end

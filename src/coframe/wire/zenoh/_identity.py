@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from coframe.wire.zenoh import _keys as keys
+from coframe.wire.zenoh import _keys
 from coframe.wire.zenoh._tokens import user_data_token
 
 if TYPE_CHECKING:
@@ -52,7 +52,7 @@ class Identity:
         self._buffers = buffers
         self._user_data = user_data
         self._numbers = {node: number}
-        self.gid = keys.gid_of(self._token(node))
+        self.gid = _keys.gid_of(self._token(node))
 
     def tokens(self, node: NodeToken, numbers: Iterator[int]) -> list[str]:
         """Return the tokens of the endpoint for one of its nodes; none as long as the hash of its type is unknown.
@@ -61,7 +61,7 @@ class Identity:
             node: The node.
             numbers: The counter of the session, from which each additional node of the endpoint takes a number.
         """
-        if self.type_hash == keys.ANY_HASH:
+        if self.type_hash == _keys.ANY_HASH:
             return []
         if node not in self._numbers:
             self._numbers[node] = next(numbers)

@@ -21,11 +21,11 @@ _MAX_DEPTH: Final = 2**31 - 1
 
 def encode_qos(qos: QoS) -> str:
     """Return a quality of service as a string."""
-    reliability = _unless(_RELIABLE, _RELIABLE if qos.reliable else _BEST_EFFORT)
-    durability = _unless(_VOLATILE, _TRANSIENT_LOCAL if qos.transient_local else _VOLATILE)
-    history = _unless(_KEEP_LAST, _KEEP_ALL if qos.keep_all else _KEEP_LAST)
-    liveliness = _unless(_AUTOMATIC, _MANUAL_BY_TOPIC if qos.manual_liveliness else _AUTOMATIC)
-    depth = _unless(_DEFAULT_DEPTH, qos.depth)
+    reliability = _omit_default(_RELIABLE, _RELIABLE if qos.reliable else _BEST_EFFORT)
+    durability = _omit_default(_VOLATILE, _TRANSIENT_LOCAL if qos.transient_local else _VOLATILE)
+    history = _omit_default(_KEEP_LAST, _KEEP_ALL if qos.keep_all else _KEEP_LAST)
+    liveliness = _omit_default(_AUTOMATIC, _MANUAL_BY_TOPIC if qos.manual_liveliness else _AUTOMATIC)
+    depth = _omit_default(_DEFAULT_DEPTH, qos.depth)
     deadline, lifespan, lease = (_duration(value) for value in (qos.deadline, qos.lifespan, qos.lease))
     return f"{reliability}:{durability}:{history},{depth}:{deadline}:{lifespan}:{liveliness},{lease}"
 
@@ -51,13 +51,13 @@ def decode_qos(text: str) -> QoS | None:
         return None
 
 
-def _unless(default: int, value: int) -> str:
+def _omit_default(default: int, value: int) -> str:
     return "" if value == default else str(value)
 
 
 def _duration(nanoseconds: int) -> str:
     seconds, rest = divmod(nanoseconds or INFINITE, 1_000_000_000)
-    return f"{_unless(_INFINITE_SECONDS, seconds)},{_unless(_INFINITE_NANOSECONDS, rest)}"
+    return f"{_omit_default(_INFINITE_SECONDS, seconds)},{_omit_default(_INFINITE_NANOSECONDS, rest)}"
 
 
 def _nanoseconds(parts: list[str]) -> int:

@@ -9,8 +9,7 @@ from collections import OrderedDict
 from typing import TYPE_CHECKING, Any, Final, NamedTuple, Protocol
 
 from coframe.wire.counted_warning import CountedWarning
-from coframe.wire.zenoh import _keys as keys
-from coframe.wire.zenoh import _library as library
+from coframe.wire.zenoh import _keys, _library
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -68,7 +67,7 @@ class Receiver:
         on_lost: Callable[[int], None],
         name: str,
     ) -> None:
-        module = library.load()
+        module = _library.load()
         self._closed_error = module.ZError
         self._delete = module.SampleKind.DELETE
         self._consumer = consumer
@@ -112,18 +111,18 @@ class Receiver:
     def _process(self, sample: Any) -> None:
         try:
             attached = sample.attachment
-            header = None if attached is None else keys.decode_attachment(attached.to_bytes())
+            header = None if attached is None else _keys.decode_attachment(attached.to_bytes())
             if header is None or sample.kind == self._delete:
                 self._warn_of_foreign_sample(sample)
             elif self._is_new(header):
-                self._consumer.add(Received(sample.payload.to_bytes(), header.sent, keys.handle_of(header.gid)))
+                self._consumer.add(Received(sample.payload.to_bytes(), header.sent, _keys.handle_of(header.gid)))
         except Exception as error:
             # The thread must survive an error in one message, because nothing would restart it.
             _logger.debug("A message on %s could not be processed.", self._name, exc_info=True)
             reason = f"{type(error).__name__}: {error}"
             self._warn_of_failure(f"A message on {self._name} could not be processed: {reason}.")
 
-    def _is_new(self, header: keys.Attachment) -> bool:
+    def _is_new(self, header: _keys.Attachment) -> bool:
         """Record a message's sequence number. Return False if the message already arrived at another key."""
         if self._recent is not None:
             key = header.gid, header.sequence
@@ -162,7 +161,7 @@ def ring_length(qos: QoS) -> int:
 
 
 def _declare(session: zenoh.Session, key: str, qos: QoS) -> Any:
-    module = library.load()
+    module = _library.load()
     ring = module.handlers.RingChannel(ring_length(qos))
     if not qos.transient_local:
         return session.declare_subscriber(key, ring)

@@ -18,12 +18,10 @@ from coframe.messages.encapsulation import byte_order
 from coframe.wire import request_header
 from coframe.wire.counted_warning import CountedWarning
 from coframe.wire.request_header import RequestHeader
-from coframe.wire.zenoh import _keys as keys
-from coframe.wire.zenoh import _library as library
-from coframe.wire.zenoh import config
+from coframe.wire.zenoh import _keys, _library, config
 from coframe.wire.zenoh._endpoint import ZenohEndpoint
 from coframe.wire.zenoh._receiver import KEEP_ALL, queue_length, ring_length
-from coframe.wire.zenoh._writer import TOO_SHORT, BytesWriter
+from coframe.wire.zenoh._writer import TOO_SHORT_ERROR, BytesWriter
 
 if TYPE_CHECKING:
     from coframe.wire.qos import QoS
@@ -180,7 +178,7 @@ class RequestReader(_Queue):
 
     def __init__(self, place: Place, qos: QoS, on_data: _core.Event | None, table: ServiceTable) -> None:
         super().__init__(place, qos, on_data)
-        module = library.load()
+        module = _library.load()
         self._closed_error = module.ZError
         self._table = table
         self._warn_of_invalid = CountedWarning(_logger.warning)
@@ -205,7 +203,7 @@ class RequestReader(_Queue):
             pass
 
     def _receive(self, query: Any) -> None:
-        header = None if query.attachment is None else keys.decode_attachment(query.attachment.to_bytes())
+        header = None if query.attachment is None else _keys.decode_attachment(query.attachment.to_bytes())
         data = b"" if query.payload is None else query.payload.to_bytes()
         if header is None or byte_order(data) is None:
             query.drop()
@@ -214,7 +212,7 @@ class RequestReader(_Queue):
                 "program that sends requests without ROS 2."
             )
             return
-        writer = keys.handle_of(header.gid)
+        writer = _keys.handle_of(header.gid)
         identity = RequestHeader(writer, header.sequence)
         request = _Request(query, header.sequence, header.gid)
         unanswered = self._table.store_request(self.key, identity, request)
@@ -258,7 +256,7 @@ class _Sender(BytesWriter):
         super().__init__(place.graph, place.endpoint, place.type_hash, place.guid, on_change)
         self.key = place.key_list[0]
         self._table = table
-        self._error = library.load().ZError
+        self._error = _library.load().ZError
 
     def write(self, message: bytes) -> None:
         """Send a message with its header."""
@@ -268,7 +266,7 @@ class _Sender(BytesWriter):
         """Send a message with its header."""
         parts = request_header.split(message)
         if parts is None:
-            raise ValueError(TOO_SHORT)
+            raise ValueError(TOO_SHORT_ERROR)
         self._check_open()
         try:
             self._send(*parts)
@@ -296,7 +294,7 @@ class RequestWriter(_Sender):
 
     def __init__(self, place: Place, table: ServiceTable, on_change: _core.Event | None) -> None:
         super().__init__(place, table, on_change)
-        module = library.load()
+        module = _library.load()
         self.ignored = 0
         self._callback = module.handlers.Callback
         options: dict[str, Any] = {"timeout": _FOREVER} if _UNLIMITED in f"/{self.key}/" else {}
@@ -318,17 +316,17 @@ class RequestWriter(_Sender):
             if reply.ok is None:
                 return
             data, attachment = reply.ok.payload.to_bytes(), reply.ok.attachment
-            attached = None if attachment is None else keys.decode_attachment(attachment.to_bytes())
+            attached = None if attachment is None else _keys.decode_attachment(attachment.to_bytes())
             if attached is None or (attached.sequence, attached.gid) != answered or byte_order(data) is None:
                 self._ignore()
                 return
-            handle = keys.handle_of(attached.gid)
+            handle = _keys.handle_of(attached.gid)
             self._table.deliver(self.key, request_header.join(header, data), attached.sent, handle)
 
         self._querier.get(
             handler=self._callback(receive, indirect=False),
             payload=cdr,
-            attachment=keys.attachment(header.sequence, self.guid),
+            attachment=_keys.attachment(header.sequence, self.guid),
         )
 
     def _ignore(self) -> None:
@@ -346,5 +344,5 @@ class ReplyWriter(_Sender):
     def _send(self, header: RequestHeader, cdr: bytes) -> None:
         request = self._table.take_request(self.key, header)
         if request is not None:
-            request.query.reply(self.key, cdr, attachment=keys.attachment(request.sequence, request.gid))
+            request.query.reply(self.key, cdr, attachment=_keys.attachment(request.sequence, request.gid))
             request.query.drop()

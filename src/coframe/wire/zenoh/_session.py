@@ -10,16 +10,13 @@ import threading
 import weakref
 from typing import TYPE_CHECKING, Any, Final, TypeVar
 
-from coframe._output.escaping import shown
+from coframe._output.escaping import display_name
 from coframe.errors import WireError
 from coframe.time import SECOND
-from coframe.wire import _descriptors as descriptors
+from coframe.wire import _descriptors
 from coframe.wire.names import check_name
 from coframe.wire.type_hashes import type_hash_of_name
-from coframe.wire.zenoh import _keys as keys
-from coframe.wire.zenoh import _library as library
-from coframe.wire.zenoh import _tokens as tokens
-from coframe.wire.zenoh import config, connecting
+from coframe.wire.zenoh import _keys, _library, _tokens, config, connecting
 from coframe.wire.zenoh._endpoint import Place, ZenohEndpoint
 from coframe.wire.zenoh._graph import ZenohGraph
 from coframe.wire.zenoh._identity import Identity
@@ -39,7 +36,7 @@ if TYPE_CHECKING:
     from coframe.wire.names import Endpoint
     from coframe.wire.qos import QoS
 
-_NOT_IN_KEYS: Final = frozenset("*$?#")
+_RESERVED_CHARACTERS: Final = frozenset("*$?#")
 _DESCRIPTORS: Final = 64  # Zenoh uses about 20, and ends the process if it gets none
 
 OpenedT = TypeVar("OpenedT", bound=ZenohEndpoint)
@@ -59,9 +56,9 @@ class ZenohSession:
     """
 
     def __init__(self, domain: int, changed: _core.Event) -> None:
-        self._error = library.load().ZError
+        self._error = _library.load().ZError
         self._domain = domain
-        descriptors.check(_DESCRIPTORS, "Zenoh", domain)
+        _descriptors.check(_DESCRIPTORS, "Zenoh", domain)
         self._session: Any = connecting.open_session()
         self._zid = str(self._session.info.zid())
         self._counter = itertools.count()  # counter for nodes and endpoints
@@ -92,18 +89,18 @@ class ZenohSession:
         type_hash = self._required_hash(endpoint)
         if endpoint.kind == "reply":
             place = self._place(endpoint, type_hash, os.urandom(16))
-            return self._opened(endpoint, lambda: ReplyWriter(place, self._services, on_change))
-        kind = tokens.PUBLISHER if endpoint.kind == "topic" else tokens.CLIENT
+            return self._open_endpoint(endpoint, lambda: ReplyWriter(place, self._services, on_change))
+        kind = _tokens.PUBLISHER if endpoint.kind == "topic" else _tokens.CLIENT
         identity = self._identify(node, kind, endpoint, type_hash, qos, user_data=user_data)
         place = self._place(endpoint, type_hash, identity.gid)
         if endpoint.kind == "request":
-            return self._opened(endpoint, lambda: RequestWriter(place, self._services, on_change))
-        return self._opened(endpoint, lambda: ZenohWriter(place, qos, checked=checked, on_change=on_change))
+            return self._open_endpoint(endpoint, lambda: RequestWriter(place, self._services, on_change))
+        return self._open_endpoint(endpoint, lambda: ZenohWriter(place, qos, checked=checked, on_change=on_change))
 
     def reader(self, node: GraphNode, endpoint: Endpoint, qos: QoS, on_data: _core.Event | None) -> BackendReader:
         """Create a subscription that queues messages."""
         place = self._subscription_place(node, endpoint, qos)
-        return self._opened(endpoint, lambda: ZenohReader(place, qos, on_data))
+        return self._open_endpoint(endpoint, lambda: ZenohReader(place, qos, on_data))
 
     def service_reader(
         self, node: GraphNode, endpoint: Endpoint, qos: QoS, on_data: _core.Event | None
@@ -112,15 +109,15 @@ class ZenohSession:
         type_hash = self._required_hash(endpoint)
         if endpoint.kind == "reply":
             place = self._place(endpoint, type_hash, os.urandom(16))
-            return self._opened(endpoint, lambda: ReplyReader(place, qos, on_data, self._services))
-        identity = self._identify(node, tokens.SERVICE, endpoint, type_hash, qos)
+            return self._open_endpoint(endpoint, lambda: ReplyReader(place, qos, on_data, self._services))
+        identity = self._identify(node, _tokens.SERVICE, endpoint, type_hash, qos)
         place = self._place(endpoint, type_hash, identity.gid)
-        return self._opened(endpoint, lambda: RequestReader(place, qos, on_data, self._services))
+        return self._open_endpoint(endpoint, lambda: RequestReader(place, qos, on_data, self._services))
 
     def tap(self, node: GraphNode, endpoint: Endpoint, qos: QoS, limits: QueueLimits) -> ZenohTap:
         """Create a subscription that records messages."""
         place = self._subscription_place(node, endpoint, qos)
-        return self._opened(endpoint, lambda: ZenohTap(place, qos, limits))
+        return self._open_endpoint(endpoint, lambda: ZenohTap(place, qos, limits))
 
     def tf_reader(
         self,
@@ -136,7 +133,7 @@ class ZenohSession:
     ) -> ZenohTfReader:
         """Create a subscription that stores transforms."""
         place = self._subscription_place(node, endpoint, qos)
-        return self._opened(
+        return self._open_endpoint(
             endpoint,
             lambda: ZenohTfReader(
                 place, qos, buffer, static=static, authority=authority, renaming=renaming, on_data=on_data
@@ -170,10 +167,10 @@ class ZenohSession:
         """Update the status of the endpoints, and announce those whose type has become known."""
         with self._lock:
             endpoints = list(self._endpoints)
-            unknown = [known for known in self._identities.values() if known.type_hash == keys.ANY_HASH]
+            unknown = [known for known in self._identities.values() if known.type_hash == _keys.ANY_HASH]
             for identity in unknown:
-                identity.type_hash = self.graph.known_hash(identity.endpoint) or keys.ANY_HASH
-            if any(identity.type_hash != keys.ANY_HASH for identity in unknown):
+                identity.type_hash = self.graph.known_hash(identity.endpoint) or _keys.ANY_HASH
+            if any(identity.type_hash != _keys.ANY_HASH for identity in unknown):
                 self.announce(list(self._nodes))
         for endpoint in endpoints:
             endpoint.update_matched()
@@ -195,16 +192,16 @@ class ZenohSession:
                 endpoint.ros_type,
                 endpoint.name,
             )
-            type_hash = keys.ANY_HASH
+            type_hash = _keys.ANY_HASH
         buffers = not qos.transient_local and has_unbounded_bytes(endpoint.ros_type)
-        identity = self._identify(node, tokens.SUBSCRIPTION, endpoint, type_hash, qos, buffers=buffers)
+        identity = self._identify(node, _tokens.SUBSCRIPTION, endpoint, type_hash, qos, buffers=buffers)
         place = self._place(endpoint, type_hash, identity.gid)
         if buffers:
-            place.key_list.append(f"{place.key_list[0]}/{keys.BUFFER_SUFFIX}")
+            place.key_list.append(f"{place.key_list[0]}/{_keys.BUFFER_SUFFIX}")
         return place
 
     def _place(self, endpoint: Endpoint, type_hash: str, gid: bytes) -> Place:
-        key = keys.data_key(self._domain, endpoint, type_hash)
+        key = _keys.data_key(self._domain, endpoint, type_hash)
         return Place(self._session, self.graph, [key], endpoint, type_hash, gid)
 
     def _identify(
@@ -231,19 +228,19 @@ class ZenohSession:
 
     def _hash_of(self, endpoint: Endpoint) -> str:
         """Return the hash of a type: from its definition, or from other nodes that use it; "" if it is unknown."""
-        return type_hash_of_name(keys.interface(endpoint)) or self.graph.known_hash(endpoint)
+        return type_hash_of_name(_keys.interface(endpoint)) or self.graph.known_hash(endpoint)
 
     def _required_hash(self, endpoint: Endpoint) -> str:
         _check_names(endpoint)
         if type_hash := self._hash_of(endpoint):
             return type_hash
         raise WireError(
-            f"The endpoint on {endpoint.name} needs the definition of {keys.interface(endpoint)}, which is unknown: "
+            f"The endpoint on {endpoint.name} needs the definition of {_keys.interface(endpoint)}, which is unknown: "
             "over Zenoh, the hash of the definition is part of the address.",
             hint="Add the interface file (see docs/how-to/own-messages.md), or use DDS: COFRAME_WIRE=dds.",
         )
 
-    def _opened(self, endpoint: Endpoint, make: Callable[[], OpenedT]) -> OpenedT:
+    def _open_endpoint(self, endpoint: Endpoint, make: Callable[[], OpenedT]) -> OpenedT:
         try:
             opened = make()
         except self._error as error:
@@ -266,8 +263,8 @@ def _check_names(endpoint: Endpoint) -> None:
     """Raise a WireError if the name of the topic or the type cannot be announced over Zenoh."""
     for name in (endpoint.dds_topic, endpoint.dds_type):
         check_name(name)
-        if found := _NOT_IN_KEYS.intersection(name):
+        if found := _RESERVED_CHARACTERS.intersection(name):
             raise WireError(
-                f"The name {shown(name)!r} contains {min(found)!r}, which has a special meaning in Zenoh.",
+                f"The name {display_name(name)!r} contains {min(found)!r}, which has a special meaning in Zenoh.",
                 hint="Choose another name.",
             )

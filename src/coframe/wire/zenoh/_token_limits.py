@@ -6,7 +6,7 @@ from __future__ import annotations
 import logging
 from typing import Final
 
-from coframe._output.escaping import shown
+from coframe._output.escaping import display_name
 
 MAX_TOKENS: Final = 100_000  # nodes, endpoints and their user data, of other processes
 MAX_TOKEN_BYTES: Final = 64 << 20  # of tokens, which include the names
@@ -56,7 +56,7 @@ class TokenLimits:
         self._warn(
             "invalid",
             f"A node or an endpoint is not listed, because its liveliness token is not valid or contains too long a "
-            f"name: {shown(text)}. More tokens like it are not reported.",
+            f"name: {display_name(text)}. More tokens like it are not reported.",
         )
 
     def _warn(self, key: str, text: str) -> None:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Final, NamedTuple
 
 from coframe.wire.names import MAX_NAME
 from coframe.wire.qos import DEFAULT
-from coframe.wire.zenoh import _keys as keys
+from coframe.wire.zenoh import _keys
 from coframe.wire.zenoh._qos_text import decode_qos, encode_qos
 
 if TYPE_CHECKING:
@@ -52,7 +52,7 @@ class NodeToken(NamedTuple):
         """Return the common beginning of the tokens of this node's entities."""
         return (
             f"{_SPACE}/{self.domain}/{self.session}/{self.id}/{number}/{kind}/"
-            f"{keys.mangle(_ENCLAVE)}/{keys.mangle(self.namespace)}/{keys.mangle(self.name)}"
+            f"{_keys.mangle(_ENCLAVE)}/{_keys.mangle(self.namespace)}/{_keys.mangle(self.name)}"
         )
 
     def endpoint(
@@ -69,7 +69,7 @@ class NodeToken(NamedTuple):
             buffers: Whether it is a subscription that also receives messages at the buffer key.
         """
         token = (
-            f"{self.entity(number, kind)}/{keys.mangle(endpoint.name)}/{keys.type_name(endpoint)}/{type_hash}/"
+            f"{self.entity(number, kind)}/{_keys.mangle(endpoint.name)}/{_keys.type_name(endpoint)}/{type_hash}/"
             f"{encode_qos(qos)}"
         )
         return f"{token}/{_BACKENDS}" if buffers else token
@@ -115,7 +115,7 @@ def all_user_data(domain: int) -> str:
 
 def user_data_token(domain: int, token: str, user_data: str) -> str:
     """Return the token that contains the user data of the endpoint with a token: pairs `key=value;`."""
-    return f"{_USER_DATA_SPACE}/{domain}/{keys.gid_of(token).hex()}/{user_data}"
+    return f"{_USER_DATA_SPACE}/{domain}/{_keys.gid_of(token).hex()}/{user_data}"
 
 
 def decode_user_data(text: str) -> tuple[bytes, bytes] | None:
@@ -142,7 +142,7 @@ def decode_token(text: str) -> Token | None:
     if kind in _KINDS:
         if len(chunks) < _ENDPOINT_CHUNKS:
             return None
-        topic, type_name, type_hash = keys.demangle(endpoint[0]), endpoint[1], endpoint[2]
+        topic, type_name, type_hash = _keys.demangle(endpoint[0]), endpoint[1], endpoint[2]
         decoded = decode_qos(endpoint[3])
         if decoded is None or not topic.startswith("/"):
             return None
@@ -154,13 +154,13 @@ def decode_token(text: str) -> Token | None:
         session,
         int(node),
         kind,
-        keys.demangle(namespace),
-        keys.demangle(name),
+        _keys.demangle(namespace),
+        _keys.demangle(name),
         topic,
         type_name,
         type_hash,
         qos,
-        keys.gid_of(text),
+        _keys.gid_of(text),
     )
 
 

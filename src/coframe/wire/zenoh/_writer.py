@@ -7,8 +7,7 @@ import threading
 from typing import TYPE_CHECKING, Any
 
 from coframe import _core
-from coframe.wire.zenoh import _library as library
-from coframe.wire.zenoh import config
+from coframe.wire.zenoh import _library, config
 from coframe.wire.zenoh._endpoint import Sequence, ZenohEndpoint
 
 if TYPE_CHECKING:
@@ -19,7 +18,7 @@ if TYPE_CHECKING:
     from coframe.wire.zenoh._endpoint import Place
 
 ENCAPSULATION_SIZE = 4
-TOO_SHORT = "The message is too short: a serialized message begins with 4 bytes of encapsulation."
+TOO_SHORT_ERROR = "The message is too short: a serialized message begins with 4 bytes of encapsulation."
 
 
 class BytesWriter(ZenohEndpoint):
@@ -48,7 +47,7 @@ class ZenohWriter(BytesWriter):
 
     def __init__(self, place: Place, qos: QoS, *, checked: bool, on_change: _core.Event | None) -> None:
         super().__init__(place.graph, place.endpoint, place.type_hash, place.guid, on_change)
-        self._error = library.load().ZError
+        self._error = _library.load().ZError
         self._checked = checked
         self._sequence = Sequence(place.guid)
         self._lock = threading.Lock()  # so that sequence numbers are sent in order
@@ -63,7 +62,7 @@ class ZenohWriter(BytesWriter):
     def forward(self, message: bytes) -> None:
         """Send a message without checking its bytes."""
         if len(message) < ENCAPSULATION_SIZE:
-            raise ValueError(TOO_SHORT)
+            raise ValueError(TOO_SHORT_ERROR)
         self._check_open()
         with self._lock:
             try:
@@ -85,7 +84,7 @@ class ZenohWriter(BytesWriter):
 
 
 def _declare(session: zenoh.Session, key: str, qos: QoS) -> Any:
-    module = library.load()
+    module = _library.load()
     blocks = qos.reliable and qos.keep_all
     options: dict[str, Any] = {
         "congestion_control": module.CongestionControl.BLOCK if blocks else module.CongestionControl.DROP,

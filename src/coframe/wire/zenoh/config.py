@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 from coframe._files.regular_files import UnsuitableFileError, check_regular, reading_hint
 from coframe.errors import WireError
-from coframe.wire.zenoh import _library as library
+from coframe.wire.zenoh import _library
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -103,7 +103,7 @@ def router_config(
             continue
         try:
             config.insert_json5(f"{direction}/endpoints", json.dumps(chosen))
-        except library.load().ZError as error:
+        except _library.load().ZError as error:
             raise WireError(
                 f"The endpoints {', '.join(chosen)} are not valid: {reason_of(error)}.",
                 hint="An endpoint is, for example, tcp/127.0.0.1:7447 or tls/0.0.0.0:7447.",
@@ -168,7 +168,7 @@ def reason_of(error: Exception) -> str:
 
 
 def _config(file: str, variable: str, defaults: Mapping[str, Any], environment: Mapping[str, str]) -> zenoh.Config:
-    module = library.load()
+    module = _library.load()
     if file:
         config = _from_file(module, file.removeprefix("file://"), variable)
     else:

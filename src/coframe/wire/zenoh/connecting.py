@@ -10,8 +10,7 @@ import time
 from typing import TYPE_CHECKING, Final
 
 from coframe.errors import WireError
-from coframe.wire.zenoh import _library as library
-from coframe.wire.zenoh import config
+from coframe.wire.zenoh import _library, config
 
 if TYPE_CHECKING:
     import zenoh
@@ -45,7 +44,7 @@ def open_with(chosen: zenoh.Config) -> zenoh.Session:
     Raises:
         WireError: The configuration is not valid, or a client finds no router.
     """
-    module = library.load()
+    module = _library.load()
     endpoints = " or ".join(config.connect_endpoints(chosen)) or "no endpoint"
     try:
         session: zenoh.Session = module.open(chosen)

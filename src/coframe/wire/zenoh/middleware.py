@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from coframe.wire.zenoh import _library as library
+from coframe.wire.zenoh import _library
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -22,11 +22,11 @@ class ZenohMiddleware:
     def is_available(self, environment: Mapping[str, str]) -> bool:
         """Return whether eclipse-zenoh is installed."""
         del environment
-        return library.is_installed()
+        return _library.is_installed()
 
     def check(self) -> None:
         """Check that eclipse-zenoh is installed, without importing it."""
-        library.check()
+        _library.check()
 
     def describe(self) -> list[str]:
         """Return nothing: it has an examination of its own."""
@@ -39,7 +39,7 @@ class ZenohMiddleware:
 
     def join(self, domain: int, changed: _core.Event) -> Session:
         """Open a session in a domain."""
-        library.load()
+        _library.load()
         from coframe.wire.zenoh._session import ZenohSession  # noqa: PLC0415 - the selection must be cheap
 
         return ZenohSession(domain, changed)

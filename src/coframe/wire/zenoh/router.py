@@ -12,7 +12,7 @@ import time
 from typing import TYPE_CHECKING, Final
 
 from coframe.errors import WireError
-from coframe.wire.zenoh import _library as library
+from coframe.wire.zenoh import _library
 from coframe.wire.zenoh import config as configuration
 
 if TYPE_CHECKING:
@@ -122,7 +122,7 @@ class _Connections:
     def note(self, event: zenoh.LinkEvent) -> None:
         """Report that a link was added or removed."""
         link = event.link
-        is_new = event.kind == library.load().SampleKind.PUT
+        is_new = event.kind == _library.load().SampleKind.PUT
         identity = link.dst, str(link.zid)
         certificate = f", certificate of {link.auth_identifier}" if link.auth_identifier else ""
         self.end_window()
@@ -156,7 +156,7 @@ def _chooses_endpoints(file: str, environment: Mapping[str, str]) -> bool:
 
 
 def _open(config: zenoh.Config, endpoints: Sequence[str]) -> zenoh.Session:
-    module = library.load()
+    module = _library.load()
     try:
         session = module.open(config)
     except module.ZError as error:

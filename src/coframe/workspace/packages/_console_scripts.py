@@ -60,7 +60,7 @@ def _modules_in(folder: Path, targets: Iterable[str]) -> bool:
     return any((folder / top).is_dir() or (folder / f"{top}.py").is_file() for top in tops)
 
 
-def _parsed(lines: Any) -> Iterator[tuple[str, str]]:
+def _parse_lines(lines: Any) -> Iterator[tuple[str, str]]:
     """Yield name and target of lines ``name = module:function``."""
     for line in lines.splitlines() if isinstance(lines, str) else lines or ():
         if isinstance(line, str) and (match := _SCRIPT.fullmatch(line)):
@@ -70,7 +70,7 @@ def _parsed(lines: Any) -> Iterator[tuple[str, str]]:
 def _setup_cfg(text: str) -> PythonPackage:
     parser = configparser.ConfigParser(interpolation=None)
     parser.read_string(text)
-    scripts = dict(_parsed(parser.get("options.entry_points", "console_scripts", fallback="")))
+    scripts = dict(_parse_lines(parser.get("options.entry_points", "console_scripts", fallback="")))
     folders = parser.get("options", "package_dir", fallback="")
     root = next((line.strip()[1:].strip() for line in folders.splitlines() if line.strip().startswith("=")), ".")
     files = parser.get("options", "scripts", fallback="").split()
@@ -90,7 +90,7 @@ def _pyproject(text: str) -> PythonPackage:
         pair = re.compile(r"""(?m)^\s*["']?([\w.\-]+)["']?\s*=\s*["']([^"']+)["']""")
         declared = dict(pair.findall(section[1] if section else ""))
     lines = [f"{name} = {target}" for name, target in (declared or {}).items()]
-    return PythonPackage(dict(_parsed(lines)))
+    return PythonPackage(dict(_parse_lines(lines)))
 
 
 def _setup_py(text: str) -> PythonPackage:
@@ -113,7 +113,7 @@ def _from_setup_arguments(arguments: dict[str, Any]) -> PythonPackage:
         parser.read_string(entry_points)
         lines: Any = parser.items("console_scripts") if parser.has_section("console_scripts") else []
         entry_points = {"console_scripts": [f"{name} = {target}" for name, target in lines]}
-    scripts = dict(_parsed(entry_points.get("console_scripts"))) if isinstance(entry_points, dict) else {}
+    scripts = dict(_parse_lines(entry_points.get("console_scripts"))) if isinstance(entry_points, dict) else {}
     files = arguments.get("scripts")
     folders = arguments.get("package_dir")
     root = folders.get("") if isinstance(folders, dict) else None

@@ -12,7 +12,7 @@ from pathlib import Path, PurePosixPath
 from typing import TYPE_CHECKING, Any
 
 from coframe._files.regular_files import read_regular_text
-from coframe.workspace.packages import _console_scripts as console_scripts
+from coframe.workspace.packages import _console_scripts
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -70,7 +70,7 @@ def _is_inside(source: Path, package: Path) -> bool:
 
 def _text(path: Path) -> str:
     try:
-        return read_regular_text(path, console_scripts.MAX_BYTES)
+        return read_regular_text(path, _console_scripts.MAX_BYTES)
     except (OSError, UnicodeDecodeError):
         return ""
 
@@ -142,7 +142,7 @@ def _value(node: ast.expr, names: dict[str, Any], package: Path) -> Any:
     if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Add):
         left, right = _value(node.left, names, package), _value(node.right, names, package)
         is_same = type(left) is type(right) and isinstance(left, str | list)
-        return left + right if is_same and len(left) + len(right) <= console_scripts.MAX_BYTES else None
+        return left + right if is_same and len(left) + len(right) <= _console_scripts.MAX_BYTES else None
     if isinstance(node, ast.Call) and node.args:
         arguments = [_value(argument, names, package) for argument in node.args]
         if _called(node) == "join" and all(isinstance(argument, str) for argument in arguments):
@@ -150,7 +150,7 @@ def _value(node: ast.expr, names: dict[str, Any], package: Path) -> Any:
         if _called(node) in {"glob", "iglob"} and isinstance(arguments[0], str):
             return _matches(package, arguments[0])
         return None
-    return console_scripts.value_of(node, names)
+    return _console_scripts.value_of(node, names)
 
 
 def _matches(package: Path, pattern: str) -> list[str]:

@@ -13,8 +13,7 @@ from coframe._output.formatting import did_you_mean
 from coframe._process.python_children import python_command, python_environment
 from coframe.distributions import current
 from coframe.errors import PackageError
-from coframe.workspace.packages import _builtin as builtin
-from coframe.workspace.packages import _console_scripts as console_scripts
+from coframe.workspace.packages import _builtin, _console_scripts
 from coframe.workspace.packages.finding import Package, candidates, find_package, source_roots
 from coframe.workspace.packages.folders import crawl, package_name
 
@@ -68,7 +67,7 @@ def find_executable(package: str, name: str) -> Executable:
         return found[name]
     guess = did_you_mean(name, found, most=3)
     names = sorted(found)
-    there = f"Its executables: {', '.join(names[:_MAX_NAMES])}." if names else _where_executables_come_from(package)
+    there = f"Its executables: {', '.join(names[:_MAX_NAMES])}." if names else _executables_hint(package)
     raise PackageError(f"No executable {name!r} in the package {package!r}.", hint=f"{guess} {there}".lstrip())
 
 
@@ -76,12 +75,12 @@ def executables(package: str) -> dict[str, Executable]:
     """Return the executables of a package by name; an installed one comes before the one in the source folder."""
     found: dict[str, Executable] = {}
     for candidate in candidates(package):
-        for name, executable in _of(candidate).items():
+        for name, executable in _executables_of(candidate).items():
             found.setdefault(name, executable)
     return found
 
 
-def _where_executables_come_from(package: str) -> str:
+def _executables_hint(package: str) -> str:
     share = next(candidates(package)).share
     return (
         f"{share} declares none: console_scripts of setup.py, setup.cfg or pyproject.toml, and install(PROGRAMS) of "
@@ -89,18 +88,18 @@ def _where_executables_come_from(package: str) -> str:
     )
 
 
-def _of(package: Package) -> dict[str, Executable]:
+def _executables_of(package: Package) -> dict[str, Executable]:
     if package.origin == "installed":
-        return _installed(package)
+        return _installed_executables(package)
     if package.origin == "builtin":
         return {
             name: Executable(package.name, name, (*_ENTRY_POINT, *words))
-            for name, words in builtin.executables(package.name).items()
+            for name, words in _builtin.executables(package.name).items()
         }
     return _from_source(package)
 
 
-def _installed(package: Package) -> dict[str, Executable]:
+def _installed_executables(package: Package) -> dict[str, Executable]:
     folder = package.prefix / "lib" / package.name
     files = sorted(folder.iterdir()) if folder.is_dir() else []
     return {
@@ -112,7 +111,7 @@ def _installed(package: Package) -> dict[str, Executable]:
 
 def _from_source(package: Package) -> dict[str, Executable]:
     source = package.source or package.share
-    declared = console_scripts.read(source)
+    declared = _console_scripts.read(source)
     path = _python_path(source, declared.root)
     found = {
         name: Executable(package.name, name, (*_ENTRY_POINT, target), path) for name, target in declared.scripts.items()
@@ -126,7 +125,7 @@ def _from_source(package: Package) -> dict[str, Executable]:
 
 def _python_path(package: Path, root: str) -> tuple[str, ...]:
     """Return the folders of the package and of its neighbors, whose modules it may import."""
-    own = [str(resolved(package / root))] if package_name(package) not in builtin.names() else []
+    own = [str(resolved(package / root))] if package_name(package) not in _builtin.names() else []
     return tuple(dict.fromkeys([*own, *_module_folders([package.parent])]))
 
 
@@ -139,9 +138,9 @@ def _module_folders(folders: list[Path]) -> list[str]:
     """Return the folders of modules of packages, except those of packages that coframe has."""
     packages = [package for folder in folders for package in crawl(folder, _MAX_DEPTH)]
     return [
-        str(resolved(package / console_scripts.read(package).root))
+        str(resolved(package / _console_scripts.read(package).root))
         for package in packages
-        if _has_modules(package) and package_name(package) not in builtin.names()
+        if _has_modules(package) and package_name(package) not in _builtin.names()
     ]
 
 
@@ -152,7 +151,7 @@ def _has_modules(package: Path) -> bool:
 
 def _programs_of_cmake(package: Path) -> list[str]:
     try:
-        text = read_regular_text(package / "CMakeLists.txt", console_scripts.MAX_BYTES)
+        text = read_regular_text(package / "CMakeLists.txt", _console_scripts.MAX_BYTES)
     except (OSError, UnicodeDecodeError):
         return []
     text = re.sub(r"#.*", "", text)

@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, NamedTuple
 from coframe._files.existence import is_dir, is_file, resolved
 from coframe._output.formatting import did_you_mean
 from coframe.errors import PackageError
-from coframe.workspace.packages import _builtin as builtin
-from coframe.workspace.packages.folders import crawl, listed, named, package_around, package_name
+from coframe.workspace.packages import _builtin
+from coframe.workspace.packages.folders import by_name, crawl, existing_folders, package_around, package_name
 from coframe.workspace.packages.share_view import share_of_source
 
 if TYPE_CHECKING:
@@ -34,7 +34,7 @@ _SOURCES = "COFRAME_PACKAGE_PATH"
 _INDEX = Path("share", "ament_index", "resource_index", "packages")
 _MAX_DEPTH = 4  # levels of folders between a workspace and its packages
 _MAX_NAMES = 12  # in an error message
-_SEARCHED = (
+_SEARCH_HINT = (
     "Packages are searched in a sourced workspace (AMENT_PREFIX_PATH), in COFRAME_PACKAGE_PATH, and in the workspace "
     "around the current folder and the launch file."
 )
@@ -71,30 +71,30 @@ def find_package(name: str) -> Package:
         return package
     known = package_names()
     guess = did_you_mean(name, known, most=3)
-    own = [each for each in known if each not in builtin.names()]
+    own = [each for each in known if each not in _builtin.names()]
     there = f"Packages: {', '.join(own[:_MAX_NAMES])}{', ...' if len(own) > _MAX_NAMES else ''}. " if own else ""
-    raise PackageError(f"No package named {name!r}.", hint=f"{guess} {there}{_SEARCHED}".lstrip())
+    raise PackageError(f"No package named {name!r}.", hint=f"{guess} {there}{_SEARCH_HINT}".lstrip())
 
 
 def candidates(name: str) -> Iterator[Package]:
     """Yield all packages with this name in search order: an installed package hides its source, which may have more."""
-    for prefix in listed("AMENT_PREFIX_PATH"):
+    for prefix in existing_folders("AMENT_PREFIX_PATH"):
         if is_file(prefix / _INDEX / name) or is_file(prefix / "share" / name / "package.xml"):
             yield Package(name, prefix / "share" / name, prefix, "installed")
     for folder in source_roots():
-        source = _below(folder).get(name)
-        if source is None and folder in listed(_SOURCES) and is_dir(folder / name):
+        source = _packages_below(folder).get(name)
+        if source is None and folder in existing_folders(_SOURCES) and is_dir(folder / name):
             source = folder / name  # A folder specified by the user may contain packages without a manifest.
         if source is not None:
             yield Package(name, share_of_source(source, name), source.parent, "source", source)
-    if name in builtin.names():
-        yield Package(name, builtin.share(name), builtin.share(name).parent, "builtin")
+    if name in _builtin.names():
+        yield Package(name, _builtin.share(name), _builtin.share(name).parent, "builtin")
 
 
 def package_names() -> list[str]:
     """Return the names of all packages that can be found, sorted."""
-    found = set(builtin.names())
-    for prefix in listed("AMENT_PREFIX_PATH"):
+    found = set(_builtin.names())
+    for prefix in existing_folders("AMENT_PREFIX_PATH"):
         index = prefix / _INDEX
         found |= {marker.name for marker in index.iterdir()} if is_dir(index) else set()
     for folder in source_roots():
@@ -119,7 +119,7 @@ def source_folders(path: Path) -> list[Path]:
 
 def use_sources_near(*paths: Path) -> None:
     """Add the source folders around these paths to COFRAME_PACKAGE_PATH, for this process and its children."""
-    known = [str(folder) for folder in listed(_SOURCES)]
+    known = [str(folder) for folder in existing_folders(_SOURCES)]
     found = [str(folder) for path in paths for folder in source_folders(resolved(path))]
     os.environ[_SOURCES] = os.pathsep.join(dict.fromkeys([*known, *found]))
 
@@ -130,13 +130,13 @@ def source_roots() -> list[Path]:
     if sys.argv and sys.argv[0].endswith(".py"):
         near.append(resolved(sys.argv[0]).parent)
     around = [folder for path in near for folder in source_folders(path)]
-    return list(dict.fromkeys([*listed(_SOURCES), *around]))
+    return list(dict.fromkeys([*existing_folders(_SOURCES), *around]))
 
 
 _crawled: dict[Path, dict[str, Path]] = {}
 
 
-def _below(folder: Path) -> dict[str, Path]:
+def _packages_below(folder: Path) -> dict[str, Path]:
     if folder not in _crawled:
-        _crawled[folder] = named(list(crawl(folder, _MAX_DEPTH)))
+        _crawled[folder] = by_name(list(crawl(folder, _MAX_DEPTH)))
     return _crawled[folder]

@@ -13,13 +13,13 @@ from coframe._files.existence import is_dir, is_file
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-__all__ = ["MANIFEST", "crawl", "listed", "named", "package_around", "package_name"]
+__all__ = ["MANIFEST", "by_name", "crawl", "existing_folders", "package_around", "package_name"]
 
 MANIFEST = "package.xml"
-_NOT_SEARCHED = {"build", "install", "log", "node_modules", "__pycache__"}
+_SKIPPED_FOLDERS = {"build", "install", "log", "node_modules", "__pycache__"}
 
 
-def listed(variable: str) -> Iterator[Path]:
+def existing_folders(variable: str) -> Iterator[Path]:
     """Return the existing folders in an environment variable."""
     entries = os.environ.get(variable, "").split(os.pathsep)
     return (Path(entry) for entry in entries if entry and is_dir(Path(entry)))
@@ -42,11 +42,11 @@ def crawl(folder: Path, max_depth: int) -> Iterator[Path]:
     except OSError:  # no permission
         return
     for name in inside:
-        if not name.startswith(".") and name not in _NOT_SEARCHED:
+        if not name.startswith(".") and name not in _SKIPPED_FOLDERS:
             yield from crawl(folder / name, max_depth - 1)
 
 
-def named(packages: list[Path]) -> dict[str, Path]:
+def by_name(packages: list[Path]) -> dict[str, Path]:
     """Return packages by the name in their manifest, and also by the name of their folder."""
     found: dict[str, Path] = {}
     for package in packages:

@@ -76,7 +76,7 @@ def cvtColorForDisplay(
     if do_dynamic_scaling:
         if encoding.channels != 1:
             raise RuntimeError("cvtColorForDisplay() dynamic scaling is only possible for single-channel images")
-        return convert(_scaled(obj_in, min_image_value, max_image_value), "mono8", encoding_out)
+        return convert(_scale(obj_in, min_image_value, max_image_value), "mono8", encoding_out)
     if not encoding.colors:
         named = {1: "mono", 3: "bgr", 4: "bgra"}.get(encoding.channels)
         if named is None or encoding.dtype not in {"uint8", "uint16"}:
@@ -85,7 +85,7 @@ def cvtColorForDisplay(
     return convert(obj_in, encoding_in, encoding_out)
 
 
-def _scaled(image: Image, low: float, high: float) -> NDArray[np.uint8]:
+def _scale(image: Image, low: float, high: float) -> NDArray[np.uint8]:
     """Return the values from `low` to `high` as 0 to 255. Values that are not finite are 0."""
     values = image.astype(np.float64)
     finite = np.isfinite(values)

@@ -123,8 +123,8 @@ class Executable:
         self.__final_name = f"{name}-{next(_numbers)}"
         self.__final_cmd = [*self._prefix_words(context, name), *program, *words]
         self.__final_cwd = None if self.__cwd is None else perform_substitutions(context, self.__cwd)
-        base = child_environment(context.environment) if self.__env is None else _performed(context, self.__env)
-        self.__final_env = {**base, **program_env, **_performed(context, self.__additional_env or [])}
+        base = child_environment(context.environment) if self.__env is None else _perform(context, self.__env)
+        self.__final_env = {**base, **program_env, **_perform(context, self.__additional_env or [])}
 
     def _program(self, context: LaunchContext, word: str) -> tuple[Sequence[str], Mapping[str, str]]:
         """Return the words that start the program, and the variables that it needs; subclasses override it."""
@@ -157,5 +157,5 @@ def _normalized_pairs(
     return [(name, normalize_to_list_of_substitutions(value)) for name, value in items]
 
 
-def _performed(context: LaunchContext, pairs: list[tuple[list[Substitution], list[Substitution]]]) -> dict[str, str]:
+def _perform(context: LaunchContext, pairs: list[tuple[list[Substitution], list[Substitution]]]) -> dict[str, str]:
     return {perform_substitutions(context, name): perform_substitutions(context, value) for name, value in pairs}

@@ -75,7 +75,7 @@ class Command(Substitution):
             raise SubstitutionFailure("Command: the command line is empty")
         program = find_program(words[0])
         if program is None:
-            raise SubstitutionFailure(_missing(words[0], text))
+            raise SubstitutionFailure(_missing_program_error(words[0], text))
         result = _run([program, *words[1:]], capture=on_stderr == "capture")
         stderr = result.stderr or ""
         if result.returncode != 0:
@@ -113,6 +113,6 @@ def _run(command: list[str], *, capture: bool) -> subprocess.CompletedProcess[st
     )
 
 
-def _missing(program: str, text: str) -> str:
+def _missing_program_error(program: str, text: str) -> str:
     hint = f" Install it: {pip_install('robots')}" if PurePath(program).name == "xacro" else ""
     return f"executable '{program}' not found on the PATH.{hint} Command: {text}"

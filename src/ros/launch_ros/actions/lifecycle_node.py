@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 __all__ = ["LifecycleNode"]
 
-_PATIENCE = 1.0  # seconds between two checks whether the service is there
+_CHECK_PERIOD = 1.0  # seconds between two checks whether the service is there
 _ANSWER = 0.05  # seconds between two checks whether the node has answered
 
 
@@ -116,7 +116,7 @@ class LifecycleNode(Node):
         name = ChangeState.valid_transitions[transition_id]
         loop = asyncio.get_running_loop()
         service = f"{self.node_name}/change_state"
-        while not await loop.run_in_executor(None, self.__client.wait_for_service, _PATIENCE):
+        while not await loop.run_in_executor(None, self.__client.wait_for_service, _CHECK_PERIOD):
             if context.is_shutdown or self.return_code is not None:
                 self.__logger.warning(f"Abandoning wait for the '{service}' service, due to shutdown")
                 return

@@ -64,7 +64,7 @@ def parse_parameters(parameters: list[Entity], parser: Parser) -> list[Any]:
             each.assert_entity_completely_parsed()
             found.append(ParameterFile(parser.parse_substitution(file), allow_substs=bool(allow_substs)))
         elif name is not None:
-            parsed = _nested([each], parser)
+            parsed = _nested_parameters([each], parser)
             if found and isinstance(found[-1], dict) and not found[-1].keys() & parsed.keys():
                 found[-1].update(parsed)
             else:
@@ -74,7 +74,7 @@ def parse_parameters(parameters: list[Entity], parser: Parser) -> list[Any]:
     return found
 
 
-def _nested(parameters: list[Entity], parser: Parser) -> dict[Any, Any]:
+def _nested_parameters(parameters: list[Entity], parser: Parser) -> dict[Any, Any]:
     found: dict[Any, Any] = {}
     for each in parameters:
         name = tuple(parser.parse_substitution(each.get_attr("name")))
@@ -86,7 +86,7 @@ def _nested(parameters: list[Entity], parser: Parser) -> dict[Any, Any]:
         if value is None and not inner:
             raise RuntimeError("either a value attribute or nested params are needed")
         if inner:
-            found[name] = _nested(inner, parser)
+            found[name] = _nested_parameters(inner, parser)
         else:
             performed = _value(value, parser)
             found[name] = performed if kind is None else ParameterValue(performed, value_type=kind)

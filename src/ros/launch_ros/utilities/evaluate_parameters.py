@@ -52,15 +52,15 @@ def evaluate_parameter_dict(
     found = {}
     for parts, value in parameters.items():
         name = perform_substitutions(context, parts)
-        found[name] = _evaluated(context, name, value)
+        found[name] = _evaluate(context, name, value)
     return found
 
 
-def _evaluated(context: LaunchContext, name: str, value: Any) -> Any:
+def _evaluate(context: LaunchContext, name: str, value: Any) -> Any:
     if isinstance(value, ParameterValue):
         return value.evaluate(context)
     if isinstance(value, list):  # the parts of a text
-        return _typed(name, perform_substitutions(context, value))
+        return _parse_yaml_value(name, perform_substitutions(context, value))
     if isinstance(value, tuple):
         return [_item(context, item) for item in value]
     return list(value) if isinstance(value, bytes) else value
@@ -74,7 +74,7 @@ def _item(context: LaunchContext, item: Any) -> Any:
     return item
 
 
-def _typed(name: str, text: str) -> Any:
+def _parse_yaml_value(name: str, text: str) -> Any:
     """Return a text with the type that YAML gives it."""
     try:
         value = load_yaml(text)

@@ -60,13 +60,13 @@ def normalize_parameter_dict(
 
 
 def _normalized_value(value: Any, name: Any) -> Any:
-    value = _plain(value)
+    value = _as_builtin_type(value)
     if isinstance(value, ParameterValue | str | bool | int | float | bytes):
         return value  # A plain text stays a text, even if it looks like a number.
     if isinstance(value, Substitution):
         return [value]
     if isinstance(value, Sequence) or hasattr(value, "tolist"):
-        items = value.tolist() if hasattr(value, "tolist") else [_plain(item) for item in value]
+        items = value.tolist() if hasattr(value, "tolist") else [_as_builtin_type(item) for item in value]
         if any(isinstance(item, Substitution) for item in items) and all(
             isinstance(item, str | Substitution) for item in items
         ):
@@ -78,7 +78,7 @@ def _normalized_value(value: Any, name: Any) -> Any:
     )
 
 
-def _plain(value: Any) -> Any:
+def _as_builtin_type(value: Any) -> Any:
     """Return an IntEnum, a scalar of NumPy or another subclass as the type that YAML can represent."""
     if getattr(value, "ndim", None) == 0:
         value = value.item()

@@ -39,7 +39,7 @@ MAX_MARKERS = 20_000
 MAX_NUMBERS = 10_000_000
 # How many earlier messages determine the markers after a jump in time.
 MAX_EARLIER_MESSAGES = 500
-_LARGE = MAX_NUMBERS // MAX_MARKERS  # Markers that are not larger cannot exceed the limit together.
+_MIN_LARGE_MARKER = MAX_NUMBERS // MAX_MARKERS  # Markers that are not larger cannot exceed the limit together.
 
 
 class MarkerItem(TypedDict):
@@ -109,7 +109,9 @@ class MarkerSet:
             elif marker.action == _ADD:
                 if key not in self._shown and len(self._shown) >= MAX_MARKERS:
                     raise CannotDrawError(f"too many markers: the viewer draws at most {MAX_MARKERS}")
-                size = sum(_size(each.marker) for each in self._shown.values()) if _size(marker) > _LARGE else 0
+                size = (
+                    sum(_size(each.marker) for each in self._shown.values()) if _size(marker) > _MIN_LARGE_MARKER else 0
+                )
                 if size + _size(marker) > MAX_NUMBERS:
                     raise CannotDrawError(
                         f"the markers have more than {MAX_NUMBERS} numbers and characters, which is the viewer's limit"

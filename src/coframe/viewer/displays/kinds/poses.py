@@ -122,18 +122,22 @@ _SHAPE = (
     NumberOption("Axes Length", 0.3, 0.001, 100.0, 0.05, "m"),
     NumberOption("Axes Radius", 0.02, 0.0005, 10.0, 0.005, "m"),
 )
-_SHOWN = "Covariance/Value"
+_COVARIANCE_KEY = "Covariance/Value"
 _COVARIANCE = (
-    FlagOption(_SHOWN, False, label="Covariance"),
-    FlagOption("Covariance/Position/Value", True, label="Position", needs=_SHOWN),
-    NumberOption("Covariance/Position/Scale", 1.0, 0.0, 1000.0, 1.0, label="Position Scale", needs=_SHOWN),
-    ColorOption("Covariance/Position/Color", "#cc33cc", label="Position Color", needs=_SHOWN),
-    NumberOption("Covariance/Position/Alpha", 0.3, 0.0, 1.0, 0.05, label="Position Alpha", needs=_SHOWN),
-    FlagOption("Covariance/Orientation/Value", True, label="Orientation", needs=_SHOWN),
-    NumberOption("Covariance/Orientation/Scale", 1.0, 0.0, 1000.0, 1.0, label="Orientation Scale", needs=_SHOWN),
-    NumberOption("Covariance/Orientation/Offset", 1.0, 0.0, 100.0, 0.1, "m", label="Orientation Offset", needs=_SHOWN),
-    ColorOption("Covariance/Orientation/Color", "#ffff7f", label="Orientation Color", needs=_SHOWN),
-    NumberOption("Covariance/Orientation/Alpha", 0.5, 0.0, 1.0, 0.05, label="Orientation Alpha", needs=_SHOWN),
+    FlagOption(_COVARIANCE_KEY, False, label="Covariance"),
+    FlagOption("Covariance/Position/Value", True, label="Position", needs=_COVARIANCE_KEY),
+    NumberOption("Covariance/Position/Scale", 1.0, 0.0, 1000.0, 1.0, label="Position Scale", needs=_COVARIANCE_KEY),
+    ColorOption("Covariance/Position/Color", "#cc33cc", label="Position Color", needs=_COVARIANCE_KEY),
+    NumberOption("Covariance/Position/Alpha", 0.3, 0.0, 1.0, 0.05, label="Position Alpha", needs=_COVARIANCE_KEY),
+    FlagOption("Covariance/Orientation/Value", True, label="Orientation", needs=_COVARIANCE_KEY),
+    NumberOption(
+        "Covariance/Orientation/Scale", 1.0, 0.0, 1000.0, 1.0, label="Orientation Scale", needs=_COVARIANCE_KEY
+    ),
+    NumberOption(
+        "Covariance/Orientation/Offset", 1.0, 0.0, 100.0, 0.1, "m", label="Orientation Offset", needs=_COVARIANCE_KEY
+    ),
+    ColorOption("Covariance/Orientation/Color", "#ffff7f", label="Orientation Color", needs=_COVARIANCE_KEY),
+    NumberOption("Covariance/Orientation/Alpha", 0.5, 0.0, 1.0, 0.05, label="Orientation Alpha", needs=_COVARIANCE_KEY),
 )
 
 POSE = DisplayRow(

@@ -1,23 +1,23 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The examination of Zenoh: its package, a session, and whether there is a router."""
+"""The check of Zenoh: its package, a session, and whether there is a router."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Final
 
-from coframe.system._examination import Advice, Examination, Examined
+from coframe.system._middleware_check import CheckResult, MiddlewareCheck, SystemFinding
 from coframe.system._zenoh_session import probe_session
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
-    from coframe.system._examination import Attempts
+    from coframe.system._middleware_check import StepRunner
     from coframe.system.report import SystemReport
 
 
-def _examine(domain: int | None, environment: Mapping[str, str], attempt: Attempts) -> Examined:
+def _examine(domain: int | None, environment: Mapping[str, str], attempt: StepRunner) -> CheckResult:
     session = None if domain is None else attempt(lambda: probe_session(environment))
-    return Examined(session is not None, {"zenoh": session})
+    return CheckResult(session is not None, {"zenoh": session})
 
 
 def _lines(report: SystemReport) -> Iterator[str]:
@@ -30,9 +30,9 @@ def _lines(report: SystemReport) -> Iterator[str]:
     yield f"routers found: {', '.join(session.routers) or 'none'}; peers found: {session.peers}"
 
 
-def _router(report: SystemReport) -> Iterator[Advice]:
+def _router(report: SystemReport) -> Iterator[SystemFinding]:
     if report.zenoh is not None and not report.zenoh.routers:
-        yield Advice(
+        yield SystemFinding(
             "warning",
             f"No Zenoh router was found at {' or '.join(report.zenoh.connect) or 'any endpoint'}. Nodes of ROS 2 and "
             "processes on other machines are found only with one.",
@@ -41,4 +41,4 @@ def _router(report: SystemReport) -> Iterator[Advice]:
         )
 
 
-EXAMINATION: Final = Examination("zenoh", _examine, _lines, (_router,))
+CHECK: Final = MiddlewareCheck("zenoh", _examine, _lines, (_router,))

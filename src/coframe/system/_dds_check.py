@@ -7,7 +7,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Final
 
 from coframe.errors import WireError
-from coframe.system._examination import Advice, Examination, Examined
+from coframe.system._middleware_check import CheckResult, MiddlewareCheck, SystemFinding
 from coframe.system.network import probe_participant
 from coframe.wire import selection
 from coframe.wire.dds import config, library, participants
@@ -15,15 +15,15 @@ from coframe.wire.dds import config, library, participants
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
-    from coframe.system._examination import Attempts
+    from coframe.system._middleware_check import StepRunner
     from coframe.system.report import SystemReport
 
 _SMALL_BUFFER: Final = 1 << 20  # bytes; a burst of fragments of a large message does not fit into less
-_MANY: Final = 0.8  # of the participant indexes
-_NEVER_LOST: Final = 101  # the last domain whose ports are below those that Linux gives to other sockets
+_HIGH_SHARE: Final = 0.8  # of the participant indexes
+_MAX_SAFE_DOMAIN: Final = 101  # the last domain whose ports are below those that Linux gives to other sockets
 
 
-def _examine(domain: int | None, environment: Mapping[str, str], attempt: Attempts) -> Examined:
+def _examine(domain: int | None, environment: Mapping[str, str], attempt: StepRunner) -> CheckResult:
     peers = attempt(lambda: config.static_peers(environment))
     found = attempt(library.load)
     used = probe = None
@@ -31,7 +31,7 @@ def _examine(domain: int | None, environment: Mapping[str, str], attempt: Attemp
         used = participants.participant_indexes(domain)
         if found is not None and peers is not None and _has_range(environment):
             probe = attempt(partial(probe_participant, domain, environment))
-    return Examined(probe is not None, {"participants": used, "probe": probe})
+    return CheckResult(probe is not None, {"participants": used, "probe": probe})
 
 
 def _has_range(environment: Mapping[str, str]) -> bool:
@@ -48,30 +48,30 @@ def _lines(report: SystemReport) -> Iterator[str]:
     yield from ()
 
 
-def _library(report: SystemReport) -> Iterator[Advice]:
-    for sentence in report.library.refused:
-        yield Advice("note", sentence, "Remove that library, or name another one in COFRAME_DDS_LIBRARY.")
+def _library(report: SystemReport) -> Iterator[SystemFinding]:
+    for sentence in report.library.rejected:
+        yield SystemFinding("note", sentence, "Remove that library, or name another one in COFRAME_DDS_LIBRARY.")
     if report.probe and not report.probe.exchanged:
-        yield Advice(
+        yield SystemFinding(
             "error",
             f"A message that was sent through {report.library.path} was not received unchanged in the same process.",
             "Name another library in COFRAME_DDS_LIBRARY.",
         )
 
 
-def _rmw(report: SystemReport) -> Iterator[Advice]:
+def _rmw(report: SystemReport) -> Iterator[SystemFinding]:
     values = {variable.name: variable.value for variable in report.variables}
     implementation = values.get(selection.RMW_VARIABLE, "")
     used = selection.row_of("dds")
     if selection.row_of_rmw(implementation) is used and implementation not in ("", used.rmw):
-        yield Advice(
+        yield SystemFinding(
             "warning",
             f"RMW_IMPLEMENTATION is {implementation}: ROS 2 nodes that are started in this shell exchange topics with "
             "coframe, but no services, actions and parameters.",
             f"Start them with RMW_IMPLEMENTATION={used.rmw}.",
         )
     if "ROS_DISCOVERY_SERVER" in values:
-        yield Advice(
+        yield SystemFinding(
             "warning",
             "ROS_DISCOVERY_SERVER is set: nodes on Fast DDS that are started in this shell announce themselves only "
             "there, and coframe does not find them.",
@@ -79,19 +79,19 @@ def _rmw(report: SystemReport) -> Iterator[Advice]:
         )
 
 
-def _network(report: SystemReport) -> Iterator[Advice]:
+def _network(report: SystemReport) -> Iterator[SystemFinding]:
     if report.probe is None or report.discovery not in ("SUBNET", "SYSTEM_DEFAULT"):
         return
     used = [interface.name for interface in report.probe.interfaces if interface.used]
     others = [interface.name for interface in report.probe.interfaces if not interface.used]
     if used and all(name.startswith("lo") or "Loopback" in name for name in used):
-        yield Advice(
+        yield SystemFinding(
             "warning",
             f"The range is {report.discovery}, but the only network interface with an address is {', '.join(used)}.",
             "Connect this machine to a network, or start the container with --network host.",
         )
     elif others:
-        yield Advice(
+        yield SystemFinding(
             "note",
             f"DDS uses the interface {', '.join(used)} of {', '.join([*used, *others])}.",
             "If the robot is on another interface, select it: CYCLONEDDS_URI='<CycloneDDS><Domain><General>"
@@ -99,11 +99,11 @@ def _network(report: SystemReport) -> Iterator[Advice]:
         )
 
 
-def _multicast(report: SystemReport) -> Iterator[Advice]:
+def _multicast(report: SystemReport) -> Iterator[SystemFinding]:
     for interface in report.probe.interfaces if report.probe else []:
         if interface.multicast is False and report.discovery != "OFF":
             local = report.discovery == "LOCALHOST"
-            yield Advice(
+            yield SystemFinding(
                 "warning",
                 f"Multicast does not work on {interface.name} ({interface.address}): {interface.problem}. "
                 + (
@@ -116,61 +116,61 @@ def _multicast(report: SystemReport) -> Iterator[Advice]:
             )
 
 
-def _room(report: SystemReport) -> Iterator[Advice]:
+def _room(report: SystemReport) -> Iterator[SystemFinding]:
     used, every = report.participants or (0, 1)
-    if used >= _MANY * every:
-        yield Advice(
+    if used >= _HIGH_SHARE * every:
+        yield SystemFinding(
             "error" if used == every else "warning",
             f"{used} of {every} participant indexes of domain {report.domain} are in use on this machine.",
             "Stop some ROS processes, or use another domain: ROS_DOMAIN_ID=1.",
         )
     ports = report.limits.ephemeral_ports
-    if report.domain is not None and report.domain > _NEVER_LOST and ports:
-        yield Advice(
+    if report.domain is not None and report.domain > _MAX_SAFE_DOMAIN and ports:
+        yield SystemFinding(
             "warning",
             f"The ports of domain {report.domain} begin at {7400 + 250 * report.domain}, and this system gives the "
             f"ports {ports[0]} to {ports[1]} to any program.",
-            f"Use a domain up to {_NEVER_LOST}.",
+            f"Use a domain up to {_MAX_SAFE_DOMAIN}.",
         )
 
 
-def _buffers(report: SystemReport) -> Iterator[Advice]:
+def _buffers(report: SystemReport) -> Iterator[SystemFinding]:
     size = report.probe.receive_buffer if report.probe else None
     if size is not None and size < _SMALL_BUFFER:
-        yield Advice(
+        yield SystemFinding(
             "warning",
             f"The receive buffer of a socket has {size} bytes. Parts of large messages are lost and sent again.",
             "Linux, as root: sysctl -w net.core.rmem_max=2147483647",
         )
 
 
-def _range(report: SystemReport) -> Iterator[Advice]:
+def _range(report: SystemReport) -> Iterator[SystemFinding]:
     set_by = {variable.name for variable in report.variables}
     if report.discovery == "OFF":
-        yield Advice(
+        yield SystemFinding(
             "warning",
             "Discovery is off (ROS_AUTOMATIC_DISCOVERY_RANGE=OFF): no other process is found.",
             "Set ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST or SUBNET.",
         )
     elif report.discovery == "LOCALHOST":
         default = {"ROS_AUTOMATIC_DISCOVERY_RANGE", "ROS_LOCALHOST_ONLY"}.isdisjoint(set_by)
-        yield Advice(
+        yield SystemFinding(
             "note",
             f"Only processes on this machine are found{' (the default of coframe)' if default else ''}. ROS 2 nodes "
             "with default settings use the network, and may not answer on the loopback interface.",
             "To communicate with other machines and with default ROS 2 nodes: ROS_AUTOMATIC_DISCOVERY_RANGE=SUBNET",
         )
     if "CYCLONEDDS_URI" in set_by:
-        yield Advice(
+        yield SystemFinding(
             "note",
             "CYCLONEDDS_URI overrides the interfaces, peers and limits that coframe sets.",
             "Unset it to check whether its configuration is the cause.",
         )
 
 
-def _nodes(report: SystemReport) -> Iterator[Advice]:
+def _nodes(report: SystemReport) -> Iterator[SystemFinding]:
     if report.nodes == []:
-        yield Advice(
+        yield SystemFinding(
             "note",
             f"No other node was found in domain {report.domain} within {report.listened:g} s.",
             "Check for each missing node that it runs; that it has the same ROS_DOMAIN_ID; that its range and yours "
@@ -178,13 +178,13 @@ def _nodes(report: SystemReport) -> Iterator[Advice]:
             "them.",
         )
         if report.installation.container:
-            yield Advice(
+            yield SystemFinding(
                 "note",
                 "This process runs in a container.",
                 "Nodes on the host are found with --network host; nodes on Fast DDS also need --ipc host.",
             )
 
 
-EXAMINATION: Final = Examination(
+CHECK: Final = MiddlewareCheck(
     "dds", _examine, _lines, (_library, _rmw, _network, _multicast, _room, _buffers, _range, _nodes)
 )

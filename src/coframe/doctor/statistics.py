@@ -16,12 +16,19 @@ if TYPE_CHECKING:
     from coframe.doctor._edge import Edge
     from coframe.doctor.observation import Observation
 
-__all__ = ["ChainFigures", "EdgeFigures", "PublisherFigures", "chain_figures", "edge_figures", "publisher_figures"]
+__all__ = [
+    "ChainStatistics",
+    "EdgeStatistics",
+    "PublisherStatistics",
+    "chain_statistics",
+    "edge_statistics",
+    "publisher_statistics",
+]
 
 _SAMPLES = 1000
 
 
-class EdgeFigures(NamedTuple):
+class EdgeStatistics(NamedTuple):
     """The transforms of one edge from one publisher. Times are nanoseconds; None where undefined.
 
     Attributes:
@@ -53,7 +60,7 @@ class EdgeFigures(NamedTuple):
     stale: bool
 
 
-class PublisherFigures(NamedTuple):
+class PublisherStatistics(NamedTuple):
     """The messages of one node per second, and the delays of its transforms in nanoseconds."""
 
     publisher: str
@@ -64,7 +71,7 @@ class PublisherFigures(NamedTuple):
     delay_max: float | None
 
 
-class ChainFigures(NamedTuple):
+class ChainStatistics(NamedTuple):
     """The chain between two frames. Times are nanoseconds.
 
     Attributes:
@@ -86,7 +93,7 @@ class ChainFigures(NamedTuple):
     limit_share: float
 
 
-def edge_figures(observation: Observation, most: int | None = None) -> list[EdgeFigures]:
+def edge_statistics(observation: Observation, most: int | None = None) -> list[EdgeStatistics]:
     """Return one row per edge and publisher, in the order of their first transform, and at most `most` rows."""
     every = (
         _edge(observation, edge, publisher, edge.publisher == publisher)
@@ -96,7 +103,7 @@ def edge_figures(observation: Observation, most: int | None = None) -> list[Edge
     return list(islice(every, most))
 
 
-def publisher_figures(observation: Observation) -> list[PublisherFigures]:
+def publisher_statistics(observation: Observation) -> list[PublisherStatistics]:
     """Return one row per node that publishes dynamic transforms."""
     transforms = observation.transforms
     rows = []
@@ -109,11 +116,11 @@ def publisher_figures(observation: Observation) -> list[PublisherFigures]:
             if own.any() and (lag := observation.lags(edge.stamp[own], edge.arrived[own])) is not None
         ]
         delays = np.concatenate(lags) if lags else None
-        rows.append(PublisherFigures(transforms.publishers[number], len(arrived), _rate(arrived), *_delays(delays)))
+        rows.append(PublisherStatistics(transforms.publishers[number], len(arrived), _rate(arrived), *_delays(delays)))
     return rows
 
 
-def chain_figures(observation: Observation, target: str, source: str) -> ChainFigures | None:
+def chain_statistics(observation: Observation, target: str, source: str) -> ChainStatistics | None:
     """Return the statistics of the chain between two frames; None if they are not connected."""
     frames = observation.structure.chain(target, source)
     if frames is None:
@@ -124,14 +131,14 @@ def chain_figures(observation: Observation, target: str, source: str) -> ChainFi
     moving = [edge for edge in edges if not edge.static]
     begin = max((int(edge.arrived[0]) for edge in moving), default=observation.end)
     if not moving or begin >= observation.end:
-        return ChainFigures(frames, None, None, None, None, 0.0)
+        return ChainStatistics(frames, None, None, None, None, 0.0)
     times = np.linspace(begin, observation.end, _SAMPLES).astype(np.int64)
     newest = np.array([_newest(edge, times) for edge in moving])
     last = newest.argmin(axis=0)
     delays = observation.lags(newest.min(axis=0), times)
     counts = np.bincount(last, minlength=len(moving))
     limit = int(counts.argmax())
-    return ChainFigures(frames, *_delays(delays), moving[limit].key, float(counts[limit] / len(times)))
+    return ChainStatistics(frames, *_delays(delays), moving[limit].key, float(counts[limit] / len(times)))
 
 
 def _newest(edge: Edge, times: NDArray[np.int64]) -> NDArray[np.int64]:
@@ -140,15 +147,15 @@ def _newest(edge: Edge, times: NDArray[np.int64]) -> NDArray[np.int64]:
     return np.asarray(np.maximum.accumulate(edge.stamp)[np.maximum(row, 0)])
 
 
-def _edge(observation: Observation, edge: Edge, publisher: int, rows: NDArray[np.bool_]) -> EdgeFigures:
+def _edge(observation: Observation, edge: Edge, publisher: int, rows: NDArray[np.bool_]) -> EdgeStatistics:
     name = observation.transforms.publishers[publisher]
     count = int(np.count_nonzero(rows))
     if edge.static:
-        return EdgeFigures(edge.parent, edge.child, name, True, count, None, None, None, None, None, None, False)
+        return EdgeStatistics(edge.parent, edge.child, name, True, count, None, None, None, None, None, None, False)
     stamp, arrived = edge.stamp[rows], edge.arrived[rows]
     age = observation.lags(np.array([stamp.max()]), np.array([observation.end]))
     jitter = float(np.std(arrived[1:] - arrived[:-1])) if count > 2 else None
-    return EdgeFigures(
+    return EdgeStatistics(
         edge.parent,
         edge.child,
         name,

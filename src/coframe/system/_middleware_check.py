@@ -18,7 +18,7 @@ Severity = Literal["error", "warning", "note"]
 
 
 @dataclass(frozen=True)
-class Advice:
+class SystemFinding:
     """A finding.
 
     Attributes:
@@ -34,33 +34,33 @@ class Advice:
 
 
 @dataclass(frozen=True)
-class Problem:
+class FailedStep:
     """A failed step, and the recommended action."""
 
     text: str
     hint: str
 
 
-class Attempts:
-    """Runs parts of an examination, whose failures are part of the report.
+class StepRunner:
+    """Runs parts of a check, whose failures are part of the report.
 
     Attributes:
         problems: The failed steps, with recommended actions.
     """
 
     def __init__(self) -> None:
-        self.problems: list[Problem] = []
+        self.problems: list[FailedStep] = []
 
     def __call__(self, action: Callable[[], ValueT]) -> ValueT | None:
         """Return the result of an action; None if it failed."""
         try:
             return action()
         except WireError as error:
-            self.problems.append(Problem(str(error), error.hint))
+            self.problems.append(FailedStep(str(error), error.hint))
             return None
 
 
-class Examined(NamedTuple):
+class CheckResult(NamedTuple):
     """The result of a check.
 
     Attributes:
@@ -72,7 +72,7 @@ class Examined(NamedTuple):
     fields: dict[str, Any]
 
 
-class Examination(NamedTuple):
+class MiddlewareCheck(NamedTuple):
     """The check of a middleware.
 
     Attributes:
@@ -83,6 +83,6 @@ class Examination(NamedTuple):
     """
 
     wire: str
-    examine: Callable[[int | None, Mapping[str, str], Attempts], Examined]
+    examine: Callable[[int | None, Mapping[str, str], StepRunner], CheckResult]
     lines: Callable[[SystemReport], Iterator[str]]
-    checks: tuple[Callable[[SystemReport], Iterator[Advice]], ...]
+    checks: tuple[Callable[[SystemReport], Iterator[SystemFinding]], ...]
