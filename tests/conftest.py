@@ -25,14 +25,17 @@ _PATIENCE = 20.0  # seconds; two cores that others use too
 _domain_ids = itertools.count(os.getpid() % 97)
 
 
-_ZENOH = os.environ.get("COFRAME_WIRE") == "zenoh"
+_WIRE = os.environ.get("COFRAME_WIRE")
+_ZENOH = _WIRE == "zenoh"
+_SKIPPED = {"zenoh": ("dds_only", "cyclone_only"), "fastdds": ("cyclone_only",)}.get(_WIRE or "", ())
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Skip the tests of DDS itself if the suite runs over Zenoh (`make test-zenoh`)."""
-    for item in items if _ZENOH else ():
-        if (mark := item.get_closest_marker("dds_only")) is not None:
-            item.add_marker(pytest.mark.skip(reason=f"DDS only: {mark.args[0]}"))
+    """Skip what cannot pass over another middleware (`make test-zenoh`, `make test-fastdds`)."""
+    for item in items if _SKIPPED else ():
+        for name in _SKIPPED:
+            if (mark := item.get_closest_marker(name)) is not None:
+                item.add_marker(pytest.mark.skip(reason=f"{name}: {mark.args[0]}"))
 
 
 @pytest.fixture(scope="session", autouse=_ZENOH)

@@ -90,6 +90,7 @@ def test_a_process_without_close_exits_promptly_and_cleanly(child, participant, 
     assert time.monotonic() - began < 3
 
 
+@pytest.mark.cyclone_only("Fast DDS does not announce the depth")
 @pytest.mark.parametrize("distro", ["humble", "jazzy"])
 def test_nodes_of_other_processes_of_any_distribution_are_discovered(distro, child, participant, eventually):
     other = child(NODE_IN_A_CHILD.format(name="talker"), ROS_DISTRO=distro)
@@ -192,7 +193,7 @@ def test_an_invalid_domain_id():
         Participant.get(233)
 
 
-@pytest.mark.dds_only("the configuration of Cyclone DDS")
+@pytest.mark.cyclone_only("the configuration of Cyclone DDS")
 def test_an_invalid_configuration_of_cyclone_dds(domain_id, monkeypatch):
     monkeypatch.setenv("CYCLONEDDS_URI", "<CycloneDDS><Nonsense/></CycloneDDS>")
     with pytest.raises(WireError, match=f"Joining domain {domain_id} failed") as caught:
@@ -208,7 +209,7 @@ def test_few_file_descriptors_are_an_error_and_not_a_crash(domain_id):
     assert f"Joining domain {domain_id} failed: Too many open files. " in done.stderr
 
 
-@pytest.mark.dds_only("only DDS has participant indexes")
+@pytest.mark.cyclone_only("only Cyclone DDS has a limit of participant indexes")
 def test_the_error_for_a_full_domain(domain_id, monkeypatch, child):
     monkeypatch.setattr("coframe.wire.dds.config.MAX_PARTICIPANT_INDEX", 0)
     other = child(NODE_IN_A_CHILD.format(name="first"))

@@ -171,7 +171,7 @@ def test_static_transforms_that_arrive_before_the_node_name_get_it(participant, 
     assert [frame.authority for frame in buffer.frames() if frame.name == "b"] == ["/late"]
 
 
-@pytest.mark.dds_only("the other program is an RTPS program")
+@pytest.mark.cyclone_only("the other program is found by multicast, which Fast DDS does not use on one machine")
 def test_damaged_messages_are_counted_and_others_are_stored(beside_rosless):
     whole, last = tf_cdr(stamped("a", "b"), stamped("b", "c")), tf_cdr(stamped("a", "last"))
     beside_rosless(f"whole, last = {whole!r}, {last!r}\n" + BROKEN_MESSAGES)

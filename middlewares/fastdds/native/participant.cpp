@@ -2,8 +2,10 @@
 #include "participant.hpp"
 
 #include <pthread.h>
+#include <unistd.h>
 
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <random>
 
@@ -100,6 +102,22 @@ dds::DomainParticipantQos make_qos(const ParticipantOptions& options) {
   set_discovery(qos, options);
   for (const auto& [name, value] : options.properties) qos.properties().properties().emplace_back(name, value);
   return qos;
+}
+
+// A forked child ends without the destructors of Fast DDS, which would wait for threads that do not exist there. Those
+// of objects that exist now run after this function.
+void guard_exit() {
+#ifdef __GLIBC__
+  static std::once_flag once;
+  std::call_once(once, [] {
+    const auto leave = [](int status, void*) {
+      if (!forked()) return;
+      std::fflush(nullptr);
+      _exit(status);
+    };
+    on_exit(leave, nullptr);
+  });
+#endif
 }
 
 template <class Entity>
@@ -202,6 +220,7 @@ Participant::Participant(const ParticipantOptions& options, void* changed) : opt
   participant_ = created(dds::DomainParticipantFactory::get_instance()->create_participant(options.domain, qos, this,
                                                                                            dds::StatusMask::none()),
                          "create a participant");
+  guard_exit();
 }
 
 Participant::~Participant() {
