@@ -75,7 +75,7 @@ test-slow: $(STAMP) $(VENV)/.oracle $(VENV)/.installers $(VENV)/.docs ## run the
 	$(PYTEST) -m "slow and not long" $(ARGS)
 
 test-ros: $(STAMP) ## run programs with the sourced ROS 2 and with coframe, and compare their outputs
-	COFRAME_TEST_ROS=1 $(PYTEST) tests/interop tests/course/test_sourced_ros.py -v $(ARGS)
+	COFRAME_TEST_ROS=1 $(PYTEST) -p no:launch_testing -p no:launch_testing_ros_pytest_entrypoint tests/interop tests/course/test_sourced_ros.py -v $(ARGS)
 
 test-ros-wheels: $(STAMP) ## print what works beside rclpy and Fast DDS of ROS 2 Jazzy and Kilted, which pip installs into build/ros_wheels, and grade the lab there
 	$(BIN)/python -m scripts.ros_wheels $(ARGS)

@@ -152,9 +152,6 @@ BEHAVIORS: Final[Mapping[str, Behavior]] = {
         "absent",
         "present",
     ),
-    "tilde": Behavior(
-        "the topic name `~name`, without a slash", _JAZZY, "rejected", "the name of the node, followed by `name`"
-    ),
     "bag_filter": Behavior(
         "positional arguments of `rosbag2_py.StorageFilter`",
         _JAZZY,

@@ -52,14 +52,6 @@ def test_repeated_slashes_are_only_invalid_in_full_names():
         validate_full_topic_name("/a//b")
 
 
-def test_a_tilde_before_a_name_is_invalid_up_to_humble(monkeypatch):
-    assert validate_topic_name("~x")
-    monkeypatch.setattr("rclpy.validate_topic_name.since", lambda _: False)
-    with pytest.raises(InvalidTopicNameException, match="must not have tilde '~' before a name"):
-        validate_topic_name("~x")
-    assert validate_topic_name("~/x")
-
-
 def test_unknown_substitution():
     with pytest.raises(ValueError, match=r"topic name '{robot}/a' is invalid: unknown substitution: {robot}"):
         expand_topic_name("{robot}/a", "arm", "/")

@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import re
 
-from coframe.distributions import since
 from rclpy.exceptions import InvalidServiceNameException, InvalidTopicNameException, NameValidationException, RCLError
 
 TOPIC_SEPARATOR_STRING = "/"
@@ -44,7 +43,6 @@ def _fault(name: str) -> tuple[str, int] | None:
             "topic name must not contain characters other than alphanumerics, '_', '~', '{', or '}'",
         ),
         (r"(?<=.)~", "topic name must not have tilde '~' unless it is the first character"),
-        *(() if since("tilde") else ((r"^~(?=[^/])", "topic name must not have tilde '~' before a name"),)),
         (r"((?<=^)|(?<=/))\d", "topic name token must not start with a number"),
         (r"(?<={)\d", "substitution name must not start with a number"),
         (r"{(?!\w+})|(?<!\w)}", "topic name must not have unmatched curly braces"),

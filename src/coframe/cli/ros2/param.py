@@ -261,9 +261,16 @@ def load(
     """
     values = parameters_of_file(file, node_name, use_wildcard=not no_use_wildcard)
     with graph_node(spin_time) as node:
-        results = ParameterClient(node, node_name, timeout=timeout).set(values)
+        client = ParameterClient(node, node_name, timeout=timeout)
+        results = client.set(values)
+        rejected = [name for name, result in zip(values, results, strict=True) if not result.successful]
+        # A dumped file contains read-only parameters as well, whose values are those of the node.
+        unchanged = [name for name in rejected if client.get([name]) == [values[name]]]
     failed = False
     for name, result in zip(values, results, strict=True):
+        if name in unchanged:
+            print(one_line(f"Parameter {name} has this value already"))
+            continue
         reason = f": {result.reason}" if result.reason else ""
         outcome = f"Set parameter {name} successful" if result.successful else f"Set parameter {name} failed"
         print(one_line(outcome + reason), file=sys.stdout if result.successful else sys.stderr)
