@@ -26,7 +26,8 @@ struct EndpointChange {
 
 class EndpointReader {
  public:
-  // `topic` is dds::kPublicationTopic, dds::kSubscriptionTopic or dds::kParticipantTopic. `on_change` is set whenever something has changed.
+  // `topic` is dds::kPublicationTopic, dds::kSubscriptionTopic or dds::kParticipantTopic. `on_change` is set whenever
+  // something has changed.
   EndpointReader(dds::Entity participant, dds::Entity topic, std::shared_ptr<Event> on_change);
   void close() noexcept { reader_.close(); }
   // Returns the changes since the last call.
