@@ -176,7 +176,7 @@ class FastDdsSession:
         except _core.EndpointError as error:
             raise WireError(
                 f"Fast DDS cannot create an endpoint on {endpoint.name}: {error}.",
-                hint="Check that the participant is not closed.",
+                hint="Use one type for each topic in a process, and check that the participant is not closed.",
             ) from error
 
 
