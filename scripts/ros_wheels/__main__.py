@@ -90,7 +90,15 @@ def _build_wheel(folder: Path) -> Path:
 
 def _grade(environment: Environment) -> bool:
     """Grade the solution of the lab with the nodes of the environment."""
-    command = [environment.python, "-m", "pytest", "tests/course/test_sourced_ros.py", "-v", "-p", "no:cacheprovider"]
+    command = [
+        str(environment.python),
+        "-m",
+        "pytest",
+        "tests/course/test_sourced_ros.py",
+        "-v",
+        "-p",
+        "no:cacheprovider",
+    ]
     variables = {**environment.variables(), "COFRAME_TEST_ROS": "1"}
     return subprocess.run(command, cwd=ROOT, env=variables, check=False).returncode == 0
 

@@ -34,8 +34,8 @@ def render(cells: Mapping[Key, Cell]) -> str:
     for row, title in ROWS.items():
         states = [cells[Key(wire, distro, row, uses)].state for wire, distro, uses in columns]
         lines.append(f"| {title} | {' | '.join(states)} |")
-    states = {cell.state for cell in cells.values()}
-    notes = [f"- {note}" for state, note in _NOTES.items() if state in states]
+    occurring = {cell.state for cell in cells.values()}
+    notes = [f"- {note}" for state, note in _NOTES.items() if state in occurring]
     return "\n".join([*lines, "", *notes]) + "\n"
 
 
