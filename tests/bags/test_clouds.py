@@ -118,7 +118,7 @@ def test_the_field_with_the_times_can_be_given(path):
         clouds = Clouds(recording, "/points_other", "map", at=stamp)
         (unknown,) = clouds
         assert not unknown.deskewed
-        assert clouds.not_deskewed == {"is 'us' the time of each point? Then name it with its unit": 1}
+        assert clouds.not_deskewed == {"'us' may be the time of each point: select it with its unit": 1}
         clouds = Clouds(recording, "/points_other", "map", at=stamp, point_times="us:us")
         (cloud,) = clouds
         assert clouds.times_read == {"the field us, interpreted in us relative to the message's stamp": 1}

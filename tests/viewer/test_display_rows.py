@@ -20,7 +20,7 @@ import recordings
 import coframe
 from coframe.messages import find, serialize
 from coframe.viewer.displays import CannotDrawError
-from coframe.viewer.displays._renderers import each_message
+from coframe.viewer.displays._renderers import draw_each_message
 from coframe.viewer.displays._row import DisplayRow, NumberOption
 from coframe.viewer.displays.rows import DISPLAY_OF_TYPE, DISPLAYS
 from coframe.viewer.replay.export import export_replay
@@ -323,7 +323,9 @@ def test_a_row_is_all_that_a_new_display_needs(monkeypatch):
         raise CannotDrawError("drawn by the new row")
 
     row = DisplayRow(
-        name="Echo", messages={"sensor_msgs/msg/Range": each_message(refuse)}, options=(NumberOption("A", 1, 0, 2, 1),)
+        name="Echo",
+        messages={"sensor_msgs/msg/Range": draw_each_message(refuse)},
+        options=(NumberOption("A", 1, 0, 2, 1),),
     )
     monkeypatch.setitem(DISPLAY_OF_TYPE, "sensor_msgs/msg/Range", row)
     monkeypatch.setitem(DISPLAYS, "Echo", row)

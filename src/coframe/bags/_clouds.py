@@ -361,7 +361,7 @@ class Clouds:
         names = points.dtype.names or ()
         field = next((name for name in TIME_FIELDS if name in names), None)
         if field is None and self._time_field is None and (likely := likely_times(names)):
-            self._count(self.not_deskewed, f"is {likely[0]!r} the time of each point? Then name it with its unit")
+            self._count(self.not_deskewed, f"{likely[0]!r} may be the time of each point: select it with its unit")
         try:
             times = times_in(points, stamp, self._time_field, self._time_unit, period=self._period)
         except UnknownTimesError as error:

@@ -76,7 +76,9 @@ class Database:
         for name, definition in found:
             # Only the definitions matter: the names and types in the other columns can differ from them.
             if definition is not None and not _PLAIN_DEFINITION.match(str(definition)):
-                raise sqlite3.DatabaseError(f"{str(name)[:60]} is neither a table nor an index, unlike in recordings")
+                raise sqlite3.DatabaseError(
+                    f"{str(name)[:60]} is neither a table nor an index: recordings have no others"
+                )
         self._limit("SQL_LENGTH", MAX_UNPACKED_BYTES)
         return {str(name): str(definition) for name, definition in found if definition is not None}
 
@@ -93,12 +95,12 @@ class Database:
         """
         if any(hidden for *_, hidden in self._query(f"PRAGMA table_xinfo({table})")):
             # Their expressions can take any amount of memory and time.
-            raise sqlite3.DatabaseError(f"the table {table} has generated columns, unlike recordings of rosbag2")
+            raise sqlite3.DatabaseError(f"the table {table} has generated columns, which rosbag2 does not write")
         # Safe from SQL injection: callers pass only integers and names of their own.
         query = f"SELECT rowid, {columns} FROM {table} NOT INDEXED {condition and 'WHERE'} {condition} ORDER BY rowid"  # noqa: S608
         plan = [row[-1] for row in self._query(f"EXPLAIN QUERY PLAN {query}")]
         if len(plan) != 1 or not re.fullmatch(rf"SCAN (TABLE )?{table}", plan[0]):
-            raise sqlite3.DatabaseError(f"{table} is not a plain table, unlike in recordings of rosbag2")
+            raise sqlite3.DatabaseError(f"{table} is not a plain table: rosbag2 writes only plain tables")
         last = _BEFORE_ALL
         found = self._query(query)
         with self._explain_interruption():
@@ -112,7 +114,7 @@ class Database:
         """Return the largest row ID of a table; None if it is empty."""
         (number,) = self._query(f"SELECT max(rowid) FROM {table}").fetchone()  # noqa: S608 - as in `rows`
         if number is not None and not isinstance(number, int):
-            raise sqlite3.DatabaseError(f"{table} has a column of the name rowid, unlike in recordings of rosbag2")
+            raise sqlite3.DatabaseError(f"{table} has a column named rowid, which rosbag2 does not write")
         return number
 
     def blob(self, table: str, column: str, row: int) -> bytes | None:

@@ -145,7 +145,7 @@ def cloud(
         except OSError as error:
             fail_to_write(output, error)
         _print_notes(clouds)
-        print(printable(f"{output}: {_amounts(clouds, points)}, in frame {frame!r}"))
+        print(printable(f"{output}: {_describe_counts(clouds, points)}, in frame {frame!r}"))
 
 
 def _parsed_times(recording: Recording, times: dict[str, str | None]) -> dict[str, Any]:
@@ -157,7 +157,7 @@ def _write(clouds: Clouds, output: Path, format_: str | None, voxel: float | Non
         return write_clouds(clouds, output, format_=format_, voxel=voxel, float64=float64, progress=show)
 
 
-def _amounts(clouds: Clouds, points: int) -> str:
+def _describe_counts(clouds: Clouds, points: int) -> str:
     """Return a summary of the numbers of written, deskewed, thinned and omitted points and messages."""
     parts = [f"{clouds.deskewed} deskewed"] if clouds.deskewed else []
     if points < clouds.points:

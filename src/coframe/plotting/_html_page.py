@@ -40,7 +40,7 @@ def as_html(figure: Figure) -> str:
     ]
     parts = {
         "TITLE": escape(figure.title),
-        "LICENCE": folder.joinpath("uplot.LICENSE").read_text(encoding="utf-8").replace("--", "- -"),
+        "LICENSE": folder.joinpath("uplot.LICENSE").read_text(encoding="utf-8").replace("--", "- -"),
         "UPLOT_CSS": folder.joinpath("uplot.min.css").read_text(encoding="utf-8"),
         "UPLOT_JS": folder.joinpath("uplot.min.js").read_text(encoding="utf-8"),
         # A label may contain the end tag of a script.

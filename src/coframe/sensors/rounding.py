@@ -22,7 +22,7 @@ __all__ = ["MIN_FAR_DISTANCE", "as_float64", "float32_step", "rounding_text", "w
 MIN_FAR_DISTANCE = 16_384.0
 """From this distance in meters on, neighboring float32 numbers differ by more than 1 mm."""
 _SAMPLED_POINTS = 64  # points that are looked at: those of a cloud are close to each other
-_MIN_MILLIMETRES, _METER = 0.9995, 1000.0
+_MIN_MILLIMETERS, _METER = 0.9995, 1000.0
 
 
 def float32_step(distance: float) -> float:

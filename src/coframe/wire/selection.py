@@ -67,7 +67,7 @@ ZENOH: Final = MiddlewareRow(
 )
 GROUP: Final = "coframe.middlewares"  # the entry points whose objects are rows
 
-_chosen: dict[str, str] = {}  # the wire that the command line has chosen for this process
+_command_line_choice: dict[str, str] = {}  # the wire that the command line has chosen for this process
 _logged: set[str] = set()  # the middlewares whose automatic selection was logged
 
 
@@ -119,7 +119,7 @@ def choose(wire: str) -> None:
     Raises:
         WireError: There is no middleware of this name.
     """
-    _chosen["wire"] = row_of(wire).wire
+    _command_line_choice["wire"] = row_of(wire).wire
     pass_to_children(VARIABLE, wire)
 
 
@@ -141,8 +141,8 @@ def select(environment: Mapping[str, str] = os.environ) -> Selection:
 
 def _requested_middleware(environment: Mapping[str, str]) -> Selection | None:
     """Return the middleware that the user has selected; None if there is no selection."""
-    if environment is os.environ and _chosen:
-        return Selection(_chosen["wire"], "--wire is given")
+    if environment is os.environ and _command_line_choice:
+        return Selection(_command_line_choice["wire"], "--wire is given")
     if wire := environment.get(VARIABLE, "").strip().lower():
         if wire not in wires():
             hint = f"Unset {VARIABLE} to use {DEFAULT.title}."

@@ -106,6 +106,6 @@ def _track_distance(points: NDArray[np.float64]) -> float:
 
 def _finding(topic: str, text: str, publishers: tuple[str, ...] = ()) -> Finding:
     return Finding(
-        code=CODE, severity=Severity.WARNING, text=f"{text}: two sources on one topic?", fix=_FIX, topic=topic,
+        code=CODE, severity=Severity.WARNING, text=f"{text}: the topic may have two sources", fix=_FIX, topic=topic,
         publishers=publishers,
     )  # fmt: skip

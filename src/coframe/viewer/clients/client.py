@@ -137,7 +137,7 @@ class Client:
                 self._socket.send(encode_update())
 
     def _restart(self) -> None:
-        """Forget what was sent: after another `hello`, the page starts from scratch, except for reported problems."""
+        """Send everything again after another `hello`, except problems that were already reported."""
         self.state.restart()
         problems = {
             key: version for key, version in self._sent.items() if isinstance(key, tuple) and key[0] == "problem"

@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from coframe.viewer.displays._drawing import Drawing, Options
     from coframe.viewer.sources.topic_messages import StampedMessage, TopicMessages
 
-__all__ = ["MeshUrl", "NewMessages", "Renderer", "RendererFactory", "each_message"]
+__all__ = ["MeshUrl", "NewMessages", "Renderer", "RendererFactory", "draw_each_message"]
 
 MeshUrl: TypeAlias = "Callable[[str], tuple[str | None, str | None]]"
 RendererFactory: TypeAlias = "Callable[[TopicMessages, Options, MeshUrl], Renderer]"
@@ -50,7 +50,7 @@ class _EachMessage:
         return False
 
 
-def each_message(draw: Callable[[Any, Options], Drawing]) -> RendererFactory:
+def draw_each_message(draw: Callable[[Any, Options], Drawing]) -> RendererFactory:
     """Return a factory of renderers that draw each message by itself, with a function."""
     return lambda _messages, options, _mesh_url: _EachMessage(draw, options)
 

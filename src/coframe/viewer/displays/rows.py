@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from coframe.viewer.displays import kinds
 from coframe.viewer.displays._drawing import CannotDrawError
-from coframe.viewer.displays._renderers import each_message
+from coframe.viewer.displays._renderers import draw_each_message
 from coframe.viewer.displays._row import DisplayRow
 from coframe.viewer.protocol.server_messages import DisplayTopic
 
@@ -54,7 +54,9 @@ def displayable(topics: Iterable[tuple[str, str]]) -> list[DisplayTopic]:
 def make_renderer(messages: TopicMessages, options: Options, mesh_url: MeshUrl) -> Renderer:
     """Return what draws the messages of a topic; drawing messages of other types raises CannotDrawError."""
     row = DISPLAY_OF_TYPE.get(messages.type)
-    draw = each_message(partial(_raise_unknown_type, messages.type)) if row is None else row.messages[messages.type]
+    draw = (
+        draw_each_message(partial(_raise_unknown_type, messages.type)) if row is None else row.messages[messages.type]
+    )
     return draw(messages, options, mesh_url)
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Zenoh as a middleware of coframe: whether it is available, and how a process joins a domain through it."""
+"""The Zenoh middleware: checks that it is available, and joins a domain through it."""
 
 from __future__ import annotations
 

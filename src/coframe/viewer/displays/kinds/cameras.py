@@ -6,7 +6,7 @@ from __future__ import annotations
 from typing import Any, Literal, TypedDict
 
 from coframe.viewer.displays._drawing import NO_NUMBERS, Drawing, Options, drawing_of_shapes, finite_all, header_of
-from coframe.viewer.displays._renderers import each_message
+from coframe.viewer.displays._renderers import draw_each_message
 from coframe.viewer.displays._row import ColorOption, DisplayRow, NumberOption
 
 __all__ = ["CAMERA_INFO", "CameraShape", "draw_camera"]
@@ -47,7 +47,7 @@ def draw_camera(message: Any, options: Options) -> Drawing:
 
 CAMERA_INFO = DisplayRow(
     name="CameraInfo",
-    messages={"sensor_msgs/msg/CameraInfo": each_message(draw_camera)},
+    messages={"sensor_msgs/msg/CameraInfo": draw_each_message(draw_camera)},
     options=(
         NumberOption("Far Clip", 0.5, 0.01, 1000.0, 0.1, "m", label="Length"),
         ColorOption("Color", "#f5d90a"),

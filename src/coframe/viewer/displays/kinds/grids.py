@@ -9,7 +9,7 @@ import numpy as np
 
 from coframe.time import stamp_ns
 from coframe.viewer.displays._drawing import CannotDrawError, Drawing, Options, far_offset, pose_row
-from coframe.viewer.displays._renderers import each_message
+from coframe.viewer.displays._renderers import draw_each_message
 from coframe.viewer.displays._row import ChoiceOption, DisplayRow, FlagOption, NumberOption
 from coframe.viewer.protocol.encoding import encode_grid
 
@@ -35,7 +35,7 @@ def draw_grid(grid: Any, _options: Options) -> Drawing:
 
 MAP = DisplayRow(
     name="Map",
-    messages={"nav_msgs/msg/OccupancyGrid": each_message(draw_grid)},
+    messages={"nav_msgs/msg/OccupancyGrid": draw_each_message(draw_grid)},
     options=(
         NumberOption("Alpha", 0.7, 0.0, 1.0, 0.05),
         ChoiceOption("Color Scheme", "map", ("map", "costmap", "raw")),

@@ -11,7 +11,7 @@ import numpy as np
 
 from coframe.time import stamp_ns
 from coframe.viewer.displays._drawing import CannotDrawError, Drawing, Options
-from coframe.viewer.displays._renderers import each_message
+from coframe.viewer.displays._renderers import draw_each_message
 from coframe.viewer.displays._row import ChoiceOption, DisplayRow, FlagOption, NumberOption, Option
 from coframe.viewer.protocol.binary_messages import ImageFormat
 from coframe.viewer.protocol.encoding import encode_image
@@ -116,8 +116,8 @@ def _options(*, project: bool) -> tuple[Option, ...]:
 IMAGE = DisplayRow(
     name="Image",
     messages={
-        "sensor_msgs/msg/CompressedImage": each_message(draw_compressed_image),
-        "sensor_msgs/msg/Image": each_message(draw_image),
+        "sensor_msgs/msg/CompressedImage": draw_each_message(draw_compressed_image),
+        "sensor_msgs/msg/Image": draw_each_message(draw_image),
     },
     options=_options(project=False),
     automatic=False,

@@ -6,7 +6,7 @@ from __future__ import annotations
 from typing import Any, Literal, TypedDict
 
 from coframe.viewer.displays._drawing import Drawing, Options, drawing_of_shapes, header_of, pose_row, pose_rows
-from coframe.viewer.displays._renderers import each_message
+from coframe.viewer.displays._renderers import draw_each_message
 from coframe.viewer.displays._row import ChoiceOption, ColorOption, DisplayRow, NumberOption
 from coframe.viewer.protocol.common import PayloadRows  # noqa: TC001 - the protocol evaluates annotations
 
@@ -32,7 +32,7 @@ def draw_path(message: Any, options: Options) -> Drawing:
 
 PATH = DisplayRow(
     name="Path",
-    messages={"nav_msgs/msg/Path": each_message(draw_path)},
+    messages={"nav_msgs/msg/Path": draw_each_message(draw_path)},
     options=(
         ColorOption("Color", "#19d245"),
         NumberOption("Alpha", 1.0, 0.0, 1.0, 0.05),

@@ -11,7 +11,7 @@ from coframe.sensors import project_scan
 from coframe.sensors.layout import field_of, grid_of
 from coframe.time import stamp_ns
 from coframe.viewer.displays._drawing import MAX_NEAR, CannotDrawError, Drawing, Options, Vector, far_offset
-from coframe.viewer.displays._renderers import each_message
+from coframe.viewer.displays._renderers import draw_each_message
 from coframe.viewer.displays._row import ChoiceOption, ColorOption, DisplayRow, FlagOption, NumberOption, Option
 from coframe.viewer.protocol.client_messages import MAX_POINTS
 from coframe.viewer.protocol.encoding import encode_cloud
@@ -130,12 +130,12 @@ def _options(size: float, transformer: str) -> tuple[Option, ...]:
 
 LASER_SCAN = DisplayRow(
     name="LaserScan",
-    messages={"sensor_msgs/msg/LaserScan": each_message(draw_scan)},
+    messages={"sensor_msgs/msg/LaserScan": draw_each_message(draw_scan)},
     options=_options(0.03, "Intensity"),
 )
 POINT_CLOUD2 = DisplayRow(
     name="PointCloud2",
-    messages={"sensor_msgs/msg/PointCloud2": each_message(draw_cloud)},
+    messages={"sensor_msgs/msg/PointCloud2": draw_each_message(draw_cloud)},
     options=_options(0.01, "AxisColor"),
     large_in_replay=True,
 )

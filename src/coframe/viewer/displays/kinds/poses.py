@@ -16,7 +16,7 @@ from coframe.viewer.displays._drawing import (
     pose_row,
     pose_rows,
 )
-from coframe.viewer.displays._renderers import MeshUrl, NewMessages, each_message
+from coframe.viewer.displays._renderers import MeshUrl, NewMessages, draw_each_message
 from coframe.viewer.displays._row import ChoiceOption, ColorOption, DisplayRow, FlagOption, NumberOption
 from coframe.viewer.protocol.common import PayloadRows  # noqa: TC001 - the protocol evaluates annotations
 
@@ -142,21 +142,21 @@ _COVARIANCE = (
 
 POSE = DisplayRow(
     name="Pose",
-    messages={"geometry_msgs/msg/PoseStamped": each_message(draw_pose)},
+    messages={"geometry_msgs/msg/PoseStamped": draw_each_message(draw_pose)},
     options=_SHAPE,
     shapes=(PosesShape,),
     projected=True,
 )
 POSE_ARRAY = DisplayRow(
     name="PoseArray",
-    messages={"geometry_msgs/msg/PoseArray": each_message(draw_pose_array)},
+    messages={"geometry_msgs/msg/PoseArray": draw_each_message(draw_pose_array)},
     options=_SHAPE,
     shapes=(PosesShape,),
     projected=True,
 )
 POSE_WITH_COVARIANCE = DisplayRow(
     name="PoseWithCovariance",
-    messages={"geometry_msgs/msg/PoseWithCovarianceStamped": each_message(draw_pose)},
+    messages={"geometry_msgs/msg/PoseWithCovarianceStamped": draw_each_message(draw_pose)},
     options=(*_SHAPE, *_COVARIANCE),
     shapes=(PosesShape,),
     projected=True,

@@ -6,7 +6,7 @@ from __future__ import annotations
 from typing import Any, Literal, TypedDict
 
 from coframe.viewer.displays._drawing import NO_NUMBERS, Drawing, Options, drawing_of_shapes, finite, header_of
-from coframe.viewer.displays._renderers import each_message
+from coframe.viewer.displays._renderers import draw_each_message
 from coframe.viewer.displays._row import ColorOption, DisplayRow, NumberOption
 
 __all__ = ["RANGE", "RangeShape", "draw_range"]
@@ -43,7 +43,7 @@ def draw_range(message: Any, options: Options) -> Drawing:
 
 RANGE = DisplayRow(
     name="Range",
-    messages={"sensor_msgs/msg/Range": each_message(draw_range)},
+    messages={"sensor_msgs/msg/Range": draw_each_message(draw_range)},
     options=(ColorOption("Color", "#ffffff"), NumberOption("Alpha", 0.5, 0.0, 1.0, 0.05)),
     shapes=(RangeShape,),
 )
