@@ -26,8 +26,8 @@ def row(operation: str, peer: Callable[..., Any], reference: str, target: Target
     def contenders() -> Generator[Contender]:
         count = THEIRS if peer is lie.Pinocchio else MANY
         other, same = peer(*values(count)), lie.Ours(*values(count))
-        results = [each.matrices(each.operations[operation]())[:100] for each in (same, other)]
-        np.testing.assert_allclose(*results, rtol=0, atol=1e-9)
+        ours, theirs = (each.matrices(each.operations[operation]())[:100] for each in (same, other))
+        np.testing.assert_allclose(ours, theirs, rtol=0, atol=1e-9)
         yield batch("run()", MANY, run=lie.Ours(*values(MANY)).operations[operation])
         yield batch("run()", count, run=other.operations[operation])
 

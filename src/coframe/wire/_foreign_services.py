@@ -5,8 +5,7 @@ from __future__ import annotations
 
 from typing import Final
 
-from coframe.wire import names, selection
-from coframe.wire.rtps import vendors
+from coframe.wire import names, selection, vendors
 
 _FAST_DDS_WIRE: Final = "fastdds"
 

@@ -26,9 +26,8 @@ from collections import OrderedDict
 from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
 from coframe.time import MILLISECOND
-from coframe.wire import names, request_header
+from coframe.wire import names, request_header, vendors
 from coframe.wire.request_header import RequestHeader
-from coframe.wire.rtps import vendors
 from coframe_fastdds import _fastdds as native
 
 if TYPE_CHECKING:

@@ -16,7 +16,7 @@ from coframe.wire.qos import GRAPH_READER, GRAPH_WRITER, QoS, for_service_reader
 from coframe.wire.rtps.announcer import NodeAnnouncer
 from coframe.wire.rtps.discovery_info import ADAPTS, ROS_TYPE, TOPIC, TYPE
 from coframe.wire.rtps.user_data import endpoint_user_data
-from coframe.wire.rtps.vendors import HEADER_PARTITIONS
+from coframe.wire.vendors import HEADER_PARTITIONS
 from coframe_fastdds import _config as config
 from coframe_fastdds import _fastdds as native
 from coframe_fastdds._graph import FastDdsGraph

@@ -21,8 +21,8 @@ import time
 from typing import TYPE_CHECKING, Final
 
 from coframe.time import MILLISECOND, SECOND
+from coframe.wire import vendors
 from coframe.wire.dds.participants import discovery_ports
-from coframe.wire.rtps import vendors
 
 if TYPE_CHECKING:
     from collections.abc import Iterable

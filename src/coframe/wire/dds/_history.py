@@ -18,8 +18,8 @@ from typing import TYPE_CHECKING, Final
 
 from coframe import _core
 from coframe.time import MILLISECOND, SECOND
+from coframe.wire import vendors
 from coframe.wire.dds.topics import create_topic
-from coframe.wire.rtps import vendors
 from coframe.wire.rtps.user_data import REQUESTS_HISTORY
 
 if TYPE_CHECKING:

@@ -17,7 +17,7 @@ from coframe.wire.rtps.announcer import NodeAnnouncer
 from coframe.wire.rtps.discovery_info import ADAPTS, ROS_TYPE, TOPIC, TYPE
 from coframe.wire.rtps.graph import DdsGraph
 from coframe.wire.rtps.user_data import endpoint_user_data
-from coframe.wire.rtps.vendors import SERVICE_PARTITIONS, uses_service_partitions
+from coframe.wire.vendors import SERVICE_PARTITIONS, uses_service_partitions
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence

@@ -6,10 +6,9 @@ from __future__ import annotations
 from collections import OrderedDict
 from typing import TYPE_CHECKING, Any, Protocol
 
-from coframe.wire import names
+from coframe.wire import names, vendors
 from coframe.wire.graph import DiscoveredEndpoint, Graph
 from coframe.wire.qos import QoS
-from coframe.wire.rtps import vendors
 from coframe.wire.rtps.discovery_info import ADAPTS, TOPIC, decode_info
 from coframe.wire.rtps.user_data import REQUESTS_HISTORY, type_hash_of
 
