@@ -166,7 +166,7 @@ def main() -> None:
         gaps = _takeovers(kills)
         print(
             f"{kills} receivers killed: new transforms after   {statistics.median(gaps):8.0f} ms (median), "
-            f"{max(gaps):.0f} ms (longest)"
+            f"{max(gaps):.0f} ms (maximum)"
         )
 
 

@@ -80,7 +80,7 @@ def _lose_listener(how: signal.Signals) -> Measurement:
     again = first_after(continued, recovered["arrivals"][robot]) - continued
     gap, missing, slowest = undisturbed.gap, undisturbed.missing, said["slowest"]
     text = (
-        f"longest publish() {1000 * slowest:.0f} ms, the other listener: {missing} of {undisturbed.sent} missing, "
+        f"maximum publish() time {1000 * slowest:.0f} ms, the other listener: {missing} of {undisturbed.sent} missing, "
         f"longest gap {gap:.2f} s; received again after {again:.2f} s"
     )
     statics = robot in recovered["statics"]
@@ -154,7 +154,8 @@ def _kill_viewer() -> Measurement:
         left = [path.name for path in Path(folder).iterdir()]
         slowest = talker.ask()["slowest"]
     text = (
-        f"served again after {again:.1f} s, longest publish() {1000 * slowest:.0f} ms, left behind: {left or 'nothing'}"
+        f"served again after {again:.1f} s, maximum publish() time {1000 * slowest:.0f} ms, "
+        f"left behind: {left or 'nothing'}"
     )
     return Measurement(text, again <= 10.0 and slowest <= 0.1 and not left)
 

@@ -227,7 +227,7 @@ def hide_removed(module: dict[str, Any], package: str, kind: str) -> None:
 
     Args:
         module: The names of the module, which `__all__` lists; importing one of those removed raises `ImportError`.
-        package: The package.
+        package: The name of the ROS package, such as ``geometry_msgs``.
         kind: ``msg``, ``srv`` or ``action``.
     """
     reasons = {name: reason for name in module["__all__"] if (reason := removal(f"{package}/{kind}/{name}"))}

@@ -355,7 +355,7 @@ def test_a_copy_that_does_not_fit_is_not_made(tmp_path, monkeypatch):
     monkeypatch.setattr("coframe.bags._sqlite_database.MAX_RECOVERED", 1000)
     found, problems = messages_of(path)
     assert found == COUNT + 1
-    assert "1000 is the limit for recovery" in problems[0]
+    assert "exceeds the maximum of 1000 for recovery" in problems[0]
 
 
 def test_the_copy_is_removed(tmp_path, monkeypatch):

@@ -275,7 +275,7 @@ def test_one_unusable_definition_affects_its_topic_only(tmp_path):
     assert next(recording.messages("/bad")).message == b"\0\1\0\0\7\0\0\0"
     recordings.assert_same(recording.buffer)
     (problem,) = recording.problems
-    assert problem.endswith("(line 2: a shift by 30000000000 bits; from 0 to 63 are possible)")
+    assert problem.endswith("(line 2: a shift by 30000000000 bits; the number of bits must be from 0 to 63)")
     shown = json.loads(
         subprocess.run(
             [Path(sys.executable).with_name("coframe"), "bag", "info", "--json", path],

@@ -41,7 +41,7 @@ WRONG = {
     "points: 1 of 2 rows contain NaN": lambda scene: scene.add_points("x", [[0, 0, 0], [0, NAN, 0]]),
     "points: expected an array of numbers, not of text": lambda scene: scene.add_points("x", [["a", "b", "c"]]),
     "points: expected an array of numbers": lambda scene: scene.add_points("x", [[0, 0, 0], [0, 0]]),
-    "points: 1e+12 is more than the maximum of 1e+09": lambda scene: scene.add_points("x", [[1e12, 0, 0]]),
+    "points: 1e+12 exceeds the maximum of 1e+09": lambda scene: scene.add_points("x", [[1e12, 0, 0]]),
     "colors: 2 colors for 1 points": lambda scene: scene.add_points("x", [[0, 0, 0]], np.zeros((2, 3))),
     "colors: expected the shape (N, 3)": lambda scene: scene.add_points("x", [[0, 0, 0]], np.zeros(3)),
     "colors: 1.5 is out of range; expected floats from 0 to 1": lambda scene: scene.add_points(

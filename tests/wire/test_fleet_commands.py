@@ -109,13 +109,19 @@ def test_prefixes_and_a_relay_on_the_command_line(command, ros, eventually):
     ("arguments", "text"),
     [
         (["relay"], "a relay needs robots"),
-        (["relay", "--robots", "a", "--to", "/a/tf"], "/a/tf would be read and written"),
+        (["relay", "--robots", "a", "--to", "/a/tf"], "/a/tf is both an input and an output of the relay"),
         (["relay", "--robots", "a", "--max-error", "1mm"], "has no angle: give both, such as 1mm,0.1deg"),
-        (["demo", "--robots", "2", "--own-topics", "--tf-topic", "/robot1/tf"], "/robot1/tf would be read and written"),
+        (
+            ["demo", "--robots", "2", "--own-topics", "--tf-topic", "/robot1/tf"],
+            "/robot1/tf is both an input and an output of the relay",
+        ),
         (["relay", "--robots", "a", "--split", "--from", "/tf=a/"], "--split reads a single --from topic"),
         (["relay", "--from", "/a/tf=/a/"], "the prefix '/a/' begins with a slash"),
         (["echo", "a", "b", "--prefix", "/robot1/"], "the prefix '/robot1/' begins with a slash"),
-        (["relay", "--robots", "a", "--tf-static-topic", "a/tf_static"], "/a/tf_static would be read and written"),
+        (
+            ["relay", "--robots", "a", "--tf-static-topic", "a/tf_static"],
+            "/a/tf_static is both an input and an output of the relay",
+        ),
         (["robot", ARM, "--prefx", "robot1/"], "No option or argument '--prefx'"),
         (["joints", ARM, "first_length:=0.5", "surplus"], "No option or argument 'surplus'"),
         (["record", "--tf-topic", "/robot1/tf"], "--tf-topic and --tf-static-topic require --prefix"),

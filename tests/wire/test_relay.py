@@ -231,8 +231,8 @@ def test_naming_problems_are_reported_once(participant: Participant, node, event
     ("arguments", "options", "text"),
     [
         ([], {}, "needs robots"),
-        (["robot1"], {"common": "/robot1/tf"}, "would be read and written"),
-        ([], {"sources": ["/tf"]}, "would be read and written"),
+        (["robot1"], {"common": "/robot1/tf"}, "is both an input and an output of the relay"),
+        ([], {"sources": ["/tf"]}, "is both an input and an output of the relay"),
         ([], {"sources": ["/other"], "prefix_each": True}, "no namespace to use as the robot's name"),
         ([], {"sources": {"/robot1/tf": "/robot1/"}}, "begins with a slash"),
         (["robot1"], {"rate": 0.0}, "above 0 Hz"),

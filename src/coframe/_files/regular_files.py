@@ -97,7 +97,7 @@ def read_regular_text(path: str | os.PathLike[str], max_bytes: int, encoding: st
     Args:
         path: The file, or a link to it.
         max_bytes: The maximum size.
-        encoding: The encoding.
+        encoding: The encoding of the text, such as "utf-8" or "ascii".
 
     Raises:
         UnsuitableFileError: It is not a regular file, or is larger than `max_bytes`.

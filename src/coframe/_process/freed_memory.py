@@ -38,7 +38,7 @@ def return_freed_arrays() -> None:
     """Let this process return freed blocks of 128 kB or more to the system immediately.
 
     By default, glibc keeps blocks of up to 32 MB once one of that size was freed. Between them are small blocks in use,
-    so a process that computes with arrays of varying sizes grows for hours. Without glibc, nothing is changed.
+    so a process that computes with arrays of varying sizes grows for hours. Does nothing without glibc.
     """
     if (mallopt := _function("mallopt")) is not None:
         mallopt(_M_MMAP_THRESHOLD, _MIN_BYTES)
@@ -47,7 +47,7 @@ def return_freed_arrays() -> None:
 def return_freed_blocks() -> None:
     """Return all other freed memory to the system now, which takes a few milliseconds. Call it after a large task.
 
-    By default, glibc returns only memory that is freed at the end of a heap. Without glibc, nothing is changed.
+    By default, glibc returns only memory that is freed at the end of a heap. Does nothing without glibc.
     """
     if (malloc_trim := _function("malloc_trim")) is not None:
         malloc_trim(0)

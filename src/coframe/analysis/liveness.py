@@ -134,7 +134,7 @@ def buffered_period(buffer: Buffer, parent: str, child: str, oldest: int, newest
     """Return the usual period of an edge, computed from the samples in a buffer.
 
     Args:
-        buffer: The buffer.
+        buffer: The buffer that contains the edge.
         parent: The parent frame of the edge in the newest sample.
         child: The child frame.
         oldest: Stamp of the oldest sample in nanoseconds.

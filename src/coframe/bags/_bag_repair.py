@@ -132,7 +132,7 @@ class _Renaming:
         self.change = f"given the prefix {prefix!r}" if prefix else "stripped of leading slashes"
 
     def on(self, topic: str) -> _Renaming:
-        """Return the mapping for the messages of a topic; only topics of the robot get the prefix."""
+        """Return the mapping for the messages on a topic; only topics of the robot get the prefix."""
         return self if self._renamed is None or is_robot_topic(topic, *self._robot) else _Renaming("", (), self._robot)
 
     @property

@@ -51,7 +51,7 @@ def write_clouds(
     The time field of deskewed points is renamed, so that no reader deskews them again: ``t`` becomes ``deskewed_t``.
 
     Args:
-        clouds: The clouds.
+        clouds: The clouds to write; they are read one at a time.
         target: A file or a folder. A file that ends with ``.ply``, ``.pcd``, ``.npz`` or ``.npy`` contains all points
             as one cloud. A file that ends with ``.mcap`` is a new recording with one PointCloud2 per message. Any other
             name is a folder with one file per message, named by its stamp.

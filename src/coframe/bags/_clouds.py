@@ -79,7 +79,7 @@ class Clouds:
     It can be iterated several times. The attributes below describe the last iteration.
 
     Args:
-        recording: The recording.
+        recording: The recording that contains the topic and the transforms.
         topic: A topic of PointCloud2 or LaserScan messages.
         frame: The frame into which the points are transformed.
         start: The first stamp; earlier messages are skipped.

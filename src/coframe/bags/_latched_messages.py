@@ -53,15 +53,15 @@ class LatchedMessage(NamedTuple):
 
 
 class LatchedMessages:
-    """The valid messages of one topic, in the order in which they were received.
+    """The valid messages on one topic, in the order in which they were received.
 
     A message of static transforms is valid until later messages have replaced all its child frames. On other topics,
     the last message of each publisher is valid.
 
     Args:
-        topic: The topic.
+        topic: The name of the topic.
         ros_type: The type of its messages.
-        space: The space for the messages of all topics.
+        space: The space for the messages on all topics.
 
     Attributes:
         omitted: Number of messages for which there was no space.

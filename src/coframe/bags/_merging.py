@@ -21,14 +21,14 @@ __all__ = ["MergedNames"]
 
 # Topics that all robots share, as programs expect them under these names.
 _SHARED_TOPICS = {"/clock", "/diagnostics", "/diagnostics_agg", "/parameter_events", "/rosout", "/tf", "/tf_static"}
-_MAX_COMPARED_MESSAGES = 50  # messages of a topic whose frames are compared
+_MAX_COMPARED_MESSAGES = 50  # messages on a topic whose frames are compared
 
 
 class MergedNames:
     """The new names of the topics and frames of several recordings.
 
     Args:
-        recordings: The recordings.
+        recordings: The recordings to merge.
         prefixes: The prefix of the frames and topics of each; None: frames keep their names, and topics that several
             recordings contain are prefixed if the frames of each recording have a prefix of their own.
         keep: Frames without the prefix.

@@ -67,7 +67,7 @@ class Track:
 
 
 class _Rows(NamedTuple):
-    """The messages of a topic in receive order."""
+    """The messages on a topic in receive order."""
 
     tracks: list[Track]
     of_track: NDArray[np.uint32]  # index into tracks
@@ -189,7 +189,7 @@ class MessageIndex:
     def in_order(
         self, topics: Iterable[str] | None, start: int | None, stop: int | None
     ) -> Iterator[tuple[Channel, int, bytes]]:
-        """Yield channel, receive time and bytes of the messages of several topics in receive order.
+        """Yield channel, receive time and bytes of the messages on several topics in receive order.
 
         Messages with equal times come in the order in which they were written.
         """

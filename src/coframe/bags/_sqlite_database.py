@@ -191,7 +191,10 @@ class Database:
     def _copy(self, journals: list[Path]) -> Path:
         """Copy the database with its journals to a temporary folder, because recovery writes next to it."""
         if self.size > MAX_RECOVERED:
-            raise OSError(f"database and journal have {self.size} bytes; {MAX_RECOVERED} is the limit for recovery")
+            raise OSError(
+                f"the database and its journal have {self.size} bytes, which exceeds the maximum of {MAX_RECOVERED} "
+                "for recovery"
+            )
         folder = Path(self._closing.enter_context(temporary_folder("coframe-recovered-")))
         for file in (self._path, *journals):
             with open_regular(file) as source, (folder / file.name).open("wb") as copy:

@@ -107,11 +107,11 @@ class TrajectoryQuery:
         """Yield the poses in batches, so that a long trajectory does not have to fit in memory.
 
         Args:
-            recording: The recording.
+            recording: The recording whose transforms are looked up.
             stamps: As returned by :meth:`stamps`.
 
         Yields:
-            Poses, possibly none, and the number of stamps omitted because there is no transform.
+            The poses of a batch (there may be none), and the number of stamps omitted because there is no transform.
         """
         for start in range(0, len(stamps), BATCH):
             yield self._look_up(recording, stamps[start : start + BATCH])
@@ -126,7 +126,7 @@ class TrajectoryQuery:
         """Return how far poses are from the samples that they were computed from; see :meth:`coframe.Buffer.validity`.
 
         Args:
-            recording: The recording.
+            recording: The recording from which the poses were computed.
             poses: Poses with stamps, as returned by :meth:`run`.
 
         Returns:

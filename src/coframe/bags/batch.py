@@ -70,7 +70,7 @@ def query_recording(bag: str, query: TrajectoryQuery, folder: str) -> QueryResul
 
     Args:
         bag: Path of the recording.
-        query: The query.
+        query: The frames and times of the poses to look up.
         folder: Folder of the dataset, which must exist.
 
     Returns:
@@ -97,7 +97,7 @@ def query_recordings(
 
     Args:
         bags: Paths of the recordings. Duplicates are skipped.
-        query: The query.
+        query: The frames and times of the poses to look up in each recording.
         folder: Folder of the dataset: one Parquet file per recording, which pyarrow
             (``pyarrow.dataset.dataset(folder)``), pandas, Dask and DuckDB read as one table.
         on: The engine: ``"processes"`` on this machine, ``"dask"`` or ``"ray"``. Dask uses the cluster of

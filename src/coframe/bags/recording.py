@@ -180,7 +180,7 @@ class Recording:
     def messages(
         self, topic: str, start: StampLike | None = None, stop: StampLike | None = None
     ) -> Iterator[RecordedMessage]:
-        """Return an iterator over the messages of a topic in receive order; each one is read on demand.
+        """Return an iterator over the messages on a topic in receive order; each one is read on demand.
 
         Args:
             topic: The name, with or without its leading slash.
@@ -206,7 +206,7 @@ class Recording:
     def in_order(
         self, topics: Iterable[str] | None = None, start: int | None = None, stop: int | None = None
     ) -> Iterator[tuple[Channel, int, bytes]]:
-        """Yield the messages of several topics in receive order.
+        """Yield the messages on several topics in receive order.
 
         Args:
             topics: Names of the topics; None for all.
@@ -305,7 +305,7 @@ class Recording:
         return "" if data is None else self._frame(channel, data)
 
     def may_have_header(self, topic: str) -> bool:
-        """Return whether messages of a topic have a field ``header``; True if their definition is unknown.
+        """Return whether messages on a topic have a field ``header``; True if their definition is unknown.
 
         Args:
             topic: The name, with or without its leading slash.

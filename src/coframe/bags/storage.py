@@ -63,7 +63,7 @@ class Batch(NamedTuple):
     """Messages of one channel, in file order.
 
     Attributes:
-        channel: The channel.
+        channel: The channel on which the messages were recorded.
         received: Receive times, (N,) int64 nanoseconds.
         positions: Arguments for :meth:`Storage.read`, (N,) uint64.
         messages: The bytes; None if they are not wanted and reading them would take time.
@@ -131,7 +131,7 @@ def next_chunk(chunks: list[int], offset: int) -> int | None:
 
     Args:
         chunks: The offsets of the chunks, sorted.
-        offset: The offset.
+        offset: A position in the file, in bytes.
     """
     place = bisect.bisect_right(chunks, offset)
     return chunks[place] if place < len(chunks) else None

@@ -38,7 +38,7 @@ class TreeSummary(NamedTuple):
 
 
 class SensorSummary(NamedTuple):
-    """Whether the messages of a topic can be transformed into the root of their tree.
+    """Whether the messages on a topic can be transformed into the root of their tree.
 
     Attributes:
         topic: Name of the topic.

@@ -142,7 +142,7 @@ def with_covariance(buffer: _core.Buffer, pose: Transform, edge_pose: Callable[[
     """Return the result of a lookup with the covariance along its chain.
 
     Args:
-        buffer: The buffer.
+        buffer: The buffer that stores the covariances of its edges.
         pose: The result, a single transform or a batch.
         edge_pose: Returns the pose of a frame (second) relative to its neighbor (first) at the same times.
     """

@@ -74,7 +74,7 @@ _RETRY_PERIOD = 0.05  # seconds
     help="Live graph: time to wait for the transform.",
 )
 @max_gap_option
-@click.option("--validity", is_flag=True, help="Also print over which gap between two transforms it is interpolated.")
+@click.option("--validity", is_flag=True, help="Also print the gap between the two transforms used for interpolation.")
 @namespace_option
 @domain_option
 @recorded_listener_options

@@ -132,7 +132,7 @@ on_gap_option = click.option(
 validity_option = click.option(
     "--validity",
     is_flag=True,
-    help="Also write over which gap each pose or point is interpolated: the column gap_ns.",
+    help="Also write the column gap_ns: the gap between the two transforms used for interpolation.",
 )
 
 

@@ -36,7 +36,7 @@ class ConnectionBuffer(Buffer):
         authority: str = DEFAULT_AUTHORITY,
         covariance: ArrayLike | None = None,
     ) -> bool:
-        """Store a transform as :meth:`coframe.Buffer.set` does, only in this process: nothing is published."""
+        """Store a transform as :meth:`coframe.Buffer.set` does in this process, without publishing."""
         stored = super().set(parent, child, transform, stamp, static=static, authority=authority, covariance=covariance)
         self._explain(parent, child, static=static)
         return stored
@@ -52,7 +52,7 @@ class ConnectionBuffer(Buffer):
         authority: str = DEFAULT_AUTHORITY,
         covariance: ArrayLike | None = None,
     ) -> int:
-        """Store transforms as :meth:`coframe.Buffer.set_many` does, only in this process: nothing is published."""
+        """Store transforms as :meth:`coframe.Buffer.set_many` does in this process, without publishing."""
         stored = super().set_many(
             parent, child, stamps, poses, static=static, authority=authority, covariance=covariance
         )

@@ -112,7 +112,7 @@ class Connection:
 
         Args:
             topic: The name of the topic, relative to the namespace unless it begins with a slash.
-            message: The message.
+            message: The message to publish; its class determines the type of the topic.
 
         Raises:
             TypeError: The topic or the message has the wrong type.

@@ -148,7 +148,7 @@ class SharedTransforms:
         """Let an empty buffer read the shared transforms.
 
         Args:
-            buffer: The buffer.
+            buffer: The empty buffer, which then looks up the shared transforms.
             authority: The authority of all transforms in the buffer. If empty, the names of the publishing nodes.
 
         Returns:

@@ -31,7 +31,7 @@ class TfPublisher(NamedTuple):
 
     Attributes:
         node: The full name of its node, such as "/robot1/driver"; "an unnamed node" if it is unknown.
-        topic: The topic.
+        topic: The topic on which it publishes, such as "/tf".
         static: Whether its transforms are static.
         messages: The number of messages received.
         age: The time since the last message arrived, in seconds.
@@ -126,7 +126,7 @@ def tf_publisher(
     Args:
         statistics: Statistics of the messages received from the writer.
         node: The full name of its node; None if it is unknown.
-        topic: The topic.
+        topic: The topic on which the writer publishes.
         static: Whether its transforms are static.
         present: Whether the writer is still on the graph.
     """

@@ -71,7 +71,7 @@ class StudentProgram:
         """Start the program with the simulated clock, or with other arguments of ``python``.
 
         Args:
-            words: The words.
+            words: The arguments of ``python``; without any, the program starts with the simulated clock.
             request: The standard input.
         """
         self._home.mkdir(parents=True, exist_ok=True)
@@ -95,7 +95,7 @@ class StudentProgram:
 
         Args:
             seconds: The time limit; see Patience.
-            words: The words.
+            words: The arguments of ``python``.
             request: The standard input.
         """
         self.start(*words, request=request)

@@ -49,7 +49,7 @@ class Sheet:
         bonus: Whether its points are added to the 100.
         problem: Why the program could not be checked completely; "" if it could.
         last_lines: The last lines of the program's output, if there was a problem.
-        facts: The facts.
+        facts: The checked facts, each with its points and the observed behavior.
     """
 
     name: str

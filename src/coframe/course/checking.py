@@ -47,7 +47,7 @@ def check_folder(
     If the time limit is reached or the process ends, the completed criteria count.
 
     Args:
-        folder: The folder.
+        folder: The student's folder, which contains the programs.
         variant: The variant of the assignment. None for the one in the folder's ``lab.json``.
         only: The criteria to check.
         record: A folder for a recording of all published messages.

@@ -73,7 +73,7 @@ def running(programs: Sequence[NamedCommand], write: Callable[[str, str], None])
     """Run programs during the block.
 
     Args:
-        programs: The programs.
+        programs: The commands to start, each with the name for its output.
         write: Called from other threads with the name of a program and a line of its output, or a status message.
     """
     processes: list[tuple[NamedCommand, subprocess.Popen[str]]] = []

@@ -36,10 +36,10 @@ TIMEOUTS = (0, 50 * MILLISECOND, 100 * MILLISECOND, 200 * MILLISECOND)
 
 
 class SensorFacts(NamedTuple):
-    """The number of messages of a topic that could be transformed to the root of their tree, and the delays.
+    """The number of messages on a topic that could be transformed to the root of their tree, and the delays.
 
     Attributes:
-        topic: The topic.
+        topic: The name of the topic.
         frame: The frame in which its messages are expressed.
         root: The root of the tree of that frame; the frame itself if no transform contains it.
         messages: The number of messages.

@@ -35,7 +35,7 @@ class Finding:
 
     Attributes:
         code: The code, such as ``TF001``; each code has a page.
-        severity: The severity.
+        severity: How serious the problem is.
         text: The problem, with values, but without the names of the edge and the publishers.
         fix: What to do: the command to run, or the line of code to change.
         edge: The edge as (parent, child); None if the finding concerns something else.

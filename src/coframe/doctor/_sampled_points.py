@@ -33,7 +33,7 @@ def sampled_points(recording: Recording, topic: str, type_: str) -> tuple[Observ
     """Return the points of some messages from ten seconds in the middle of a topic, without empty messages.
 
     Args:
-        recording: The recording.
+        recording: The recording to read.
         topic: The name of the topic.
         type_: The type of its messages; other types than PointCloud2 and LaserScan have no points.
     """

@@ -57,7 +57,7 @@ _DECODED_TYPES = {"sensor_msgs/msg/JointState", "rcl_interfaces/msg/Log", "rosgr
 _DESCRIPTION = "robot_description"
 MAX_TRANSFORMS = 1_000_000
 MAX_MESSAGES = 20_000  # for each topic
-MAX_DECODED_BYTES = 64 << 20  # of the messages of one topic that are decoded: descriptions, joint states, log messages
+MAX_DECODED_BYTES = 64 << 20  # of the messages on one topic that are decoded: descriptions, joint states, log messages
 _RETURN_PERIOD = 10.0  # seconds
 MAX_TOPICS = 4000  # subscriptions; a typical graph has hundreds of topics
 

@@ -82,7 +82,7 @@ class ObservedPoints:
     """Points of one message of a lidar.
 
     Attributes:
-        topic: The topic.
+        topic: The topic on which the message was published.
         frame: The frame in which they are expressed.
         stamp: The stamp of the message.
         sweep: The time from the stamp to the last point; 0 if the points have no times.
@@ -103,7 +103,7 @@ class Sensor:
     """Messages with a header that names a frame.
 
     Attributes:
-        topic: The topic.
+        topic: The topic on which the messages were published.
         type: The type of its messages.
         frame: The frame in which they are expressed, without a leading slash.
         stamp: (N,) stamps of their headers.
@@ -141,7 +141,7 @@ class ObservedJointStates:
 
 @dataclass(frozen=True, eq=False)
 class ObservedPositions:
-    """Positions in meters in successive messages of a topic with poses: parts of the recording, (N, 3) each."""
+    """Positions in meters in successive messages on a topic with poses: parts of the recording, (N, 3) each."""
 
     topic: str
     parts: tuple[NDArray[np.float64], ...]

@@ -206,7 +206,7 @@ class _Facts:
         return ObservedClock(arrived, stamp) if len(stamp) else None
 
     def _decoded(self, topic: str, most: int) -> Iterator[Any]:
-        """Yield the first messages of a topic; damaged ones are reported as problems of the recording.
+        """Yield the first messages on a topic; damaged ones are reported as problems of the recording.
 
         The definition in a recording can differ from the usual one: any field can be missing, and a message without
         a usable definition is returned as bytes.

@@ -7,7 +7,7 @@ The name of an entry point is the name of the ROS package. Its value is the Pyth
     [project.entry-points."coframe.messages"]
     acme_msgs = "acme_msgs"
 
-Nothing is imported: only the folder is read.
+This reads the folder and imports nothing.
 """
 
 from __future__ import annotations

@@ -59,7 +59,7 @@ def definitions_in(folder: Path) -> dict[str, Path]:
 
 
 def read(path: Path) -> Definition:
-    """Return the definition in a file.
+    """Read a definition file.
 
     Raises:
         InterfaceError: The file cannot be read, is too large, or is not text.

@@ -51,7 +51,7 @@ class InterfaceFolder(NamedTuple):
 
     Attributes:
         origin: Why it is searched, for messages.
-        folder: The folder.
+        folder: The path of the folder.
         depth: How many levels below the folder packages are searched.
         named: Whether the user specified it, in which case it may belong to another user.
         package: The name of the package in the folder; "": the folder contains packages.

@@ -27,7 +27,7 @@ _added: list[Path] = []
 
 
 def add_start(folder: Path) -> None:
-    """Also start the search in another folder, as if a program in it were running."""
+    """Add a folder in which the search starts, as if a program in it were running."""
     _added.append(folder.absolute())
 
 

@@ -224,7 +224,7 @@ class _IdlParser:
             if _DDS_MODULE in scope:
                 name = name.removesuffix("_")
             if not (_RECORDED_FIELD if self._is_recorded else _FIELD).fullmatch(name):
-                raise ValueError(f"the name of a field has letters, digits and single underscores, not {name!r}")
+                raise ValueError(f"invalid field name {name!r}: use letters, digits and single underscores")
             full_type = self._dimensions(type_, scope)
             fields.append(Field(name, full_type, None if default is None else _default(default, full_type)))
             if not self._tokens.accept(","):
@@ -257,7 +257,7 @@ class _IdlParser:
         type_ = None if self._tokens.peek().text == "sequence" else self._single(scope)
         if not isinstance(type_, AbstractNestableType):
             raise self._tokens.error(
-                "sequences of sequences or arrays are not possible in ROS; put them into a message"
+                "ROS does not support sequences of sequences or arrays; put the inner one into a message"
             )
         return type_
 
@@ -311,7 +311,9 @@ class _IdlParser:
         size = self._size(scope)
         self._tokens.expect("]")
         if not isinstance(type_, AbstractNestableType) or self._tokens.peek().text == "[":
-            raise self._tokens.error("arrays of sequences or arrays are not possible in ROS; put them into a message")
+            raise self._tokens.error(
+                "ROS does not support arrays of sequences or arrays; put the inner one into a message"
+            )
         return Array(type_, size)
 
     def _without_dds(self, path: tuple[str, ...]) -> tuple[str, ...]:

@@ -103,7 +103,7 @@ def _apply(symbol: str, left: Any, right: Any) -> Any:
     _require_number(left, symbol)
     _require_number(right, symbol)
     if symbol in {"<", ">"} and not 0 <= right < _BITS:
-        raise ValueError(f"a shift by {right} bits; from 0 to {_BITS - 1} are possible")
+        raise ValueError(f"a shift by {right} bits; the number of bits must be from 0 to {_BITS - 1}")
     if symbol in {"/", "%"}:
         return _divide_checked(symbol, left, right)
     return _check_bits(_FUNCTIONS[symbol](left, right))

@@ -40,7 +40,7 @@ class Tokens:
     """The tokens of a text, read one after the other.
 
     Args:
-        text: The text.
+        text: The text of an IDL file.
         file: The name of the file, for error messages.
         line: The number of the first line.
     """

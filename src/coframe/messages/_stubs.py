@@ -55,7 +55,7 @@ def stub(package: str, kind: str, definitions: Mapping[str, Sequence[MessageStru
     """Return the stub of a module with all messages, services or actions of a package.
 
     Args:
-        package: The package.
+        package: The name of the package.
         kind: ``msg``, ``srv`` or ``action``.
         definitions: The structures of each definition, by its name.
     """

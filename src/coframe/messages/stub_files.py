@@ -20,7 +20,7 @@ def write_stubs(package: InterfacePackage, folder: Path) -> list[InterfaceError]
     """Write ``my_msgs/msg/__init__.pyi`` and the like; return the errors of omitted definitions.
 
     Args:
-        package: The package.
+        package: The package whose definitions are read.
         folder: The folder that editors search; it is created if it does not exist.
 
     Raises:

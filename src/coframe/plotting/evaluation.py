@@ -58,7 +58,7 @@ def evaluate(
 
     Args:
         expressions: Expressions, or strings for :func:`parse_expression`.
-        recording: The recording.
+        recording: The recording that contains the topics and transforms.
         start: The first stamp, in nanoseconds.
         stop: The last stamp, in nanoseconds.
         progress: Called regularly with an expression, the number of messages read and the total number.

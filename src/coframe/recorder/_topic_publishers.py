@@ -47,9 +47,9 @@ class TopicPublishers:
     """The publishers for the topics of a recording.
 
     Args:
-        participant: The participant.
+        participant: The participant that creates the publishers.
         node: The node that owns the publishers.
-        recording: The recording.
+        recording: The recording to replay.
         topics: The topics to replay.
         remap: A mapping from recorded topic names to published topic names.
         names: The renaming of frames in the messages. If None, frames keep their names.

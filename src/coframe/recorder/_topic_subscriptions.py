@@ -46,7 +46,7 @@ class TopicSubscriptions:
     it.
 
     Args:
-        participant: The participant.
+        participant: The participant that creates the subscriptions.
         node: The node that owns the subscriptions.
         topic_filter: The selection of topics.
         event: An event that is set when messages arrive.

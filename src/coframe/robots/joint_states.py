@@ -64,7 +64,7 @@ class JointStates:
     """The states of a robot's revolute, continuous and prismatic joints.
 
     Args:
-        robot: The robot.
+        robot: The robot whose joints are stored.
         zeros: The default positions by joint. The default of other joints is 0, or the middle of their limits if 0 is
             not within the limits.
         dependent: The joints that follow another joint: {joint: (other joint, factor, offset)}. This overrides mimic

@@ -170,7 +170,7 @@ class Joint:
     """A joint, which connects a child link to its parent link.
 
     Attributes:
-        name: The name.
+        name: The unique name of the joint.
         type: One of `JointType`.
         parent: The parent link.
         child: The child link.

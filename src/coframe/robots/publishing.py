@@ -20,7 +20,7 @@ class StatePublisher:
     """Computes the transforms that robot_state_publisher would publish for a robot.
 
     Args:
-        robot: The robot.
+        robot: The description of the robot.
         frequency: The maximum rate for each joint, in Hz. If 0, each joint is published once.
         ignore_stamps: Whether every joint state is published, regardless of `frequency`.
     """

@@ -33,7 +33,7 @@ def still_frame(buffer: _core.Buffer, target: str, source: str, stamps: NDArray[
     are not taken for parts of the robot, although a localization may move them a little.
 
     Args:
-        buffer: The buffer.
+        buffer: The transforms between the frames.
         target: A frame.
         source: The frame of a sensor.
         stamps: (N,) nanoseconds; the times at which the poses are compared.

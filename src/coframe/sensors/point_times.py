@@ -159,7 +159,7 @@ def _is_plausible(times: PointTimes, period: int) -> bool:
 
 
 def _read(values: NDArray[Any], stamp: int, field: str, unit: str) -> PointTimes | None:
-    """Return the times in a field in one unit; None if they are not near the stamp."""
+    """Convert the times of a field from one unit; None if they are not near the stamp."""
     known = np.isfinite(values)
     largest = float(np.abs(values[known].astype(np.float64)).max()) * UNITS[unit]
     if not largest < _MAX_TIME:

@@ -48,7 +48,7 @@ def choose_robots(
         keep: The frames without a prefix.
 
     Raises:
-        ValueError: There is no robot, a prefix is invalid, or a topic would be read and written.
+        ValueError: There is no robot, a prefix is invalid, or a topic is both an input and an output.
     """
     prefixes = sources if isinstance(sources, Mapping) else dict.fromkeys(_texts(sources), "")
     topics = {f"/{name.strip('/')}/tf": "" for name in _texts(names)}
@@ -59,7 +59,10 @@ def choose_robots(
     for robot in robots:
         renaming(robot.prefix, keep)  # raises ValueError if the prefix is invalid
         for topic in sorted({robot.topic, f"{robot.topic}_static"} & set(common)):
-            raise ValueError(f"{topic} would be read and written, which makes an endless loop: choose another topic")
+            raise ValueError(
+                f"{topic} is both an input and an output of the relay, which causes an endless loop. "
+                "Choose another topic."
+            )
     return robots
 
 

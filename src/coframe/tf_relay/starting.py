@@ -69,7 +69,7 @@ def relay(
             "coframe.wire".
 
     Raises:
-        ValueError: There is no robot, a prefix is invalid, a topic would be read and written, the rate is not
+        ValueError: There is no robot, a prefix is invalid, a topic is both an input and an output, the rate is not
             positive, or the maximum error is invalid.
         WireError: The graph cannot be joined, see :func:`coframe.connect`.
 

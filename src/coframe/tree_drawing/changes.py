@@ -22,7 +22,7 @@ class Change(NamedTuple):
     Attributes:
         kind: ``new``, ``gone``, ``moved`` (it has another parent), ``stale``, or ``resumed`` (it is published
             again).
-        frame: The frame.
+        frame: The name of the frame.
         text: A description without a period.
     """
 

@@ -135,7 +135,7 @@ class ViewerState:
         return None if span is None else (span[0] - self.origin, span[1] - self.origin)
 
     def open(self, topic: str) -> TopicMessages | None:
-        """Return the messages of a topic, which all clients share; None if the topic does not exist."""
+        """Return the messages on a topic, which all clients share; None if the topic does not exist."""
         shared = self._open.get(topic)
         if shared is None:
             messages = self.source.open(topic)
@@ -248,13 +248,13 @@ class ViewerState:
 
 
 def _description_topics(rviz: RvizConfig | None) -> list[str]:
-    """Return the default topic and those in a configuration."""
+    """Return the default topic and the topics of a configuration."""
     named = [] if rviz is None else rviz.description_topics
     return list(dict.fromkeys([ROBOT_DESCRIPTION, *named]))
 
 
 class _SharedMessages:
-    """The messages of a topic, and the number of displays that use them."""
+    """The messages on a topic, and the number of displays that use them."""
 
     def __init__(self, messages: TopicMessages) -> None:
         self.messages = messages

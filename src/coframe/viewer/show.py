@@ -224,7 +224,7 @@ def start_viewer(
         robot: The URDF or xacro file of a robot.
         mesh_roots: Folders below which meshes may be fetched.
         host: The address to listen on.
-        port: The port.
+        port: The TCP port to listen on; see :func:`show`.
 
     Raises:
         ViewerError: A package is missing, a file cannot be read, or the server cannot listen on the address.

@@ -184,7 +184,7 @@ class LocalEndpoint:
         return self._closed
 
     def share(self, node: GraphNode) -> None:
-        """Also announce this as an endpoint of `node`."""
+        """Announce this as an endpoint of `node` as well."""
         with self._lock:
             if node not in self._nodes:
                 self._nodes.append(node)

@@ -89,7 +89,7 @@ class DiagnosticTaskVector:
     """A list of tasks.
 
     Attributes:
-        tasks: The tasks.
+        tasks: The tasks, in the order in which they were added.
         lock: Lock that protects the list.
     """
 

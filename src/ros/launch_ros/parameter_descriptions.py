@@ -25,7 +25,7 @@ class ParameterValue:
     """The value of a parameter with its type, for values that consist of substitutions.
 
     Args:
-        value: The value.
+        value: The value of the parameter; it may contain substitutions.
         value_type: Its type, such as `str`; None for the type that YAML gives the text.
     """
 

@@ -42,7 +42,7 @@ class SimpleFilter:
 
 
 class Subscriber(SimpleFilter):
-    """A filter that lets all messages of a topic through.
+    """A filter that lets all messages on a topic through.
 
     Attributes of the subscription, such as `topic_name`, are also attributes of the filter.
 

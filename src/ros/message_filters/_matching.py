@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The rule by which messages of several topics are combined if their stamps are not equal.
+"""The rule by which messages on several topics are combined if their stamps are not equal.
 
 A combination has one stamp of each queue, and all its stamps together with the new one are less than `slop` apart. Of
 all combinations, the first in this order is chosen: the stamp of the first queue is as close to the new one as can be,

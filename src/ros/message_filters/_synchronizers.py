@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Filters that combine the messages of several topics by their stamps."""
+"""Filters that combine the messages on several topics by their stamps."""
 
 from __future__ import annotations
 

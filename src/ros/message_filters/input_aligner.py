@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A filter that passes on the messages of several topics in the order of their stamps."""
+"""A filter that passes on the messages on several topics in the order of their stamps."""
 
 from __future__ import annotations
 

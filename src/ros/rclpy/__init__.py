@@ -321,7 +321,7 @@ def spin_until_future_complete(
     """Run the callbacks of a node until a future is complete.
 
     Args:
-        node: The node.
+        node: The node whose callbacks run.
         future: Future to wait for.
         executor: None: the global one.
         timeout_sec: Maximum time to wait in seconds. None or negative: no limit.

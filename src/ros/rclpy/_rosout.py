@@ -26,7 +26,7 @@ class RosoutPublisher:
     """Publisher of the messages that a node's logger and its child loggers log.
 
     Args:
-        participant: The participant.
+        participant: The participant that creates the publisher.
         graph_node: The participant's graph entry of the node.
         logger_name: Name of the node's logger.
         qos: QoS profile of the publisher.

@@ -89,7 +89,7 @@ class Client(LoggingEntity):
         The node does not need to be spinning. This works in any callback, as long as another executor runs the service.
 
         Args:
-            request: The request.
+            request: The request to send, an instance of ``srv_type.Request``.
             timeout_sec: Maximum time to wait in seconds. None: until the response or the shutdown of the context.
 
         Returns:
@@ -114,7 +114,7 @@ class Client(LoggingEntity):
         """Send a request without waiting for the response.
 
         Args:
-            request: The request.
+            request: The request to send, an instance of ``srv_type.Request``.
 
         Returns:
             A future of the response. Its exception is a WireError if the request was not sent because the middleware of

@@ -116,7 +116,7 @@ class ParameterEventHandler:
         """Return a new or changed parameter of an event, or None if the event is about others.
 
         Args:
-            event: The event.
+            event: The event to search.
             parameter_name: Name of the parameter.
             node_name: Fully qualified name of its node.
         """

@@ -81,7 +81,7 @@ class Service(LoggingEntity):
         """Send the response to a request.
 
         Args:
-            response: The response.
+            response: The response to send, an instance of ``srv_type.Response``.
             header: Header of the request.
 
         Raises:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Options of content filters, which let only some messages of a topic through to the callback of a subscription."""
+"""Options of content filters, which let only some messages on a topic through to the callback of a subscription."""
 
 from typing import NamedTuple
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The storage that recordings have if none is selected."""
+"""The default storage of recordings."""
 
 from coframe.bags.formats import MCAP, SQLITE
 from coframe.distributions import since

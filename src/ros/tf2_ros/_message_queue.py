@@ -46,7 +46,7 @@ class PendingMessage:
 
     Attributes:
         number: Number of messages received before this one.
-        message: The message.
+        message: The message to pass to the callbacks of the filter.
         frame: Frame of its header.
         stamp: Stamp of its header in nanoseconds.
         deadline: Steady time in nanoseconds at which the wait times out. None: never.

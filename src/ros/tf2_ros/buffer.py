@@ -76,7 +76,7 @@ class Buffer(tf2.BufferCore, BufferInterface):
         """Insert a dynamic transform.
 
         Args:
-            transform: The transform.
+            transform: The transform to insert.
             authority: Name of the publisher of the transform.
         """
         with self._Coframe__buffer._dispatcher.inserting():
@@ -86,7 +86,7 @@ class Buffer(tf2.BufferCore, BufferInterface):
         """Insert a static transform.
 
         Args:
-            transform: The transform.
+            transform: The transform to insert.
             authority: Name of the publisher of the transform.
         """
         with self._Coframe__buffer._dispatcher.inserting():

@@ -188,7 +188,7 @@ class MessageFilter:
         return " ".join(self._targets)
 
     def set_tolerance(self, tolerance: Duration) -> None:
-        """Also require the transforms at stamp + `tolerance`, including for messages that are waiting already.
+        """Require the transforms at stamp + `tolerance` as well, including for messages that are waiting already.
 
         Use this for data with a duration, such as a lidar sweep, during which the frame moves. The tolerance does not
         apply to messages with a stamp of zero.

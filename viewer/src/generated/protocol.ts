@@ -716,7 +716,7 @@ export interface CurveRequest {
  * Sets the curves that the page shows; curves that are no longer listed are removed.
  *
  * Attributes:
- *     curves: The curves.
+ *     curves: The curves to show, in the order of the page.
  *     span: The part of a recording that the page shows; null for all of it.
  *     points: The maximum number of points of a curve; thinning preserves minima and maxima.
  */
@@ -728,7 +728,7 @@ export interface SetCurves {
   points?: number;
 }
 
-/** Inspects the messages of a topic instead of the previous one; "" stops the inspection. */
+/** Inspects the messages on a topic instead of the previous one; "" stops the inspection. */
 export interface InspectTopic {
   type: "inspect";
   topic: string;

@@ -133,7 +133,7 @@ def call_service(
         node: Node of the command.
         service_class: Class of the service.
         name: Full name of the service, e.g. "/listener/get_parameters".
-        request: The request.
+        request: The request to send, an instance of ``service_class.Request``.
         timeout: How long to wait for the response; 5 s if it is None.
     """
     import rclpy  # noqa: PLC0415 - slow import

@@ -38,7 +38,7 @@ def yaml_value(text: str, what: str, hint: str = "") -> Any:
     """Return the value of a YAML text; end the command if it is not valid YAML.
 
     Args:
-        text: The text.
+        text: The YAML text, as given on the command line.
         what: Its name in error messages, such as "VALUES".
         hint: Advice for the user.
     """

@@ -68,7 +68,7 @@ def run_program(task: Task, sheet: Sheet, *, wrong_topic: str = "") -> Iterator[
     of the simulation, gets no points for the facts added in the block.
 
     Args:
-        task: The task.
+        task: The context of the criterion: the student's folder and the simulated world.
         sheet: The sheet; its file is the program.
         wrong_topic: A topic on which a program may publish by mistake. A single message at startup may be lost, so a
             program with a publisher there is examined even if nothing has arrived.

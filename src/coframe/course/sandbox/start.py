@@ -67,7 +67,7 @@ def _run(plan: dict[str, Any], program: list[str], *, visible: list[int]) -> NoR
     """Replace this process with the program.
 
     Args:
-        plan: The plan.
+        plan: The restrictions of the program: its folders, users, limits and namespaces.
         program: The program and its arguments.
         visible: The ancestors of this process, unless the program has its own process namespace.
     """

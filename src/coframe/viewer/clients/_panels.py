@@ -25,7 +25,7 @@ class ShownCurve:
 
     Attributes:
         expression: The expression as the client wrote it.
-        curve: The curve.
+        curve: The points of the curve, which all clients share.
         version: The version of the curve whose points were sent; None before the first ones.
         seen: The number of points that were sent since that version.
         span: The part of a recording that was sent.

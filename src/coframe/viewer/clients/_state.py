@@ -35,7 +35,7 @@ class Subscription:
     """A display to which the client has subscribed.
 
     Attributes:
-        topic: The topic.
+        topic: The name of the topic.
         options: The drawing options.
         display: The display; None while the topic does not exist.
         serial: A number that differs between all subscriptions.

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Renderers: convert the messages of a topic to drawings, one after another, outside the server's thread."""
+"""Renderers: convert the messages on a topic to drawings, one after another, outside the server's thread."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ __all__ = ["MeshUrl", "NewMessages", "Renderer", "RendererFactory", "draw_each_m
 
 MeshUrl: TypeAlias = "Callable[[str], tuple[str | None, str | None]]"
 RendererFactory: TypeAlias = "Callable[[TopicMessages, Options, MeshUrl], Renderer]"
-"""Returns a renderer for the messages of a topic."""
+"""Returns a renderer for the messages on a topic."""
 
 
 class Renderer(Protocol):
-    """Converts messages of one topic to drawings."""
+    """Converts messages on one topic to drawings."""
 
     def draw(self, message: StampedMessage, time: int) -> list[Drawing]:
         """Return what is visible at a time in nanoseconds, if `message` is the last message.
@@ -56,10 +56,10 @@ def draw_each_message(draw: Callable[[Any, Options], Drawing]) -> RendererFactor
 
 
 class NewMessages:
-    """The messages of a topic between two requests, for renderers that need all of them.
+    """The messages on a topic between two requests, for renderers that need all of them.
 
     Args:
-        messages: The messages of the topic.
+        messages: The messages on the topic.
         limit: How many earlier messages are returned after a jump in time.
     """
 

@@ -122,7 +122,7 @@ class Display:
 
     Args:
         number: The id that the page chose.
-        messages: The messages of the topic.
+        messages: The messages on the topic.
         options: The drawing options.
         mesh_url: Returns the URL of a marker's mesh, or the reason why there is none.
         executor: Runs the rendering, so that large messages do not block the server.

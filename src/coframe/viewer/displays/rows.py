@@ -52,7 +52,7 @@ def displayable(topics: Iterable[tuple[str, str]]) -> list[DisplayTopic]:
 
 
 def make_renderer(messages: TopicMessages, options: Options, mesh_url: MeshUrl) -> Renderer:
-    """Return what draws the messages of a topic; drawing messages of other types raises CannotDrawError."""
+    """Return what draws the messages on a topic; drawing messages of other types raises CannotDrawError."""
     row = DISPLAY_OF_TYPE.get(messages.type)
     draw = (
         draw_each_message(partial(_raise_unknown_type, messages.type)) if row is None else row.messages[messages.type]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Incoming messages of one topic with receive times, for all curves that use the topic."""
+"""Incoming messages on one topic with receive times, for all curves that use the topic."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ _RETRY_PERIOD = 1.0  # seconds between searches for a publisher
 
 
 class ArrivedMessages:
-    """Messages of one topic that arrived since the last poll.
+    """Messages on one topic that arrived since the last poll.
 
     Args:
         ros_type: Their type.
@@ -68,7 +68,7 @@ class Arrivals:
 
     Args:
         connection: The connection to the graph.
-        topic: The topic.
+        topic: The name of the topic.
 
     Attributes:
         problem: Why there is no subscription; None if there is one.

@@ -31,7 +31,7 @@ class CurveStore:
     """The curves of one source.
 
     Args:
-        source: The source.
+        source: The source whose values the curves show.
     """
 
     def __init__(self, source: ViewerSource) -> None:

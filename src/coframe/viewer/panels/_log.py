@@ -42,7 +42,7 @@ class Log:
     Messages on /rosout are received only while a page shows the log, messages of the viewer itself always.
 
     Args:
-        source: The source.
+        source: The source whose /rosout is shown.
         own: The viewer's own messages.
 
     Attributes:

@@ -42,7 +42,7 @@ class NodeGraphWatcher:
     """Describes the graph of one source while a page shows it. Use only on the server's thread.
 
     Args:
-        source: The source.
+        source: The source whose graph is described.
 
     Attributes:
         graph: The last description.

@@ -129,7 +129,7 @@ class RecordedCurve:
 
     Args:
         expression: The expression to plot.
-        recording: The recording.
+        recording: The recording that contains the values.
         executor: Runs the evaluation.
     """
 

@@ -20,7 +20,7 @@ class Panels:
     """The curves, the log and the graph of one source. Use only on the server's thread.
 
     Args:
-        source: The source.
+        source: The source that the panels describe.
     """
 
     # The modules are imported on demand, because the first frame update does not need them.

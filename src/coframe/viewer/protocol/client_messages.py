@@ -243,7 +243,7 @@ class SetCurves:
     """Sets the curves that the page shows; curves that are no longer listed are removed.
 
     Attributes:
-        curves: The curves.
+        curves: The curves to show, in the order of the page.
         span: The part of a recording that the page shows; None for all of it.
         points: The maximum number of points of a curve; thinning preserves minima and maxima.
     """
@@ -256,7 +256,7 @@ class SetCurves:
 
 @dataclass(frozen=True)
 class InspectTopic:
-    """Inspects the messages of a topic instead of the previous one; "" stops the inspection."""
+    """Inspects the messages on a topic instead of the previous one; "" stops the inspection."""
 
     type: ClassVar[str] = "inspect"
     topic: str

@@ -50,7 +50,7 @@ class InvalidFieldError(CoframeError, ValueError):
     Attributes:
         path: The field, such as ``displays[3].topic``.
         expected: A description of valid values.
-        value: The value.
+        value: The invalid value.
     """
 
     def __init__(self, path: str, expected: str, value: object) -> None:

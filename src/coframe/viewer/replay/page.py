@@ -106,7 +106,7 @@ class ReplayContent(NamedTuple):
     Attributes:
         buffer: The transforms.
         messages: The messages of the displays, by topic.
-        robots: The robots.
+        robots: The descriptions of the robots to draw.
         meshes: The meshes of the robots; small ones are included.
         nodes: The scene nodes of a program.
     """

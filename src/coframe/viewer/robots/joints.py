@@ -26,8 +26,8 @@ class JointPublisher:
 
     Args:
         connection: The connection on which the positions are published.
-        robot: The robot.
-        topic: The topic.
+        robot: The robot whose joints are published.
+        topic: The topic to publish on.
     """
 
     def __init__(self, connection: Connection, robot: Robot, topic: str = JOINT_STATES) -> None:

@@ -68,10 +68,10 @@ class RvizConfig:
 
     @classmethod
     def parse(cls, text: str, source: str = "the file") -> RvizConfig:
-        """Return the configuration in the text of a file.
+        """Parse the text of a configuration file.
 
         Args:
-            text: The text.
+            text: The YAML text of a configuration file.
             source: The name of the file, for error messages.
 
         Raises:
@@ -87,7 +87,7 @@ class RvizConfig:
 
     @classmethod
     def load(cls, file: Path) -> RvizConfig:
-        """Return the configuration in a file.
+        """Read a configuration file.
 
         Raises:
             ViewerError: The file cannot be read or is not a configuration of RViz, or PyYAML is missing.

@@ -22,7 +22,7 @@ def relate(buffer: Buffer, target: str, source: str, stamp: int, origin: int, nu
     """Return the pose of `source` relative to `target`.
 
     Args:
-        buffer: The buffer.
+        buffer: The buffer that contains both frames.
         target: The frame in which the pose is expressed.
         source: The frame.
         stamp: The time in nanoseconds; 0 selects the latest.

@@ -64,7 +64,7 @@ class Scene:
     """The frames of a buffer; used by one thread.
 
     Args:
-        buffer: The buffer.
+        buffer: The buffer whose frames are shown.
         ages: Whether frames become stale when their publisher stops, as in a live buffer.
         clock: Return the monotonic time in nanoseconds.
     """

@@ -23,7 +23,7 @@ def frame_rows(scene: Scene, origin: int, timeout: float) -> list[FrameStats]:
     """Return the statistics of all frames, in the order of the scene's structure.
 
     Args:
-        scene: The scene.
+        scene: The scene that contains the frames.
         origin: The origin of times, in nanoseconds.
         timeout: The number of seconds for which a frame stays visible after its last sample.
     """

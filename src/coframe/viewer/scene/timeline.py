@@ -34,7 +34,7 @@ def edge_rows(
     """Return for each dynamic edge the number of samples per bin and the gaps.
 
     Args:
-        buffer: The buffer.
+        buffer: The buffer that contains the edges.
         infos: Its frames; edges are named by the index of their child frame.
         first: The start of the first bin, in nanoseconds.
         last: The end of the last bin, in nanoseconds.
@@ -60,7 +60,7 @@ def next_stamp(
     """Return the nearest stamp of a transform or a displayed message after or before a time.
 
     Args:
-        buffer: The buffer.
+        buffer: The buffer that contains the transforms.
         infos: Its frames.
         topics: The displayed messages.
         at: The time in nanoseconds.

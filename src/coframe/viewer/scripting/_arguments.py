@@ -47,7 +47,7 @@ def name_of(value: Any) -> str:
     if not all(part.strip() for part in name.split("/")):
         raise SceneError(f"name: {_shown(value)} has an empty part", hint="Use a name such as 'camera/cloud'.")
     if len(name) > MAX_NAME:
-        raise SceneError(f"name: {len(name)} characters are more than the maximum of {MAX_NAME}")
+        raise SceneError(f"name: {len(name)} characters exceed the maximum of {MAX_NAME}")
     return name
 
 
@@ -56,7 +56,7 @@ def text_of(value: Any, argument: str, most: int = MAX_TEXT) -> str:
     if not isinstance(value, str):
         raise SceneError(f"{argument}: expected a string, not {_shown(value)}")
     if len(value) > most:
-        raise SceneError(f"{argument}: {len(value)} characters are more than the maximum of {most}")
+        raise SceneError(f"{argument}: {len(value)} characters exceed the maximum of {most}")
     return value.encode(errors="replace").decode()  # Half of a surrogate pair is not a character.
 
 
@@ -148,7 +148,7 @@ def _array(value: Any, argument: str, shapes: Sequence[tuple[int | None, ...]], 
         hint = f"Keep the others: {argument}[np.isfinite({argument}).all(axis=1)]" if numbers.ndim == 2 else ""
         raise SceneError(f"{argument}: {where} NaN or infinity", hint=hint)
     if numbers.size and float(np.abs(numbers).max()) > MAX_COORDINATE:
-        raise SceneError(f"{argument}: {np.abs(numbers).max():g} is more than the maximum of {MAX_COORDINATE:g}")
+        raise SceneError(f"{argument}: {np.abs(numbers).max():g} exceeds the maximum of {MAX_COORDINATE:g}")
     return numbers.astype(np.float64)
 
 

@@ -85,7 +85,7 @@ def pixels_of(value: Any, argument: str = "image") -> NDArray[np.uint8]:
         raise SceneError(f"{argument}: expected the shape (height, width) or (height, width, 3), not {pixels.shape}")
     if pixels.shape[0] * pixels.shape[1] > MAX_IMAGE_PIXELS:
         height, width = pixels.shape[:2]
-        raise SceneError(f"{argument}: {width} x {height} pixels are more than the maximum of {MAX_IMAGE_PIXELS}")
+        raise SceneError(f"{argument}: {width} x {height} pixels exceed the maximum of {MAX_IMAGE_PIXELS}")
     if pixels.shape[2] == 1:
         pixels = np.repeat(pixels, 3, axis=2)
     return _with_alpha(pixels)

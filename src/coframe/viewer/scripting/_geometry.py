@@ -142,4 +142,4 @@ def _pairs(rows: NDArray[Any]) -> NDArray[Any]:
 
 def _check_count(count: int, argument: str, what: str) -> None:
     if count > MAX_POINTS:
-        raise SceneError(f"{argument}: {count} {what} are more than the maximum of {MAX_POINTS}", hint="Thin the data.")
+        raise SceneError(f"{argument}: {count} {what} exceed the maximum of {MAX_POINTS}", hint="Thin the data.")

@@ -35,7 +35,7 @@ class CallbackThread:
         """Run a callback soon.
 
         Args:
-            callback: The callback.
+            callback: The function to run, in the thread of the callbacks.
             subject: The subject of the event, which replaces a waiting event with the same subject. None keeps
                 all events.
         """

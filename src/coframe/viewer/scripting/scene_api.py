@@ -102,7 +102,7 @@ class SceneApi:
         """Draw axes: x red, y green, z blue.
 
         Args:
-            name: The name.
+            name: Unique name of the node, such as "camera/cloud".
             axes_length: The length of the axes in meters; 0 draws none, for a node that only carries others.
             **placement: ``frame``, ``pose``, ``position``, ``quaternion``, ``visible``, ``time``; see the class.
 
@@ -126,7 +126,7 @@ class SceneApi:
         """Draw a point cloud.
 
         Args:
-            name: The name.
+            name: Unique name of the node, such as "camera/cloud".
             points: Positions in meters, (N, 3).
             colors: A color for each point, (N, 3) or (N, 4).
             color: The color of all points, (3,), if ``colors`` is None.
@@ -172,7 +172,7 @@ class SceneApi:
         """Draw lines.
 
         Args:
-            name: The name.
+            name: Unique name of the node, such as "camera/cloud".
             points: Both ends of each line in meters, (N, 2, 3), or the points of one line, (N, 3).
             colors: A color for each point, of the same shape as ``points``.
             color: The color of all lines, (3,), if ``colors`` is None.
@@ -209,7 +209,7 @@ class SceneApi:
         """Draw a triangle mesh; both sides of the triangles are drawn.
 
         Args:
-            name: The name.
+            name: Unique name of the node, such as "camera/cloud".
             vertices: Positions in meters, (V, 3), or an object with the attributes ``vertices`` and ``faces``, such as
                 a mesh of the package trimesh.
             faces: The indices of the vertices of each triangle, (F, 3).
@@ -249,7 +249,7 @@ class SceneApi:
         """Draw a box; its center is at the pose.
 
         Args:
-            name: The name.
+            name: Unique name of the node, such as "camera/cloud".
             size: The lengths along x, y and z in meters, (3,).
             color: The color, (3,).
             opacity: From 0 to 1.
@@ -273,7 +273,7 @@ class SceneApi:
         """Draw a sphere or an ellipsoid; its center is at the pose.
 
         Args:
-            name: The name.
+            name: Unique name of the node, such as "camera/cloud".
             radius: The radius in meters; (3,) draws an ellipsoid with these radii along x, y and z, such as that of
                 :meth:`coframe.Transform.ellipsoid`.
             color: The color, (3,).
@@ -299,7 +299,7 @@ class SceneApi:
         """Draw text that faces the camera, on top of everything else; its center is at the pose.
 
         Args:
-            name: The name.
+            name: Unique name of the node, such as "camera/cloud".
             text: The text; it may have several lines.
             color: The color, (3,); None for the color of the labels of frames.
             height: The height of a line in meters.
@@ -335,7 +335,7 @@ class SceneApi:
         camera (REP 103).
 
         Args:
-            name: The name.
+            name: Unique name of the node, such as "camera/cloud".
             image: Pixels, (height, width) or (height, width, 3 or 4).
             width: The width of the rectangle in meters; its height follows from the shape of the image.
             opacity: From 0 to 1.

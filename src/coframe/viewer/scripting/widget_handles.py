@@ -249,5 +249,5 @@ def checked_options(options: Any) -> tuple[str, ...]:
     if not new:
         raise SceneError("options: a drop-down needs at least one option")
     if len(new) > MAX_OPTIONS:
-        raise SceneError(f"options: {len(new)} options are more than the maximum of {MAX_OPTIONS}")
+        raise SceneError(f"options: {len(new)} options exceed the maximum of {MAX_OPTIONS}")
     return tuple(dict.fromkeys(new))

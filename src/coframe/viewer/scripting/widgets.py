@@ -31,7 +31,7 @@ class WidgetRecord(Record):
     """A widget.
 
     Attributes:
-        kind: The kind.
+        kind: What the widget is, such as a button or a slider.
         label: The text next to it.
         parent: The id of its folder; None if it is in no folder.
         value: Its value; None for buttons.

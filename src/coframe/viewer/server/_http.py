@@ -53,7 +53,7 @@ class AccessPolicy:
 
     Args:
         host: The address on which the server listens.
-        port: The port.
+        port: The TCP port on which the server listens.
 
     Attributes:
         content_security: The Content-Security-Policy of all responses.
@@ -133,8 +133,8 @@ def response(
     """Return a response with security headers.
 
     Args:
-        status: The status.
-        body: The body.
+        status: The HTTP status of the response.
+        body: The content of the response.
         content_type: Its type.
         policy: The Content-Security-Policy.
         extra: Additional headers.

@@ -32,7 +32,7 @@ class RecordedSource:
     """A recording as a source.
 
     Args:
-        recording: The recording.
+        recording: The recording to show.
         own: Whether closing the source also closes the recording.
     """
 
@@ -53,7 +53,7 @@ class RecordedSource:
         return [(topic.name, topic.type) for topic in self._recording.topics.values()]
 
     def open(self, topic: str) -> RecordedMessages | None:
-        """Return the messages of a topic; None if it was not recorded."""
+        """Return the messages on a topic; None if it was not recorded."""
         if topic not in self._recording.topics:
             return None
         return RecordedMessages(self._recording, topic)
@@ -88,11 +88,11 @@ class RecordedSource:
 
 
 class RecordedMessages:
-    """The messages of a recorded topic, ordered by their stamps.
+    """The messages on a recorded topic, ordered by their stamps.
 
     Args:
-        recording: The recording.
-        topic: The topic.
+        recording: The recording that contains the topic.
+        topic: The name of the topic.
     """
 
     def __init__(self, recording: Recording, topic: str) -> None:

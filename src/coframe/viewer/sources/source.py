@@ -42,7 +42,7 @@ class ViewerSource(Protocol):
         """Return the topics that exist now, with their types, in order."""
 
     def open(self, topic: str) -> TopicMessages | None:
-        """Return the messages of a topic, which the caller closes; None if the topic does not exist."""
+        """Return the messages on a topic, which the caller closes; None if the topic does not exist."""
 
     def refresh(self) -> None:
         """Follow changes such as new publishers; called about once per second."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The messages of one topic, which displays look up by time."""
+"""The messages on one topic, which displays look up by time."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ class StampedMessage(NamedTuple):
 
 
 class TopicMessages(Protocol):
-    """The messages of one topic. Thread-safe."""
+    """The messages on one topic. Thread-safe."""
 
     type: str
 
@@ -67,7 +67,7 @@ class _Stored(NamedTuple):
 
 
 class LiveMessages:
-    """The latest messages of a topic, kept as bytes until they are displayed.
+    """The latest messages on a topic, kept as bytes until they are displayed.
 
     Args:
         subscription: The subscription to the topic.

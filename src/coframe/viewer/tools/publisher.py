@@ -50,7 +50,7 @@ class ToolPublisher:
         """Publish a PointStamped with the current time.
 
         Args:
-            topic: The topic.
+            topic: The topic to publish on.
             frame: The frame of the point.
             point: x, y and z in meters.
 
@@ -77,7 +77,7 @@ class ToolPublisher:
         """Publish a PoseStamped, or a PoseWithCovarianceStamped if there is a covariance, with the current time.
 
         Args:
-            topic: The topic.
+            topic: The topic to publish on.
             frame: The frame of the pose.
             position: x, y and z in meters.
             yaw: The rotation about z in radians.

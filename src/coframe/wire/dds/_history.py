@@ -47,7 +47,7 @@ class HistoryRequests:
     """Requests the history of writers for the transient-local readers of a participant.
 
     Args:
-        participant: The participant.
+        participant: The participant whose readers need the history.
         graph: The graph, which knows the writers and the readers of the participant.
     """
 

@@ -36,7 +36,7 @@ class DdsGraph(Graph):
     """The graph of a DDS domain.
 
     Args:
-        info_reader: Receives the messages of the topic ros_discovery_info.
+        info_reader: Receives the messages on the topic ros_discovery_info.
         writer_reader: Receives the writers found by discovery.
         reader_reader: Receives the readers found by discovery.
         participant_reader: Receives the participants found by discovery. If None, `unnamed_participants` is empty.

@@ -31,7 +31,7 @@ class ZenohEndpoint:
     """A publisher or subscription. Implements `coframe.wire._backend.BackendEndpoint`.
 
     Args:
-        graph: The graph.
+        graph: The graph of the domain of the endpoint.
         endpoint: The topic or service.
         type_hash: The hash of its type, or `keys.ANY_HASH`.
         guid: The identifier of the endpoint.

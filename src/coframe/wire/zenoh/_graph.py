@@ -53,7 +53,7 @@ class ZenohGraph(Graph):
     """The graph of a domain.
 
     Args:
-        session: The session.
+        session: The Zenoh session that receives the tokens.
         domain: The domain ID.
         changed: Set when tokens arrive.
     """
@@ -99,7 +99,7 @@ class ZenohGraph(Graph):
         """Return the writers or readers with which an endpoint exchanges messages, by their handles.
 
         Args:
-            endpoint: The endpoint.
+            endpoint: The publisher or subscription of this process.
             type_hash: The hash of its type; `keys.ANY_HASH` matches every hash.
             writers: Whether to return writers.
         """

@@ -58,7 +58,7 @@ class Identity:
         """Return the tokens of the endpoint for one of its nodes; none as long as the hash of its type is unknown.
 
         Args:
-            node: The node.
+            node: The node that has the endpoint.
             numbers: The counter of the session, from which each additional node of the endpoint takes a number.
         """
         if self.type_hash == _keys.ANY_HASH:

@@ -50,7 +50,7 @@ class Receiver:
     """Passes the messages at given keys to a consumer.
 
     Args:
-        session: The session.
+        session: The Zenoh session from which the messages are received.
         key_list: The keys. A message that arrives at several of them is passed on once.
         qos: The requested quality of service.
         consumer: Processes the messages.

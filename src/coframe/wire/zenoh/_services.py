@@ -54,7 +54,7 @@ class ServiceTable:
         self._requests: dict[str, dict[RequestHeader, _Request]] = {}  # by the same key; oldest first
 
     def add_reader(self, reader: ReplyReader) -> None:
-        """Also pass the replies of a service to a reader."""
+        """Add a reader, which receives the replies of its service."""
         with self._lock:
             self._replies.setdefault(reader.key, []).append(reader)
 

@@ -195,7 +195,7 @@ def _check_named_files(config: zenoh.Config) -> None:
             try:
                 check_regular(file, MAX_BYTES)
             except UnsuitableFileError as error:
-                raise WireError(f"The Zenoh configuration has the {key} {error}.") from None
+                raise WireError(f"{key} of the Zenoh configuration: {error}.") from None
             except OSError:
                 continue  # Zenoh reports a missing file itself.
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Which files of a source folder an installation puts where: install() of CMakeLists.txt, data_files of setup.py.
 
-The files are read as text; nothing is run.
+The files are read as text and never executed.
 """
 
 from __future__ import annotations

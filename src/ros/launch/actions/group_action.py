@@ -31,7 +31,7 @@ class GroupAction(Action):
     """Visit actions in their own scope, by default.
 
     Args:
-        actions: The actions.
+        actions: The actions to visit, in this order.
         scoped: Undo changes of launch configurations and of the environment after the group.
         forwarding: Keep the launch configurations and the environment from outside in a scope.
         launch_configurations: Launch configurations to set in the scope.

@@ -162,7 +162,7 @@ class RunningProcess(asyncio.SubprocessProtocol):
             pipe.write(data)
 
     def send_signal(self, number: int) -> None:
-        """Send a signal to the process and to all its children; nothing happens if they have ended."""
+        """Send a signal to the process and to all its children, unless they have ended."""
         with contextlib.suppress(ProcessLookupError, PermissionError):
             if sys.platform != "win32":
                 os.killpg(self.pid, number)

@@ -26,7 +26,7 @@ class PythonExpression(Substitution):
     """The value of a Python expression, as text; it can use the module ``math`` and all names in it.
 
     Args:
-        expression: The expression.
+        expression: The Python expression to evaluate; it may contain substitutions.
         python_modules: Names of the modules that it can use.
     """
 

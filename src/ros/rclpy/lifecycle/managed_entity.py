@@ -79,7 +79,7 @@ class SimpleManagedEntity(ManagedEntity):
 
         Args:
             wrapped: The method.
-            when_not_enabled: Function that is called instead, with the same arguments. None: nothing happens.
+            when_not_enabled: Function that is called instead, with the same arguments. None ignores the call.
         """
 
         def decorate(method: Callable[..., Any]) -> Callable[..., Any]:
