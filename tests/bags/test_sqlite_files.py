@@ -149,7 +149,7 @@ def table_without_rowid(path):
     database(path, f"{MESSAGES} WITHOUT ROWID")
 
 
-@hostile("a column of the name rowid")
+@hostile("a column named rowid")
 def rows_that_must_be_sorted(path):
     insert = "INSERT INTO messages VALUES ('b', 1, 1, x'00'), ('a', 1, 1, x'00')"
     database(path, MESSAGES.replace("id INTEGER PRIMARY KEY", "rowid TEXT"), insert)
