@@ -149,7 +149,7 @@ class ReceiverRow(NamedTuple):
     """A way to receive transforms.
 
     Attributes:
-        name: Its name.
+        name: The name of the way.
         applies: Returns whether a connection uses it, unless an earlier row applies.
         open: Opens it; returns None if that is not possible on this system.
     """

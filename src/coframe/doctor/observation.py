@@ -201,7 +201,7 @@ class Observation:
     Attributes:
         live: Whether it was received from the ROS graph, not read from a recording.
         start: The start of the observation, or of the recording.
-        end: Its end.
+        end: The end of the observation, or of the recording.
         transforms: The transforms as published.
         empty_messages: The number of messages without any transform.
         damaged_messages: The number of messages that are not valid TFMessages.

@@ -33,7 +33,7 @@ class InstalledPackage(NamedTuple):
     """An interface package of a distribution.
 
     Attributes:
-        name: Its name.
+        name: The name of the package, such as ``geometry_msgs``.
         folder: The folder with its definitions.
         distribution: The distribution, as ``pip`` names it.
     """

@@ -28,7 +28,7 @@ def to_yaml(message: Any, *, max_items: int | None = None) -> str:
     which has one line for each element of a sequence.
 
     Args:
-        message: A message.
+        message: The message to print.
         max_items: Maximum number of elements of a sequence and characters of a string; a comment gives the number of
             omitted ones. None shows everything, and the result contains the whole message.
 

@@ -53,8 +53,8 @@ class Variable:
     """An environment variable that is set.
 
     Attributes:
-        name: Its name.
-        value: Its value.
+        name: The name of the variable, such as ``ROS_DOMAIN_ID``.
+        value: The value as text.
         effect: Its effect in coframe.
     """
 

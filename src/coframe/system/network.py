@@ -37,8 +37,8 @@ class Interface:
     """A network interface that Cyclone DDS found.
 
     Attributes:
-        name: Its name.
-        address: Its address.
+        name: The name of the interface, such as ``eth0``.
+        address: The IP address of the interface.
         used: Whether the participant uses it.
         multicast: Whether a datagram that was sent to a multicast group on it was received on it; None if not tested.
         problem: Why the test failed; empty if it did not.

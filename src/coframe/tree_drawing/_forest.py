@@ -68,7 +68,7 @@ class Forest:
 
     Attributes:
         start: The start of the observation, or of the recording; int64 nanoseconds.
-        end: Its end.
+        end: The end of the observation, or of the recording; int64 nanoseconds.
         live: Whether it was received from the ROS graph, not read from a recording.
         frames: The frames by name, in drawing order: tree after tree, parents before their children.
         trees: The number of frames of each tree by its root, the largest tree first.

@@ -42,7 +42,7 @@ class Participant(EndpointFactory, GraphQueries):
     The participant is reference-counted: each call of `get` must be matched by a call of `close`.
 
     Attributes:
-        domain_id: The domain ID.
+        domain_id: The ROS domain ID, as in ``ROS_DOMAIN_ID``.
         wire: The middleware, "dds" or "zenoh".
     """
 

@@ -38,7 +38,7 @@ class LaserProjection:
         Beams with a range that is NaN, below `range_min`, or not below the limit are skipped.
 
         Args:
-            scan_in: The scan.
+            scan_in: The scan to project.
             range_cutoff: Limit of the range in meters. Negative, or above `range_max`: `range_max` is the limit.
             channel_options: The additional fields: `intensity` if the scan has any, the `index` of the beam, its range
                 `distances`, the time `stamps` since the first beam in seconds, and the viewpoint `vp_x`, `vp_y`,

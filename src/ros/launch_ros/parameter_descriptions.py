@@ -57,8 +57,8 @@ class Parameter:
     """A parameter that is passed as ``-p NAME:=VALUE``.
 
     Args:
-        name: Its name.
-        value: Its value.
+        name: The name of the parameter.
+        value: The value of the parameter.
         value_type: The type of the value; None for the type that YAML gives it.
     """
 

@@ -45,7 +45,7 @@ class InputAligner:
 
     Args:
         timeout: Limit of the waiting, measured by the stamps of the messages: a `Duration` or seconds.
-        *filters: The filters.
+        *filters: The filters whose messages are passed on.
     """
 
     def __init__(self, timeout: Duration | float, *filters: SimpleFilter) -> None:

@@ -323,7 +323,7 @@ def spin_until_future_complete(
     Args:
         node: The node whose callbacks run.
         future: Future to wait for.
-        executor: None: the global one.
+        executor: Executor that runs the callbacks. None: the global executor.
         timeout_sec: Maximum time to wait in seconds. None or negative: no limit.
 
     Raises:

@@ -110,7 +110,7 @@ def pointcloud2_to_array(cloud_msg: PointCloud2, squeeze: bool = True) -> PointA
     """Return the points of a cloud, a view of the message.
 
     Args:
-        cloud_msg: The cloud.
+        cloud_msg: The cloud to convert.
         squeeze: Whether a cloud of one row has the shape (width,) instead of (1, width).
 
     Raises:

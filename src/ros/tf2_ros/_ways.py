@@ -22,7 +22,7 @@ class Way(NamedTuple):
     """A way to receive transforms.
 
     Attributes:
-        name: Its name.
+        name: The name of the way.
         applies: Returns whether a listener uses it, unless an earlier row applies.
         opens: The module in tf2_ros and the class of the subscriptions. The modules of both sides are never imported in
             one process, because each needs its own rclpy.

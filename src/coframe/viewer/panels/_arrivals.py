@@ -34,11 +34,11 @@ class ArrivedMessages:
     """Messages on one topic that arrived since the last poll.
 
     Args:
-        ros_type: Their type.
+        ros_type: The type of the messages, such as ``sensor_msgs/msg/Imu``.
         batch: Their bytes and times.
 
     Attributes:
-        type: Their type.
+        type: The type of the messages.
         slices: Their bytes.
         arrived: The receive times, (N,) nanoseconds.
         have_stamps: Whether messages of this type begin with a stamp.

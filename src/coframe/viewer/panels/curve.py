@@ -62,7 +62,7 @@ class Curve(Protocol):
 
     Attributes:
         axis: The title of its axis.
-        status: Its status.
+        status: The state of the curve, with a description of missing data or an error.
         version: A number that changes if points other than those after `total` have changed.
         total: The number of points since the last change of the version.
     """

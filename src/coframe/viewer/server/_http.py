@@ -135,7 +135,7 @@ def response(
     Args:
         status: The HTTP status of the response.
         body: The content of the response.
-        content_type: Its type.
+        content_type: The media type of the content, such as ``text/html``.
         policy: The Content-Security-Policy.
         extra: Additional headers.
     """

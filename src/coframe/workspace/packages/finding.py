@@ -44,7 +44,7 @@ class Package(NamedTuple):
     """A found package.
 
     Attributes:
-        name: Its name.
+        name: The name of the package.
         share: Folder with its launch files and other data: ``share/NAME`` of an installation, or the source folder.
         prefix: Installation prefix; for a source folder, the folder that contains it.
         origin: ``"installed"``, ``"source"`` or ``"builtin"``.

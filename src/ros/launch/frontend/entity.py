@@ -41,7 +41,7 @@ class Entity:
         """Return an attribute.
 
         Args:
-            name: Its name.
+            name: The name of the attribute.
             data_type: Its type: a scalar, a list of scalars, ``List[Entity]`` for elements, or None for any.
             optional: Return None if it is missing.
             can_be_str: Return the text if it is not of this type, because it may contain substitutions.

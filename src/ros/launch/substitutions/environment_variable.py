@@ -25,7 +25,7 @@ class EnvironmentVariable(Substitution):
     """The value of an environment variable.
 
     Args:
-        name: Its name.
+        name: The name of the environment variable.
         default_value: The value if it is not set.
     """
 

@@ -27,7 +27,7 @@ class LaunchConfiguration(Substitution):
     """The value of a launch configuration, such as an argument of the launch file.
 
     Args:
-        variable_name: Its name.
+        variable_name: The name of the launch configuration.
         default: The value if it is not set.
     """
 

@@ -25,7 +25,7 @@ class Parameter(Substitution):
     """The value of a parameter that SetParameter has set for all nodes.
 
     Args:
-        name: Its name.
+        name: The name of the parameter.
         default: The value if it is not set.
     """
 

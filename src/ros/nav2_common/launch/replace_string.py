@@ -26,7 +26,7 @@ class ReplaceString(Substitution):
     """The path of a copy of a file in which strings are replaced.
 
     Args:
-        source_file: The file.
+        source_file: The path of the file to copy.
         replacements: The new strings by the old ones.
         condition: Replace them only if this condition holds; else the path is that of the file.
     """

@@ -27,7 +27,7 @@ class RewrittenYaml(Substitution):
     """The path of a copy of a YAML file with other values.
 
     Args:
-        source_file: The file.
+        source_file: The path of the YAML file to copy.
         param_rewrites: The new values by keys. A key is the name of a parameter anywhere in the file, or the path of
             one: ``amcl.ros__parameters.use_sim_time``. A path with ``ros__parameters`` is added if it does not exist.
         root_key: A key under which the content is put, such as a namespace.
