@@ -83,9 +83,14 @@ LIVE = {
     "service list": _cases("service list", "-t"),
     "service find": _cases("service find", "std_srvs/srv/Trigger"),
     "service type": _cases("service type", "/refuse", [MISSING]),
+    "service info": _cases("service info", "/refuse", "/refuse -v", [MISSING]),
+    "service echo": _cases("service echo", [MISSING]),
     "service call": _cases("service call", "/refuse std_srvs/srv/Trigger"),
     "action list": _cases("action list", "-t"),
     "action info": _cases("action info", "/act -t", [MISSING]),
+    "action type": _cases("action type", "/act", [MISSING]),
+    "action find": _cases("action find", "tf2_msgs/action/LookupTransform"),
+    "action echo": _cases("action echo", [MISSING]),
     "action send_goal": _cases("action send_goal", "/act tf2_msgs/action/LookupTransform '{{}}'"),
     "param list": _cases("param list", "", "--param-type"),
     "param get": _cases("param get", "/talker evil", ["/talker", MISSING], [MISSING, "evil"]),
@@ -108,6 +113,7 @@ RECORDED = {
     "lookup": _cases("lookup", *(["{bag}", "map", name] for name in (*NAMES[:-1], MISSING, f"{NEWLINE}2"))),
     "bag info": _cases("bag info", "{bag}", "{bag} --json"),
     "bag fix": _cases("bag fix", "{bag} -o {output}"),
+    "bag reindex": _cases("bag reindex", "{bag}"),
     "bag convert": _cases("bag convert", "{bag} {output}.mcap"),
     "bag slice": _cases("bag slice", "{bag} {output}.mcap --start 1s"),
     "bag merge": _cases("bag merge", "{bag} {bag} -o {output}.mcap"),
@@ -126,6 +132,8 @@ RECORDED = {
 
 # Commands that show no text of a peer or of a file that a peer can choose.
 OWN_TEXT_ONLY = {
+    "bag burst": "the same command as bag play",
+    "bag list": "the formats of this installation",
     "bag play": "prints the path of the recording and numbers",
     "play": "the same command",
     "interface list": "prints types of installed packages",

@@ -114,7 +114,7 @@ def test_start_and_stop(recording):
         ("/scn.rate", "has no topic '/scn'", "Did you mean '/scan'? Topics: "),
         ("/scan.rangs[0]", "/scan has no field 'rangs'", "Did you mean 'ranges'?"),
         ("/scan.header", "is a message, not a number", "/scan.header.stamp"),
-        ("/scan.header.frame_id", "is text, not a number", ""),
+        ("/scan.header.frame_id", "is a string, not a number", ""),
         ("/scan.ranges", "is a sequence, not a number", "/scan.ranges[0]"),
         ("/scan.ranges.x", "is a sequence, which has no field 'x'", "/scan.ranges[0].x"),
         ("/scan.angle_min[0]", "/scan.angle_min is not a sequence", ""),

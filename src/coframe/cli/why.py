@@ -330,4 +330,4 @@ def _data(answer: _Answer) -> dict[str, Any]:
 def _edge_data(found: Explanation, edge: ChainEdge) -> dict[str, Any]:
     times = {"by", "oldest", "newest", "age", "gap", "period"}
     named = {f"{name}_ns" if name in times else name: value for name, value in edge._asdict().items()}
-    return {**named, "edge_remark": edge_remark(found, edge)}
+    return {**named, "remark": edge_remark(found, edge)}

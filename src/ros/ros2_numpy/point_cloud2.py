@@ -50,7 +50,12 @@ _TYPES = {
     10: "u8",
     11: "?",
 }
-_NUMBERS = {np.dtype(name): number for number, name in _TYPES.items()}
+# Other nodes of the same distribution must know the types of clouds that are published.
+_NUMBERS = {
+    np.dtype(name): number
+    for number, name in _TYPES.items()
+    if number <= PointField.FLOAT64 or hasattr(PointField, "INT64")
+}
 _XYZ = ["x", "y", "z"]
 
 

@@ -10,6 +10,11 @@ import math
 from dataclasses import dataclass, field
 
 
+def _seconds(stamp):
+    """Return seconds as tf2 computes them, whose rounding its texts contain."""
+    return stamp // 10**9 + 1e-9 * (stamp % 10**9)
+
+
 @dataclass(frozen=True)
 class Sample:
     parent: str
@@ -62,7 +67,7 @@ class History:
 
     def block(self):
         """What all_frames_as_yaml says below its name, in ROS 2's words."""
-        oldest, newest = (0, 0) if self.static else (self.stamps[0] * 1e-9, self.stamps[-1] * 1e-9)
+        oldest, newest = (0, 0) if self.static else (_seconds(self.stamps[0]), _seconds(self.stamps[-1]))
         return (
             f"  parent: '{self.samples[-1].parent}'\n  broadcaster: '{self.authority}'\n"
             f"  rate: {len(self.samples) / max(newest - oldest, 1e-4):.3f}\n"
