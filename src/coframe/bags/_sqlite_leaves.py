@@ -8,6 +8,7 @@ recognized by the types of their values.
 from __future__ import annotations
 
 import struct
+from contextlib import closing
 from itertools import islice
 from typing import TYPE_CHECKING, BinaryIO, NamedTuple
 
@@ -18,7 +19,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
     from pathlib import Path
 
-__all__ = ["LeafRow", "Leaves"]
+__all__ = ["LeafRow", "Leaves", "has_leaves_of_recording"]
 
 _LEAF = 0x0D  # the first byte of a page with rows
 _HEADER = 100  # bytes before the content of the first page
@@ -26,6 +27,7 @@ _MAGIC = b"SQLite format 3\0"
 _PAGE_SIZES = [1 << power for power in range(9, 17)]
 _USUAL_PAGE_SIZE = 4096
 _TRIED_ROWS = 1000
+_MAX_TRIED_BYTES = 64 << 20
 _BLOCK_PAGES = 256  # read at once
 _MAX_RECORD_HEADER = 200  # bytes; rows of recordings have at most seven columns
 _INTEGERS = (1, 2, 3, 4, 5, 6, 8, 9)  # types of values; 0 is NULL, which stands for the ID of the row
@@ -91,13 +93,17 @@ class Leaves:
         found = {}
         for size in _PAGE_SIZES:
             self._page = size
-            found[size] = sum(row.is_message for row in islice(self.rows(), _TRIED_ROWS))
+            found[size] = sum(row.is_message for row in islice(self.rows(_MAX_TRIED_BYTES), _TRIED_ROWS))
         return max(found, key=lambda size: (found[size], size == _USUAL_PAGE_SIZE))
 
-    def rows(self) -> Iterator[LeafRow]:
-        """Yield the rows of all leaves in the order of the file."""
+    def rows(self, max_bytes: int | None = None) -> Iterator[LeafRow]:
+        """Yield the rows of all leaves in the order of the file.
+
+        Args:
+            max_bytes: Where to end the search, rounded up to a block of pages; None for the end of the file.
+        """
         offset = 0
-        while True:
+        while max_bytes is None or offset < max_bytes:
             self._file.seek(offset)
             block = self._file.read(self._page * _BLOCK_PAGES)
             for start in range(0, len(block), self._page):
@@ -180,6 +186,17 @@ class Leaves:
         least = (self._usable - 12) * 32 // 255 - 23
         some = least + (size - least) % (self._usable - 4)
         return some if some <= most else least
+
+
+def has_leaves_of_recording(path: Path) -> bool:
+    """Return whether rows of a recording are found in the first 64 MiB of a file whose header is lost.
+
+    Raises:
+        OSError: The file cannot be read.
+    """
+    leaves = Leaves(path)
+    with closing(leaves):
+        return any(row.is_message or row.is_topic for row in leaves.rows(_MAX_TRIED_BYTES))
 
 
 def _varint(data: bytes, position: int) -> tuple[int, int]:

@@ -77,8 +77,11 @@ class Sqlite(RecordingFormat):
 
     def matches(self, path: Path, beginning: bytes) -> bool:
         """Return whether a file is a database, or one whose first page was lost: the others have the messages."""
-        is_lost = beginning == bytes(len(self.magic)) and path.suffix.lower() in self.suffixes
-        return super().matches(path, beginning) or is_lost
+        if beginning != bytes(len(self.magic)) or path.suffix.lower() not in self.suffixes:
+            return super().matches(path, beginning)
+        from coframe.bags._sqlite_leaves import has_leaves_of_recording  # noqa: PLC0415 - see the base class
+
+        return has_leaves_of_recording(path)
 
     def open(self, path: Path, problems: Problems) -> Storage:
         """Open a file."""
