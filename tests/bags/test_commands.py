@@ -163,7 +163,7 @@ def test_ctrl_c_before_completion_exits_with_130(bag, tmp_path, monkeypatch):
     def interrupted(*_arguments):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(bag_repair._Repair, "_repaired", interrupted)
+    monkeypatch.setattr(bag_repair._Repair, "_repair_message", interrupted)
     assert run("bag", "fix", bag, tmp_path / "new")[0] == 130
     assert list(tmp_path.iterdir()) == []
     monkeypatch.setattr(contents._Reading, "read", interrupted)

@@ -93,7 +93,7 @@ def test_live_curves_are_shared_and_closed_with_the_last_page(ros, view, open_ta
     for number in (3, 4):
         assert 0.0 < np.median(tab.until_curve(number, many)[1]) < 0.2
     assert tab.until_status(6, "have no stamp and therefore no delay") == "error"
-    assert tab.until_status(7, "is text, not a number") == "error"
+    assert tab.until_status(7, "is a string, not a number") == "error"
     assert tab.until_status(8, "no node publishes /nothing") == "waiting"
 
     second = open_tab(viewer)
