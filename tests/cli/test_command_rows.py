@@ -17,6 +17,7 @@ from coframe._process.optional_imports import EXTRAS, extra_of, pip_install
 from coframe.cli.app import app
 from coframe.cli.command_line import CommandLine
 from coframe.cli.commands import COMMANDS, joins_graph
+from coframe.wire.selection import alternatives
 
 try:
     import tomllib
@@ -83,7 +84,7 @@ def test_commands_that_join_the_graph_have_the_option_wire(path):
     if joins:
         result = CliRunner().invoke(app, [*path, "--wire", "pigeons"], prog_name="coframe")
         assert result.exit_code == 2
-        assert "'pigeons' is not dds or zenoh" in result.output
+        assert f"'pigeons' is not {alternatives()}." in result.output
 
 
 @pytest.fixture(scope="module")

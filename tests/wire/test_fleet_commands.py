@@ -146,7 +146,17 @@ def options():
 
 
 # These and the commands of these groups copy messages of all topics unchanged, or have nothing to do with transforms.
-OTHER_COMMANDS = {"bag convert", "bag merge", "bag slice", "run", "launch", "router"}
+OTHER_COMMANDS = {
+    "bag burst",
+    "bag convert",
+    "bag list",
+    "bag merge",
+    "bag reindex",
+    "bag slice",
+    "run",
+    "launch",
+    "router",
+}
 OTHER_GROUPS = {
     "action",
     "daemon",

@@ -17,14 +17,14 @@ from coframe.errors import WireError
 from coframe.wire.dds import library
 try:
     found = library.load()
-    print(found.place.source, "|", found.place.path, "|", *found.refused)
+    print(found.place.source, "|", found.place.path, "|", *found.rejected)
 except WireError as error:
     print(error, error.hint)
 """
 
 
 def load_in_a_process(code: str = "", **environment: str) -> str:
-    """Load the library in a new process, after `code`; return its source, its path and refused ones, or the error."""
+    """Load the library in a new process, after `code`; return its source, its path and rejected ones, or the error."""
     clean = {name: value for name, value in os.environ.items() if name != library.VARIABLE}
     command = [sys.executable, "-c", code + LOAD]
     return subprocess.run(command, capture_output=True, text=True, check=True, env={**clean, **environment}).stdout
@@ -108,7 +108,7 @@ def test_a_library_without_the_functions(tmp_path):
 
 
 def test_a_file_that_is_not_a_library_is_passed_over(tmp_path, usable):
-    """The next place is used, and the refused library is remembered for `coframe doctor --system`."""
+    """The next place is used, and the rejected library is remembered for `coframe doctor --system`."""
     (tmp_path / "libddsc.so").write_text("not a library")
     (tmp_path / "ddsc.dll").write_text("not a library")
     (tmp_path / "libddsc.dylib").write_text("not a library")

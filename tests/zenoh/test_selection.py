@@ -46,7 +46,7 @@ def parsed(name: str, *words: str) -> click.Context:
 
 def test_the_option_chooses_the_middleware(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("COFRAME_WIRE", "dds")
-    monkeypatch.setattr(selection, "_chosen", {})
+    monkeypatch.setattr(selection, "_command_line_choice", {})
     monkeypatch.setattr(python_children, "_passed", {})
     assert parsed("lookup", "a", "--wire", "zenoh", "b").params["names"] == ("a", "b")
     assert selection.select() == ("zenoh", "--wire is given")
