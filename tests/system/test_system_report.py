@@ -99,10 +99,10 @@ def test_without_a_library():
 
 
 def test_text_and_an_invalid_variable():
-    result = run(COMMAND, ROS_DOMAIN_ID="five", RMW_IMPLEMENTATION="rmw_fastrtps_cpp", ZENOH_CONFIG="x")
+    result = run(COMMAND, ROS_DOMAIN_ID="five", RMW_IMPLEMENTATION="rmw_connextdds", ZENOH_CONFIG="x")
     assert result.returncode == 1
     assert "  error: ROS_DOMAIN_ID is 'five': a domain ID is an integer from 0 to 232." in result.stdout
-    assert "  warning: RMW_IMPLEMENTATION is rmw_fastrtps_cpp: " in result.stdout
+    assert "  warning: RMW_IMPLEMENTATION is rmw_connextdds: " in result.stdout
     assert "  ZENOH_CONFIG=x: no effect on coframe" in result.stdout
     assert f"{library.load().place.path}: Cyclone DDS" in result.stdout
     assert "Traceback" not in result.stderr

@@ -8,6 +8,7 @@ import pytest
 import rclpy.executors
 from rcl_interfaces.srv import GetParameters
 from rclpy.context import Context
+from rclpy.parameter import Parameter
 
 SERVER = """
     import threading
@@ -25,14 +26,19 @@ SERVER = """
 EMPTY_REQUEST = "00010000" + 16 * "00"  # of every parameter service
 DAMAGED_REQUEST = "00010000" + "ffffff7f"
 NO_REQUEST = "ff"
+SERVICES = 8  # of the server: six for parameters, get_type_description and /switch
+REQUESTS = 500  # to each service
 
 
 @pytest.fixture
 def client(zenoh_domain):
-    """A node with one client only, so that replies of the other services have no receiver."""
+    """A node with one client and no services, so that replies of the other services have no receiver."""
     context = Context()
     context.init([], domain_id=zenoh_domain)
-    node = rclpy.create_node("client", context=context, start_parameter_services=False)
+    no_service = Parameter("start_type_description_service", value=False)
+    node = rclpy.create_node(
+        "client", context=context, start_parameter_services=False, parameter_overrides=[no_service]
+    )
     yield node
     node.destroy_node()
     context.shutdown()
@@ -58,8 +64,8 @@ def answer(node, client):
 def test_a_flood_of_requests(client, ros_peer, child, eventually, request_bytes, is_attached):
     server = child(SERVER)
     assert server.stdout.readline() == "ready\n"
-    eventually(lambda: sum("/SS/" in token for token in ros_peer("tokens")) == 7)
-    assert ros_peer("flood_services", 500, request_bytes, is_attached) == 3500
+    eventually(lambda: sum("/SS/" in token for token in ros_peer("tokens")) == SERVICES)
+    assert ros_peer("flood_services", REQUESTS, request_bytes, is_attached) == SERVICES * REQUESTS
     get_parameters = client.create_client(GetParameters, "/server/get_parameters")
     assert get_parameters.wait_for_service(10)
     for _ in range(3):
@@ -67,6 +73,6 @@ def test_a_flood_of_requests(client, ros_peer, child, eventually, request_bytes,
         assert value == 5
         assert seconds < 10
     # No request is stored until its timeout, which is 10 minutes.
-    eventually(lambda: ros_peer("ended_requests") == 3500)
+    eventually(lambda: ros_peer("ended_requests") == SERVICES * REQUESTS)
     _, errors = server.communicate("\n", timeout=30)
     assert len(errors.splitlines()) < 20, errors[-2000:]

@@ -15,12 +15,13 @@ _EFFECTS: Final = {
     "COFRAME_DISTRO": "selects the ROS 2 distribution that coframe follows, with priority over ROS_DISTRO",
     "COFRAME_ROS2_WIRE": "how coframe.ros2 receives transforms in a sourced ROS 2: native or rclpy",
     "COFRAME_SHARED": "1: listeners of tf2_ros share the transforms with the other processes of this user",
-    "COFRAME_WIRE": "the middleware: dds or zenoh",
+    "COFRAME_WIRE": "the middleware: dds, zenoh, or fastdds where coframe-fastdds is installed",
     "COFRAME_PACKAGE_PATH": "folders with the sources of ROS packages",
     "CYCLONEDDS_HOME": "an installation of Cyclone DDS, which is searched for the DDS library together with the "
     "system's",
     "CYCLONEDDS_URI": "configuration of Cyclone DDS; it overrides what coframe derives from the other variables",
-    "RMW_IMPLEMENTATION": "selects the middleware of ROS 2's own nodes; rmw_zenoh_cpp also selects Zenoh for coframe",
+    "RMW_IMPLEMENTATION": "selects the middleware of ROS 2's own nodes; rmw_zenoh_cpp also selects Zenoh for coframe, "
+    "and rmw_fastrtps_cpp Fast DDS where coframe-fastdds is installed",
     "ROS_AUTOMATIC_DISCOVERY_RANGE": "the range of discovery: OFF, LOCALHOST, SUBNET or SYSTEM_DEFAULT",
     "ROS_DISCOVERY_SERVER": "no effect on coframe; nodes on Fast DDS announce themselves only at this server, so that "
     "coframe does not find them",
