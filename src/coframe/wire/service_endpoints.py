@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Final, NamedTuple
 
 from coframe.errors import WireError
 from coframe.wire import names, request_header
@@ -19,6 +19,9 @@ if TYPE_CHECKING:
     from coframe.wire.names import Endpoint
     from coframe.wire.qos import QoS
     from coframe.wire.request_header import RequestHeader
+
+
+_PREFIX_SIZE: Final = 12  # bytes of a GUID that identify the participant
 
 
 class RejectedRequestError(WireError):
@@ -40,11 +43,13 @@ class _Peers(NamedTuple):
         understood: The number of matched endpoints that use the same form of requests and replies.
         foreign: An endpoint that uses another form, whether it is matched or not; None if there is none.
         receiver: An endpoint of the same kind that may receive what this process publishes.
+        participants: The GUID prefixes of the participants of matched endpoints that use the same form.
     """
 
     understood: int
     foreign: DiscoveredEndpoint | None
     receiver: DiscoveredEndpoint | None
+    participants: frozenset[bytes]
 
     @property
     def refusing(self) -> DiscoveredEndpoint | None:
@@ -53,15 +58,17 @@ class _Peers(NamedTuple):
 
 
 def _peers(own: LocalEndpoint, graph: Graph, handles: frozenset[int], found: dict[int, DiscoveredEndpoint]) -> _Peers:
-    understood, foreign, receiver = 0, None, None
+    understood, foreign, receiver, participants = 0, None, None, set()
     for handle, peer in found.items():
         if not graph.foreign_services(peer):
-            understood += handle in handles
+            if handle in handles:
+                understood += 1
+                participants.add(peer.guid[:_PREFIX_SIZE])
             continue
         foreign = peer
         if not graph.ignores_requests(peer, own.qos):
             receiver = peer
-    return _Peers(understood, foreign, receiver)
+    return _Peers(understood, foreign, receiver, frozenset(participants))
 
 
 class ServicePublisher(RawPublisher):
@@ -125,10 +132,18 @@ class ServicePublisher(RawPublisher):
         middleware = self._graph.foreign_services(peer)
         return foreign_services_text(self.topic, middleware, self._graph.owner(peer.guid), is_writer=True)
 
-    @property
-    def reaches_clients(self) -> bool:
-        """Whether a reply that is sent now reaches its client. Some middlewares must discover the client first."""
-        return not self._graph.replies_need_discovery or self.matched > 0
+    def reaches(self, writer: int) -> bool:
+        """Return whether a reply that is sent now reaches the client of a request.
+
+        Some middlewares must discover the client's subscription first, which can take longer than the request.
+
+        Args:
+            writer: The handle of the writer of the request.
+        """
+        if not self._graph.replies_need_discovery:
+            return True
+        peers, client = self._peers(), self._graph.writer(writer)
+        return peers.understood > 0 if client is None else client.guid[:_PREFIX_SIZE] in peers.participants
 
 
 class ServiceSubscription(Subscription):

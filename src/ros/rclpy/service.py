@@ -26,10 +26,11 @@ if TYPE_CHECKING:
     from rclpy.service_introspection import ServiceEvents, ServiceIntrospectionState
 
 # A client may match the server before the server matches the client. A reply sent before that is lost.
-_MATCH_TIMEOUT_S: Final = 0.1
+_MATCH_TIMEOUT_S: Final = 0.5
 # After a timeout, replies are sent at once for this time. Other nodes can send requests at any rate without receiving
 # the replies, and must not stop the executor.
 _MATCH_PAUSE_S: Final = 5.0
+_MAX_CLIENTS: Final = 1000  # whose discovery is awaited
 
 
 class Service(LoggingEntity):
@@ -58,6 +59,7 @@ class Service(LoggingEntity):
         self.callback = callback
         self.callback_group = callback_group
         self.__next_wait = 0.0
+        self.__writers: dict[int, int] = {}  # the handles of the writers of requests, by client ID
         self.qos_profile = qos_profile
 
     @property
@@ -91,16 +93,17 @@ class Service(LoggingEntity):
             raise TypeError(f"Expected {self.srv_type.Response}, got {type(response)}")
         if self.__requests is None:
             return
-        self.__wait_for_client()
+        self.__wait_for_client(header)
         self.__replies.write(request_header.join(header, codec.serialize(response)))
         self.__events.publish(RESPONSE_SENT, header, response=response)
 
-    def __wait_for_client(self) -> None:
-        """Wait shortly until a client is discovered, because a reply that is sent before does not reach it."""
+    def __wait_for_client(self, header: RequestHeader) -> None:
+        """Wait shortly until the client is discovered, because a reply that is sent before does not reach it."""
         start = time.monotonic()
+        writer = self.__writers.get(header[0], 0)
         if start < self.__next_wait:
             return
-        while not self.__replies.reaches_clients:
+        while not self.__replies.reaches(writer):
             if time.monotonic() - start >= _MATCH_TIMEOUT_S:
                 self.__next_wait = start + _MATCH_PAUSE_S
                 return
@@ -129,6 +132,9 @@ class Service(LoggingEntity):
                 requests.ignore_request(message, f"is invalid ({error})")
                 continue
             self.__events.publish(REQUEST_RECEIVED, message.header, request=request)
+            self.__writers[message.header.client] = message.writer
+            if len(self.__writers) > _MAX_CLIENTS:
+                self.__writers.pop(next(iter(self.__writers)), None)
             return partial(self._Coframe__answer, message.header, request)
         return None
 
