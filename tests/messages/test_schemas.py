@@ -220,7 +220,7 @@ HOSTILE_IDL = {
     ),
     "signs": (idl(f"const long A = {'-' * 500}1;"), f"line 3: more than {MAX_NESTING} nested parentheses or signs"),
     "modules": ("module a {" * 500, f"line 1: more than {MAX_NESTING} nested modules"),
-    "sequences": (idl(fields="sequence<" * 300 + "long" + ">" * 300 + " x;"), "line 6: sequences of sequences"),
+    "sequences": (idl(fields="sequence<" * 300 + "long" + ">" * 300 + " x;"), "line 6: ROS does not support sequences"),
     "constants": (idl(MANY_CONSTANTS), f"line {MAX_CONSTANTS + 3}: more than {MAX_CONSTANTS} constants"),
     "structures": (
         "\n".join(f"struct A{i} {{ long x; }};" for i in range(MAX_TYPES + 1)),
