@@ -2,7 +2,9 @@
 """Messages of nodes that follow another distribution: they are read where that is possible, and a warning explains."""
 
 import logging
+import math
 import os
+import struct
 import subprocess
 import sys
 
@@ -122,3 +124,12 @@ def test_definitions_are_named_by_their_hash():
     assert difference("sensor_msgs/msg/Range", before) == "the definition of ROS 2 before Jazzy"
     assert difference("sensor_msgs/msg/Range", "RIHS01_1") == "another definition"
     assert difference("my_msgs/msg/Thing", before) == "another definition"
+
+
+def test_any_float_of_another_definition_is_read():
+    """Programs cannot set a value beyond float32, but rounding lets bytes contain one that is refused."""
+    largest = struct.pack("<f", 3.4028234663852886e38)
+    before = b"\0\1\0\0" + struct.pack("<iII1sB2xf", 1, 2, 1, b"", 1, 0.5) + largest + struct.pack("<ff", math.inf, 3.0)
+    message = codec.deserialize(before, Range)
+    assert message.min_range == struct.unpack("<f", largest)[0]
+    assert (message.max_range, message.range, message.variance) == (math.inf, 3.0, 0.0)

@@ -55,7 +55,8 @@ def convert(message: Any, cls: type[Message]) -> Any:
     result: Any = cls()
     for name in cls.get_fields_and_field_types():
         if hasattr(message, name):
-            setattr(result, name, getattr(message, name))
+            # The slot, without the check of values that programs set: messages may contain any float.
+            setattr(result, f"_{name}", getattr(message, name))
     if cls.ROS_TYPE == _TRANSITION_EVENT:
         if hasattr(message, "timestamp"):
             result.stamp.sec, result.stamp.nanosec = divmod(min(message.timestamp, _SECOND * 2**31 - 1), _SECOND)
