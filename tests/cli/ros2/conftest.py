@@ -19,7 +19,8 @@ from coframe.cli.app import app
 def graph():
     """The node of graph_program.py, in its own domain."""
     # A domain that the fixture domain_id does not use.
-    environment = {"ROS_DOMAIN_ID": str(97 + os.getpid() % 4), "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
+    worker = int(os.environ.get("PYTEST_XDIST_WORKER", "gw0").removeprefix("gw"))
+    environment = {"ROS_DOMAIN_ID": str(97 + worker % 4), "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
     program = subprocess.Popen(
         [sys.executable, Path(__file__).with_name("graph_program.py")],
         stdout=subprocess.PIPE,
