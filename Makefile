@@ -127,7 +127,7 @@ lint: $(STAMP) ## check style, words, import directions and generated files
 	git ls-files '*.cpp' '*.hpp' '*.inc' | xargs $(BIN)/clang-format --dry-run --Werror
 	$(BIN)/python scripts/check_words.py
 	$(BIN)/python scripts/check_spdx.py
-	$(BIN)/lint-imports --no-cache
+	$(BIN)/python scripts/check_imports.py
 	$(BIN)/python scripts/generate_messages.py --check
 	$(BIN)/python scripts/generate_distributions.py --check
 	$(BIN)/python scripts/generate_protocol.py --check
