@@ -4,6 +4,7 @@
 import os
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import pytest
@@ -138,3 +139,105 @@ def test_package_urls_follow_the_installation(package, tmp_path):
         },
     )
     assert load(tmp_path / "src/arm_two/description/urdf/arm.urdf.xacro").root == "inner"
+
+
+@pytest.mark.parametrize(
+    "setup",
+    [
+        "import os\na = 'abcdefgh'\n" + "a = os.path.join(a, a)\n" * 30,
+        "x = {[1]: 1}\n",
+        "x = f'{0x" + "f" * 6000 + "}'\n",
+        "x = ['a' + 'b'] + " + "(" * 50 + "[]" + ")" * 50 + "\n",
+        "files = [('share/{name}/x', glob('') + glob('.') + glob('[') + glob('a**/x'))]\n",
+        "files = [('share/{name}/x', glob('" + "**/" * 20 + "*'))]\n",
+        "files = [('share/{name}/x\\0y', ['here']), ('share/{name}/x', ['he\\0re'])]\n",
+        "files = [('share/{name}/\\ud800', ['here'])]\n",
+        "files = [('share/{name}/" + "deep/" * 3000 + "', ['here'])]\n",
+        "files = ['a']\n" + "files.extend(files)\n" * 40 + "files.append(files)\n",
+        "files = [('share/{name}/x', [])]\n" + "x = glob('**/*')\n" * 10_000,
+    ],
+    ids=[
+        "joined",
+        "key",
+        "number",
+        "parentheses",
+        "patterns",
+        "folders",
+        "nul",
+        "surrogate",
+        "depth",
+        "extended",
+        "searches",
+    ],
+)
+def test_a_hostile_setup_py_changes_nothing(package, setup, request):
+    """Other packages of a workspace are found although one has a setup.py that never ran."""
+    name = f"arm_{request.node.callspec.id}"
+    written = setup.replace("{name}", name) + "setup(data_files=files)\n"
+    nested = {f"{first}/{second}/{third}/file": "" for first in "abcd" for second in "abcd" for third in "abcd"}
+    started = time.monotonic()
+    share = package(name, {"setup.py": written, "here": "1", **nested})
+    assert (share / "here").read_text() == "1"
+    assert time.monotonic() - started < 10.0
+
+
+def test_variables_patterns_and_new_names_of_cmake(package):
+    share = package(
+        "arm_nine",
+        {
+            "CMakeLists.txt": "set(target share/arm_nine)\nfile(GLOB files models/*.sdf)\n"
+            "install(FILES ${files} DESTINATION ${target}/worlds)\n"
+            "install(FILES robot.yaml DESTINATION ${target}/config RENAME arm.yaml)\n",
+            "models/a.sdf": "a",
+            "models/b.txt": "b",
+            "robot.yaml": "r",
+        },
+    )
+    assert [each.name for each in (share / "worlds").iterdir()] == ["a.sdf"]
+    assert (share / "config/arm.yaml").read_text() == "r"
+
+
+def test_a_list_of_data_files_that_grows(package):
+    share = package(
+        "arm_ten",
+        {
+            "setup.py": "data_files = []\ndata_files.append(('share/arm_ten/launch', ['go.launch.py']))\n"
+            "data_files.extend([('share/arm_ten/worlds', ['models/a.sdf'])])\nsetup(data_files=data_files)\n",
+            "go.launch.py": "go",
+            "models/a.sdf": "a",
+        },
+    )
+    assert (share / "launch/go.launch.py").read_text() == "go"
+    assert (share / "worlds/a.sdf").read_text() == "a"
+
+
+def test_variables_of_cmake_that_double(package):
+    started = time.monotonic()
+    doubled = "set(a ${a}${a})\n" * 60 + "set(a ${a};${a})\n" * 60
+    share = package("arm_eleven", {"CMakeLists.txt": "set(a abcdefgh)\n" + doubled, "here": "1"})
+    assert (share / "here").read_text() == "1"
+    assert time.monotonic() - started < 5.0
+
+
+def test_a_hostile_cmake_file_changes_nothing(package):
+    files = "${PROJECT_NAME} " * 8000
+    share = package(
+        "arm_seven",
+        {
+            "CMakeLists.txt": f"project({'A' * 120_000})\ninstall(FILES {files} DESTINATION share/x/y)\n"
+            "install(FILES here DESTINATION share/arm_seven/x\0y)\n"
+            f"install(FILES here DESTINATION share/arm_seven/{'d' * 300})\n",
+            "here": "1",
+        },
+    )
+    assert (share / "here").read_text() == "1"
+
+
+def test_many_rules_for_a_folder_that_the_sources_have_too(package):
+    files = {f"{folder}/{number}": "" for folder in ("data", "meshes") for number in range(1500)}
+    started = time.monotonic()
+    share = package(
+        "arm_eight", {"CMakeLists.txt": "install(DIRECTORY data/ DESTINATION share/arm_eight/meshes)", **files}
+    )
+    assert (share / "meshes/7").resolve().parent.name == "data"
+    assert time.monotonic() - started < 10.0

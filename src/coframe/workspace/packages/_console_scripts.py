@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
     from pathlib import Path
 
-__all__ = ["PythonPackage", "read", "value_of"]
+__all__ = ["PythonPackage", "read", "short", "value_of"]
 
 MAX_BYTES = 1 << 18  # of a file
 _MAX_DOTS = 4000  # of pyproject.toml; a key takes quadratic time, and this many dots in one key half a second
@@ -124,9 +124,14 @@ def _from_setup_arguments(arguments: dict[str, Any]) -> PythonPackage:
     )
 
 
-def _short(value: str | list[Any]) -> Any:
+def short(value: str | list[Any]) -> Any:
     """Return a value; None if it is longer than a file, because a few lines can double a string any number of times."""
     return value if len(value) <= MAX_BYTES else None
+
+
+def _is_short(part: Any) -> bool:
+    """Return whether a value is a string, or an integer that becomes a short one."""
+    return isinstance(part, str) or (isinstance(part, int) and part.bit_length() <= 64)
 
 
 def _called(function: ast.expr) -> str:
@@ -141,11 +146,12 @@ def value_of(node: ast.expr, names: dict[str, Any]) -> Any:
         return names.get(node.id)
     if isinstance(node, ast.Dict):
         pairs = zip(node.keys, node.values, strict=True)
-        return {value_of(key, names): value_of(item, names) for key, item in pairs if key}
+        named = ((value_of(key, names), value_of(item, names)) for key, item in pairs if key)
+        return {key: item for key, item in named if isinstance(key, str)}
     if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Add):
         left, right = value_of(node.left, names), value_of(node.right, names)
-        return _short(left + right) if type(left) is type(right) and isinstance(left, str | list) else None
+        return short(left + right) if type(left) is type(right) and isinstance(left, str | list) else None
     if isinstance(node, ast.JoinedStr):
         parts = [value_of(part.value if isinstance(part, ast.FormattedValue) else part, names) for part in node.values]
-        return _short("".join(map(str, parts))) if all(isinstance(part, str | int) for part in parts) else None
+        return short("".join(map(str, parts))) if all(map(_is_short, parts)) else None
     return [value_of(item, names) for item in node.elts] if isinstance(node, ast.List | ast.Tuple) else None

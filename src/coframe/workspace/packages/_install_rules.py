@@ -8,19 +8,21 @@ from __future__ import annotations
 
 import ast
 import re
+from fnmatch import fnmatchcase
 from pathlib import Path, PurePosixPath
 from typing import TYPE_CHECKING, Any
 
 from coframe._files.regular_files import read_regular_text
 from coframe.workspace.packages import _console_scripts
+from coframe.workspace.packages._console_scripts import short
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Sequence
 
-__all__ = ["installed_files"]
+__all__ = ["contents", "installed_files"]
 
-_CALL = re.compile(r"\binstall\s*\(([^()]*)\)", re.IGNORECASE)
-_PROJECT = re.compile(r"\bproject\s*\(\s*([\w.\-]+)", re.IGNORECASE)
+_CALL = re.compile(r"\b(set|file|install)\s*\(([^()]*)\)", re.IGNORECASE)
+_PROJECT = re.compile(r"\bproject\s*\(\s*([\w.\-]{1,255})(?![\w.\-])", re.IGNORECASE)
 _VARIABLE = re.compile(r"\$\{(\w+)\}")
 _WORD = re.compile(r'"([^"]*)"|([^\s"]+)')
 _KINDS = {"DIRECTORY", "FILES", "PROGRAMS"}
@@ -32,10 +34,13 @@ _KEYWORDS = {
     "USE_SOURCE_PERMISSIONS",
     "PERMISSIONS",
     "OPTIONAL",
+    "RENAME",
     "COMPONENT",
     "TYPE",
 }
 _MAX_RULES = 10_000
+_MAX_DEPTH = 50  # folders of a destination
+_MAX_SEARCHED = 50_000  # files and folders for all patterns of a package
 
 
 def installed_files(package: Path, name: str) -> dict[str, Path]:
@@ -56,7 +61,7 @@ def installed_files(package: Path, name: str) -> dict[str, Path]:
 def _below_share(destination: str, name: str) -> str | None:
     """Return a path of an installation relative to the share folder of the package; None if it is elsewhere."""
     parts = PurePosixPath(destination).parts
-    if parts[:2] != ("share", name) or ".." in parts or len(parts) < 3:
+    if parts[:2] != ("share", name) or ".." in parts or not 3 <= len(parts) <= _MAX_DEPTH or "\0" in destination:
         return None
     return str(PurePosixPath(*parts[2:]))
 
@@ -64,8 +69,16 @@ def _below_share(destination: str, name: str) -> str | None:
 def _is_inside(source: Path, package: Path) -> bool:
     try:
         return source.exists() and source.resolve().is_relative_to(package.resolve())
-    except OSError:
+    except (OSError, ValueError):
         return False
+
+
+def contents(folder: Path) -> list[Path]:
+    """Return what a folder contains, sorted; nothing if it is not a folder or cannot be read."""
+    try:
+        return sorted(folder.iterdir())
+    except (OSError, ValueError):
+        return []
 
 
 def _text(path: Path) -> str:
@@ -87,13 +100,36 @@ def _of_cmake(package: Path, name: str) -> Iterator[tuple[str, Path]]:
         "CMAKE_INSTALL_DATADIR": "share",
         "CMAKE_INSTALL_DATAROOTDIR": "share",
     }
+    search = _Search(package)
+    length = 0
     for call in _CALL.finditer(text):
-        words = [quoted or bare for quoted, bare in _WORD.findall(call[1])]
-        yield from _of_install([_expanded(word, variables) for word in words], package)
+        length += sum(len(variables.get(each, "")) for each in _VARIABLE.findall(call[2]))
+        if length > _console_scripts.MAX_BYTES:  # A few lines can double a variable any number of times.
+            return
+        given = [_expanded(quoted or bare, variables) for quoted, bare in _WORD.findall(call[2])]
+        words = [word for each in given for word in each.split(";") if word]
+        command = call[1].lower()
+        if command == "install":
+            yield from _of_install(words, package)
+        elif command == "set" and words:
+            variables[words[0]] = ";".join(words[1:])
+        elif words[:1] in (["GLOB"], ["GLOB_RECURSE"]) and len(words) > 2:
+            variables[words[1]] = _globbed(words, search)
 
 
 def _expanded(word: str, variables: dict[str, str]) -> str:
     return _VARIABLE.sub(lambda match: variables.get(match[1], match[0]), word)
+
+
+def _globbed(words: list[str], search: _Search) -> str:
+    """Return the files that ``file(GLOB NAME PATTERN...)`` finds, separated by semicolons."""
+    found: list[str] = []
+    for word in words[2:]:
+        pattern = PurePosixPath(word)
+        if words[0] == "GLOB_RECURSE":
+            pattern = pattern.parent / "**" / pattern.name
+        found += search.matches(str(pattern))
+    return ";".join(found)
 
 
 def _of_install(words: list[str], package: Path) -> Iterator[tuple[str, Path]]:
@@ -103,62 +139,104 @@ def _of_install(words: list[str], package: Path) -> Iterator[tuple[str, Path]]:
         return
     destination = "".join(words[keys.index("DESTINATION") + 1 :][:1])
     end = next(index for index, key in enumerate(keys) if index and key in _KEYWORDS)
+    name = "".join(words[keys.index("RENAME") + 1 :][:1]) if "RENAME" in keys else ""
     for word in words[1:end]:
         source = package / word
         if keys[0] == "DIRECTORY" and word.endswith("/"):  # The contents of the folder, not the folder.
-            for each in sorted(source.iterdir()) if source.is_dir() else ():
+            for each in contents(source):
                 yield f"{destination}/{each.name}", each
         else:
-            yield f"{destination}/{PurePosixPath(word).name}", source
+            yield f"{destination}/{name or PurePosixPath(word).name}", source
 
 
-def _of_setup(package: Path, name: str) -> Iterator[tuple[str, Path]]:
+def _of_setup(package: Path, name: str) -> list[tuple[str, Path]]:
     try:
-        tree = ast.parse(_text(package / "setup.py"))
+        return list(_of_tree(ast.parse(_text(package / "setup.py")), package, name))
     except (SyntaxError, ValueError, RecursionError, MemoryError):
-        return
+        return []
+
+
+def _of_tree(tree: ast.Module, package: Path, name: str) -> Iterator[tuple[str, Path]]:
     names: dict[str, Any] = {"package_name": name}
+    search = _Search(package)
     for statement in tree.body:
         if isinstance(statement, ast.Assign) and isinstance(statement.targets[0], ast.Name):
-            names[statement.targets[0].id] = _value(statement.value, names, package)
+            names[statement.targets[0].id] = _value(statement.value, names, search)
+        elif isinstance(statement, ast.Expr) and isinstance(statement.value, ast.Call):
+            _append(statement.value, names, search)
     calls = (each for each in ast.walk(tree) if isinstance(each, ast.Call) and _called(each) == "setup")
     keywords = (keyword for call in calls for keyword in call.keywords if keyword.arg == "data_files")
     for keyword in keywords:
-        for rule in _value(keyword.value, names, package) or ():
+        for rule in _value(keyword.value, names, search) or ():
             if isinstance(rule, list) and len(rule) == 2 and isinstance(rule[0], str) and isinstance(rule[1], list):
                 for file in rule[1]:
                     if isinstance(file, str):
                         yield f"{rule[0]}/{PurePosixPath(file).name}", package / file
 
 
+def _append(call: ast.Call, names: dict[str, Any], search: _Search) -> None:
+    """Apply ``NAME.append(VALUE)`` and ``NAME.extend(VALUES)`` to a list."""
+    owner = getattr(call.func, "value", None)
+    values = names.get(owner.id) if isinstance(owner, ast.Name) else None
+    if not isinstance(values, list) or len(call.args) != 1:
+        return
+    value = _value(call.args[0], names, search)
+    if _called(call) == "append":
+        values.append(value)
+    elif _called(call) == "extend" and isinstance(value, list) and short([*values, *value]):
+        values.extend(value)
+
+
 def _called(call: ast.Call) -> str:
     return call.func.id if isinstance(call.func, ast.Name) else getattr(call.func, "attr", "")
 
 
-def _value(node: ast.expr, names: dict[str, Any], package: Path) -> Any:
+def _value(node: ast.expr, names: dict[str, Any], search: _Search) -> Any:
     """Return the value of an expression of literals, variables, ``os.path.join()`` and ``glob()``; else None."""
     if isinstance(node, ast.List | ast.Tuple):
-        return [_value(item, names, package) for item in node.elts]
+        return [_value(item, names, search) for item in node.elts]
     if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Add):
-        left, right = _value(node.left, names, package), _value(node.right, names, package)
-        is_same = type(left) is type(right) and isinstance(left, str | list)
-        return left + right if is_same and len(left) + len(right) <= _console_scripts.MAX_BYTES else None
+        left, right = _value(node.left, names, search), _value(node.right, names, search)
+        return short(left + right) if type(left) is type(right) and isinstance(left, str | list) else None
     if isinstance(node, ast.Call) and node.args:
-        arguments = [_value(argument, names, package) for argument in node.args]
+        arguments = [_value(argument, names, search) for argument in node.args]
         if _called(node) == "join" and all(isinstance(argument, str) for argument in arguments):
-            return str(PurePosixPath(*arguments))
+            return short(str(PurePosixPath(*arguments)))
         if _called(node) in {"glob", "iglob"} and isinstance(arguments[0], str):
-            return _matches(package, arguments[0])
+            return search.matches(arguments[0])
         return None
     return _console_scripts.value_of(node, names)
 
 
-def _matches(package: Path, pattern: str) -> list[str]:
-    """Return the files in a package that match a pattern, relative to it."""
-    if pattern.startswith("/") or ".." in PurePosixPath(pattern).parts:
-        return []
-    try:
-        found = sorted(package.glob(pattern))
-    except (ValueError, NotImplementedError, OSError):
-        return []
-    return [each.relative_to(package).as_posix() for each in found[:_MAX_RULES]]
+class _Search:
+    """A search for the files of a package that match patterns, with a limit for all of them together."""
+
+    def __init__(self, package: Path) -> None:
+        self._package = package
+        self._steps_left = _MAX_SEARCHED
+
+    def matches(self, pattern: str) -> list[str]:
+        """Return the files in the package that match a pattern, relative to it."""
+        parts = PurePosixPath(pattern).parts
+        if not parts or pattern.startswith("/") or ".." in parts or self._steps_left < 0:
+            return []
+        found = sorted(set(self._below(self._package, parts)))
+        return [each.relative_to(self._package).as_posix() for each in found[:_MAX_RULES]]
+
+    def _below(self, folder: Path, parts: Sequence[str]) -> Iterator[Path]:
+        """Yield what matches the parts of a pattern in a folder, until no steps are left."""
+        first, *rest = parts
+        if first == "**" and rest:
+            yield from self._below(folder, rest)
+        for each in contents(folder):
+            self._steps_left -= 1
+            if self._steps_left < 0:
+                return
+            if first == "**" and each.is_dir() and not each.is_symlink():
+                yield from self._below(each, parts)
+            if not fnmatchcase(each.name, first) or each.name.startswith(".") > first.startswith("."):
+                continue
+            if not rest:
+                yield each
+            elif first != "**" and each.is_dir():
+                yield from self._below(each, rest)

@@ -17,7 +17,8 @@ import shutil
 import tempfile
 from pathlib import Path, PurePosixPath
 
-from coframe.workspace.packages._install_rules import installed_files
+from coframe._files.existence import is_dir
+from coframe.workspace.packages._install_rules import contents, installed_files
 
 __all__ = ["share_of_source", "source_of"]
 
@@ -42,11 +43,11 @@ def share_of_source(package: Path, name: str) -> Path:
     links = _links(package, moved)
     key = hashlib.sha256(json.dumps(links, sort_keys=True).encode()).hexdigest()[:16]
     folder = _cache() / "share" / key / name
-    if not folder.is_dir():
-        try:
+    try:
+        if not folder.is_dir():
             _make(folder, links)
-        except OSError:  # The cache cannot be written.
-            return package
+    except (OSError, ValueError):  # The cache cannot be written, or a name is not possible.
+        return package
     _sources[folder] = package
     return folder
 
@@ -62,27 +63,31 @@ def _links(package: Path, moved: dict[str, Path]) -> dict[str, str]:
     A folder that contains an installed file is a folder of links itself.
     """
     links = {relative: str(source.absolute()) for relative, source in moved.items()}
+    taken = {str(each) for relative in links for each in (PurePosixPath(relative), *PurePosixPath(relative).parents)}
+    listed: set[tuple[str, Path]] = set()
+
+    def add_contents(relative: str, origin: Path | None) -> None:
+        if origin is None or (relative, origin) in listed:
+            return
+        listed.add((relative, origin))
+        for each in contents(origin):
+            path = f"{relative}/{each.name}" if relative else each.name
+            if path not in taken:
+                taken.add(path)
+                links[path] = str(each.absolute())
+
     for relative, source in sorted(moved.items()):
-        for parent in list(PurePosixPath(relative).parents)[:-1]:
+        for parent in map(str, list(PurePosixPath(relative).parents)[:-1]):
             # The other files of the folder: those of another rule for the same folder, then those of the sources.
-            for origin in (moved.get(str(parent)), package / parent):
-                _add_contents(links, str(parent), origin)
-            links.pop(str(parent), None)
-        if source.is_dir() and (package / relative).is_dir():
+            for origin in (moved.get(parent), package / parent):
+                add_contents(parent, origin)
+            links.pop(parent, None)
+        if relative in links and source.is_dir() and is_dir(package / relative):
             del links[relative]
-            _add_contents(links, relative, source)
-            _add_contents(links, relative, package / relative)
-    _add_contents(links, "", package)
+            add_contents(relative, source)
+            add_contents(relative, package / relative)
+    add_contents("", package)
     return links
-
-
-def _add_contents(links: dict[str, str], relative: str, origin: Path | None) -> None:
-    if origin is None or not origin.is_dir():
-        return
-    for each in sorted(origin.iterdir()):
-        path = f"{relative}/{each.name}" if relative else each.name
-        if not any(other == path or other.startswith(f"{path}/") for other in links):
-            links[path] = str(each.absolute())
 
 
 def _make(folder: Path, links: dict[str, str]) -> None:
