@@ -67,6 +67,32 @@ def test_each_sees_the_nodes_of_the_other(wire: str, domain_id: int, eventually)
         there.close()
 
 
+def test_all_endpoints_of_a_service_and_a_client_belong_to_their_nodes(domain_id: int, eventually) -> None:
+    """Also those that are created when an endpoint of the other implementation is discovered."""
+    on_fast_dds, on_cyclone_dds = Participant.get(domain_id, "fastdds"), Participant.get(domain_id, "dds")
+    add = find("example_interfaces/srv/AddTwoInts")
+
+    def owners(kind: str) -> set[str | None]:
+        endpoint = Endpoint("/add", "", kind)
+        graph = on_cyclone_dds._graph
+        return {graph.owner(writer.guid) for writer in graph.writers(endpoint.dds_topic).values()}
+
+    try:
+        for participant, name in ((on_fast_dds, "fast"), (on_cyclone_dds, "cyclone")):
+            server, client = participant.add_node("/", f"{name}_server"), participant.add_node("/", f"{name}_client")
+            participant.service_publisher(server, "/add", add.Response, QoS(), "reply")
+            participant.service_subscription(server, "/add", add.Request, QoS(), "request")
+            participant.service_subscription(client, "/add", add.Response, QoS(), "reply")
+            participant.service_publisher(client, "/add", add.Request, QoS(), "request")
+        graph, topic = on_cyclone_dds._graph, Endpoint("/add", "", "reply").dds_topic
+        eventually(lambda: len(graph.writers(topic)) == 3)  # two of the server on Fast DDS
+        eventually(lambda: owners("reply") == {"/fast_server", "/cyclone_server"})
+        eventually(lambda: owners("request") == {"/fast_client", "/cyclone_client"})
+    finally:
+        on_fast_dds.close()
+        on_cyclone_dds.close()
+
+
 @pytest.mark.parametrize(("server", "client"), PAIRS)
 def test_a_client_calls_a_service(server: str, client: str, start) -> None:
     serving = start(server, "server.py", "add")
@@ -106,7 +132,7 @@ def test_requests_of_strangers_are_ignored(domain_id: int, start, eventually) ->
     try:
         node = participant.add_node("/", "stranger")
         endpoint = Endpoint("/add", "example_interfaces/srv/AddTwoInts_Request", "request")
-        writer = participant._session.writer(node, endpoint, QoS())
+        writer = participant._session.service_writer(node, endpoint, QoS())
         eventually(lambda: writer.matched)
         for junk in (
             b"\0\1\0\0",

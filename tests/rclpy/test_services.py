@@ -198,23 +198,75 @@ def test_pending_requests_by_number(node):
         client.get_pending_request(2)
 
 
+@pytest.fixture
+def stranger(node, wait_until):
+    """A client whose subscription to replies does not exist yet: its publisher, and a function that sends requests."""
+    participant, qos = node._Coframe__participant, QoS(depth=200)
+    requests = participant.service_publisher(
+        participant.add_node("/", "stranger"), "/trigger", Trigger.Request, qos, "request", user_data="clientid=7;"
+    )
+
+    def send(count):
+        wait_until(lambda: requests.matched == 1)
+        for number in range(count):
+            requests.write(request_header.join(RequestHeader(7, number + 1), codec.serialize(Trigger.Request())))
+
+    yield send
+    requests.close()
+
+
 @pytest.mark.dds_only("over Zenoh, a reply needs no subscription")
-def test_requests_without_a_receiver_of_the_replies_do_not_stop_the_node(node, executor, wait_until):
-    """Another node can send any number of them. The service waits for a subscription to replies only once."""
+def test_a_client_without_a_subscription_to_replies_delays_neither_the_node_nor_other_clients(
+    node, executor, stranger, wait_until
+):
     calls = []
     node.create_service(
         Trigger,
         "/trigger",
         lambda request, response: calls.append(request) or response,
-        qos_profile=QoSProfile(depth=100),
+        qos_profile=QoSProfile(depth=200),
     )
-    participant, qos = node._Coframe__participant, QoS(depth=100)
-    requests = participant.service_publisher(
-        participant.add_node("/", "stranger"), "/trigger", Trigger.Request, qos, "request"
-    )
-    wait_until(lambda: requests.matched == 1)
+    client = node.create_client(Trigger, "/trigger")
+    assert client.wait_for_service(timeout_sec=10.0)
+    stranger(150)  # more than the number of replies that are kept for a client
     start = time.monotonic()
-    for number in range(50):
-        requests.write(request_header.join(RequestHeader(7, number + 1), codec.serialize(Trigger.Request())))
-    wait_until(lambda: len(calls) == 50, lambda: executor.spin_once(timeout_sec=0.01))
-    assert time.monotonic() - start < 4  # 5 s if it waited 0.1 s for each
+    wait_until(lambda: len(calls) == 150, lambda: executor.spin_once(timeout_sec=0.01))
+    future = client.call_async(Trigger.Request())
+    wait_until(future.done, lambda: executor.spin_once(timeout_sec=0.01))
+    assert time.monotonic() - start < 1.0  # in which the first reply to the stranger still waits
+
+
+@pytest.mark.dds_only("over Zenoh, a reply needs no subscription")
+def test_a_reply_waits_until_its_client_can_receive_it(node, executor, stranger, wait_until):
+    """Another client of the same process is discovered already, and shows nothing about this one."""
+    calls = []
+    node.create_service(Trigger, "/trigger", lambda request, response: calls.append(request) or response)
+    assert node.create_client(Trigger, "/trigger").wait_for_service(timeout_sec=10.0)
+    stranger(3)
+    wait_until(lambda: len(calls) == 3, lambda: executor.spin_once(timeout_sec=0.01))
+    participant = node._Coframe__participant
+    replies = participant.service_subscription(
+        participant.add_node("/", "late"), "/trigger", Trigger.Response, QoS(), "reply", user_data="clientid=7;"
+    )
+    received = []
+    wait_until(lambda: received.extend(replies.take_messages()) or len(received) == 3)
+    assert [message.header for message in received] == [RequestHeader(7, number) for number in (1, 2, 3)]
+
+
+@pytest.mark.dds_only("over Zenoh, a reply needs no subscription")
+def test_a_service_that_is_destroyed_sends_its_last_reply(node, executor, stranger, wait_until):
+    calls = []
+    service = node.create_service(Trigger, "/trigger", lambda request, response: calls.append(request) or response)
+    stranger(1)
+    wait_until(lambda: calls, lambda: executor.spin_once(timeout_sec=0.01))
+    participant = node._Coframe__participant
+    late = participant.add_node("/", "late")
+    destroying = threading.Thread(target=node.destroy_service, args=(service,))
+    destroying.start()
+    replies = participant.service_subscription(
+        late, "/trigger", Trigger.Response, QoS(), "reply", user_data="clientid=7;"
+    )
+    received = []
+    wait_until(lambda: received.extend(replies.take_messages()) or received)
+    destroying.join()
+    assert received[0].header == RequestHeader(7, 1)

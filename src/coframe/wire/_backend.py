@@ -99,6 +99,24 @@ class BackendWriter(BackendEndpoint, Protocol):
         """Wait until all reliable subscriptions have received all messages. Return False after the timeout."""
 
 
+class BackendServiceWriter(BackendWriter, Protocol):
+    """A publisher of requests or replies."""
+
+    @property
+    def guids(self) -> Sequence[bytes]:
+        """The identifiers of everything on the graph that this publisher consists of, with `guid` first."""
+
+    def reaches(self, header: RequestHeader, writer: int) -> bool:
+        """Return whether a reply that is sent now reaches the client of a request.
+
+        Some middlewares must discover the client's subscription first, which can take longer than the request.
+
+        Args:
+            header: The header of the request.
+            writer: The handle of the writer of the request; 0 if it is not known.
+        """
+
+
 class BackendReader(BackendEndpoint, Protocol):
     """A subscription that queues messages."""
 
@@ -198,13 +216,18 @@ class Session(Protocol):
         checked: bool = False,
         on_change: _core.Event | None = None,
     ) -> BackendWriter:
-        """Create a publisher; with `checked`, `write` raises `EndpointError` for damaged transforms."""
+        """Create a publisher on a topic; with `checked`, `write` raises `EndpointError` for damaged transforms."""
+
+    def service_writer(
+        self, node: GraphNode, endpoint: Endpoint, qos: QoS, user_data: str = ""
+    ) -> BackendServiceWriter:
+        """Create a publisher of requests or replies."""
 
     def reader(self, node: GraphNode, endpoint: Endpoint, qos: QoS, on_data: _core.Event | None) -> BackendReader:
         """Create a subscription to a topic that queues messages."""
 
     def service_reader(
-        self, node: GraphNode, endpoint: Endpoint, qos: QoS, on_data: _core.Event | None
+        self, node: GraphNode, endpoint: Endpoint, qos: QoS, on_data: _core.Event | None, user_data: str = ""
     ) -> BackendServiceReader:
         """Create a subscription that queues requests or replies."""
 

@@ -107,7 +107,7 @@ class EndpointFactory:
         return Subscription(native, node, endpoint, qos, adapts=adapts, on_mismatch=on_mismatch)
 
     def service_publisher(
-        self, node: GraphNode, service: str, message_type: type, qos: QoS, kind: Kind
+        self, node: GraphNode, service: str, message_type: type, qos: QoS, kind: Kind, *, user_data: str = ""
     ) -> ServicePublisher:
         """Create a publisher of requests or replies of `node`.
 
@@ -117,12 +117,14 @@ class EndpointFactory:
             message_type: The class of the requests or replies. They are written after the 16-byte ROS header.
             qos: The offered quality of service.
             kind: "request" or "reply".
+            user_data: Pairs `key=value;`, which the other side can read.
 
         Raises:
             WireError: The middleware cannot create the publisher.
         """
         endpoint = Endpoint(service, names.ros_type_of(message_type), kind)
-        return ServicePublisher(self._session.writer(node, endpoint, qos), node, endpoint, qos, self._graph)
+        native = self._session.service_writer(node, endpoint, qos, user_data)
+        return ServicePublisher(native, node, endpoint, qos, self._graph)
 
     def service_subscription(
         self,
@@ -132,6 +134,8 @@ class EndpointFactory:
         qos: QoS,
         kind: Kind,
         on_data: _core.Event | None = None,
+        *,
+        user_data: str = "",
     ) -> ServiceSubscription:
         """Create a subscription of `node` to requests or replies.
 
@@ -142,12 +146,13 @@ class EndpointFactory:
             qos: The requested quality of service.
             kind: "request" or "reply".
             on_data: An event that is set when messages arrive.
+            user_data: Pairs `key=value;`, which the other side can read.
 
         Raises:
             WireError: The middleware cannot create the subscription.
         """
         endpoint = Endpoint(service, names.ros_type_of(message_type), kind)
-        native = self._session.service_reader(node, endpoint, qos, on_data)
+        native = self._session.service_reader(node, endpoint, qos, on_data, user_data)
         return ServiceSubscription(native, node, endpoint, qos, self._graph)
 
     def raw_publisher(self, node: GraphNode, topic: str, ros_type: str, qos: QoS) -> RawPublisher:

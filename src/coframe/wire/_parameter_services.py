@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from coframe import _core
 from coframe.errors import CoframeError, DecodeError
 from coframe.time import SECOND
-from coframe.wire import names, request_header
+from coframe.wire import names
 from coframe.wire.qos import QoS
 
 if TYPE_CHECKING:
@@ -115,7 +115,7 @@ def _answer(service: _Service) -> None:
         except DecodeError as error:
             service.requests.ignore_request(message, f"is invalid ({error})")
             continue
-        service.replies.write(request_header.join(message.header, serialize(_response(service.srv_type, request))))
+        service.replies.reply(message.header, serialize(_response(service.srv_type, request)), message.writer)
 
 
 def _response(srv_type: Any, request: Any) -> Any:

@@ -13,7 +13,7 @@ from coframe.wire.graph import DiscoveredEndpoint, NodeInfo
 from coframe.wire.system_clock import clock_fault
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
 
     from coframe.wire._backend import BackendEndpoint, BackendReader, BackendWriter
     from coframe.wire.graph import Graph
@@ -85,8 +85,8 @@ class GraphNode:
         return NodeInfo(
             self.namespace,
             self.name,
-            readers=tuple(endpoint.guid for endpoint in endpoints if not endpoint.is_writer),
-            writers=tuple(endpoint.guid for endpoint in endpoints if endpoint.is_writer),
+            readers=tuple(guid for endpoint in endpoints if not endpoint.is_writer for guid in endpoint.guids),
+            writers=tuple(guid for endpoint in endpoints if endpoint.is_writer for guid in endpoint.guids),
         )
 
     def add(self, endpoint: LocalEndpoint) -> None:
@@ -133,6 +133,11 @@ class LocalEndpoint:
         self._lock = threading.Lock()
         self._closed = False
         self.share(node)
+
+    @property
+    def guids(self) -> Sequence[bytes]:
+        """The identifiers of everything on the graph that this endpoint consists of."""
+        return (self.guid,)
 
     @property
     def matched(self) -> int:

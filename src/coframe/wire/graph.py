@@ -68,11 +68,9 @@ class Graph:
 
     Attributes:
         qos_must_match: Whether endpoints with incompatible quality of service do not communicate.
-        replies_need_discovery: Whether a reply reaches only clients that are already discovered.
     """
 
     qos_must_match = True
-    replies_need_discovery = True
 
     def __init__(self) -> None:
         self._lock = threading.Lock()

@@ -3,25 +3,24 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Final, NamedTuple
+from functools import partial
+from typing import TYPE_CHECKING, NamedTuple
 
 from coframe.errors import WireError
 from coframe.wire import names, request_header
+from coframe.wire._delayed_replies import DelayedReplies
 from coframe.wire._foreign_services import foreign_services_text
 from coframe.wire.endpoints import RawPublisher, Sample, Subscription
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
 
-    from coframe.wire._backend import BackendServiceReader, BackendWriter
+    from coframe.wire._backend import BackendServiceReader, BackendServiceWriter
     from coframe.wire.endpoints import GraphNode, LocalEndpoint
     from coframe.wire.graph import DiscoveredEndpoint, Graph
     from coframe.wire.names import Endpoint
     from coframe.wire.qos import QoS
     from coframe.wire.request_header import RequestHeader
-
-
-_PREFIX_SIZE: Final = 12  # bytes of a GUID that identify the participant
 
 
 class RejectedRequestError(WireError):
@@ -43,13 +42,11 @@ class _Peers(NamedTuple):
         understood: The number of matched endpoints that use the same form of requests and replies.
         foreign: An endpoint that uses another form, whether it is matched or not; None if there is none.
         receiver: An endpoint of the same kind that may receive what this process publishes.
-        participants: The GUID prefixes of the participants of matched endpoints that use the same form.
     """
 
     understood: int
     foreign: DiscoveredEndpoint | None
     receiver: DiscoveredEndpoint | None
-    participants: frozenset[bytes]
 
     @property
     def refusing(self) -> DiscoveredEndpoint | None:
@@ -58,17 +55,15 @@ class _Peers(NamedTuple):
 
 
 def _peers(own: LocalEndpoint, graph: Graph, handles: frozenset[int], found: dict[int, DiscoveredEndpoint]) -> _Peers:
-    understood, foreign, receiver, participants = 0, None, None, set()
+    understood, foreign, receiver = 0, None, None
     for handle, peer in found.items():
         if not graph.foreign_services(peer):
-            if handle in handles:
-                understood += 1
-                participants.add(peer.guid[:_PREFIX_SIZE])
+            understood += handle in handles
             continue
         foreign = peer
         if not graph.ignores_requests(peer, own.qos):
             receiver = peer
-    return _Peers(understood, foreign, receiver, frozenset(participants))
+    return _Peers(understood, foreign, receiver)
 
 
 class ServicePublisher(RawPublisher):
@@ -81,11 +76,20 @@ class ServicePublisher(RawPublisher):
 
     on_unreachable: Callable[[str], object] | None = None
 
-    def __init__(self, native: BackendWriter, node: GraphNode, endpoint: Endpoint, qos: QoS, graph: Graph) -> None:
+    def __init__(
+        self, native: BackendServiceWriter, node: GraphNode, endpoint: Endpoint, qos: QoS, graph: Graph
+    ) -> None:
+        self._service_writer = native
         self._graph = graph
         self._sends_requests = endpoint.kind == "request"
         self._known: tuple[int, frozenset[int], _Peers] | None = None
+        self._delayed = DelayedReplies(endpoint.name)
         super().__init__(native, node, endpoint, qos)
+
+    @property
+    def guids(self) -> Sequence[bytes]:
+        """The identifiers of everything on the graph that this publisher consists of."""
+        return self._service_writer.guids
 
     @property
     def matched(self) -> int:
@@ -100,16 +104,37 @@ class ServicePublisher(RawPublisher):
         return "" if peer is None else self._text(peer)
 
     def write(self, cdr: bytes) -> None:
-        """Publish a request or a reply.
+        """Publish a request with its header.
 
         Raises:
-            RefusedRequestError: A server on the graph would misread the request. The request is sent if that server
+            RejectedRequestError: A server on the graph would misread the request. The request is sent if that server
                 does not receive it and another one understands it.
             WireError: As for `Publisher.write`.
         """
         if self._sends_requests and (reason := self.refusal):
             raise RejectedRequestError(reason)
         super().write(cdr)
+
+    def reply(self, header: RequestHeader, cdr: bytes, writer: int) -> None:
+        """Send the reply to a request as soon as its client is discovered, and return at once.
+
+        The reply is sent after one second at the latest. Replies to other clients do not wait for that.
+
+        Args:
+            header: The header of the request.
+            cdr: The reply: 4 bytes of encapsulation, then CDR.
+            writer: The handle of the writer of the request; 0 if it is not known.
+
+        Raises:
+            WireError: As for `Publisher.write`. A reply that cannot be sent later is reported with a warning.
+        """
+        message = request_header.join(header, cdr)
+        self._delayed.send(writer, partial(self._reaches, header, writer), partial(self.write, message))
+
+    def leave(self, node: GraphNode) -> None:
+        """Remove this endpoint from `node`, after the last replies were sent."""
+        self._delayed.finish()
+        super().leave(node)
 
     def report_unreachable(self) -> None:
         """Call `on_unreachable` if all servers would misread the requests."""
@@ -132,18 +157,8 @@ class ServicePublisher(RawPublisher):
         middleware = self._graph.foreign_services(peer)
         return foreign_services_text(self.topic, middleware, self._graph.owner(peer.guid), is_writer=True)
 
-    def reaches(self, writer: int) -> bool:
-        """Return whether a reply that is sent now reaches the client of a request.
-
-        Some middlewares must discover the client's subscription first, which can take longer than the request.
-
-        Args:
-            writer: The handle of the writer of the request.
-        """
-        if not self._graph.replies_need_discovery:
-            return True
-        peers, client = self._peers(), self._graph.writer(writer)
-        return peers.understood > 0 if client is None else client.guid[:_PREFIX_SIZE] in peers.participants
+    def _reaches(self, header: RequestHeader, writer: int) -> bool:
+        return self._read_unless_closed(lambda: self._service_writer.reaches(header, writer), True)
 
 
 class ServiceSubscription(Subscription):

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from coframe.wire.rtps.clients import client_user_data
 from rclpy._entity_registry import EntityRegistry, check_callback
 from rclpy._node_graph import NodeGraph
 from rclpy._node_parameters import NodeParameters
@@ -202,11 +203,13 @@ class Node(NodeParameters, NodeGraph):
             qos_profile._Coframe__to_wire(),
             self._Coframe__graph_node,
         )
-        wakeup = self.context._Coframe__wakeup.event
+        wakeup, identity = self.context._Coframe__wakeup.event, client_user_data()
         replies = self._Coframe__participant.service_subscription(
-            graph_node, name, srv_type.Response, qos, "reply", wakeup
+            graph_node, name, srv_type.Response, qos, "reply", wakeup, user_data=identity
         )
-        requests = self._Coframe__participant.service_publisher(graph_node, name, srv_type.Request, qos, "request")
+        requests = self._Coframe__participant.service_publisher(
+            graph_node, name, srv_type.Request, qos, "request", user_data=identity
+        )
         group = self._Coframe__entities.group(callback_group)
         return self._Coframe__entities.add(
             self._Coframe__client_class(

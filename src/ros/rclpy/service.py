@@ -4,13 +4,11 @@
 from __future__ import annotations
 
 import inspect
-import time
 from functools import partial
 from typing import TYPE_CHECKING, Any, Final
 
 from coframe.errors import DecodeError
 from coframe.messages import codec
-from coframe.wire import request_header
 from rclpy._absent import Handle
 from rclpy._destroyable import LoggingEntity
 from rclpy.service_introspection import REQUEST_RECEIVED, RESPONSE_SENT
@@ -25,12 +23,7 @@ if TYPE_CHECKING:
     from rclpy.qos import QoSProfile
     from rclpy.service_introspection import ServiceEvents, ServiceIntrospectionState
 
-# A client may match the server before the server matches the client. A reply sent before that is lost.
-_MATCH_TIMEOUT_S: Final = 0.5
-# After a timeout, replies are sent at once for this time. Other nodes can send requests at any rate without receiving
-# the replies, and must not stop the executor.
-_MATCH_PAUSE_S: Final = 5.0
-_MAX_CLIENTS: Final = 1000  # whose discovery is awaited
+_MAX_CLIENTS: Final = 1000  # whose writers are remembered
 
 
 class Service(LoggingEntity):
@@ -58,7 +51,6 @@ class Service(LoggingEntity):
         self.__service_name = service_name
         self.callback = callback
         self.callback_group = callback_group
-        self.__next_wait = 0.0
         self.__writers: dict[int, int] = {}  # the handles of the writers of requests, by client ID
         self.qos_profile = qos_profile
 
@@ -93,21 +85,8 @@ class Service(LoggingEntity):
             raise TypeError(f"Expected {self.srv_type.Response}, got {type(response)}")
         if self.__requests is None:
             return
-        self.__wait_for_client(header)
-        self.__replies.write(request_header.join(header, codec.serialize(response)))
+        self.__replies.reply(header, codec.serialize(response), self.__writers.get(header[0], 0))
         self.__events.publish(RESPONSE_SENT, header, response=response)
-
-    def __wait_for_client(self, header: RequestHeader) -> None:
-        """Wait shortly until the client is discovered, because a reply that is sent before does not reach it."""
-        start = time.monotonic()
-        writer = self.__writers.get(header[0], 0)
-        if start < self.__next_wait:
-            return
-        while not self.__replies.reaches(writer):
-            if time.monotonic() - start >= _MATCH_TIMEOUT_S:
-                self.__next_wait = start + _MATCH_PAUSE_S
-                return
-            time.sleep(0.001)
 
     def destroy(self) -> None:
         """Destroy the service. Prefer `Node.destroy_service`."""

@@ -34,8 +34,9 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from coframe import _core
-    from coframe.wire.graph import DiscoveredEndpoint, Graph
+    from coframe.wire.graph import DiscoveredEndpoint
     from coframe.wire.names import Endpoint
+    from coframe_fastdds._graph import FastDdsGraph
 
 MAX_CLIENTS: Final = 10_000  # of a service, which can be answered
 MAX_PENDING: Final = 10_000  # requests of a client that can be answered
@@ -44,7 +45,7 @@ PLAIN_LATENCY_BUDGET: Final = 1000 * MILLISECOND
 _UNKNOWN: Final = bytes(16)
 _READER_KIND: Final = 0x04  # a bit of the last byte of a reader's GUID
 _PREFIX_SIZE: Final = 12  # bytes of a GUID that identify the participant
-_DISCOVERY: Final = 1.0  # seconds in which the reader of a client that has sent a request is discovered
+_DISCOVERY: Final = 1.0  # seconds in which the writer of replies of a server is discovered
 _POLL: Final = 0.001  # seconds
 _NO_NUMBER: Final = 0
 
@@ -133,10 +134,18 @@ class Services:
         """Return the requests to a service."""
         return self._pending.setdefault(service, Pending())
 
-    def adapt(self) -> None:
-        """Create header writers where endpoints of Cyclone DDS have been discovered."""
-        for writer in list(self.writers):
+    def adapt(self) -> bool:
+        """Create header writers where endpoints of Cyclone DDS have been discovered.
+
+        Return whether there are new ones since the last call, which must be announced.
+        """
+        writers = list(self.writers)
+        for writer in writers:
             writer.adapt()
+        new = [writer for writer in writers if writer.is_new]
+        for writer in new:
+            writer.is_new = False
+        return bool(new)
 
 
 class _ServiceReader(native.Reader):
@@ -200,15 +209,18 @@ class ReplyReader(_ServiceReader):
 
 
 class _TwoForms:
-    """A publisher of requests or replies in both forms. Implements `coframe.wire._backend.BackendWriter`.
+    """A publisher of requests or replies in both forms. Implements `coframe.wire._backend.BackendServiceWriter`.
 
     Args:
         endpoint: The topic of the requests or replies.
         graph: The graph, which contains the endpoints on the other side.
         make_writer: Creates the plain writer (False) or the header writer (True).
+
+    Attributes:
+        is_new: Whether the header writer has been created and not been announced.
     """
 
-    def __init__(self, endpoint: Endpoint, graph: Graph, make_writer: Callable[[bool], native.Writer]) -> None:
+    def __init__(self, endpoint: Endpoint, graph: FastDdsGraph, make_writer: Callable[[bool], native.Writer]) -> None:
         self._topic = endpoint.dds_topic
         self._graph = graph
         self._make_writer = make_writer
@@ -216,8 +228,14 @@ class _TwoForms:
         self._header: native.Writer | None = None
         self._lock = threading.Lock()
         self._closed = False
+        self.is_new = False
         self.guid = self._plain.guid
         self.adapt()
+
+    @property
+    def guids(self) -> list[bytes]:
+        """The GUIDs of both writers."""
+        return [writer.guid for writer in self._writers()]
 
     def adapt(self) -> None:
         """Create the header writer if there is an endpoint of Cyclone DDS on the other side."""
@@ -288,6 +306,10 @@ class _TwoForms:
             for writer in self._writers():
                 writer.close()
 
+    def reaches(self, header: RequestHeader, writer: int) -> bool:
+        """Return whether a reply that is sent now reaches the client of a request."""
+        raise NotImplementedError
+
     def _send(self, header: RequestHeader, cdr: bytes, message: bytes) -> None:
         raise NotImplementedError
 
@@ -295,6 +317,7 @@ class _TwoForms:
         with self._lock:
             if self._header is None:
                 self._header = self._make_writer(True)
+                self.is_new = True
                 if self._closed:
                     self._header.close()
             return self._header
@@ -312,7 +335,7 @@ class RequestWriter(_TwoForms):
     def __init__(
         self,
         endpoint: Endpoint,
-        graph: Graph,
+        graph: FastDdsGraph,
         make_writer: Callable[[bool], native.Writer],
         pending: Pending,
         reader: ReplyReader | None,
@@ -334,8 +357,16 @@ class RequestWriter(_TwoForms):
         self._wait_for_replies(plain)
         self._pending.send(header, self._identity, lambda: self._plain.write_related(cdr, self._identity, _NO_NUMBER))
 
+    def reaches(self, header: RequestHeader, writer: int) -> bool:
+        """Return True: requests are not replies."""
+        del header, writer
+        return True
+
     def _wait_for_replies(self, servers: set[bytes]) -> None:
-        """Wait until one of these participants can reply: another server may have been found before."""
+        """Wait until one of these participants can reply: another server may have been found before.
+
+        A server that does not reply in time is not waited for again.
+        """
         deadline = time.monotonic() + _DISCOVERY
         while self._reader is not None and servers and self._ready.isdisjoint(servers):
             writers, matched = self._graph.writers(self._replies), self._reader.matched_handles()
@@ -343,6 +374,7 @@ class RequestWriter(_TwoForms):
             plain = (writer for writer in found if not vendors.shares_services(writer.guid, writer.partitions))
             self._ready = {writer.guid[:_PREFIX_SIZE] for writer in plain}
             if time.monotonic() > deadline:
+                self._ready |= servers
                 return
             time.sleep(_POLL)
 
@@ -351,45 +383,35 @@ class ReplyWriter(_TwoForms):
     """The publisher of replies of a server."""
 
     def __init__(
-        self, endpoint: Endpoint, graph: Graph, make_writer: Callable[[bool], native.Writer], clients: Clients
+        self,
+        endpoint: Endpoint,
+        graph: FastDdsGraph,
+        make_writer: Callable[[bool], native.Writer],
+        clients: Clients,
     ) -> None:
         super().__init__(endpoint, graph, make_writer)
         self._clients = clients
-        self._requests = names.dds_topic(endpoint.name, "request")
+
+    def reaches(self, header: RequestHeader, writer: int) -> bool:
+        """Return whether the subscription to replies of a client is matched."""
+        client = self._clients.find(header.client)
+        if client is None:
+            return True  # the reply is not sent
+        if client.uses_header:
+            return self._graph.has_matched_client(self._header_writer().matched_handles(), writer)
+        matched = self._plain.matched_handles()
+        if client.guid[-1] & _READER_KIND:
+            return native.handle_of(client.guid) in matched
+        return self._graph.has_matched_client(matched, writer)
 
     def _send(self, header: RequestHeader, cdr: bytes, message: bytes) -> None:
         client = self._clients.find(header.client)
         if client is None:
             return
         if client.uses_header:
-            writer = self._header_writer()
-            if self._discovers(client, lambda: self._has_matched(writer, client.guid)):
-                writer.forward(message)
-        elif not client.guid[-1] & _READER_KIND or self._discovers(
-            client, lambda: native.handle_of(client.guid) in self._plain.matched_handles()
-        ):
+            self._header_writer().forward(message)
+        else:
             self._plain.write_related(cdr, client.guid, header.sequence)
-
-    def _discovers(self, client: _Client, has_matched: Callable[[], bool]) -> bool:
-        """Wait until the reader of a client that has just sent a request is matched. Return False if it has left."""
-        deadline = time.monotonic() + _DISCOVERY
-        while not has_matched():
-            requesting = self._graph.writers(self._requests).values()
-            if not any(_same_participant(writer.guid, client.guid) for writer in requesting):
-                return False
-            if time.monotonic() > deadline:
-                return False
-            time.sleep(_POLL)
-        return True
-
-    def _has_matched(self, writer: native.Writer, guid: bytes) -> bool:
-        """Return whether a writer has found a reader in the participant of another endpoint."""
-        matched = set(writer.matched_handles())
-        return any(handle in matched and _same_participant(peer.guid, guid) for handle, peer in self._peers().items())
-
-
-def _same_participant(one: bytes, other: bytes) -> bool:
-    return one[:_PREFIX_SIZE] == other[:_PREFIX_SIZE]
 
 
 def _number_of(guid: bytes) -> int:

@@ -34,7 +34,14 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from coframe.buffer.buffer import Buffer
-    from coframe.wire._backend import BackendReader, BackendServiceReader, BackendTap, BackendWriter, QueueLimits
+    from coframe.wire._backend import (
+        BackendReader,
+        BackendServiceReader,
+        BackendServiceWriter,
+        BackendTap,
+        BackendWriter,
+        QueueLimits,
+    )
     from coframe.wire.endpoints import GraphNode
     from coframe.wire.names import Endpoint
 
@@ -66,6 +73,7 @@ class FastDdsSession:
         )
         self.graph = FastDdsGraph(self.native, info_reader)
         self._services = Services()
+        self._nodes: list[GraphNode] = []
 
     def writer(
         self,
@@ -78,8 +86,7 @@ class FastDdsSession:
         on_change: _core.Event | None = None,
     ) -> BackendWriter:
         """Create a writer."""
-        if endpoint.kind != "topic":
-            return self._service_writer(node, endpoint, qos)
+        del node
         return self._create(native.Writer, endpoint, native_qos(qos), checked, on_change, user_data=user_data)
 
     def reader(self, node: GraphNode, endpoint: Endpoint, qos: QoS, on_data: _core.Event | None) -> BackendReader:
@@ -88,15 +95,15 @@ class FastDdsSession:
         return self._create(native.Reader, endpoint, native_qos(qos), on_data)
 
     def service_reader(
-        self, node: GraphNode, endpoint: Endpoint, qos: QoS, on_data: _core.Event | None
+        self, node: GraphNode, endpoint: Endpoint, qos: QoS, on_data: _core.Event | None, user_data: str = ""
     ) -> BackendServiceReader:
         """Create a reader that queues requests or replies."""
         profile = native_qos(for_service_reader(qos), HEADER_PARTITIONS)
         if endpoint.kind == "request":
             clients = self._services.clients(endpoint.name)
-            return self._create(partial(RequestReader, clients), endpoint, profile, on_data)
+            return self._create(partial(RequestReader, clients), endpoint, profile, on_data, user_data=user_data)
         pending = self._services.pending(endpoint.name)
-        reader = self._create(partial(ReplyReader, pending), endpoint, profile, on_data)
+        reader = self._create(partial(ReplyReader, pending), endpoint, profile, on_data, user_data=user_data)
         pending.offer_reader(node, reader)
         return reader
 
@@ -124,6 +131,7 @@ class FastDdsSession:
 
     def announce(self, nodes: Sequence[GraphNode]) -> None:
         """Publish the nodes of this process with their endpoints."""
+        self._nodes = list(nodes)
         self._announcer.announce(nodes)
 
     def repeat_announcement(self) -> int:
@@ -133,7 +141,8 @@ class FastDdsSession:
 
     def adapt(self) -> str:
         """Adapt nodes and services to the forms that the other participants can read."""
-        self._services.adapt()
+        if self._services.adapt():
+            self._announcer.announce(self._nodes)
         return self._announcer.adapt(self.graph)
 
     def close(self) -> None:
@@ -142,13 +151,16 @@ class FastDdsSession:
         self.graph.close()
         self.native.close()
 
-    def _service_writer(self, node: GraphNode, endpoint: Endpoint, qos: QoS) -> BackendWriter:
+    def service_writer(
+        self, node: GraphNode, endpoint: Endpoint, qos: QoS, user_data: str = ""
+    ) -> BackendServiceWriter:
+        """Create a publisher of requests or replies."""
         # A reader that refuses the plain writer never acknowledges its messages, and would block one that keeps all.
         kept = replace(qos, keep_all=False, depth=_KEEP_ALL) if qos.keep_all else qos
 
         def make_writer(with_header: bool) -> native.Writer:
             profile = native_qos(kept, HEADER_PARTITIONS) if with_header else native_qos(kept, (), PLAIN_LATENCY_BUDGET)
-            return self._create(native.Writer, endpoint, profile)
+            return self._create(native.Writer, endpoint, profile, user_data=user_data)
 
         writer: RequestWriter | ReplyWriter
         if endpoint.kind == "request":

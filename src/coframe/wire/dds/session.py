@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from coframe import _core
 from coframe.errors import WireError
@@ -36,6 +36,29 @@ class DdsServiceReader(_core.Reader):
 
     def reject(self, header: RequestHeader) -> None:
         """Do nothing: DDS stores no requests."""
+
+
+class DdsServiceWriter(_core.Writer):
+    """A writer of requests or replies. Implements `coframe.wire._backend.BackendServiceWriter`.
+
+    Args:
+        graph: The graph.
+        arguments: Those of the native class.
+    """
+
+    def __init__(self, graph: DdsGraph, *arguments: Any) -> None:
+        self._graph = graph
+        super().__init__(*arguments)
+
+    @property
+    def guids(self) -> tuple[bytes]:
+        """The GUID of this writer."""
+        return (self.guid,)
+
+    def reaches(self, header: RequestHeader, writer: int) -> bool:
+        """Return whether the subscription to replies of a client is matched."""
+        del header
+        return self._graph.has_matched_client(self.matched_handles(), writer)
 
 
 class DdsSession:
@@ -88,12 +111,20 @@ class DdsSession:
     ) -> _core.Writer:
         """Create a writer."""
         del node
-        partitions = SERVICE_PARTITIONS if endpoint.kind == "request" and uses_service_partitions(qos) else ()
         return self._create(
             endpoint,
-            lambda topic, data: _core.Writer(
-                self.native.entity, topic, native_qos(qos, partitions), data, checked, on_change
-            ),
+            lambda topic, data: _core.Writer(self.native.entity, topic, native_qos(qos), data, checked, on_change),
+            user_data,
+        )
+
+    def service_writer(self, node: GraphNode, endpoint: Endpoint, qos: QoS, user_data: str = "") -> DdsServiceWriter:
+        """Create a writer of requests or replies."""
+        del node
+        partitions = SERVICE_PARTITIONS if endpoint.kind == "request" and uses_service_partitions(qos) else ()
+        profile = native_qos(qos, partitions)
+        return self._create(
+            endpoint,
+            lambda topic, data: DdsServiceWriter(self.graph, self.native.entity, topic, profile, data),
             user_data,
         )
 
@@ -105,13 +136,13 @@ class DdsSession:
         )
 
     def service_reader(
-        self, node: GraphNode, endpoint: Endpoint, qos: QoS, on_data: _core.Event | None
+        self, node: GraphNode, endpoint: Endpoint, qos: QoS, on_data: _core.Event | None, user_data: str = ""
     ) -> DdsServiceReader:
         """Create a reader that queues requests or replies."""
         del node
         profile = native_qos(for_service_reader(qos), SERVICE_PARTITIONS)
         return self._create(
-            endpoint, lambda topic, data: DdsServiceReader(self.native.entity, topic, profile, data, on_data)
+            endpoint, lambda topic, data: DdsServiceReader(self.native.entity, topic, profile, data, on_data), user_data
         )
 
     def tap(self, node: GraphNode, endpoint: Endpoint, qos: QoS, limits: QueueLimits) -> _core.Tap:

@@ -9,10 +9,13 @@ from typing import TYPE_CHECKING, Any, Protocol
 from coframe.wire import names, vendors
 from coframe.wire.graph import DiscoveredEndpoint, Graph
 from coframe.wire.qos import QoS
+from coframe.wire.rtps.clients import receives_replies
 from coframe.wire.rtps.discovery_info import ADAPTS, TOPIC, decode_info
 from coframe.wire.rtps.user_data import REQUESTS_HISTORY, type_hash_of
 
 if TYPE_CHECKING:
+    from collections.abc import Collection
+
     from coframe.wire._backend import BackendReader
 
 MAX_DEPARTED_WRITERS = 1_000  # remembered after they have left, because their requests may still be queued
@@ -79,6 +82,21 @@ class DdsGraph(Graph):
         """Return what `foreign_services` returns for a writer, even after it has left."""
         writer = self.writer(handle) or self._departed.get(handle)
         return "" if writer is None else self.foreign_services(writer)
+
+    def has_matched_client(self, readers: Collection[int], writer: int) -> bool:
+        """Return whether the subscription to replies of a client is among some readers.
+
+        Args:
+            readers: The handles of the readers.
+            writer: The handle of the client's writer of requests.
+        """
+        client = self.writer(writer)
+        if not self._readers.keys() >= set(readers):
+            self.refresh()
+        with self._lock:
+            found = [self._readers[handle] for handle in readers if handle in self._readers]
+        understanding = (reader for reader in found if not self.foreign_services(reader))
+        return receives_replies(understanding, client)
 
     def gid_sizes(self) -> dict[int, list[str]]:
         """Return the sizes of identifiers that participants of other implementations publish, with their nodes."""

@@ -59,7 +59,6 @@ class ZenohGraph(Graph):
     """
 
     qos_must_match = False
-    replies_need_discovery = False
 
     def __init__(self, session: zenoh.Session, domain: int, changed: _core.Event) -> None:
         super().__init__()

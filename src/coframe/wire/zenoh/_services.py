@@ -250,10 +250,11 @@ class RequestReader(_Queue):
 
 
 class _Sender(BytesWriter):
-    """A publisher of requests or replies. Implements `coframe.wire._backend.BackendWriter`."""
+    """A publisher of requests or replies. Implements `coframe.wire._backend.BackendServiceWriter`."""
 
-    def __init__(self, place: Place, table: ServiceTable, on_change: _core.Event | None) -> None:
-        super().__init__(place.graph, place.endpoint, place.type_hash, place.guid, on_change)
+    def __init__(self, place: Place, table: ServiceTable) -> None:
+        super().__init__(place.graph, place.endpoint, place.type_hash, place.guid, None)
+        self.guids = (place.guid,)
         self.key = place.key_list[0]
         self._table = table
         self._error = _library.load().ZError
@@ -272,6 +273,11 @@ class _Sender(BytesWriter):
             self._send(*parts)
         except self._error as error:
             raise _core.EndpointError(f"could not write: {config.reason_of(error)}") from error
+
+    def reaches(self, header: RequestHeader, writer: int) -> bool:
+        """Return True: a reply needs no discovery."""
+        del header, writer
+        return True
 
     def assert_liveliness(self) -> None:
         """Do nothing: an endpoint is alive as long as its session."""
@@ -292,8 +298,8 @@ class RequestWriter(_Sender):
         ignored: The number of replies that were ignored because they are not replies to the requests.
     """
 
-    def __init__(self, place: Place, table: ServiceTable, on_change: _core.Event | None) -> None:
-        super().__init__(place, table, on_change)
+    def __init__(self, place: Place, table: ServiceTable) -> None:
+        super().__init__(place, table)
         module = _library.load()
         self.ignored = 0
         self._callback = module.handlers.Callback

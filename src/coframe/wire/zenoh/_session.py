@@ -31,7 +31,13 @@ if TYPE_CHECKING:
 
     from coframe import _core
     from coframe.buffer.buffer import Buffer
-    from coframe.wire._backend import BackendReader, BackendServiceReader, BackendWriter, QueueLimits
+    from coframe.wire._backend import (
+        BackendReader,
+        BackendServiceReader,
+        BackendServiceWriter,
+        BackendWriter,
+        QueueLimits,
+    )
     from coframe.wire.endpoints import GraphNode
     from coframe.wire.names import Endpoint
     from coframe.wire.qos import QoS
@@ -87,15 +93,22 @@ class ZenohSession:
     ) -> BackendWriter:
         """Create a publisher."""
         type_hash = self._required_hash(endpoint)
+        identity = self._identify(node, _tokens.PUBLISHER, endpoint, type_hash, qos, user_data=user_data)
+        place = self._place(endpoint, type_hash, identity.gid)
+        return self._open_endpoint(endpoint, lambda: ZenohWriter(place, qos, checked=checked, on_change=on_change))
+
+    def service_writer(
+        self, node: GraphNode, endpoint: Endpoint, qos: QoS, user_data: str = ""
+    ) -> BackendServiceWriter:
+        """Create a publisher of requests or replies."""
+        del user_data  # Zenoh itself connects a reply with its request
+        type_hash = self._required_hash(endpoint)
         if endpoint.kind == "reply":
             place = self._place(endpoint, type_hash, os.urandom(16))
-            return self._open_endpoint(endpoint, lambda: ReplyWriter(place, self._services, on_change))
-        kind = _tokens.PUBLISHER if endpoint.kind == "topic" else _tokens.CLIENT
-        identity = self._identify(node, kind, endpoint, type_hash, qos, user_data=user_data)
+            return self._open_endpoint(endpoint, lambda: ReplyWriter(place, self._services))
+        identity = self._identify(node, _tokens.CLIENT, endpoint, type_hash, qos)
         place = self._place(endpoint, type_hash, identity.gid)
-        if endpoint.kind == "request":
-            return self._open_endpoint(endpoint, lambda: RequestWriter(place, self._services, on_change))
-        return self._open_endpoint(endpoint, lambda: ZenohWriter(place, qos, checked=checked, on_change=on_change))
+        return self._open_endpoint(endpoint, lambda: RequestWriter(place, self._services))
 
     def reader(self, node: GraphNode, endpoint: Endpoint, qos: QoS, on_data: _core.Event | None) -> BackendReader:
         """Create a subscription that queues messages."""
@@ -103,9 +116,10 @@ class ZenohSession:
         return self._open_endpoint(endpoint, lambda: ZenohReader(place, qos, on_data))
 
     def service_reader(
-        self, node: GraphNode, endpoint: Endpoint, qos: QoS, on_data: _core.Event | None
+        self, node: GraphNode, endpoint: Endpoint, qos: QoS, on_data: _core.Event | None, user_data: str = ""
     ) -> BackendServiceReader:
         """Create a subscription that queues requests or replies."""
+        del user_data
         type_hash = self._required_hash(endpoint)
         if endpoint.kind == "reply":
             place = self._place(endpoint, type_hash, os.urandom(16))
