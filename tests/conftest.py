@@ -5,9 +5,11 @@ import itertools
 import os
 import shutil
 import signal
+import socket
 import subprocess
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Container, Iterator
+from contextlib import AbstractContextManager, contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -16,13 +18,11 @@ import pytest
 # Shells start background jobs with Ctrl-C ignored, and children would inherit that: tests are about Ctrl-C, too.
 signal.signal(signal.SIGINT, signal.default_int_handler)
 
-# Test processes that run side by side each have their own domains.
-_WORKERS = int(os.environ.get("PYTEST_XDIST_WORKER_COUNT", "1"))
-_worker = int(os.environ.get("PYTEST_XDIST_WORKER", "gw0").removeprefix("gw"))
 # The ports of higher domains are in the range from which the system takes ports for other sockets.
 _DOMAINS = 96
+_CLAIM_PORT = 31_500  # plus the domain: the TCP port that a test binds as long as it uses a domain
 _PATIENCE = 20.0  # seconds; two cores that others use too
-_domain_ids = itertools.count(os.getpid() % 97)
+_domain_ids = itertools.count(os.getpid())
 
 
 _WIRE = os.environ.get("COFRAME_WIRE")
@@ -49,13 +49,34 @@ def zenoh_router() -> Iterator[Any]:
     router.close()
 
 
+@contextmanager
+def _claim_domain(excluded: Container[int] = ()) -> Iterator[int]:
+    for _ in range(_DOMAINS):
+        number = 1 + next(_domain_ids) % _DOMAINS
+        with socket.socket() as claim:
+            try:
+                claim.bind(("127.0.0.1", _CLAIM_PORT + number))
+            except OSError:  # another process uses the domain
+                continue
+            if number not in excluded:
+                yield number
+                return
+    pytest.fail("tests use all DDS domains of this machine")
+
+
+@pytest.fixture(scope="session")
+def claim_domain() -> Callable[..., AbstractContextManager[int]]:
+    """Claims a DDS domain that no other test process of this machine uses, until the context ends."""
+    return _claim_domain
+
+
 @pytest.fixture
-def domain_id(monkeypatch: pytest.MonkeyPatch) -> int:
+def domain_id(monkeypatch: pytest.MonkeyPatch) -> Iterator[int]:
     """A DDS domain of this test's own, also set as ROS_DOMAIN_ID for this process and its children."""
-    number = 1 + _worker + _WORKERS * (next(_domain_ids) % (_DOMAINS // _WORKERS))
-    monkeypatch.setenv("ROS_DOMAIN_ID", str(number))
-    monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
-    return number
+    with _claim_domain() as number:
+        monkeypatch.setenv("ROS_DOMAIN_ID", str(number))
+        monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
+        yield number
 
 
 @pytest.fixture

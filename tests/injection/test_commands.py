@@ -89,16 +89,16 @@ def test_texts_of_files(files, tmp_path, case):
 
 
 @pytest.fixture(scope="module")
-def graph():
+def graph(claim_domain):
     """A process with hostile nodes in its own domain; the environment of its neighbors."""
     pytest.importorskip("dds_library", reason="nodes are found over DDS")
-    domain = str(100 + os.getpid() % 100)
     program = [sys.executable, str(Path(__file__).with_name("hostile_node.py"))]
-    environment = {**os.environ, "ROS_DOMAIN_ID": domain, "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
-    with subprocess.Popen(program, env=environment, stdin=subprocess.PIPE, stdout=subprocess.PIPE) as process:
-        assert process.stdout.readline() == b"ready\n"
-        yield environment
-        process.stdin.close()
+    with claim_domain() as domain:
+        environment = {**os.environ, "ROS_DOMAIN_ID": str(domain), "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
+        with subprocess.Popen(program, env=environment, stdin=subprocess.PIPE, stdout=subprocess.PIPE) as process:
+            assert process.stdout.readline() == b"ready\n"
+            yield environment
+            process.stdin.close()
 
 
 @pytest.mark.parametrize(

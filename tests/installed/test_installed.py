@@ -122,11 +122,11 @@ def test_the_page_is_served():
 
 
 @needs_dds
+@pytest.mark.usefixtures("domain_id")
 def test_the_report_about_this_system():
     pytest.importorskip("click", reason="needs coframe[cli]")
-    here = {**os.environ, "ROS_DOMAIN_ID": "93", "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
     command = [script("coframe"), "doctor", "--system"]
-    shown = subprocess.run(command, capture_output=True, text=True, check=False, env=here, timeout=100).stdout
+    shown = subprocess.run(command, capture_output=True, text=True, check=False, timeout=100).stdout
     assert f"coframe {coframe.__version__}, numpy {np.__version__}" in shown
     assert f"Python {platform.python_version()} (CPython" in shown
     assert "not found" not in shown.partition("DDS library\n")[2].partition("\n")[0]
@@ -164,6 +164,7 @@ def test_a_replay_is_written(tmp_path):
 
 
 @needs_dds
+@pytest.mark.usefixtures("domain_id")
 def test_a_node_publishes_a_transform():
     program = """
 import coframe, rclpy, time
@@ -179,11 +180,11 @@ with coframe.connect() as connection:
     print(connection.buffer.lookup("base", "lidar", timeout="20s").translation.tolist())
 rclpy.shutdown()
 """
-    here = {"ROS_DOMAIN_ID": "91", "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
-    assert python(program, **here).splitlines()[-1] == "[0.0, 0.0, 0.0]"
+    assert python(program).splitlines()[-1] == "[0.0, 0.0, 0.0]"
 
 
 @needs_dds
+@pytest.mark.usefixtures("domain_id")
 def test_the_demo_runs():
     pytest.importorskip("click", reason="needs coframe[cli]")
     shown = subprocess.run(
@@ -191,7 +192,6 @@ def test_the_demo_runs():
         capture_output=True,
         text=True,
         check=True,
-        env={**os.environ, "ROS_DOMAIN_ID": "92", "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"},
         timeout=100,
     ).stdout
     assert re.search(r"^http://127\.0\.0\.1:\d+/$", shown, re.MULTILINE)

@@ -13,18 +13,19 @@ pytest.importorskip("dds_library", reason="the wire needs a DDS library")
 
 from coframe.wire import GraphNode, Participant
 
-_WORKERS = 4  # as in tests/conftest.py: each has every fourth domain
 _PATIENCE = 20.0  # seconds; two cores that others use too
 
 
 @pytest.fixture
-def domain_id(domain_id: int, monkeypatch: pytest.MonkeyPatch) -> int:
+def domain_id(domain_id: int, claim_domain, monkeypatch: pytest.MonkeyPatch) -> Iterator[int]:
     """A domain ID that no earlier test of this process has left open. IDs are reused."""
-    number = domain_id
-    while any(domain == number for _, domain in Participant._instances):
-        number = 1 + (number + _WORKERS - 1) % 200
-    monkeypatch.setenv("ROS_DOMAIN_ID", str(number))
-    return number
+    used = {domain for _, domain in Participant._instances}
+    if domain_id not in used:
+        yield domain_id
+        return
+    with claim_domain(excluded=used) as number:
+        monkeypatch.setenv("ROS_DOMAIN_ID", str(number))
+        yield number
 
 
 @pytest.fixture

@@ -16,23 +16,22 @@ from coframe.cli.app import app
 
 
 @pytest.fixture(scope="session")
-def graph():
+def graph(claim_domain):
     """The node of graph_program.py, in its own domain."""
-    # A domain that the fixture domain_id does not use.
-    worker = int(os.environ.get("PYTEST_XDIST_WORKER", "gw0").removeprefix("gw"))
-    environment = {"ROS_DOMAIN_ID": str(97 + worker % 4), "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
-    program = subprocess.Popen(
-        [sys.executable, Path(__file__).with_name("graph_program.py")],
-        stdout=subprocess.PIPE,
-        text=True,
-        env={**os.environ, **environment},
-    )
-    assert program.stdout.readline() == "ready\n"
-    program.environment = environment
-    yield program
-    program.kill()
-    program.wait()
-    program.stdout.close()
+    with claim_domain() as domain:
+        environment = {"ROS_DOMAIN_ID": str(domain), "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
+        program = subprocess.Popen(
+            [sys.executable, Path(__file__).with_name("graph_program.py")],
+            stdout=subprocess.PIPE,
+            text=True,
+            env={**os.environ, **environment},
+        )
+        assert program.stdout.readline() == "ready\n"
+        program.environment = environment
+        yield program
+        program.kill()
+        program.wait()
+        program.stdout.close()
 
 
 @pytest.fixture

@@ -212,11 +212,14 @@ class Demo:
 
 
 @pytest.fixture(scope="package")
-def demo(tmp_path_factory) -> Iterator[Demo]:
+def demo(tmp_path_factory, claim_domain) -> Iterator[Demo]:
     """Start one demo for all tests of this folder, in a domain that no other test uses."""
     pytest.importorskip("dds_library", reason="the demo uses DDS")
-    worker = os.environ.get("PYTEST_XDIST_WORKER", "gw0").removeprefix("gw")
-    domain = 201 + (os.getppid() + int(worker)) % 9
+    with claim_domain() as domain:
+        yield from _run_demo(tmp_path_factory, domain)
+
+
+def _run_demo(tmp_path_factory, domain) -> Iterator[Demo]:
     output = tmp_path_factory.mktemp("demo") / "output"
     environment = {**os.environ, "ROS_DOMAIN_ID": str(domain), "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
     command = [str(Path(sys.executable).with_name("coframe")), "demo", "--no-browser", "--port", "0"]
