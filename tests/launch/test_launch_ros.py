@@ -11,14 +11,11 @@ pytest.importorskip("dds_library", reason="the nodes speak DDS")
 from launch.actions import EmitEvent, ExecuteProcess, LogInfo, RegisterEventHandler, Shutdown
 from launch.substitutions import SubstitutionFailure
 from launch_ros.actions import (
-    ComposableNodeContainer,
     LifecycleNode,
-    LoadComposableNodes,
     RosTimer,
     SetParameter,
     SetROSLogDir,
 )
-from launch_ros.descriptions import ComposableNode
 from launch_ros.event_handlers import OnStateTransition
 from launch_ros.events import matches_node_name
 from launch_ros.events.lifecycle import ChangeState
@@ -111,28 +108,6 @@ def test_a_lifecycle_node_starts_by_itself_and_a_timer_ends_it(launched, managed
 def test_unknown_transitions():
     with pytest.raises(ValueError, match=r"55 is not a transition. Known transitions: 0 \(create\), 1 \(configure"):
         ChangeState(lifecycle_node_matcher=lambda _: True, transition_id=55)
-
-
-def test_components_are_reported_and_the_rest_is_launched(launched):
-    component = ComposableNode(package="image_proc", plugin="image_proc::RectifyNode", name="rectify")
-    container = ComposableNodeContainer(
-        package="rclcpp_components",
-        executable="component_container",
-        name="container",
-        namespace="",
-        composable_node_descriptions=[component],
-    )
-    code, lines = launched(
-        container,
-        LoadComposableNodes(target_container=container, composable_node_descriptions=[component]),
-        LogInfo(msg="the rest"),
-    )
-    assert code == 0
-    assert lines[0].startswith(
-        "[ERROR] [launch_ros]: container: composable nodes are C++ libraries, which need a ROS 2 installation; "
-        "not loaded: image_proc::RectifyNode. Use nodes in Python with Node(...), or source a ROS 2"
-    )
-    assert messages(lines) == ["the rest"]
 
 
 def test_packages_executables_and_parameters(launched, perform, context, tmp_path, monkeypatch):

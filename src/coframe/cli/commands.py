@@ -153,6 +153,13 @@ COMMANDS: dict[str, CommandRow] = {
     "lifecycle": CommandRow(
         "Change the states of lifecycle nodes, like ros2 lifecycle.", "ros2.lifecycle", ("dds",), graph=True, ros=True
     ),
+    "component": CommandRow(
+        "Load composable nodes into one process, like ros2 component.",
+        "ros2.component",
+        ("dds", "params"),
+        graph=frozenset({"list", "load", "standalone", "unload"}),
+        ros=True,
+    ),
     "interface": CommandRow(
         "Show types, like ros2 interface, and add your own packages.",
         "ros2.interface",

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from coframe.distributions import since
 from rcl_interfaces.msg import ParameterEvent
-from rclpy import _arguments, _node_endpoints
+from rclpy import _arguments, _composition, _node_endpoints
 from rclpy._absent import Handle
 from rclpy._arguments import Arguments
 from rclpy._destroyable import destroyed
@@ -83,6 +83,8 @@ class Node(_node_endpoints.Node):
 
     handle = Handle()
     _Coframe__clock_class: type[ROSClock] = ROSClock
+    _Coframe__composed = staticmethod(_composition.composed)
+    _Coframe__composed_options = _composition.ComposedOptions
 
     def __init__(
         self,
@@ -103,6 +105,10 @@ class Node(_node_endpoints.Node):
         self.__context = context or get_default_context()
         if not self.__context.ok():
             raise NotInitializedException("cannot create node")
+        if (given := _composition.take_options(self)) is not None:
+            cli_args = [*given.cli_args, *(cli_args or ())]
+            parameter_overrides = [*(parameter_overrides or ()), *given.parameter_overrides]
+            use_global_arguments = given.use_global_arguments
         arguments = _arguments_for(self.__context, cli_args, use_global_arguments=use_global_arguments)
         self._Coframe__names = _names_for(node_name, namespace or "", arguments)
         self.__executor: Callable[[], Executor | None] = _no_executor

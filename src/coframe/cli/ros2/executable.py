@@ -16,6 +16,7 @@ __all__ = ["is_own_script", "real_executable", "ros2", "rviz2"]
 _COMMANDS = (
     "action",
     "bag",
+    "component",
     "doctor",
     "interface",
     "launch",
@@ -35,7 +36,6 @@ _UNSUPPORTED_COMMANDS = {
     "control": "The controllers of ros2_control are C++ programs: they run where ROS is installed.",
     "trace": "Record the graph with ros2 bag record; coframe monitor shows rates, delays and ages of transforms.",
     "plugin": _EXTENSIONS,
-    "component": "C++ components cannot be loaded. Start the node as a process: ros2 run PACKAGE EXECUTABLE.",
     "multicast": "coframe doctor shows whether nodes are discovered.",
     "security": "SECURITY.md of coframe describes what protects the ROS graph.",
     "test": "Run tests with pytest.",

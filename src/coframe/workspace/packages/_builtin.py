@@ -10,11 +10,17 @@ from typing import Final
 
 from coframe.workspace.ros_folders import ros_folder
 
-__all__ = ["EXECUTABLES", "names", "share"]
+__all__ = ["COMPONENTS", "EXECUTABLES", "names", "share"]
 
 _COMMAND: Final = "coframe.cli:main"
 _DEMOS: Final = ("talker", "listener", "add_two_ints_server", "add_two_ints_client")
-_FOLDERS: Final = {"demo_nodes_cpp": "demo_nodes_py"}  # packages with the launch files of others
+_CONTAINERS: Final = ("component_container", "component_container_mt", "component_container_isolated")
+# Packages with the files of others.
+_FOLDERS: Final = {
+    "composition": "demo_nodes_py",
+    "demo_nodes_cpp": "demo_nodes_py",
+    "rclcpp_components": "rclpy_components",
+}
 # Package -> executable -> its function, and arguments. A module that is not installed has no executable.
 EXECUTABLES: Final[dict[str, dict[str, tuple[str, ...]]]] = {
     "robot_state_publisher": {"robot_state_publisher": ("robot_state_publisher:main",)},
@@ -33,6 +39,9 @@ EXECUTABLES: Final[dict[str, dict[str, tuple[str, ...]]]] = {
     },
     "demo_nodes_py": {name: (f"demo_nodes_py.{name}:main",) for name in _DEMOS},
     "demo_nodes_cpp": {name: (f"demo_nodes_py.{name}:main",) for name in _DEMOS},
+    "composition": {},
+    "rclpy_components": {name: (f"rclpy_components.{name}:main",) for name in _CONTAINERS},
+    "rclcpp_components": {name: (f"rclpy_components.{name}:main",) for name in _CONTAINERS},
     "turtle_tf2_py": {
         name: (f"turtle_tf2_py.{name}:main",) for name in ("turtle_tf2_broadcaster", "turtle_tf2_listener")
     },
@@ -49,6 +58,15 @@ EXECUTABLES: Final[dict[str, dict[str, tuple[str, ...]]]] = {
             "tf_listener",
         )
     },
+}
+
+# Package -> name of the composable node -> its class.
+COMPONENTS: Final[dict[str, dict[str, str]]] = {
+    package: {
+        f"{package}::Talker": "demo_nodes_py.talker:Talker",
+        f"{package}::Listener": "demo_nodes_py.listener:Listener",
+    }
+    for package in ("composition", "demo_nodes_cpp", "demo_nodes_py")
 }
 
 

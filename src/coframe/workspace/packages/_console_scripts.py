@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Read the console scripts that a Python package declares, without running its files."""
+"""Read the console scripts and components that a Python package declares, without running its files."""
 
 from __future__ import annotations
 
@@ -7,12 +7,13 @@ import ast
 import configparser
 import re
 import sys
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from coframe._files.regular_files import read_regular_text
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
+    from collections.abc import Iterable, Iterator, Mapping
     from pathlib import Path
 
 __all__ = ["PythonPackage", "read", "short", "value_of"]
@@ -20,7 +21,9 @@ __all__ = ["PythonPackage", "read", "short", "value_of"]
 MAX_BYTES = 1 << 18  # of a file
 _MAX_DOTS = 4000  # of pyproject.toml; a key takes quadratic time, and this many dots in one key half a second
 
-_SCRIPT = re.compile(r"\s*([\w.\-]+)\s*=\s*([\w.]+\s*:\s*[\w.]+)\s*(?:\[.*\])?\s*", re.ASCII)
+_COMPONENTS = "rclpy_components"  # group of the entry points of composable nodes
+# Names of components contain colons: demo_nodes_py::Talker
+_SCRIPT = re.compile(r"\s*([\w.\-:]+)\s*=\s*([\w.]+\s*:\s*[\w.]+)\s*(?:\[.*\])?\s*", re.ASCII)
 
 
 class PythonPackage(NamedTuple):
@@ -30,16 +33,19 @@ class PythonPackage(NamedTuple):
         scripts: ``module:function`` of each console script.
         files: Paths of script files, relative to the package.
         root: Folder for PYTHONPATH, relative to the package.
+        components: ``module:class`` of each composable node.
     """
 
     scripts: dict[str, str]
     files: tuple[str, ...] = ()
     root: str = "."
+    components: Mapping[str, str] = MappingProxyType({})
 
 
 def read(package: Path) -> PythonPackage:
     """Read ``setup.py``, ``setup.cfg`` and ``pyproject.toml``; missing or damaged files are ignored."""
     scripts: dict[str, str] = {}
+    components: dict[str, str] = {}
     files: tuple[str, ...] = ()
     root = ""
     for name, reader in (("pyproject.toml", _pyproject), ("setup.cfg", _setup_cfg), ("setup.py", _setup_py)):
@@ -48,11 +54,16 @@ def read(package: Path) -> PythonPackage:
         except (OSError, ValueError, SyntaxError, RecursionError, MemoryError, configparser.Error):
             continue
         scripts |= found.scripts
+        components |= found.components
         files += found.files
         root = root or (found.root if found.root != "." else "")
-    if not root and (package / "src").is_dir() and _modules_in(package / "src", scripts.values()):
+    if (
+        not root
+        and (package / "src").is_dir()
+        and _modules_in(package / "src", [*scripts.values(), *components.values()])
+    ):
         root = "src"
-    return PythonPackage(scripts, files, root or ".")
+    return PythonPackage(scripts, files, root or ".", components)
 
 
 def _modules_in(folder: Path, targets: Iterable[str]) -> bool:
@@ -70,11 +81,14 @@ def _parse_lines(lines: Any) -> Iterator[tuple[str, str]]:
 def _setup_cfg(text: str) -> PythonPackage:
     parser = configparser.ConfigParser(interpolation=None)
     parser.read_string(text)
-    scripts = dict(_parse_lines(parser.get("options.entry_points", "console_scripts", fallback="")))
+    scripts, components = (
+        dict(_parse_lines(parser.get("options.entry_points", group, fallback="")))
+        for group in ("console_scripts", _COMPONENTS)
+    )
     folders = parser.get("options", "package_dir", fallback="")
     root = next((line.strip()[1:].strip() for line in folders.splitlines() if line.strip().startswith("=")), ".")
     files = parser.get("options", "scripts", fallback="").split()
-    return PythonPackage(scripts, tuple(files), root)
+    return PythonPackage(scripts, tuple(files), root, components)
 
 
 def _pyproject(text: str) -> PythonPackage:
@@ -84,13 +98,24 @@ def _pyproject(text: str) -> PythonPackage:
         import tomllib  # noqa: PLC0415 - Python 3.10 does not have it
 
         tables: dict[str, Any] = tomllib.loads(text)
-        declared = tables.get("project", {}).get("scripts") or tables.get("tool", {}).get("poetry", {}).get("scripts")
+        project = tables.get("project", {})
+        declared = project.get("scripts") or tables.get("tool", {}).get("poetry", {}).get("scripts")
+        composed = project.get("entry-points", {}).get(_COMPONENTS)
     else:
-        section = re.search(r"(?ms)^\[(?:project|tool\.poetry)\.scripts\]\s*$(.*?)(?=^\[|\Z)", text)
-        pair = re.compile(r"""(?m)^\s*["']?([\w.\-]+)["']?\s*=\s*["']([^"']+)["']""")
-        declared = dict(pair.findall(section[1] if section else ""))
-    lines = [f"{name} = {target}" for name, target in (declared or {}).items()]
-    return PythonPackage(dict(_parse_lines(lines)))
+        declared = _pairs_in(r"(?:project|tool\.poetry)\.scripts", text)
+        composed = _pairs_in(rf"project\.entry-points\.{_COMPONENTS}", text)
+    scripts, components = (
+        dict(_parse_lines([f"{name} = {target}" for name, target in (table or {}).items()]))
+        for table in (declared, composed)
+    )
+    return PythonPackage(scripts, components=components)
+
+
+def _pairs_in(table: str, text: str) -> dict[str, str]:
+    """Return the strings in a table of pyproject.toml; Python 3.10 has no parser."""
+    section = re.search(rf"(?ms)^\[{table}\]\s*$(.*?)(?=^\[|\Z)", text)
+    pair = re.compile(r"""(?m)^\s*["']?([\w.\-:]+)["']?\s*=\s*["']([^"']+)["']""")
+    return dict(pair.findall(section[1] if section else ""))
 
 
 def _setup_py(text: str) -> PythonPackage:
@@ -109,11 +134,16 @@ def _setup_py(text: str) -> PythonPackage:
 def _from_setup_arguments(arguments: dict[str, Any]) -> PythonPackage:
     entry_points = arguments.get("entry_points") or {}
     if isinstance(entry_points, str):  # the format of an .ini file
-        parser = configparser.ConfigParser(interpolation=None)
+        parser = configparser.ConfigParser(interpolation=None, delimiters=("=",))
+        parser.optionxform = str  # type: ignore[assignment, method-assign]  # names keep their case
         parser.read_string(entry_points)
-        lines: Any = parser.items("console_scripts") if parser.has_section("console_scripts") else []
-        entry_points = {"console_scripts": [f"{name} = {target}" for name, target in lines]}
-    scripts = dict(_parse_lines(entry_points.get("console_scripts"))) if isinstance(entry_points, dict) else {}
+        entry_points = {
+            group: [f"{name} = {target}" for name, target in parser.items(group)] for group in parser.sections()
+        }
+    scripts, components = (
+        dict(_parse_lines(entry_points.get(group))) if isinstance(entry_points, dict) else {}
+        for group in ("console_scripts", _COMPONENTS)
+    )
     files = arguments.get("scripts")
     folders = arguments.get("package_dir")
     root = folders.get("") if isinstance(folders, dict) else None
@@ -121,6 +151,7 @@ def _from_setup_arguments(arguments: dict[str, Any]) -> PythonPackage:
         scripts,
         tuple(file for file in files if isinstance(file, str)) if isinstance(files, list) else (),
         root if isinstance(root, str) and root else ".",
+        components,
     )
 
 

@@ -1,14 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The action that runs a container of composable nodes in C++, which coframe cannot load."""
+"""The action that runs a container of composable nodes, and loads nodes into it."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-import launch.logging
 from launch.frontend.expose import expose_action
-from launch.utilities import normalize_to_list_of_substitutions
-from launch_ros.actions.load_composable_nodes import parse_composable_nodes, report
+from launch_ros.actions.load_composable_nodes import LoadComposableNodes, parse_composable_nodes
 from launch_ros.actions.node import Node
 
 if TYPE_CHECKING:
@@ -23,7 +21,7 @@ __all__ = ["ComposableNodeContainer"]
 
 @expose_action("node_container")
 class ComposableNodeContainer(Node):
-    """A container of composable nodes; its execution logs an error, and the rest of the system is launched.
+    """Run a container, and load composable nodes into it.
 
     Args:
         name: Name of the container.
@@ -41,8 +39,7 @@ class ComposableNodeContainer(Node):
         **options: Any,
     ) -> None:
         super().__init__(name=name, namespace=namespace, **options)
-        self.__name = normalize_to_list_of_substitutions(name)
-        self.__descriptions = composable_node_descriptions or []
+        self.__descriptions = composable_node_descriptions
 
     @classmethod
     def parse(cls, entity: Entity, parser: Parser) -> tuple[type[Action], dict[str, Any]]:
@@ -51,6 +48,8 @@ class ComposableNodeContainer(Node):
         return cls, options | {"composable_node_descriptions": parse_composable_nodes(entity, parser)}
 
     def execute(self, context: LaunchContext) -> list[Any] | None:
-        """Log that composable nodes cannot be loaded."""
-        report(context, launch.logging.get_logger("launch_ros"), self.__name, self.__descriptions)
-        return None
+        """Start the container, and return the action that loads its nodes."""
+        actions: list[Any] = []
+        if self.__descriptions:
+            actions.append(LoadComposableNodes(composable_node_descriptions=self.__descriptions, target_container=self))
+        return [*(super().execute(context) or ()), *actions]

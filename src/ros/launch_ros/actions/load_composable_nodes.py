@@ -1,30 +1,44 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The action that loads composable nodes in C++ into a container, which coframe cannot do."""
+"""The action that loads composable nodes into a container."""
 
 from __future__ import annotations
 
+import asyncio
 from typing import TYPE_CHECKING, Any
 
 import launch.logging
+from coframe.workspace.packages.components import IN_CPP
 from launch.action import Action
 from launch.frontend.expose import expose_action
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 from launch_ros.actions.node_parsing import parse_parameters, parse_remappings
 from launch_ros.descriptions.composable_node import ComposableNode
+from launch_ros.ros_adapters import get_ros_node
+from launch_ros.utilities import (
+    add_node_name,
+    evaluate_parameters,
+    get_node_name_count,
+    make_namespace_absolute,
+    prefix_namespace,
+    to_parameters_list,
+)
 
 if TYPE_CHECKING:
-    import logging
-
+    from composition_interfaces.srv import LoadNode
     from launch.frontend import Entity, Parser
     from launch.launch_context import LaunchContext
-    from launch.substitution import Substitution
+    from launch.some_substitutions_type import SomeSubstitutionsType
+    from launch_ros.actions.composable_node_container import ComposableNodeContainer
 
-__all__ = ["LoadComposableNodes", "parse_composable_nodes", "report"]
+__all__ = ["LoadComposableNodes", "get_composable_node_load_request", "parse_composable_nodes"]
+
+_CHECK_PERIOD = 1.0  # seconds between two checks whether the container is there
+_ANSWER = 0.05  # seconds between two checks whether the container has answered
 
 
 @expose_action("load_composable_node")
 class LoadComposableNodes(Action):
-    """Load composable nodes; its execution logs an error, and the rest of the system is launched.
+    """Load composable nodes one after the other; those that cannot be loaded are logged as errors.
 
     Args:
         composable_node_descriptions: The composable nodes.
@@ -33,12 +47,20 @@ class LoadComposableNodes(Action):
     """
 
     def __init__(
-        self, *, composable_node_descriptions: list[ComposableNode], target_container: Any, **options: Any
+        self,
+        *,
+        composable_node_descriptions: list[ComposableNode],
+        target_container: SomeSubstitutionsType | ComposableNodeContainer,
+        **options: Any,
     ) -> None:
         super().__init__(**options)
         self.__descriptions = composable_node_descriptions
-        is_action = isinstance(target_container, Action)
-        self.__target = normalize_to_list_of_substitutions("the container" if is_action else target_container)
+        self.__container = target_container if isinstance(target_container, Action) else None
+        self.__target = (
+            [] if isinstance(target_container, Action) else normalize_to_list_of_substitutions(target_container)
+        )
+        self.__logger = launch.logging.get_logger("launch_ros.actions.load_composable_nodes")
+        self.__task: asyncio.Task[None] | None = None
 
     @classmethod
     def parse(cls, entity: Entity, parser: Parser) -> tuple[type[Action], dict[str, Any]]:
@@ -48,9 +70,128 @@ class LoadComposableNodes(Action):
         return cls, options | {"composable_node_descriptions": parse_composable_nodes(entity, parser) or []}
 
     def execute(self, context: LaunchContext) -> list[Any] | None:
-        """Log that composable nodes cannot be loaded."""
-        report(context, launch.logging.get_logger("launch_ros"), self.__target, self.__descriptions)
+        """Start to load the nodes as soon as the container is there."""
+        container = self.__name_of_container(context)
+        if container is None:
+            self.__logger.error("The target container has no name: its nodes are not loaded.")
+            return None
+        requests = [
+            get_composable_node_load_request(each, context)
+            for each in self.__descriptions
+            if each.condition is None or each.condition.evaluate(context)
+        ]
+        if requests:
+            self.__task = asyncio.ensure_future(self.__load(context, container, requests))
+            context.add_completion_future(self.__task)
         return None
+
+    def __name_of_container(self, context: LaunchContext) -> str | None:
+        if self.__container is not None:
+            is_known = self.__container.is_node_name_fully_specified()
+            return self.__container.node_name if is_known else None
+        base = context.launch_configurations.get("ros_namespace")
+        name = prefix_namespace(base, perform_substitutions(context, self.__target))
+        return make_namespace_absolute(name)
+
+    async def __load(self, context: LaunchContext, container: str, requests: list[LoadNode.Request]) -> None:
+        """Load the nodes; this waits for the container as long as the system is not shut down."""
+        from composition_interfaces.srv import LoadNode  # noqa: PLC0415 - slow to import
+
+        service = f"{container}/_container/load_node"
+        client = get_ros_node(context).create_client(LoadNode, service)
+        loop = asyncio.get_running_loop()
+        while not await loop.run_in_executor(None, client.wait_for_service, _CHECK_PERIOD):
+            if self.__has_ended(context):
+                self.__logger.warning(
+                    f"Abandoning wait for the '{service}' service, due to the end of the container or of the launch."
+                )
+                return
+            if reason := getattr(client, "_Coframe__refusal", ""):  # not in the rclpy of a sourced ROS
+                self.__logger.error(reason)
+                return
+        in_cpp: list[str] = []
+        try:
+            for request in requests:
+                if self.__has_ended(context):
+                    return
+                await self.__load_one(context, container, client.call_async(request), request, in_cpp)
+        finally:
+            if in_cpp:
+                self.__logger.error(
+                    f"{container}: {IN_CPP}; not loaded: {', '.join(in_cpp)}. Use nodes in Python, or source a ROS 2 "
+                    "for this launch file."
+                )
+
+    async def __load_one(
+        self, context: LaunchContext, container: str, future: Any, request: LoadNode.Request, in_cpp: list[str]
+    ) -> None:
+        while not future.done():
+            if self.__has_ended(context):
+                self.__logger.warning(f"Abandoning wait for '{request.plugin_name}' in '{container}', due to shutdown.")
+                return
+            await asyncio.sleep(_ANSWER)
+        response = future.result()
+        if response is not None and IN_CPP in response.error_message:
+            in_cpp.append(request.plugin_name)
+        else:
+            self.__report(context, container, request, response)
+
+    def __has_ended(self, context: LaunchContext) -> bool:
+        return context.is_shutdown or (self.__container is not None and self.__container.return_code is not None)
+
+    def __report(
+        self,
+        context: LaunchContext,
+        container: str,
+        request: LoadNode.Request,
+        response: LoadNode.Response | None,
+    ) -> None:
+        name = request.node_name or request.plugin_name
+        if response is None or not response.success:
+            reason = "no response" if response is None else response.error_message
+            self.__logger.error(
+                f"Failed to load node '{name}' of type '{request.plugin_name}' in container '{container}': {reason}"
+            )
+            return
+        loaded = response.full_node_name or name
+        self.__logger.info(f"Loaded node '{loaded}' in container '{container}'")
+        add_node_name(context, loaded)
+        count = get_node_name_count(context, loaded)
+        if count > 1:
+            self.__logger.warning(
+                f"there are now at least {count} nodes with the name {loaded} created within this launch context"
+            )
+
+
+def get_composable_node_load_request(
+    composable_node_description: ComposableNode, context: LaunchContext
+) -> LoadNode.Request:
+    """Return the request that loads a composable node, with all substitutions performed."""
+    from composition_interfaces.srv import LoadNode  # noqa: PLC0415 - slow to import
+
+    node = composable_node_description
+    request = LoadNode.Request()
+    request.package_name = perform_substitutions(context, node.package)
+    request.plugin_name = perform_substitutions(context, node.node_plugin)
+    if node.node_name is not None:
+        request.node_name = perform_substitutions(context, node.node_name)
+    own = None if node.node_namespace is None else perform_substitutions(context, node.node_namespace)
+    combined = make_namespace_absolute(prefix_namespace(context.launch_configurations.get("ros_namespace"), own))
+    request.node_namespace = combined or ""
+    remaps = list(context.launch_configurations.get("ros_remaps", []))
+    for source, target in node.remappings or ():
+        remaps.append((perform_substitutions(context, source), perform_substitutions(context, target)))
+    request.remap_rules = [f"{before}:={after}" for before, after in remaps]
+    given = [
+        {each[0]: each[1]} if isinstance(each, tuple) else each
+        for each in context.launch_configurations.get("global_params", [])
+    ]
+    given += evaluate_parameters(context, node.parameters or ())
+    request.parameters = to_parameters_list(context, request.node_name, request.node_namespace, given)
+    if node.extra_arguments is not None:
+        extra = evaluate_parameters(context, node.extra_arguments)
+        request.extra_arguments = to_parameters_list(context, request.node_name, request.node_namespace, extra)
+    return request
 
 
 def parse_composable_nodes(entity: Entity, parser: Parser) -> list[ComposableNode] | None:
@@ -58,7 +199,7 @@ def parse_composable_nodes(entity: Entity, parser: Parser) -> list[ComposableNod
     children = entity.get_attr("composable_node", data_type=list, optional=True)
     found = []
     for child in children or ():
-        options: dict[str, Any] = {}
+        _, options = Action.parse(child, parser)  # if and unless
         for name, keyword in (
             ("pkg", "package"),
             ("plugin", "plugin"),
@@ -77,15 +218,3 @@ def parse_composable_nodes(entity: Entity, parser: Parser) -> list[ComposableNod
             options["extra_arguments"] = parse_parameters(extra, parser)
         found.append(ComposableNode(**options))
     return found if children is not None else None
-
-
-def report(
-    context: LaunchContext, logger: logging.Logger, target: list[Substitution], descriptions: list[ComposableNode]
-) -> None:
-    """Log an error that names the composable nodes and what to do."""
-    plugins = [perform_substitutions(context, each.node_plugin) for each in descriptions]
-    logger.error(
-        f"{perform_substitutions(context, target)}: composable nodes are C++ libraries, which need a ROS 2 "
-        f"installation; not loaded: {', '.join(plugins) or 'an empty container'}. Use nodes in Python with Node(...), "
-        "or source a ROS 2 for this launch file."
-    )

@@ -10,6 +10,7 @@ from launch_ros.utilities.namespace_utils import (
 )
 from launch_ros.utilities.normalize_parameters import normalize_parameter_dict, normalize_parameters
 from launch_ros.utilities.normalize_remap_rule import normalize_remap_rule, normalize_remap_rules
+from launch_ros.utilities.to_parameters_list import to_parameters_list
 from launch_ros.utilities.track_node_names import add_node_name, get_node_name_count
 
 __all__ = [
@@ -25,4 +26,5 @@ __all__ = [
     "normalize_remap_rule",
     "normalize_remap_rules",
     "prefix_namespace",
+    "to_parameters_list",
 ]

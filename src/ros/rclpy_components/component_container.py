@@ -1,0 +1,19 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A container whose nodes share an executor with one thread."""
+
+from __future__ import annotations
+
+from coframe.nodes.program import program
+from rclpy.executors import SingleThreadedExecutor
+from rclpy_components._running import run_container
+
+__all__ = ["main"]
+
+
+def main(args: list[str] | None = None) -> None:
+    """Run the container until shutdown."""
+    program("component_container", args, lambda words, _: run_container(SingleThreadedExecutor, words))
+
+
+if __name__ == "__main__":
+    main()
