@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Interface packages that coframe contains as data: their classes are created when they are first used."""
 
+import hashlib
 import importlib
 import inspect
 import pickle
@@ -69,6 +70,28 @@ def test_messages_check_their_fields_as_generated_ones_do() -> None:
         SolidPrimitive.CYLINDER = 4
     assert BoundingBox2D() == BoundingBox2D(size_x=0.0)
     assert BoundingBox2D().center is not BoundingBox2D().center
+
+
+def test_packages_that_are_not_part_of_a_distribution() -> None:
+    from ackermann_msgs.msg import AckermannDriveStamped
+    from gazebo_msgs.srv import SpawnEntity
+    from robot_localization.srv import GetState
+    from ros_gz_interfaces.msg import Entity, EntityFactory
+    from turtlebot3_msgs.msg import SensorState
+    from unitree_go.msg import LowState
+
+    assert AckermannDriveStamped().drive.get_fields_and_field_types()["jerk"] == "float"
+    # The MD5 sum by which ROS 1 identifies the type, which ROS 1 computes from the same fields.
+    fields = AckermannDriveStamped().drive.get_fields_and_field_types()
+    drive = hashlib.md5("\n".join(f"float32 {name}" for name in fields).encode()).hexdigest()
+    header = hashlib.md5(b"uint32 seq\ntime stamp\nstring frame_id").hexdigest()
+    text = f"{header} header\n{drive} drive"
+    assert hashlib.md5(text.encode()).hexdigest() == "1fd5d7f58889cefd44d29f6653240d0c"
+    assert SpawnEntity.Request(name="box").initial_pose.orientation.w == 1.0
+    assert len(GetState.Response().covariance) == 225
+    assert (Entity.MODEL, EntityFactory().relative_to) == (2, "world")
+    assert SensorState.TORQUE_OFF == 2
+    assert len(LowState().motor_state) == 20
 
 
 def test_names_that_do_not_exist_are_import_errors() -> None:

@@ -73,7 +73,7 @@ def test_questions_about_parameters_and_configurations(parameters):
 
 
 def test_packages_of_messages_that_coframe_does_not_have_are_explained():
-    for statement in ("from robot_localization.srv import SetPose", "import px4_msgs.msg"):
+    for statement in ("from unitree_api.msg import Request", "import px4_msgs.msg"):
         done = subprocess.run([sys.executable, "-c", statement], capture_output=True, text=True, check=False)
         assert "coframe interface add FOLDER" in done.stderr.splitlines()[-1]
 

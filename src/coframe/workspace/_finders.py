@@ -32,7 +32,17 @@ _FINDER = "CoframeInterfaces"  # class name of the finders
 _KINDS = ("msg", "srv", "action")
 _PACKAGE = re.compile(r"[a-z](?:_?[a-z0-9])*")
 # Packages of messages and services that many programs import, and whose names do not show what they are.
-_INTERFACES = {"robot_localization", "unitree_api", "unitree_go", "unitree_hg"}
+_INTERFACES = {"unitree_api", "unitree_hg"}
+# Packages that many programs import, and of which no package registry has the definitions.
+_SOURCES = {
+    "controller_manager_msgs": "ros-controls/ros2_control",
+    "mavros_msgs": "mavlink/mavros",
+    "moveit_msgs": "moveit/moveit_msgs",
+    "px4_msgs": "PX4/px4_msgs",
+    "unitree_api": "unitreerobotics/unitree_ros2",
+    "unitree_hg": "unitreerobotics/unitree_ros2",
+    "webots_ros2_msgs": "cyberbotics/webots_ros2",
+}
 _INTERFACE_PACKAGE_NAME = re.compile(r".*_(?:msgs?|srvs?|actions?|interfaces?)")
 
 
@@ -125,8 +135,9 @@ def _advice(name: str) -> str:
     if is_search_off():
         return f"{missing}searches no other one, because Python was started with -I, -P or PYTHONSAFEPATH."
     searched = ", ".join(dict.fromkeys(str(source.folder) for source in sources())) or "any folder"
+    source = f" Its source is {_SOURCES[name]} on GitHub." if name in _SOURCES else ""
     return (
-        f"{missing}found no definitions of it in {searched}. If you have its .msg, .srv or .action files, run "
+        f"{missing}found no definitions of it in {searched}.{source} If you have its .msg, .srv or .action files, run "
         f"`coframe interface add FOLDER`, or set {ENVIRONMENT} to the folder of the package or of its workspace."
     )
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A container in which each node has an executor and a thread of its own."""
+"""A container in which each node has an executor and a dedicated thread."""
 
 from __future__ import annotations
 

@@ -65,7 +65,7 @@ class ComponentManager(Node):
             self.get_logger().error(str(error))
             response.error_message = f"{error} {error.hint}".rstrip()
             return response
-        # A node is the user's code: whatever it raises is the response, as in C++ containers.
+        # A node is the user's code: its exception is the response, as in C++ containers.
         except Exception as error:  # noqa: BLE001 - the response contains it
             self.get_logger().error(f"Component constructor threw an exception: {error}")
             response.error_message = f"Component constructor threw an exception: {type(error).__name__}: {error}"
