@@ -69,7 +69,7 @@ class DelayedReplies:
             send()
 
     def finish(self) -> None:
-        """Wait until no reply waits any more, which takes at most `MAX_DELAY`."""
+        """Wait until no reply waits, which takes at most `MAX_DELAY`."""
         with self._changed:
             self._changed.wait_for(lambda: not self._waiting, MAX_DELAY + _MAX_PAUSE)
 
