@@ -16,7 +16,7 @@ from coframe.cli.app import app
 from coframe.plotting import Figure, PlotError, Series, evaluate
 from coframe.plotting._figure import COLORS, MAX_DRAWN_VALUE
 from coframe.plotting._html_page import MAX_POINTS, as_html
-from coframe.plotting.values import coordinate
+from coframe.transform.quantities import coordinate
 
 LATENCY = 20 * MS
 

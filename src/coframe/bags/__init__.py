@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from coframe.bags.copying import CopyReport, copy_recordings
     from coframe.bags.recording import RecordedMessage, RecordedTopic, Recording, open_bag
     from coframe.bags.summary import EdgeSummary, SensorSummary, Summary, TreeSummary, summarize
+    from coframe.bags.tables import Column, Table, TableQuery
     from coframe.bags.time_points import parse_time_point
     from coframe.errors import RecordingError
     from coframe.trajectories import FORMATS, format_of, write_trajectory
@@ -27,6 +28,7 @@ __all__ = [
     "FORMATS",
     "Cloud",
     "Clouds",
+    "Column",
     "CopyReport",
     "EdgeSummary",
     "OfferedQos",
@@ -39,6 +41,8 @@ __all__ = [
     "RepairReport",
     "SensorSummary",
     "Summary",
+    "Table",
+    "TableQuery",
     "TrajectoryQuery",
     "TreeSummary",
     "Writer",
@@ -61,6 +65,7 @@ _MODULES = {
     "COMPRESSIONS": "coframe.bags._mcap_writer",
     "Cloud": "coframe.bags._clouds",
     "Clouds": "coframe.bags._clouds",
+    "Column": "coframe.bags.tables",
     "CopyReport": "coframe.bags.copying",
     "EdgeSummary": "coframe.bags.summary",
     "FORMATS": "coframe.trajectories",
@@ -74,6 +79,8 @@ _MODULES = {
     "SensorSummary": "coframe.bags.summary",
     "Summary": "coframe.bags.summary",
     "RecordedTopic": "coframe.bags.recording",
+    "Table": "coframe.bags.tables",
+    "TableQuery": "coframe.bags.tables",
     "TrajectoryQuery": "coframe.bags._trajectory_query",
     "TreeSummary": "coframe.bags.summary",
     "Writer": "coframe.bags._writer",

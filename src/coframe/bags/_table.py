@@ -101,7 +101,10 @@ def edge_table(
         ValueError: The format or ``on_gap`` is unknown, or ``max_gap`` is not positive.
     """
     if format_ not in _FORMATS:
-        raise ValueError(f"No format named {format_!r}. Known formats: {', '.join(_FORMATS)}.")
+        raise ValueError(
+            f"No format named {format_!r}. Known formats: {', '.join(_FORMATS)}. "
+            "Columns are topics with fields, such as '/odom.pose', and poses, such as ('map', 'camera')."
+        )
     limit = gap_limit(max_gap, on_gap)
     package, install = _PACKAGES[format_]
     try:

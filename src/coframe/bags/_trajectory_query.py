@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from coframe.buffer.gaps import OnGap
     from coframe.transform.transform import Transform
 
-__all__ = ["BATCH", "MAX_RATE", "TrajectoryQuery"]
+__all__ = ["BATCH", "MAX_RATE", "TrajectoryQuery", "stamps_at_rate"]
 
 MAX_RATE = 1e6  # Hz
 BATCH = 50_000  # poses
@@ -96,7 +96,7 @@ class TrajectoryQuery:
             first, last = stamps[:1] if start is None else start, stamps[-1:] if stop is None else stop
             stamps = stamps[(stamps >= first) & (stamps <= last)]
         elif self.rate is not None:
-            stamps = _stamps_at_rate(buffer.span(self.target, self.source), start, stop, self.rate)
+            stamps = stamps_at_rate(buffer.span(self.target, self.source), start, stop, self.rate)
         else:
             stamps = _stamps_of_samples(buffer, self.target, self.source, start, stop)
         if not stamps.size:
@@ -176,7 +176,8 @@ def _nanoseconds(when: int | str | None, recording: Recording) -> int | None:
     return parse_time_point(when, recording.span) if isinstance(when, str) else when
 
 
-def _stamps_at_rate(span: tuple[int, int], start: int | None, stop: int | None, rate: float) -> NDArray[np.int64]:
+def stamps_at_rate(span: tuple[int, int], start: int | None, stop: int | None, rate: float) -> NDArray[np.int64]:
+    """Return times at a rate in Hz in the part of an interval between two times; they begin at its first time."""
     first = span[0] if start is None else max(start, span[0])
     last = span[1] if stop is None else min(stop, span[1])
     if last < first:

@@ -3,14 +3,16 @@
 
 from __future__ import annotations
 
+import warnings
 import weakref
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal, overload
 
 import numpy as np
 
 from coframe import time
+from coframe._base_error import CoframeWarning
 from coframe._output import html_tables
 from coframe._output.formatting import count
 from coframe.bags._contents import read_contents
@@ -18,18 +20,20 @@ from coframe.bags._decoding import decoder
 from coframe.bags._recorded_message import RecordedMessage, RecordedTopic
 from coframe.bags._table import edge_table
 from coframe.bags.namespaces import TransformChoice, main_span
+from coframe.bags.tables import TableQuery
 from coframe.errors import DecodeError
 from coframe.messages.header_peek import HEADER_BYTES
 
 if TYPE_CHECKING:
     import os
-    from collections.abc import Callable, Iterable, Iterator
+    from collections.abc import Callable, Iterable, Iterator, Sequence
 
-    from numpy.typing import NDArray
+    from numpy.typing import ArrayLike, NDArray
     from typing_extensions import Self
 
     from coframe.bags._contents import Contents
     from coframe.bags.storage import Channel
+    from coframe.bags.tables import ColumnLike, Method, Table
     from coframe.buffer.gaps import OnGap
     from coframe.messages.slices import Slices
     from coframe.time import DurationLike, StampLike
@@ -199,6 +203,37 @@ class Recording:
             chosen &= stamps < time.stamp_ns(stop)
         return self._read_all(name, np.flatnonzero(chosen))
 
+    def message_in_row(self, topic: str, row: int) -> RecordedMessage | None:
+        """Return a message by its number in receive order; None if it can no longer be read.
+
+        Args:
+            topic: The name, with or without its leading slash.
+            row: The number, from 0.
+
+        Raises:
+            RecordingError: The topic does not exist.
+        """
+        return self._read(self._index.find_topic(topic), row)
+
+    def find_topic(self, topic: str) -> str:
+        """Return the full name of a topic whose leading slash may be missing.
+
+        Raises:
+            RecordingError: The topic does not exist.
+        """
+        return self._index.find_topic(topic)
+
+    def has_stamps(self, topic: str) -> bool:
+        """Return whether the messages on a topic begin with a stamp; if not, :meth:`stamps` uses receive times.
+
+        Args:
+            topic: The name, with or without its leading slash.
+
+        Raises:
+            RecordingError: The topic does not exist.
+        """
+        return all(track.stamp_reader is not None for track in self._index.tracks(self._index.find_topic(topic)))
+
     def channels(self) -> list[Channel]:
         """Return the channels of the files: one for each file, topic and type."""
         return [track.channel for track in self._index.tracks()]
@@ -327,36 +362,142 @@ class Recording:
         except (DecodeError, AttributeError):
             return ""
 
+    @overload
     def table(
         self,
-        format_: str = "arrow",
+        columns: Literal["arrow", "pandas"] = "arrow",
         *,
         max_gap: DurationLike | None = None,
-        on_gap: OnGap = "raise",
-        validity: bool = False,
+        on_gap: OnGap | None = None,
+        validity: bool | None = None,
+    ) -> Any: ...
+    @overload
+    def table(
+        self,
+        columns: ColumnLike | Sequence[ColumnLike],
+        *,
+        at: str | ArrayLike | None = None,
+        rate: float | None = None,
+        start: StampLike | str | None = None,
+        stop: StampLike | str | None = None,
+        method: Method = "nearest",
+        tolerance: DurationLike | None = None,
+        max_gap: DurationLike | None = None,
+        on_gap: OnGap | None = None,
+        covariance: bool = False,
+        validity: bool | None = None,
+    ) -> Table: ...
+    def table(
+        self,
+        columns: ColumnLike | Sequence[ColumnLike] = "arrow",
+        *,
+        at: str | ArrayLike | None = None,
+        rate: float | None = None,
+        start: StampLike | str | None = None,
+        stop: StampLike | str | None = None,
+        method: Method = "nearest",
+        tolerance: DurationLike | None = None,
+        max_gap: DurationLike | None = None,
+        on_gap: OnGap | None = None,
+        covariance: bool = False,
+        validity: bool | None = None,
     ) -> Any:
-        """Return all transforms as one table, with one row per sample, one edge after the other.
+        """Return fields of messages and poses of frames at many times, or all transforms, as a table.
 
         Args:
-            format_: ``"arrow"`` for a ``pyarrow.Table``, ``"pandas"`` for a ``DataFrame``.
-            max_gap: The longest permitted interval between two samples of an edge, such as ``"200ms"``. None permits
-                any; a :class:`coframe.CoframeWarning` then reports those of more than ten periods and 500 ms.
-            on_gap: What to do about a longer one: ``"raise"`` an ExtrapolationException, mark it by a row of ``"nan"``
-                in its middle, so that plots and interpolations do not bridge it, or ``"omit"`` such rows.
-            validity: Whether to add the column ``gap_ns``: the time since the previous sample of the edge, 0 for the
-                first one and for static edges.
+            columns: Columns, each as text, as a pair of frames, or as a :class:`coframe.bags.Column`: whole messages
+                (``"/odom"``), fields (``"/imu.angular_velocity"``, ``"/scan.ranges[0]"``,
+                ``"/joint_states.position[elbow]"``), poses (``("map", "camera")`` or ``"map:camera"``) and their
+                quantities (``"map:camera.yaw"``). Text may have a name and a method:
+                ``"speed=/odom.twist.twist.linear.x@previous:100ms"``. Without columns, the table has all transforms,
+                one row per sample and one edge after the other: ``"arrow"`` for a ``pyarrow.Table``, ``"pandas"`` for
+                a ``DataFrame``.
+            at: The topic at whose stamps the rows are, or an array of stamps, (N,) nanoseconds or datetime64. None: if
+                all columns come from one topic, this one.
+            rate: Rows per second (Hz) in the interval in which all columns have values, instead of ``at``.
+            start: The first time; nanoseconds, or a string for :func:`coframe.bags.parse_time_point`.
+            stop: The last time.
+            method: Which messages the values at a time come from: the ``"nearest"``, the ``"previous"``, those
+                with an equal stamp (``"match"``; ``tolerance`` is then the permitted difference), or ``"interpolate"``
+                between two messages: numbers linearly, quaternions along the shortest arc. Poses of frames are always
+                interpolated.
+            tolerance: The maximum time between a row and a message, such as ``"20ms"``. None permits any, except for
+                ``"match"``; a :class:`coframe.CoframeWarning` then reports values from unusually far away.
+            max_gap: The maximum interval for interpolation, between two transforms of an edge or two messages, such as
+                ``"200ms"``. None permits any; a :class:`coframe.CoframeWarning` then reports intervals of more than
+                ten periods and 500 ms.
+            on_gap: What to do about a missing value: mark it by ``"nan"`` (the default for columns), ``"omit"`` its
+                row, or ``"raise"`` an ExtrapolationException (the default for all transforms, of which ``"nan"`` marks
+                a gap by a row in its middle).
+            covariance: Whether poses have the value ``covariance``, 36 numbers row by row. Edges whose covariance is
+                not in the buffer get that of the Odometry messages with their frames.
+            validity: Whether to add the values ``.valid`` and ``.age_ns`` (the time of the row minus that of the
+                message) or ``.gap_ns`` (the interval of the interpolation) of each column; True by default. For all
+                transforms, the column ``gap_ns``: the time since the previous sample of the edge; False by default.
 
         Returns:
-            The columns ``stamp_ns`` (int64; 0 if static), ``parent``, ``child``, ``x``, ``y``, ``z`` (meters, expressed
+            A :class:`coframe.bags.Table`, which converts to Arrow, pandas, polars, xarray and NumPy. For all transforms
+            the columns ``stamp_ns`` (int64; 0 if static), ``parent``, ``child``, ``x``, ``y``, ``z`` (meters, expressed
             in the parent), ``qx``, ``qy``, ``qz``, ``qw``, ``static``, ``topic`` (on which the edge was last
             published).
 
         Raises:
-            RecordingError: The package is not installed.
-            ExtrapolationException: There is a longer gap.
-            ValueError: ``format_`` or ``on_gap`` is unknown, or ``max_gap`` is not positive.
+            RecordingError: A topic or field does not exist, a column has no values, or a package is not installed.
+            TransformException: A frame does not exist, or the frames are not connected.
+            ExtrapolationException: A value is missing, with ``on_gap="raise"``.
+            ValueError: A format, method or ``on_gap`` is unknown, or a limit is out of range.
         """
-        return edge_table(self.buffers.values(), format_, max_gap=max_gap, on_gap=on_gap, validity=validity)
+        if isinstance(columns, str) and columns.isidentifier():
+            buffers = self.buffers.values()
+            return edge_table(buffers, columns, max_gap=max_gap, on_gap=on_gap or "raise", validity=bool(validity))
+        topic, stamps = (at, None) if at is None or isinstance(at, str) else (None, at)
+        query = TableQuery(
+            columns,
+            at=topic,
+            rate=rate,
+            start=start,
+            stop=stop,
+            method=method,
+            tolerance=tolerance,
+            max_gap=max_gap,
+            on_gap=on_gap or "nan",
+            covariance=covariance,
+            validity=validity is not False,
+        )
+        sentences: list[str] = []
+        table = query.run(self, stamps, report=sentences.append)
+        for sentence in sentences:
+            warnings.warn(sentence, CoframeWarning, stacklevel=2)
+        return table
+
+    def dataframe(
+        self,
+        topic: str,
+        *,
+        start: StampLike | str | None = None,
+        stop: StampLike | str | None = None,
+    ) -> Any:
+        """Return the messages on a topic as a ``pandas.DataFrame``, with a column for each number and string in them.
+
+        Args:
+            topic: The name of the topic, or of a field of its messages: ``"/odom"``, ``"/odom.pose.pose"``.
+            start: The first stamp; nanoseconds, or a string for :func:`coframe.bags.parse_time_point`.
+            stop: The last stamp.
+
+        Returns:
+            A data frame with one row per message, sorted by stamp. Its index are the stamps as datetime64; the first
+            column is ``stamp_ns``, and the others are named after the fields: ``pose.pose.position.x``.
+
+        Raises:
+            RecordingError: The topic or field does not exist, the topic has no messages, or pandas is not installed.
+        """
+        name = topic if topic.startswith("/") else f"/{topic}"
+        table: Table = self.table([name], start=start, stop=stop, validity=False)
+        frame = table.to_pandas()
+        frame.columns = [each.removeprefix(name).removeprefix(".") or name.rpartition(".")[2] for each in frame.columns]
+        frame.index = table.stamps.astype("datetime64[ns]")
+        frame.index.name = "stamp"
+        return frame
 
     def _read_all(self, name: str, rows: NDArray[np.intp]) -> Iterator[RecordedMessage]:
         for row in rows.tolist():

@@ -200,6 +200,10 @@ class Buffer(_many_lookups.Buffer):
         """
         _covariances.set_covariance(self, parent, child, pose, static=static)
 
+    def frames_with_covariance(self) -> list[str]:
+        """Return the child frames of the edges that have a covariance; all other edges count as exact."""
+        return list(_covariances.covariances_of(self))
+
     def _lookup_composed(
         self,
         target: str,

@@ -21,8 +21,9 @@ from coframe.plotting.expressions import (
     TimingExpression,
     parse_expression,
 )
-from coframe.plotting.values import NoElementError, axis_title, coordinate, field_value, rates
+from coframe.plotting.values import NoElementError, axis_title, field_value, rates
 from coframe.time import SECOND
+from coframe.transform.quantities import coordinate
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator

@@ -22,10 +22,9 @@ from typing import TypeAlias
 
 from coframe._output.formatting import did_you_mean
 from coframe.errors import PlotError
+from coframe.transform.quantities import POSE_QUANTITIES
 
 __all__ = [
-    "ANGLES",
-    "POSE_QUANTITIES",
     "TIMINGS",
     "Expression",
     "FieldExpression",
@@ -34,8 +33,6 @@ __all__ = [
     "parse_expression",
 ]
 
-ANGLES = ("roll", "pitch", "yaw")
-POSE_QUANTITIES = ("x", "y", "z", *ANGLES, "distance")
 TIMINGS = ("rate", "delay")
 _EDGE_QUANTITIES = (*POSE_QUANTITIES, *TIMINGS)
 _ARROW = re.compile(r"->|→|:")

@@ -9,20 +9,14 @@ import numpy as np
 
 from coframe._output.formatting import did_you_mean, join_names
 from coframe.errors import CoframeError, PlotError
-from coframe.plotting.expressions import (
-    ANGLES,
-    Expression,
-    FieldExpression,
-    PoseExpression,
-)
+from coframe.plotting.expressions import Expression, FieldExpression, PoseExpression
 from coframe.time import SECOND
+from coframe.transform.quantities import ANGLES
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from coframe.transform.transform import Transform
-
-__all__ = ["NoElementError", "axis_title", "coordinate", "field_names", "field_value", "rates"]
+__all__ = ["NoElementError", "axis_title", "field_names", "field_value", "rates"]
 
 _WINDOW = SECOND  # of rates
 _MAX_LISTED_NAMES = 12  # names in a hint
@@ -37,16 +31,6 @@ def axis_title(expression: Expression) -> str:
         group = names[-2:-1] or names[-1:]
         return group[0] if isinstance(expression.path[-1], str) else names[-1]
     return "delay [s]" if expression.quantity == "delay" else "rate [Hz]"
-
-
-def coordinate(poses: Transform, quantity: str) -> NDArray[np.float64]:
-    """Return a quantity of each of N poses: x, y, z and distance in meters, roll, pitch and yaw in radians, (N,)."""
-    if quantity in ANGLES:
-        return poses.rpy[:, ANGLES.index(quantity)]
-    if quantity == "distance":
-        with np.errstate(over="ignore"):  # hypot is infinite only if the distance is
-            return np.asarray(np.hypot.reduce(poses.translation, axis=1))
-    return poses.translation[:, "xyz".index(quantity)]
 
 
 class NoElementError(CoframeError, LookupError):

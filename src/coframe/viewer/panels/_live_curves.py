@@ -12,8 +12,9 @@ from coframe.analysis.clocks import clock_of
 from coframe.errors import DecodeError, PlotError, TransformException
 from coframe.messages.tf_columns import tf_columns
 from coframe.plotting.evaluation import check_edge
-from coframe.plotting.values import NoElementError, axis_title, coordinate, field_value, rates
+from coframe.plotting.values import NoElementError, axis_title, field_value, rates
 from coframe.time import SECOND
+from coframe.transform.quantities import coordinate
 from coframe.viewer.panels._ring import Points, Ring
 from coframe.viewer.panels.curve import CurveState, failure
 

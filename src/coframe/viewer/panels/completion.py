@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 from coframe.errors import CoframeError
 from coframe.messages import find
-from coframe.plotting.expressions import POSE_QUANTITIES, TIMINGS
+from coframe.plotting.expressions import TIMINGS
+from coframe.transform.quantities import POSE_QUANTITIES
 from coframe.viewer.panels.message_fields import field_paths
 
 if TYPE_CHECKING:

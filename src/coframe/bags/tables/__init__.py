@@ -1,0 +1,8 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Tables of fields of messages and poses of frames at the stamps of a topic or at a rate."""
+
+from coframe.bags.tables.columns import METHODS, Column, ColumnLike, Method
+from coframe.bags.tables.query import TableQuery
+from coframe.bags.tables.table import Table, TableColumn, TableValue
+
+__all__ = ["METHODS", "Column", "ColumnLike", "Method", "Table", "TableColumn", "TableQuery", "TableValue"]
