@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Validation and expansion of names."""
 
+import re
+
 import pytest
 
 from rclpy.exceptions import (
@@ -38,7 +40,7 @@ def test_root_namespace():
     assert expand_topic_name("~/a", "arm", "/") == "/arm/a"
 
 
-@pytest.mark.parametrize("name", ["", "a b", "a/", "1a", "a/1b", "a~", "a{", "{1}", "{a b}", "a-b"])
+@pytest.mark.parametrize("name", ["", "a b", "a/", "1a", "a/1b", "a~", "a{", "{1}", "{a b}", "a-b", "~ab", "~{node}"])
 def test_invalid_topic_names(name):
     with pytest.raises(InvalidTopicNameException, match="Invalid topic name"):
         validate_topic_name(name)
@@ -55,6 +57,47 @@ def test_repeated_slashes_are_only_invalid_in_full_names():
 def test_unknown_substitution():
     with pytest.raises(ValueError, match=r"topic name '{robot}/a' is invalid: unknown substitution: {robot}"):
         expand_topic_name("{robot}/a", "arm", "/")
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "index"),
+    [
+        ("a}", "topic name must not have unmatched (unbalanced) curly braces '{}'", 1),
+        ("a/{b", "topic name must not have unmatched (unbalanced) curly braces '{}'", 2),
+        ("{a/b}", "substitution name must not contain characters other than alphanumerics or '_'", 2),
+        ("{a~}", "topic name must not have tilde '~' unless it is the first character", 2),
+        ("{1a}", "substitution name must not start with a number", 1),
+        ("~a/b", "topic name must not have a tilde '~' that is not followed by a forward slash '/'", 1),
+        ("x/1", "topic name token must not start with a number", 2),
+    ],
+)
+def test_the_fault_that_rcl_reports(name, text, index):
+    with pytest.raises(InvalidTopicNameException) as caught:
+        validate_topic_name(name)
+    assert (caught.value.error_msg, caught.value.invalid_index) == (text, index)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "text"),
+    [
+        (
+            ("a?", "n", "/"),
+            "topic name 'a?' is invalid: topic name must not contain characters other than alphanumerics",
+        ),
+        (("a", "n?", "/"), "node name 'n?' is invalid: node name must not contain characters other than"),
+        (("a", "n", "ns"), "node namespace 'ns' is invalid: namespace must be absolute, it must lead with a '/'"),
+        (("a", "n", ""), "node namespace '' is invalid: namespace must not be empty"),
+    ],
+)
+def test_expansion_of_invalid_names(arguments, text):
+    with pytest.raises(ValueError, match=re.escape(text)):
+        expand_topic_name(*arguments)
+
+
+@pytest.mark.parametrize("method", ["count_publishers", "count_subscribers", "count_services", "count_clients"])
+def test_counting_of_invalid_names(node, method):
+    with pytest.raises(ValueError, match="topic name '42' is invalid: topic name token must not start with a number"):
+        getattr(node, method)("42")
 
 
 def test_error_marks_the_invalid_character():

@@ -81,20 +81,24 @@ class NodeGraph:
         return [(name, sorted({_service_type(ros_type) for ros_type in types})) for name, types in services]
 
     def count_publishers(self, topic_name: str) -> int:
-        """Return the number of publishers of a topic."""
-        return len(self._Coframe__participant.publishers(self.resolve_topic_name(topic_name)))
+        """Return the number of publishers of a topic; raise ValueError if its name is not valid."""
+        return len(self._Coframe__participant.publishers(self.__resolved(topic_name)))
 
     def count_subscribers(self, topic_name: str) -> int:
-        """Return the number of subscriptions of a topic."""
-        return len(self._Coframe__participant.subscribers(self.resolve_topic_name(topic_name)))
+        """Return the number of subscriptions of a topic; raise ValueError if its name is not valid."""
+        return len(self._Coframe__participant.subscribers(self.__resolved(topic_name)))
 
     def count_clients(self, service_name: str) -> int:
-        """Return the number of clients of a service."""
-        return len(self._Coframe__participant.publishers(self.resolve_service_name(service_name), kind="request"))
+        """Return the number of clients of a service; raise ValueError if its name is not valid."""
+        return len(
+            self._Coframe__participant.publishers(self.__resolved(service_name, is_service=True), kind="request")
+        )
 
     def count_services(self, service_name: str) -> int:
-        """Return the number of servers of a service."""
-        return len(self._Coframe__participant.subscribers(self.resolve_service_name(service_name), kind="request"))
+        """Return the number of servers of a service; raise ValueError if its name is not valid."""
+        return len(
+            self._Coframe__participant.subscribers(self.__resolved(service_name, is_service=True), kind="request")
+        )
 
     def get_publishers_info_by_topic(self, topic_name: str, no_mangle: bool = False) -> list[TopicEndpointInfo]:
         """Return information about all publishers of a topic.
@@ -138,10 +142,7 @@ class NodeGraph:
         if no_mangle:
             name, _ = self.__topic_and_kind(name, no_mangle=True)
         else:
-            try:
-                name = self.resolve_service_name(name)
-            except RCLError as error:
-                raise _with_hint(ValueError(f"service name '{name}' is invalid"), f"{error}.") from None
+            name = self.__resolved(name, is_service=True)
         participant = self._Coframe__participant
         senders, receivers = (participant.publishers, participant.subscribers)
         if side is ServiceEndpointTypeEnum.SERVER:
@@ -229,12 +230,14 @@ class NodeGraph:
             kinds: tuple[Kind, ...] = ("topic", "request", "reply")
             found = ((topic, kind) for kind in kinds if (topic := names.ros_topic(name, kind)) is not None)
             return next(found, (name, "topic"))
+        return self.__resolved(name), "topic"
+
+    def __resolved(self, name: str, *, is_service: bool = False) -> str:
         try:
-            return self.resolve_topic_name(name), "topic"
+            return self.resolve_service_name(name) if is_service else self.resolve_topic_name(name)
         except RCLError as error:
-            raise _with_hint(
-                ValueError(f"topic name '{name}' is invalid: topic name is invalid"), f"{error}."
-            ) from None
+            reason = str(error).removeprefix("failed to resolve name: ")
+            raise ValueError(f"topic name '{name}' is invalid: {reason}") from None
 
 
 def _types_by_node(

@@ -6,9 +6,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from rclpy.exceptions import InvalidServiceNameException, InvalidTopicNameException
 from rclpy.expand_topic_name import expand_topic_name
 from rclpy.validate_full_topic_name import validate_full_topic_name
+from rclpy.validate_topic_name import validate_topic_name
 
 if TYPE_CHECKING:
     from rclpy._arguments import Remap
@@ -55,12 +55,8 @@ class NameResolver:
         return full
 
     def _expand(self, name: str, *, is_service: bool) -> str:
-        try:
-            return expand_topic_name(name, self.node_name, self.namespace)
-        except InvalidTopicNameException as error:
-            if is_service:
-                raise InvalidServiceNameException(error.name, error.error_msg, error.invalid_index) from None
-            raise
+        validate_topic_name(name, is_service=is_service)
+        return expand_topic_name(name, self.node_name, self.namespace)
 
     def _remap(self, full: str, *, is_service: bool) -> str:
         kinds = {"any", "service" if is_service else "topic"}

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import re
 
+from rclpy.exceptions import NameValidationException
 from rclpy.validate_namespace import validate_namespace
 from rclpy.validate_node_name import validate_node_name
 from rclpy.validate_topic_name import validate_topic_name
@@ -22,12 +23,15 @@ def expand_topic_name(topic_name: str, node_name: str, node_namespace: str) -> s
         The fully qualified name, for example `/robot1/arm/state`.
 
     Raises:
-        InvalidTopicNameException: The name is not valid.
-        ValueError: The name contains an unknown substitution.
+        ValueError: One of the names is not valid, or contains an unknown substitution.
     """
-    validate_topic_name(topic_name)
-    validate_node_name(node_name)
-    validate_namespace(node_namespace)
+    try:
+        validate_topic_name(topic_name)
+        validate_node_name(node_name)
+        validate_namespace(node_namespace)
+    except NameValidationException as error:
+        what = "node namespace" if error.name_type == "namespace" else error.name_type
+        raise ValueError(f"{what} '{error.name}' is invalid: {error.error_msg}") from None
     prefix = node_namespace.rstrip("/")
     name = topic_name
     if name.startswith("~"):

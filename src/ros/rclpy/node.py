@@ -227,6 +227,9 @@ class Node(_node_endpoints.Node):
             return self._Coframe__names.resolve(name, is_service=is_service, only_expand=only_expand)
         except NameValidationException as error:
             raise _with_hint(RCLError(f"failed to resolve name: {error.error_msg}"), f"The name is {name!r}.") from None
+        except ValueError as error:
+            reason = str(error).rpartition(": unknown substitution: ")[2]
+            raise RCLError(f"failed to resolve name: unknown substitution: {reason}") from None
 
     # Properties
 

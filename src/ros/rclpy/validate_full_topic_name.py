@@ -3,8 +3,9 @@
 
 from __future__ import annotations
 
+import re
+
 from rclpy.exceptions import InvalidServiceNameException, InvalidTopicNameException
-from rclpy.validate_topic_name import validate_topic_name
 
 
 def validate_full_topic_name(name: str, *, is_service: bool = False) -> bool:
@@ -14,14 +15,24 @@ def validate_full_topic_name(name: str, *, is_service: bool = False) -> bool:
         InvalidTopicNameException: The topic name is not valid.
         InvalidServiceNameException: The service name is not valid.
     """
-    kind: type[InvalidServiceNameException | InvalidTopicNameException]
-    kind = InvalidServiceNameException if is_service else InvalidTopicNameException
+    fault = _fault(name)
+    if fault is not None:
+        raise (InvalidServiceNameException if is_service else InvalidTopicNameException)(name, *fault)
+    return True
+
+
+def _fault(name: str) -> tuple[str, int] | None:
+    """Return the first fault and its position, in the order in which rmw finds them."""
+    if not name:
+        return "topic name must not be empty", 0
     if not name.startswith("/"):
-        raise kind(name, "topic name must be absolute, it must lead with a '/'", 0)
-    for character in "~{}":
-        if character in name:
-            text = "topic name must not contain characters other than alphanumerics, '_', or '/'"
-            raise kind(name, text, name.index(character))
-    if "//" in name:
-        raise kind(name, "topic name must not contain repeated '/'", name.index("//") + 1)
-    return validate_topic_name(name, is_service=is_service)
+        return "topic name must be absolute, it must lead with a '/'", 0
+    if name.endswith("/"):
+        return "topic name must not end with a '/'", len(name) - 1
+    if bad := re.search(r"[^A-Za-z0-9_/]", name):
+        return "topic name must not contain characters other than alphanumerics, '_', or '/'", bad.start()
+    if bad := re.search(r"/(?=[/0-9])", name):
+        is_repeated = name[bad.end()] == "/"
+        fault = "contain repeated '/'" if is_repeated else "have a token that starts with a number"
+        return f"topic name must not {fault}", bad.end()
+    return None

@@ -12,6 +12,8 @@ def validate_namespace(namespace: str) -> bool:
     Raises:
         InvalidNamespaceException: The namespace is not valid.
     """
+    if not namespace:
+        raise InvalidNamespaceException(namespace, "namespace must not be empty", 0)
     if not namespace.startswith("/"):
         raise InvalidNamespaceException(namespace, "namespace must be absolute, it must lead with a '/'", 0)
     if namespace != "/" and namespace.endswith("/"):
