@@ -36,8 +36,9 @@ setup: $(STAMP) ## create the virtual environment with everything in it, and bui
 $(VENV)/.build_tools: pyproject.toml
 	@$(BIN)/python -m pip install --quiet $(BUILD_TOOLS) && touch $@
 
-build: $(VENV)/.build_tools ## rebuild the native core
+build: $(VENV)/.build_tools ## rebuild the native core, and coframe-fastdds where it is installed
 	$(BIN)/python -m pip install --quiet --no-build-isolation --no-deps --editable .
+	@VENV=$(VENV) sh scripts/install_fastdds.sh --again
 	@touch $(DEMO_STAMP) $(STAMP)
 
 build-split: $(STAMP) ## compile each source file of the native core separately, which reveals missing includes
@@ -55,10 +56,11 @@ test-zenoh: $(STAMP) ## run the tests of the running graph over Zenoh instead of
 		--ignore tests/wire/test_router.py --ignore tests/wire/test_wan.py \
 		tests/wire tests/rclpy tests/tf2 tests/recorder tests/lab tests/viewer $(ARGS)
 
-test-fastdds: $(STAMP) ## run the tests of the running graph over Fast DDS instead of Cyclone DDS
+FASTDDS_TESTS ?= tests/fastdds tests/wire tests/rclpy tests/tf2 tests/recorder tests/lab tests/viewer
+
+test-fastdds: $(STAMP) ## run the tests of the running graph over Fast DDS instead of Cyclone DDS, or FASTDDS_TESTS
 	COFRAME_WIRE=fastdds $(PYTEST) --numprocesses 2 --dist loadfile --no-loadscope-reorder \
-		--ignore tests/wire/test_router.py --ignore tests/wire/test_wan.py \
-		tests/fastdds tests/wire tests/rclpy tests/tf2 tests/recorder tests/lab tests/viewer $(ARGS)
+		--ignore tests/wire/test_router.py --ignore tests/wire/test_wan.py $(FASTDDS_TESTS) $(ARGS)
 
 test-shared: $(STAMP) ## run the tests of programs that use tf2_ros with transforms that processes share (Linux)
 	COFRAME_SHARED=1 $(PYTEST) --numprocesses 2 --dist loadfile --no-loadscope-reorder \

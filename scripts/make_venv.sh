@@ -102,11 +102,6 @@ if ! has_dds; then
     "$venv/bin/python" -c "from coframe.wire.dds import library; print('       ' + library.how_to_get_one())" >&2
 fi
 
-# Fast DDS, with the headers of a sourced ROS 2, of Python packages, or of the system: middlewares/fastdds/CMakeLists.txt.
 if [ "$purpose" = dev ]; then
-    pip install --no-compile "ros-fastdds>=3.2,<3.3" >/dev/null 2>&1 || true # only for Linux on x86-64
-    log=$venv/fastdds.log
-    PATH="$(cd "$venv/bin" && pwd):$PATH" pip install --no-compile --no-build-isolation --no-deps \
-        --editable middlewares/fastdds >"$log" 2>&1 ||
-        echo "setup: coframe-fastdds was not built ($log), so its tests are skipped: it needs the headers of Fast DDS" >&2
+    VENV=$venv sh scripts/install_fastdds.sh
 fi

@@ -3,11 +3,13 @@
 
 import contextlib
 import json
+import os
 import re
 import shutil
 import signal
 import subprocess
 import sys
+import threading
 import time
 import urllib.request
 from pathlib import Path
@@ -293,3 +295,18 @@ def test_a_missing_rotation_is_named():
     moved = message.transform.translation
     moved.x, moved.y, moved.z = map(float, mount.translation)
     assert _pose_cause([message], mount).startswith("the rotation is missing")
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="finds the process of the grade in /proc")
+def test_a_grade_whose_process_is_killed_says_how_it_ended(folder):
+    """For example by a system that runs out of memory."""
+
+    def kill(done):
+        if done:
+            children = Path(f"/proc/self/task/{threading.get_native_id()}/children").read_text().split()
+            os.kill(int(children[-1]), signal.SIGKILL)
+
+    report = check_folder(folder, only=("static", "dynamic"), progress=kill)
+    killed = "The check was ended by signal 9 (Killed), as a system does that runs out of memory. These criteria"
+    assert any(notice.startswith(killed) for notice in report["notices"])
+    assert report["criteria"][1]["problem"].startswith("Not checked: the check was ended by signal 9 (Killed)")

@@ -102,17 +102,19 @@ def test_a_client_calls_a_service(server: str, client: str, start) -> None:
     assert output.splitlines()[-1] == "200 0 0"
 
 
-def test_each_reply_reaches_the_client_that_asked(start) -> None:
-    """Four clients on each implementation call a service on each, at the same time."""
+@pytest.mark.parametrize("calls", [800, pytest.param(10_000, marks=[pytest.mark.slow, pytest.mark.timeout(600)])])
+def test_each_reply_reaches_the_client_that_asked(start, calls: int) -> None:
+    """Four clients on each implementation call a service on each, at the same time and in random order."""
+    each = calls // 8
     servers = [start(wire, "server.py", f"add_{wire}") for wire in WIRES]
     names = [f"add_{wire}" for wire in WIRES]
-    clients = [start(wire, "client.py", 100, number, *names) for number, wire in enumerate([*WIRES] * 4, start=1)]
+    clients = [start(wire, "client.py", each, number, *names) for number, wire in enumerate([*WIRES] * 4, start=1)]
     for process in (*servers, *clients):
         assert process.stdout.readline() == "ready\n"
     for process in clients:
         process.stdin.write("go\n")
         process.stdin.flush()
-    assert [process.stdout.readline() for process in clients] == ["100 0 0\n"] * len(clients)
+    assert [process.stdout.readline() for process in clients] == [f"{each} 0 0\n"] * len(clients)
 
 
 @pytest.mark.parametrize("wire", WIRES)

@@ -18,7 +18,7 @@ from rclpy.qos import HistoryPolicy, QoSProfile
 from std_srvs.srv import SetBool
 from tf2_ros import BufferClient, TimeoutException, TransformException
 
-pytestmark = pytest.mark.dds_only("the other program is an RTPS program")
+pytestmark = pytest.mark.cyclone_only("over Fast DDS, requests in both forms are understood")
 
 TYPE = "std_srvs/srv/SetBool"
 ACTION = "tf2_msgs/action/LookupTransform"

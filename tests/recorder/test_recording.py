@@ -91,11 +91,13 @@ def test_messages_of_publishers_with_different_qos_are_recorded_once(participant
 @pytest.mark.dds_only("the publisher is a native writer of DDS")
 def test_topics_without_a_ros_type_are_refused(participant, node, eventually, tmp_path):
     from coframe import _core
+    from coframe.wire.dds import config, library
     from coframe.wire.dds.topics import create_topic
 
-    entity = participant._session.native.entity
-    topic = create_topic(entity, "rt/raw", "NotOfRos")
-    foreign = _core.Writer(entity, topic, _core.QosProfile(1, True, True, False), "")
+    library.load()
+    other = _core.DomainParticipant(participant.domain_id, config.cyclone_config(), "enclave=/;")
+    topic = create_topic(other.entity, "rt/raw", "NotOfRos")
+    foreign = _core.Writer(other.entity, topic, _core.QosProfile(1, True, True, False), "")
     publisher = participant.publisher(node, "/words", STRING, QoS())
     with coframe.record(tmp_path / "run") as recorder:
         eventually(lambda: publisher.matched)
@@ -104,6 +106,7 @@ def test_topics_without_a_ros_type_are_refused(participant, node, eventually, tm
         eventually(lambda: recorder.statistics.messages == 1)
         assert recorder.statistics.unrecordable == ["/raw"]
     foreign.close()
+    other.close()
     assert data_by_topic(tmp_path / "run") == {"/words": [text("hello")]}
 
 

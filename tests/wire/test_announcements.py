@@ -50,7 +50,7 @@ LOOPBACK = (
     ],
     ids=["network", "this machine only"],
 )
-@pytest.mark.dds_only("Zenoh sends again what is lost")
+@pytest.mark.cyclone_only("Fast DDS repeats announcements itself, and Zenoh sends again what is lost")
 def test_announcements_are_repeated_where_the_network_can_lose_them(network, environment, seconds, expected):
     done = subprocess.run(
         network.command(sys.executable, "-c", WAIT, seconds),

@@ -9,12 +9,13 @@ import pytest
 import coframe
 from coframe.connection.listener_config import ListenerConfig
 from coframe.messages import find
+from coframe.wire import selection
 
 TRANSFORM = find("geometry_msgs/msg/TransformStamped")
 
 
 def test_defaults_are_those_of_the_environment(domain_id):
-    assert ListenerConfig.of() == ListenerConfig(domain=domain_id)
+    assert ListenerConfig.of() == ListenerConfig(domain=domain_id, wire=selection.resolve(None))
 
 
 @pytest.mark.parametrize(

@@ -11,6 +11,7 @@ from coframe.messages import find
 from coframe.messages.type_hash import type_hash
 from coframe.type_names import TF_MESSAGE
 from coframe.wire import QoS, request_header
+from coframe.wire.dds import config, library
 from coframe.wire.dds.topics import create_topic
 from coframe.wire.rtps.discovery_info import TOPIC, NodeInfo, decode_info, encode_info
 from coframe.wire.rtps.user_data import endpoint_user_data, type_hash_of
@@ -37,7 +38,7 @@ class Foreign:
     """A participant that announces nodes in one form, and receives what others announce."""
 
     def __init__(self, domain_id, size):
-        self.native = _core.DomainParticipant(domain_id, "", "enclave=/;")
+        self.native = _core.DomainParticipant(domain_id, config.cyclone_config(), "enclave=/;")
         topic = create_topic(self.native.entity, TOPIC, "rmw_dds_common::msg::dds_::ParticipantEntitiesInfo_")
         qos = _core.QosProfile(depth=1, reliable=True, transient_local=True, keep_all=True)
         self.reader = _core.Reader(self.native.entity, topic, qos, "", None)
@@ -61,6 +62,7 @@ class Foreign:
 @pytest.fixture
 def foreign(domain_id, participant):  # noqa: ARG001 - opens the domain
     """Return a function that adds a participant which announces identifiers of a size."""
+    library.load()  # the foreign participants use Cyclone DDS
     made = []
 
     def add(size):

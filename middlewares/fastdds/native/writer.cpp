@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "writer.hpp"
 
+#include <chrono>
 #include <limits>
 #include <mutex>
 #include <utility>
@@ -24,6 +25,14 @@ dds::DataWriterQos make_qos(const Participant& participant, dds::Publisher& publ
   }
   made.lifespan().duration = to_duration(qos.lifespan_ns);
   return made;
+}
+
+// Fast DDS sends any time, and other implementations read a time outside of these limits wrongly.
+bool has_valid_clock() {
+  constexpr std::int64_t kMaxSeconds = 0xfffffffe;
+  const auto since_1970 = std::chrono::system_clock::now().time_since_epoch();
+  const std::int64_t seconds = std::chrono::floor<std::chrono::seconds>(since_1970).count();
+  return seconds >= 0 && seconds <= kMaxSeconds;
 }
 
 }  // namespace
@@ -76,6 +85,7 @@ std::int64_t Writer::write(std::span<const coframe_part> parts, std::size_t size
     throw std::invalid_argument("The message is too short: a serialized message begins with 4 bytes of encapsulation.");
   }
   if (size > std::numeric_limits<std::uint32_t>::max() / 2) throw Error("could not write: the message is too large");
+  if (!has_valid_clock()) throw Error("could not write: messages cannot have the time of the system clock");
   const std::shared_lock lock(closing_);
   dds::DataWriter& writer = open();
   Outgoing message{parts, static_cast<std::uint32_t>(size)};

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import json
 import os
+import signal
 import subprocess
 import threading
 import time
@@ -29,6 +30,8 @@ __all__ = ["MAX_SECONDS", "check_class", "check_folder", "submissions"]
 MAX_SECONDS = 400.0  # real time for one folder; nine programs that never respond need about half of it
 _MAX_FOLDERS = 200  # maximum number of files in a folder among which the files of the lab are searched
 _PERIOD = 0.05  # seconds between two progress checks
+_EXIT_TIMEOUT = 5.0  # seconds between the end of the output of a grade and that of its process
+_KILLED = 9  # SIGKILL, which Windows does not have
 
 
 def check_folder(
@@ -91,6 +94,7 @@ def check_folder(
             results = _Results(output, max_seconds)
             try:
                 results.follow(progress, cancelled or threading.Event())
+                ending = "the check was stopped" if results.is_alive() else _ending(process)
             finally:
                 process.kill()
                 process.wait()
@@ -101,10 +105,22 @@ def check_folder(
         raise CourseError(text, hint=hint)
     missing = [name for name in RUBRIC if name in only][len(results.sheets) :]
     if missing and not (results.sheets or results.is_late):
-        reason = lines[0] if lines else "the check was stopped"
+        reason = lines[0] if lines else ending
         raise CourseError(f"{folder} could not be graded: {reason}", hint="coframe lab run shows what its nodes print.")
-    reason = f"the check took more than {max_seconds:g} s" if results.is_late else "the check was stopped"
+    reason = f"the check took more than {max_seconds:g} s" if results.is_late else ending
     return _report(folder, results, missing, reason)
+
+
+def _ending(process: subprocess.Popen[bytes]) -> str:
+    """Return how the process of a grade ended by itself, as a phrase."""
+    try:
+        code = process.wait(_EXIT_TIMEOUT)
+    except subprocess.TimeoutExpired:
+        return "the check wrote a line that is not a result"
+    if code >= 0:
+        return f"the check ended with exit code {code}"
+    cause = ", as a system does that runs out of memory" if -code == _KILLED else ""
+    return f"the check was ended by signal {-code} ({signal.strsignal(-code)}){cause}"
 
 
 def _report(folder: Path, results: _Results, missing: Sequence[str], reason: str) -> dict[str, Any]:
@@ -112,7 +128,7 @@ def _report(folder: Path, results: _Results, missing: Sequence[str], reason: str
     notices = [problem] if (problem := isolation_problem()) else []
     if missing:
         names = ", ".join(RUBRIC[name].name for name in missing)
-        notices.append(f"{_upper(reason)} and was stopped before these criteria: {names}. The other points count.")
+        notices.append(f"{_upper(reason)}. These criteria were not checked: {names}. The other points count.")
     sheets = results.sheets + [Sheet.not_reached(RUBRIC[name], reason) for name in missing]
     return GradeReport(str(folder.resolve()), results.variant, sheets, notices).as_dict()
 

@@ -106,6 +106,10 @@ class BackendServiceWriter(BackendWriter, Protocol):
     def guids(self) -> Sequence[bytes]:
         """The identifiers of everything on the graph that this publisher consists of, with `guid` first."""
 
+    @property
+    def client_id(self) -> int:
+        """For a publisher of requests, the client ID for their headers, by which servers know the client."""
+
     def reaches(self, header: RequestHeader, writer: int) -> bool:
         """Return whether a reply that is sent now reaches the client of a request.
 

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import os
 import struct
 from typing import Final, NamedTuple
 
@@ -18,6 +19,11 @@ class RequestHeader(NamedTuple):
 
     client: int
     sequence: int
+
+
+def random_client_id() -> int:
+    """Return an ID that no other client has."""
+    return int.from_bytes(os.urandom(8), "little")
 
 
 def join(header: RequestHeader, cdr: bytes) -> bytes:

@@ -92,6 +92,11 @@ class ServicePublisher(RawPublisher):
         return self._service_writer.guids
 
     @property
+    def client_id(self) -> int:
+        """The client ID for the headers of requests."""
+        return self._service_writer.client_id
+
+    @property
     def matched(self) -> int:
         """The number of matched subscriptions that understand the messages; 0 if no request can be sent."""
         peers = self._peers()

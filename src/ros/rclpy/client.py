@@ -6,7 +6,6 @@
 
 from __future__ import annotations
 
-import os
 import threading
 import time
 from functools import partial
@@ -71,7 +70,7 @@ class Client(LoggingEntity):
         self.__requests = requests
         self.__replies: ServiceSubscription | None = replies
         self.__executor = executor
-        self.__identity = int.from_bytes(os.urandom(8), "little")
+        self.__identity = requests.client_id
         self.__lock = threading.Lock()
         self.__sequence = 0
         self.__pending: dict[int, tuple[Future[Any], Callable[[Any], Any]]] = {}

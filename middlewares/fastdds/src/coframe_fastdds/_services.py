@@ -217,8 +217,11 @@ class _TwoForms:
         make_writer: Creates the plain writer (False) or the header writer (True).
 
     Attributes:
+        client_id: The client ID for the headers of requests.
         is_new: Whether the header writer has been created and not been announced.
     """
+
+    client_id: int
 
     def __init__(self, endpoint: Endpoint, graph: FastDdsGraph, make_writer: Callable[[bool], native.Writer]) -> None:
         self._topic = endpoint.dds_topic
@@ -345,6 +348,7 @@ class RequestWriter(_TwoForms):
         self._reader = reader
         self._replies = names.dds_topic(endpoint.name, "reply")
         self._identity = self.guid if reader is None else reader.guid
+        self.client_id = _number_of(self._identity)
         self._ready: set[bytes] = set()  # the participants of servers whose replies arrive
 
     def _send(self, header: RequestHeader, cdr: bytes, message: bytes) -> None:
@@ -390,6 +394,7 @@ class ReplyWriter(_TwoForms):
         clients: Clients,
     ) -> None:
         super().__init__(endpoint, graph, make_writer)
+        self.client_id = 0  # no client
         self._clients = clients
 
     def reaches(self, header: RequestHeader, writer: int) -> bool:

@@ -13,6 +13,7 @@ from coframe.wire.dds._discovery_requests import DiscoveryRequests
 from coframe.wire.dds._history import HistoryRequests
 from coframe.wire.dds.topics import create_topic
 from coframe.wire.qos import GRAPH_READER, GRAPH_WRITER, QoS, for_service_reader
+from coframe.wire.request_header import random_client_id
 from coframe.wire.rtps.announcer import NodeAnnouncer
 from coframe.wire.rtps.discovery_info import ADAPTS, ROS_TYPE, TOPIC, TYPE
 from coframe.wire.rtps.graph import DdsGraph
@@ -48,6 +49,7 @@ class DdsServiceWriter(_core.Writer):
 
     def __init__(self, graph: DdsGraph, *arguments: Any) -> None:
         self._graph = graph
+        self.client_id = random_client_id()
         super().__init__(*arguments)
 
     @property

@@ -255,6 +255,7 @@ class _Sender(BytesWriter):
     def __init__(self, place: Place, table: ServiceTable) -> None:
         super().__init__(place.graph, place.endpoint, place.type_hash, place.guid, None)
         self.guids = (place.guid,)
+        self.client_id = _keys.handle_of(place.guid)
         self.key = place.key_list[0]
         self._table = table
         self._error = _library.load().ZError
