@@ -23,6 +23,7 @@ ERRORS = {
     "ConnectivityException",
     "CourseError",
     "DecodeError",
+    "EditError",
     "ExtrapolationException",
     "FrameMismatchException",
     "FrozenFileError",

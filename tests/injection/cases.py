@@ -117,6 +117,11 @@ RECORDED = {
     "lookup": _cases("lookup", *(["{bag}", "map", name] for name in (*NAMES[:-1], MISSING, f"{NEWLINE}2"))),
     "bag info": _cases("bag info", "{bag}", "{bag} --json"),
     "bag fix": _cases("bag fix", "{bag} -o {output}"),
+    "bag edit": _cases(
+        "bag edit",
+        "{bag} -o {output} --rename-frame nothing=else --dedupe",
+        ["{bag}", "--dry-run", "--rename-frame", f"{MISSING}=x", "--drop-topic", MISSING, "--shift", f"{NEWLINE}=1s"],
+    ),
     "bag reindex": _cases("bag reindex", "{bag}"),
     "bag convert": _cases("bag convert", "{bag} {output}.mcap"),
     "bag slice": _cases("bag slice", "{bag} {output}.mcap --start 1s"),

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from coframe.bags._writer import Writer
     from coframe.bags.batch import QueryResult, query_recording, query_recordings
     from coframe.bags.copying import CopyReport, copy_recordings
+    from coframe.bags.editing import EditReport, Recipe, edit
     from coframe.bags.recording import RecordedMessage, RecordedTopic, Recording, open_bag
     from coframe.bags.summary import EdgeSummary, SensorSummary, Summary, TreeSummary, summarize
     from coframe.bags.tables import Column, Table, TableQuery
@@ -31,8 +32,10 @@ __all__ = [
     "Column",
     "CopyReport",
     "EdgeSummary",
+    "EditReport",
     "OfferedQos",
     "QueryResult",
+    "Recipe",
     "RecordedMessage",
     "RecordedTopic",
     "Recording",
@@ -47,6 +50,7 @@ __all__ = [
     "TreeSummary",
     "Writer",
     "copy_recordings",
+    "edit",
     "format_of",
     "from_yaml",
     "open_bag",
@@ -68,9 +72,11 @@ _MODULES = {
     "Column": "coframe.bags.tables",
     "CopyReport": "coframe.bags.copying",
     "EdgeSummary": "coframe.bags.summary",
+    "EditReport": "coframe.bags.editing",
     "FORMATS": "coframe.trajectories",
     "OfferedQos": "coframe.bags._offered_qos",
     "QueryResult": "coframe.bags.batch",
+    "Recipe": "coframe.bags.editing",
     "RecordedMessage": "coframe.bags.recording",
     "Recording": "coframe.bags.recording",
     "RecordingError": "coframe.errors",
@@ -85,6 +91,7 @@ _MODULES = {
     "TreeSummary": "coframe.bags.summary",
     "Writer": "coframe.bags._writer",
     "copy_recordings": "coframe.bags.copying",
+    "edit": "coframe.bags.editing",
     "format_of": "coframe.trajectories",
     "from_yaml": "coframe.bags._offered_qos",
     "open_bag": "coframe.bags.recording",

@@ -109,7 +109,7 @@ class _Reading:
 
     def read(self, progress: Callable[[int, int], object]) -> Contents:
         """Read everything."""
-        storages, listed_topics = open_files(self._path, self._problems, self.closing)
+        storages, listed_topics, _ = open_files(self._path, self._problems, self.closing)
         total = sum(storage.size for storage in storages)
         done = 0
         for storage in storages:

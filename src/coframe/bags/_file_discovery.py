@@ -51,10 +51,11 @@ _MAX_EXPANSION = 16 << 20  # bytes; incompressible data grows by less than this
 
 
 class OpenedFiles(NamedTuple):
-    """The opened files of a recording, and the topics that its metadata lists."""
+    """The opened files of a recording, the topics that its metadata lists, and the metadata; {} if there are none."""
 
     storages: list[Storage]
     listed_topics: list[Channel]
+    metadata: dict[str, Any]
 
 
 def open_files(path: Path, problems: Problems, closing: ExitStack) -> OpenedFiles:
@@ -88,7 +89,7 @@ def open_files(path: Path, problems: Problems, closing: ExitStack) -> OpenedFile
     if _word(metadata, "compression_mode").lower() == "message":
         compression = _word(metadata, "compression_format")
         found = [UnpackedMessages(storage, compression) for storage in found]
-    return OpenedFiles(found, list(_listed_topics(metadata)))
+    return OpenedFiles(found, list(_listed_topics(metadata)), metadata)
 
 
 def _existing_instead(path: Path) -> str:

@@ -191,6 +191,7 @@ class Ros1Storage(ChunkedStorage):
             definition=fields.get(b"message_definition", b""),
             definition_format="ros1msg",
             offered_qos=to_yaml([OfferedQos(1, transient_local=True)]) if fields.get(b"latching") == b"1" else "",
+            publisher=fields.get(b"callerid", b"").decode("utf-8", "replace"),
         )
 
 

@@ -117,6 +117,16 @@ class Database:
             raise sqlite3.DatabaseError(f"{table} has a column named rowid, which rosbag2 does not write")
         return number
 
+    def first_row(self, table: str) -> int | None:
+        """Return the smallest row ID of a table; None if it is empty."""
+        found = self.extremes(table, "rowid")
+        return None if found is None else found[0]
+
+    def extremes(self, table: str, column: str) -> tuple[int, int] | None:
+        """Return the smallest and the largest value of a column of integers; None if there are none."""
+        low, high = self._query(f"SELECT min({column}), max({column}) FROM {table}").fetchone()  # noqa: S608 - as in `rows`
+        return (low, high) if isinstance(low, int) and isinstance(high, int) else None
+
     def blob(self, table: str, column: str, row: int) -> bytes | None:
         """Return the value of a row; None if there is no such row, or if its value is not a BLOB."""
         query = f"SELECT {column} FROM {table} WHERE rowid = ? AND typeof({column}) = 'blob'"  # noqa: S608 - as in `rows`

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
     from coframe.bags._recording_format import FileWriter
 
-__all__ = ["Writer"]
+__all__ = ["Writer", "yaml_dump"]
 
 _MAX_TOPICS = 65_000  # channel numbers have 16 bits
 _MAX_TIME = 1 << 63
@@ -122,7 +122,7 @@ class Writer:
         self._compression = compression
         self._max_size = max_size
         self._max_duration = None if max_duration is None else time.duration_ns(max_duration)
-        self._dump = _yaml_dump()
+        self._dump = yaml_dump()
         compressor(compression)  # Raises before the folder is created.
         self._contents = _Contents()
         self._numbers: dict[tuple[str, str, str, str | None], int] = {}
@@ -368,7 +368,12 @@ class Writer:
         }
 
 
-def _yaml_dump() -> Callable[[Any], str]:
+def yaml_dump() -> Callable[[Any], str]:
+    """Return the function that writes YAML.
+
+    Raises:
+        RecordingError: PyYAML is not installed.
+    """
     try:
         yaml: Any = importlib.import_module("yaml")
     except ModuleNotFoundError:

@@ -19,7 +19,10 @@ if TYPE_CHECKING:
 
 __all__ = ["FrameNames"]
 
-_FIELDS = {"frame_id", "child_frame_id"}
+# Besides those of headers and transforms: foxglove_msgs, tf2_msgs/LookupTransform, gazebo_msgs.
+_FIELDS = {"child_frame_id", "fixed_frame", "frame_id", "parent_frame_id", "reference_frame", "source_frame"}
+_FIELDS |= {"target_frame"}
+_HEADER = "std_msgs/msg/Header"
 
 # The fields of a type that are frame names (None), and those that contain such fields.
 _Plan = dict[str, "_Plan | None"]
@@ -51,6 +54,13 @@ class FrameNames:
     def exist(self) -> bool:
         """Whether messages of this type contain frame names."""
         return bool(self._plan)
+
+    @property
+    def only_in_header(self) -> bool:
+        """Whether the only frame name is that of a header at the beginning of the messages."""
+        first = self._class.SLOT_TYPES[0] if self._class.SLOT_TYPES else None
+        is_header = isinstance(first, NamespacedType) and "/".join(first.namespaced_name()) == _HEADER
+        return is_header and self._plan == {self._class.__slots__[0][1:]: {"frame_id": None}}
 
     def rename(self, data: bytes, rename: Callable[[str], str]) -> tuple[bytes, int]:
         """Replace the frame names in a message.

@@ -49,6 +49,7 @@ class Channel:
         definition: Definition of the type; may be empty.
         definition_format: ``ros2msg``, ``ros2idl``, ``ros1msg``, ``protobuf``, ``jsonschema`` or empty.
         offered_qos: QoS that the publishers offered, in rosbag2's YAML; may be empty.
+        publisher: Name of the node that published the messages, which only recordings from ROS 1 contain.
     """
 
     topic: str
@@ -57,6 +58,7 @@ class Channel:
     definition: bytes = b""
     definition_format: str = ""
     offered_qos: str = ""
+    publisher: str = ""
 
 
 class Batch(NamedTuple):

@@ -19,6 +19,7 @@ from coframe.bags import COMPRESSIONS, parse_time_point, repair, summarize
 from coframe.bags.copying import copy_recordings
 from coframe.bags.formats import METADATA, storage_formats
 from coframe.bags.namespaces import TransformChoice
+from coframe.cli.bag_edit import edit
 from coframe.cli.declaration import PATH, CommandGroup, argument
 from coframe.cli.lifecycle import run_to_completion
 from coframe.cli.options import (
@@ -81,6 +82,7 @@ def _add(command: click.Command, line: str) -> None:
 _add(record, "Record topics, like coframe record.")
 _add(play, "Replay a recording, like coframe play.")
 bag.add_command(burst)
+bag.add_command(edit)
 
 
 class BagCommand(Rosbag2Command):

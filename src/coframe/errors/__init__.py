@@ -18,6 +18,7 @@
         ├── PackageError(LookupError)           a package, or a file in one, that does not exist
         ├── FrozenFileError(ValueError)         a file that is not a frozen buffer, or is damaged
         ├── RecordingError(ValueError)          a recording without any readable data
+        ├── EditError(ValueError)               a rule for editing a recording that cannot be applied
         ├── TrajectoryError(ValueError)         a trajectory that cannot be read or compared
         ├── PlotError(ValueError)               something that cannot be plotted
         ├── CourseError(ValueError)             a folder of the lab that cannot be created or graded
@@ -59,6 +60,7 @@ __all__ = [
     "ConnectivityException",
     "CourseError",
     "DecodeError",
+    "EditError",
     "ExtrapolationException",
     "FrameMismatchException",
     "FrozenFileError",
@@ -289,6 +291,10 @@ class FrozenFileError(_HintedError, ValueError):
 
 class RecordingError(_HintedError, ValueError):
     """A recording without any readable data."""
+
+
+class EditError(_HintedError, ValueError):
+    """A rule for editing a recording that cannot be understood, or cannot be applied to this recording."""
 
 
 class TrajectoryError(_HintedError, ValueError):

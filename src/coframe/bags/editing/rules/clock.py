@@ -1,0 +1,118 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The rule ``clock``: stamps on the other clock are converted, so that all are on one."""
+
+from __future__ import annotations
+
+from collections import deque
+from typing import TYPE_CHECKING
+
+from coframe.analysis.clocks import SAME_CLOCK
+from coframe.bags.editing._fields import MAX_STAMP
+from coframe.bags.editing._rule import Rule
+from coframe.errors import EditError
+from coframe.time import MINUTE, SECOND
+
+if TYPE_CHECKING:
+    from coframe.bags.editing._message import EditedMessage, EditedTopic
+    from coframe.bags.editing._rule import Step
+    from coframe.bags.editing._survey import Survey
+
+__all__ = ["Clock"]
+
+_TOPIC, _TYPE = "/clock", "rosgraph_msgs/msg/Clock"
+_MAX_TICKS = 1000  # of the last second of /clock that are kept
+_MIN_RATE = 0.01  # simulated seconds per second, for the way back
+
+
+class Clock(Rule):
+    """``clock wall`` or ``clock sim``: stamps on the other one are converted with the recorded ``/clock``.
+
+    A stamp is on the system clock if it is less than an hour from the receive time of its message, and on simulated
+    time if it is less than a minute from the time of ``/clock`` then.
+    """
+
+    name = "clock"
+    form = "wall|sim"
+    unit = "stamp"
+    verb = "converted"
+
+    def __init__(self, text: str) -> None:
+        super().__init__(text)
+        if text not in {"wall", "sim"}:
+            raise EditError(f"{text[:60]!r} is not a clock: wall or sim")
+        self._to_sim = text == "sim"
+        self._ticks: deque[tuple[int, int]] = deque(maxlen=_MAX_TICKS)  # receive times and simulated times
+        self._received = self._simulated = 0
+        self._rate = 1.0
+
+    def prepare(self, survey: Survey) -> None:
+        """Find the first time of /clock.
+
+        Raises:
+            EditError: The recording has no /clock.
+        """
+        for topic, received, message in survey.messages(_is_clock):
+            if topic.stamps is not None:
+                self._tick(received, topic.stamps.first(message.data))
+                return
+        raise EditError(
+            "the recording has no /clock, which says how the two clocks belong together",
+            hint="`coframe doctor BAG` names the offset of each clock; `coframe bag edit --shift` removes it.",
+        )
+
+    def step(self, topic: EditedTopic) -> Step | None:
+        """Return the function that converts the stamps in a message, or reads the clock."""
+        stamps = topic.stamps
+        if stamps is None:
+            return None
+
+        def read(message: EditedMessage) -> bool:
+            self._tick(message.received, stamps.first(message.data))
+            return True
+
+        def convert(message: EditedMessage) -> bool:
+            received = message.received
+            new, changed = stamps.change(message.data, lambda stamp: self._converted(stamp, received))
+            if changed:
+                message.data = new
+                self.changes += changed
+            return True
+
+        if _is_clock(topic):
+            return read
+        return self._convert_transforms if topic.has_transforms else convert
+
+    def _convert_transforms(self, message: EditedMessage) -> bool:
+        transforms, changed = message.transforms(), 0
+        for one in transforms:
+            new = self._converted(one.stamp, message.received) if one.stamp else 0
+            changed += new != one.stamp
+            one.stamp = new
+        if changed:
+            message.set_transforms(transforms)
+            self.changes += changed
+        return True
+
+    def _tick(self, received: int, simulated: int) -> None:
+        self._received, self._simulated = received, simulated
+        self._ticks.append((received, simulated))
+        while self._ticks[0][0] < received - SECOND:
+            self._ticks.popleft()
+        first = self._ticks[0]
+        if received > first[0] and simulated >= first[1]:
+            self._rate = (simulated - first[1]) / (received - first[0])
+
+    def _converted(self, stamp: int, received: int) -> int:
+        now = self._simulated + round((received - self._received) * self._rate)
+        is_wall, is_simulated = abs(received - stamp) < SAME_CLOCK, abs(now - stamp) < MINUTE
+        if is_simulated in {is_wall, self._to_sim}:
+            return stamp
+        if self._to_sim:
+            new = now + round((stamp - received) * self._rate)
+        else:
+            new = received + round((stamp - now) / max(self._rate, _MIN_RATE))
+        return new if 0 < new < MAX_STAMP else stamp
+
+
+def _is_clock(topic: EditedTopic) -> bool:
+    return topic.name == _TOPIC and topic.channel.type == _TYPE and topic.stamps is not None

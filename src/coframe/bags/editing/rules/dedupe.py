@@ -1,0 +1,93 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The rule ``dedupe``: messages and transforms that are recorded twice are left out once."""
+
+from __future__ import annotations
+
+from collections import OrderedDict
+from hashlib import blake2b
+from typing import TYPE_CHECKING
+
+from coframe._output.formatting import count
+from coframe.bags.editing._rule import Rule
+
+if TYPE_CHECKING:
+    from collections.abc import Hashable, Iterator
+
+    from coframe.bags.editing._message import EditedMessage, EditedTopic
+    from coframe.bags.editing._rule import Step
+
+__all__ = ["Dedupe"]
+
+MAX_REMEMBERED = 1000  # last messages on a topic, and last transforms of a child frame, that are compared
+_MAX_EDGES = 1000
+
+
+class Dedupe(Rule):
+    """``dedupe``: messages with a stamp that repeat an earlier one on their topic, and transforms likewise.
+
+    Messages without a stamp and static transforms stay: they are repeated on purpose. A transform with the stamp of
+    an earlier one but another pose stays as well, because which of them is right is not known.
+    """
+
+    name = "dedupe"
+    form = ""
+    unit = "duplicate"
+    verb = "removed"
+
+    def __init__(self, text: str = "") -> None:
+        super().__init__(text)
+        self._seen: OrderedDict[Hashable, OrderedDict[Hashable, Hashable]] = OrderedDict()
+        self._differing = 0
+
+    def step(self, topic: EditedTopic) -> Step | None:
+        """Return the function that drops what repeats an earlier message."""
+        if topic.is_static:
+            return None
+        if topic.has_transforms:
+            return lambda message: self._transforms(topic.name, message)
+        if topic.stamps is None or not topic.stamps.is_leading:
+            return None
+        return lambda message: self._message(topic, message)
+
+    def _message(self, topic: EditedTopic, message: EditedMessage) -> bool:
+        data = message.data
+        if topic.stamps is None or not topic.stamps.first(data):
+            return True
+        if self._is_new(topic.name, (topic.channel.type, blake2b(data, digest_size=16).digest()), None):
+            return True
+        self.changes += 1
+        return False
+
+    def _transforms(self, topic: str, message: EditedMessage) -> bool:
+        transforms = message.transforms()
+        kept = [
+            one
+            for one in transforms
+            if not one.stamp or self._is_new((topic, one.child), (one.stamp, one.parent), one.pose)
+        ]
+        if len(kept) == len(transforms):
+            return True
+        self.changes += len(transforms) - len(kept)
+        message.set_transforms(kept)
+        return bool(kept)
+
+    def _is_new(self, key: Hashable, what: Hashable, value: Hashable) -> bool:
+        """Remember what was seen; return whether it differs from all before."""
+        seen = self._seen.setdefault(key, OrderedDict())
+        if len(self._seen) > _MAX_EDGES:
+            self._seen.popitem(last=False)
+        if what in seen:
+            self._differing += seen[what] != value
+            return seen[what] != value
+        seen[what] = value
+        if len(seen) > MAX_REMEMBERED:
+            seen.popitem(last=False)
+        return True
+
+    def remarks(self) -> Iterator[str]:
+        """Yield how many transforms contradict an earlier one."""
+        if self._differing:
+            yield (
+                f"dedupe: {count(self._differing, 'transform')} with the stamp of another one, but with another pose, "
+                "stayed: the rule drop-publisher removes one of two publishers"
+            )

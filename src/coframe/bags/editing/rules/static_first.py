@@ -1,0 +1,50 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The rule ``static-first``: static transforms that come late are also written at the beginning."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from coframe.bags.editing._rule import Insertion, Rule
+from coframe.bags.editing._transform_bytes import join_transforms
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from coframe.bags.editing._message import EditedTopic
+    from coframe.bags.editing._rule import Step
+    from coframe.bags.editing._survey import FoundTransform, Survey
+
+__all__ = ["StaticFirst"]
+
+
+class StaticFirst(Rule):
+    """``static-first``: what is transformed before the first static transform arrives is possible then."""
+
+    name = "static-first"
+    form = ""
+    unit = "transform"
+    verb = "also written at the beginning"
+
+    def __init__(self, text: str = "") -> None:
+        super().__init__(text)
+        self._late: dict[tuple[str, bytes], list[FoundTransform]] = {}
+
+    def prepare(self, survey: Survey) -> None:
+        """Find the static transforms that come late."""
+        for one in survey.static_transforms():
+            if one.received > survey.span[0]:
+                self._late.setdefault((one.topic, one.header), []).append(one)
+
+    def step(self, topic: EditedTopic) -> Step | None:
+        """Return None: the recorded messages stay."""
+        del topic
+        return None
+
+    def insertions(self) -> Iterator[Insertion]:
+        """Yield the messages to add."""
+        for (topic, header), found in self._late.items():
+            self.changes += len(found)
+            for one in found:
+                one.transform.parent, one.transform.child = one.parent.encode(), one.child.encode()
+            yield Insertion(topic, join_transforms([one.transform for one in found], header))
