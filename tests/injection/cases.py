@@ -47,6 +47,7 @@ LIVE = {
         *_cases("doctor", "", "--json", "--sarif", "--system"),
         *_cases("doctor", "--watch", until="esc"),
     ],
+    "contract check": _cases("contract check", "live -c {contract} --duration 2s"),
     "why": _cases("why", *(["map", name] for name in (ESCAPE, NEWLINE, MISSING)), ["--json", "map", NEWLINE]),
     "lookup": _cases("lookup", *(["map", name] for name in (ESCAPE, NEWLINE, MISSING)), ["--json", "map", NEWLINE]),
     "echo": [
@@ -113,6 +114,8 @@ LIVE = {
 RECORDED = {
     "frames": _cases("frames", "{bag}", "{bag} --json"),
     "doctor": _cases("doctor", "{bag}", "{bag} --json", "{bag} --sarif"),
+    "contract init": _cases("contract init", "{bag} -o {output}.yaml"),
+    "contract check": _cases("contract check", "{bag} -c {contract}", "{bag} -c {contract} --github", "{bag} -c {bag}"),
     "why": _cases("why", *(["{bag}", "map", name] for name in (*NAMES[:-1], MISSING))),
     "lookup": _cases("lookup", *(["{bag}", "map", name] for name in (*NAMES[:-1], MISSING, f"{NEWLINE}2"))),
     "bag info": _cases("bag info", "{bag}", "{bag} --json"),

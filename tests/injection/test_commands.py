@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Commands print hostile names and texts of files and of the graph without control characters, line by line."""
 
+import json
 import os
 import subprocess
 import sys
@@ -54,6 +55,9 @@ def files(tmp_path_factory):
     (folder / "robot.urdf").write_text(URDF.format(NAME_IN_XML, ""))
     (folder / "broken.urdf").write_text(URDF.format(NAME_IN_XML, f"<link name='{NAME_IN_XML}'/>"))
     (folder / "parameters.yaml").write_text(f"/talker:\n  ros__parameters:\n    {NEWLINE!r}: 1\n    evil: x\n")
+    (folder / "contract.yaml").write_text(
+        "\n".join(f"- {{parent: map, child: {json.dumps(name + 'x')}}}" for name in NAMES).replace("-", "transforms:\n-", 1)
+    )
     (folder / "hostile.launch.xml").write_text(
         f"<launch><node pkg='{NAME_IN_XML}' exec='x'/><log message='{NAME_IN_XML}'/></launch>"
     )
@@ -62,6 +66,7 @@ def files(tmp_path_factory):
         "{urdf}": folder / "robot.urdf",
         "{broken_urdf}": folder / "broken.urdf",
         "{parameters}": folder / "parameters.yaml",
+        "{contract}": folder / "contract.yaml",
         "{launch_file}": folder / "hostile.launch.xml",
     }
 

@@ -56,6 +56,13 @@ COMMANDS: dict[str, CommandRow] = {
     "doctor": CommandRow(
         "Find problems with transforms, live or in a recording.", "doctor", ("dds", "bags"), graph=True, ros=True
     ),
+    "contract": CommandRow(
+        "State what a good recording contains, and check recordings.",
+        "contract",
+        ("dds", "bags"),
+        graph=frozenset({"check"}),
+        ros=False,
+    ),
     "why": CommandRow("Explain why a transform is or is not available.", "why", ("dds", "bags"), graph=True, ros=False),
     "frames": CommandRow(
         "Show the transform trees, or write a diagram of them.",

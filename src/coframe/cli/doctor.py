@@ -28,7 +28,7 @@ from coframe.cli.options import (
 from coframe.cli.output import fail, one_line, printable
 from coframe.cli.progress import reading_progress
 from coframe.connection.listener_config import ListenerConfig
-from coframe.doctor import codes, diagnose, page
+from coframe.doctor import Severity, codes, diagnose, page
 from coframe.doctor.codes import built_in_codes
 from coframe.doctor.recorded import observe_chosen
 from coframe.doctor.rendering.plain import as_data
@@ -69,6 +69,13 @@ _CPU_SHARE = 0.006
 @click.option("--report-failed", "-rf", is_flag=True, hidden=True)
 @click.option("--exclude-packages", "-ep", is_flag=True, hidden=True)
 @click.option("--ignore", metavar="CODE", multiple=True, help="Skip the check with this code; repeatable.")
+@click.option(
+    "--fail-on",
+    metavar="SEVERITY",
+    type=click.Choice(["error", "warning", "note", "never"]),
+    default="warning",
+    help="Lowest severity with exit code 1: error, warning, note or never.",
+)
 @click.option("--explain", metavar="CODE", help="Print the page about this code and exit.")
 @click.option(
     "--list", "list_codes", is_flag=True, help="List all codes with their titles and exit; with --json, as JSON."
@@ -101,6 +108,7 @@ def doctor(
     report_failed: bool,
     exclude_packages: bool,
     ignore: tuple[str, ...],
+    fail_on: str,
     explain: str | None,
     list_codes: bool,
     duration: PositiveDuration,
@@ -116,7 +124,7 @@ def doctor(
 
     If nodes do not find each other, start with `coframe doctor --system`.
 
-    The exit code is 0 if there are no errors or warnings (notes do not count), and 1 otherwise.
+    The exit code is 0 if there are no errors or warnings (notes do not count), and 1 otherwise; --fail-on changes this.
 
     Example: coframe doctor run.mcap --ignore TF018
     """
@@ -145,7 +153,7 @@ def doctor(
             with reading_progress() as progress:
                 observations = observe_chosen(bag, choice, cache=cache, progress=progress)
             reports = {name: diagnose(one, ignore=ignored) for name, one in observations.items()}
-            _print_and_exit(reports, as_json, sarif, bag)
+            _print_and_exit(reports, as_json, sarif, bag, fail_on)
         from coframe.doctor.live import LiveObserver  # noqa: PLC0415 - recordings need no middleware
 
         config = ListenerConfig.of(
@@ -166,7 +174,7 @@ def doctor(
             observer.listen(duration.seconds)
             observer.listen_for_statics()
             report = diagnose(observer.observe(), ignore=ignored)
-        _print_and_exit({"": report}, as_json, sarif, None)
+        _print_and_exit({"": report}, as_json, sarif, None, fail_on)
 
 
 def _check_system(
@@ -225,8 +233,8 @@ def _similar_codes(code: str) -> str:
     return f"Did you mean {' or '.join(f'{known} ({page(known).title})' for known in near)}?"
 
 
-def _print_and_exit(reports: dict[str, Report], as_json: bool, sarif: bool, bag: Path | None) -> None:
-    """Print the reports, and end the command with exit code 0 if all are healthy, otherwise 1."""
+def _print_and_exit(reports: dict[str, Report], as_json: bool, sarif: bool, bag: Path | None, fail_on: str) -> None:
+    """Print the reports, and end the command with exit code 1 for findings of a severity, otherwise 0."""
     if sarif:
         print(json.dumps(as_sarif(reports, bag), indent=2))
     elif as_json:
@@ -239,7 +247,16 @@ def _print_and_exit(reports: dict[str, Report], as_json: bool, sarif: bool, bag:
                 console.print(Text(printable(f"{name or '/'}:"), style="bold"))
             for line in _texts(report):
                 console.print(line)
-    raise Exit(0 if all(report.healthy for report in reports.values()) else 1)
+    raise Exit(0 if all(_passes(report, fail_on) for report in reports.values()) else 1)
+
+
+def _passes(report: Report, fail_on: str) -> bool:
+    """Return whether a report has transforms and no findings of a severity; without transforms, only `never` passes."""
+    if fail_on == "never":
+        return True
+    lowest = Severity[fail_on.upper()]
+    has_transforms = len(report.observation.transforms) > 0
+    return has_transforms and all(finding.severity < lowest for finding in report.every_finding())
 
 
 def _texts(report: Report) -> list[Text]:

@@ -37,7 +37,7 @@ from coframe.wire.qos import TF, TF_STATIC_READER, QoS
 from coframe.wire.tf_reader import STATICS_TIMEOUT
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Iterator
+    from collections.abc import Callable, Collection, Iterable, Iterator
 
     from numpy.typing import NDArray
     from typing_extensions import Self
@@ -138,6 +138,7 @@ class LiveObserver:
         config: The topics to observe. Its cache is the assumed cache length of the listeners' buffers. If None, the
             transforms on /tf and /tf_static are observed, in the domain of ROS_DOMAIN_ID.
         window: The duration that observations cover, in nanoseconds. If None, they cover everything since the start.
+        also: The names of topics to which it subscribes even if the checks do not need their messages.
         node_name: The name of the node.
         node_namespace: The namespace of the node: "/" or "/a/b".
 
@@ -150,6 +151,7 @@ class LiveObserver:
         config: ListenerConfig | None = None,
         *,
         window: int | None = None,
+        also: Collection[str] = (),
         node_name: str = "coframe_doctor",
         node_namespace: str = "/",
     ) -> None:
@@ -157,6 +159,7 @@ class LiveObserver:
         self._rename: Callable[[str], str] = config.renaming or str
         self.cache = config.cache
         self.window = window
+        self._also = frozenset(also)
         self.start = time.time_ns()
         self._started = time.monotonic_ns()
         self._participant = Participant.get(config.domain, config.wire)
@@ -362,7 +365,7 @@ class LiveObserver:
             subscription = self._subscribe(name, ros_type, _LATCHED, _WHOLE_MESSAGE)
         elif ros_type in _DECODED_TYPES:
             subscription = self._subscribe(name, ros_type, _ANY_PUBLISHER, _WHOLE_MESSAGE)
-        elif ros_type not in _LARGE_TYPES and opens_with_header(ros_type):
+        elif name in self._also or (ros_type not in _LARGE_TYPES and opens_with_header(ros_type)):
             subscription = self._subscribe(name, ros_type, _ANY_PUBLISHER, HEADER_BYTES)
         else:
             return
@@ -379,7 +382,7 @@ class LiveObserver:
             for size, arrived, message in _decode(topic.type, rows):
                 topic.add_decoded(size, arrived, message)
             return
-        for data, arrived, writer in rows:
+        for data, arrived, writer in rows if opens_with_header(topic.type) else ():
             header = peek_header(data)
             if header is not None:
                 stamp, frame = header
@@ -398,6 +401,10 @@ class LiveObserver:
             return None
         arrived, stamp = np.array(received, dtype=np.int64).T
         return ObservedClock(arrived, stamp)
+
+    def publishers(self, topic: str) -> tuple[ObservedEndpoint, ...]:
+        """Return the publishers of a topic."""
+        return self._endpoints(self._participant.publishers(topic))
 
     def _facts(self) -> dict[str, TopicFacts]:
         now = time.monotonic_ns()
@@ -424,7 +431,9 @@ class LiveObserver:
     def _endpoints(self, endpoints: Iterable[EndpointInfo]) -> tuple[ObservedEndpoint, ...]:
         """Return the endpoints with a known node. Others are not ROS programs, or are not fully discovered yet."""
         return tuple(
-            ObservedEndpoint(full_name(endpoint.namespace, endpoint.node), endpoint.qos.transient_local)
+            ObservedEndpoint(
+                full_name(endpoint.namespace, endpoint.node), endpoint.qos.transient_local, endpoint.qos.reliable
+            )
             for endpoint in endpoints
             if not endpoint.node.startswith("_NODE_NAME_UNKNOWN")
         )

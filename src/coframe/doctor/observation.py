@@ -21,7 +21,7 @@ from coframe.doctor._transforms import Transforms, bare
 from coframe.time import SECOND
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterable
 
     from numpy.typing import NDArray
 
@@ -30,6 +30,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "NEVER",
+    "Edge",
     "Observation",
     "ObservedClock",
     "ObservedEndpoint",
@@ -55,10 +56,12 @@ class ObservedEndpoint:
     Attributes:
         node: The full name of its node; "" in recordings, which do not contain it.
         transient_local: Whether its durability is transient local: late joiners receive earlier messages.
+        reliable: Whether its reliability is reliable, not best effort.
     """
 
     node: str
     transient_local: bool
+    reliable: bool = True
 
 
 @dataclass(frozen=True)
@@ -428,12 +431,33 @@ class Observation:
         the stamp 0, tf2 uses the latest transform.
         """
         last = np.where(sensor.stamp == 0, 0, sensor.stamp + sensor.sweep)
-        ready = np.zeros(len(sensor.stamp), dtype=np.int64)
-        for edge in self.path(sensor.frame):
-            if not edge.static:
-                newest = np.maximum.accumulate(edge.stamp)
-                row = np.searchsorted(newest, last)
-                arrival = edge.arrived[np.minimum(row, edge.count - 1)]
-                is_covered = (sensor.stamp == 0) | ((row < edge.count) & (sensor.stamp >= edge.stamp.min()))
-                ready = np.maximum(ready, np.where(is_covered, arrival, NEVER))
-        return np.where(ready == NEVER, NEVER, np.maximum(ready - sensor.arrived, 0))
+        return _waits(self.path(sensor.frame), sensor.stamp, last, sensor.arrived)
+
+    def waits_between(
+        self, target: str, source: str, stamp: NDArray[np.int64], arrived: NDArray[np.int64]
+    ) -> NDArray[np.int64]:
+        """Return how long after each arrival the transform between two frames at a stamp is available, (N,).
+
+        0 means immediately; NEVER, not at all, as for frames that are not connected.
+        """
+        frames = self.structure.chain(target, source)
+        if frames is None:
+            return np.full(len(stamp), NEVER)
+        on_chain = set(frames)
+        edges = [self.last[frame] for frame in frames if frame in self.last]
+        return _waits([edge for edge in edges if edge.parent in on_chain], stamp, stamp, arrived)
+
+
+def _waits(
+    edges: Iterable[Edge], stamp: NDArray[np.int64], last: NDArray[np.int64], arrived: NDArray[np.int64]
+) -> NDArray[np.int64]:
+    """Return how long after each arrival all edges cover the time from a stamp to a last time; NEVER if they do not."""
+    ready = np.zeros(len(stamp), dtype=np.int64)
+    for edge in edges:
+        if not edge.static:
+            newest = np.maximum.accumulate(edge.stamp)
+            row = np.searchsorted(newest, last)
+            arrival = edge.arrived[np.minimum(row, edge.count - 1)]
+            is_covered = (stamp == 0) | ((row < edge.count) & (stamp >= edge.stamp.min()))
+            ready = np.maximum(ready, np.where(is_covered, arrival, NEVER))
+    return np.where(ready == NEVER, NEVER, np.maximum(ready - arrived, 0))

@@ -98,10 +98,16 @@ def observe_chosen(
     *,
     cache: int = DEFAULT_CACHE,
     progress: Callable[[int, int], object] | None = None,
+    examine: Callable[[Recording], object] | None = None,
 ) -> dict[str, Observation]:
-    """Return what :func:`observe_recording` returns, given the choice of transforms as one value."""
+    """Return what :func:`observe_recording` returns, given the choice of transforms as one value.
+
+    `examine` is called with the open recording, for callers that also need other data of it.
+    """
     collectors: dict[str, Collector] = {}
     with open_chosen(path, choice, progress=progress, on_transforms=collecting(collectors, choice)) as recording:
+        if examine is not None:
+            examine(recording)
         facts = _Facts(recording)
         return {
             name: Observation(

@@ -21,6 +21,7 @@
         ├── EditError(ValueError)               a rule for editing a recording that cannot be applied
         ├── TrajectoryError(ValueError)         a trajectory that cannot be read or compared
         ├── PlotError(ValueError)               something that cannot be plotted
+        ├── ContractError(ValueError)           a contract for recordings that is invalid
         ├── CourseError(ValueError)             a folder of the lab that cannot be created or graded
         ├── PluginError(RuntimeError)           a plug-in of another package that cannot be loaded
         └── UnsuitableFileError(OSError)        a pipe, a device, or a file that is too large (regular_files)
@@ -58,6 +59,7 @@ __all__ = [
     "CoframeError",
     "CoframeWarning",
     "ConnectivityException",
+    "ContractError",
     "CourseError",
     "DecodeError",
     "EditError",
@@ -287,6 +289,10 @@ class PackageError(_HintedError, LookupError):
 
 class FrozenFileError(_HintedError, ValueError):
     """A file that is not a frozen buffer, is damaged, or cannot be written."""
+
+
+class ContractError(_HintedError, ValueError):
+    """A contract for recordings that is invalid or cannot be read; the message names the place."""
 
 
 class RecordingError(_HintedError, ValueError):

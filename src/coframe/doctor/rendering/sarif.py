@@ -16,9 +16,9 @@ if TYPE_CHECKING:
     from coframe.doctor._diagnosis import Report
     from coframe.doctor._finding import Finding
 
-__all__ = ["as_sarif"]
+__all__ = ["SCHEMA", "as_sarif", "file_uri"]
 
-_SCHEMA = "https://json.schemastore.org/sarif-2.1.0.json"
+SCHEMA = "https://json.schemastore.org/sarif-2.1.0.json"
 _LEVELS = {Severity.NOTE: "note", Severity.WARNING: "warning", Severity.ERROR: "error"}
 
 
@@ -45,7 +45,7 @@ def as_sarif(reports: dict[str, Report], recording: Path | None) -> dict[str, An
         for finding in report.every_finding()
     ]
     return {
-        "$schema": _SCHEMA,
+        "$schema": SCHEMA,
         "version": "2.1.0",
         "runs": [
             {
@@ -60,7 +60,7 @@ def _result(finding: Finding, namespace: str, recording: Path | None) -> dict[st
     subject = f"{finding.subject}: " if finding.subject else ""
     location: dict[str, Any] = {}
     if recording is not None:
-        location["physicalLocation"] = {"artifactLocation": {"uri": _uri(recording)}}
+        location["physicalLocation"] = {"artifactLocation": {"uri": file_uri(recording)}}
     if finding.subject:
         location["logicalLocations"] = [{"name": finding.subject, "fullyQualifiedName": namespace + finding.subject}]
     return {
@@ -73,6 +73,6 @@ def _result(finding: Finding, namespace: str, recording: Path | None) -> dict[st
     }
 
 
-def _uri(path: Path) -> str:
+def file_uri(path: Path) -> str:
     """Return the URI of a path; relative for a relative path, which code hosting sites resolve in the repository."""
     return path.as_uri() if path.is_absolute() else quote(path.as_posix())

@@ -1,0 +1,223 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Compare what was measured with the requirements of a contract."""
+
+from __future__ import annotations
+
+import math
+from itertools import chain
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from coframe._output.formatting import count, did_you_mean, duration, join_names
+from coframe.contract._measurement import pace_of
+from coframe.doctor import diagnose
+from coframe.quaternion import from_rpy, inverse, multiply, to_rotvec
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from coframe.contract._contract import (
+        AvailabilityRequirement,
+        Contract,
+        TopicRequirement,
+        TransformRequirement,
+    )
+    from coframe.contract._measurement import Measurement, Pace
+    from coframe.doctor.observation import Edge, Observation
+
+__all__ = ["Result", "check_contract"]
+
+
+class Result(NamedTuple):
+    """The result of one requirement.
+
+    Attributes:
+        kind: ``transform``, ``topic``, ``availability``, ``clock``, ``frames`` or ``finding``.
+        subject: What the requirement is about, such as ``odom -> base_link`` or ``/scan``.
+        problems: What is required and what is there instead, one sentence each; empty if the requirement is met.
+    """
+
+    kind: str
+    subject: str
+    problems: tuple[str, ...]
+
+    @property
+    def is_met(self) -> bool:
+        """Whether the requirement is met."""
+        return not self.problems
+
+
+def check_contract(contract: Contract, measurement: Measurement) -> list[Result]:
+    """Return the result of each requirement, in the order of the contract."""
+    return [
+        *(_transform(each, measurement) for each in contract.transforms),
+        *(_topic(each, measurement) for each in contract.topics),
+        *(_availability(each, measurement) for each in contract.availability),
+        *_clock(contract, measurement),
+        *_frames(contract, measurement),
+        *_findings(contract, measurement),
+    ]
+
+
+def _transform(required: TransformRequirement, measurement: Measurement) -> Result:
+    subject = f"{required.namespace}: " if required.namespace else ""
+    subject += f"{required.parent} -> {required.child}"
+    return Result("transform", subject, tuple(_transform_problems(required, measurement)))
+
+
+def _transform_problems(required: TransformRequirement, measurement: Measurement) -> Iterator[str]:
+    observation = measurement.observations.get(required.namespace)
+    edge = None if observation is None else observation.last.get(required.child)
+    if observation is None or edge is None:
+        known = [] if observation is None else observation.frames
+        yield f"the frame {required.child!r} was not published. {did_you_mean(required.child, known)}".rstrip(". ")
+        return
+    if edge.parent != required.parent:
+        yield f"the parent of {required.child!r} is {edge.parent!r}, not {required.parent!r}"
+    if required.static and not edge.static:
+        yield "it was published as a dynamic transform, not as a static one"
+    if edge.static and not required.static and required.min_rate:
+        yield "it was published as a static transform, not as a dynamic one"
+        return
+    yield from _pose_problems(required, edge)
+    yield from _pace_problems(required.min_rate, required.max_gap, pace_of(np.sort(edge.arrived), observation.end))
+
+
+def _pose_problems(required: TransformRequirement, edge: Edge) -> Iterator[str]:
+    poses = edge.poses(np.arange(edge.count))
+    meters, radians = required.tolerance
+    if required.xyz is not None:
+        off = float(np.linalg.norm(poses[:, :3] - np.array(required.xyz), axis=1).max())
+        if not off <= meters:
+            yield f"the position is off by {_length(off)}; the tolerance is {_length(meters)}"
+    if required.rpy is not None:
+        turns = multiply(inverse(from_rpy(np.array(required.rpy))), poses[:, 3:])
+        off = float(np.linalg.norm(to_rotvec(turns), axis=1).max())
+        if not off <= radians:
+            yield f"the rotation is off by {_angle(off)}; the tolerance is {_angle(radians)}"
+
+
+def _topic(required: TopicRequirement, measurement: Measurement) -> Result:
+    return Result("topic", required.name, tuple(_topic_problems(required, measurement)))
+
+
+def _topic_problems(required: TopicRequirement, measurement: Measurement) -> Iterator[str]:
+    topic = measurement.topics.get(required.name)
+    if topic is None:
+        yield f"there is no such topic. {did_you_mean(required.name, measurement.topics)}".rstrip(". ")
+        return
+    if not topic.pace.messages:
+        yield "it has no messages"
+        return
+    if required.type and topic.type != required.type:
+        yield f"its type is {topic.type}, not {required.type}"
+    if required.frame:
+        sensors = [each for one in measurement.observations.values() for each in one.sensors]
+        frames = sorted({each.frame for each in sensors if each.topic == required.name})
+        if frames != [required.frame]:
+            yield f"its messages are in {join_names(frames) or 'no frame'}, not in {required.frame}"
+    yield from _pace_problems(required.min_rate, required.max_gap, topic.pace)
+    if required.reliable and topic.reliable is False:
+        yield "a publisher is best effort, not reliable"
+    if required.transient_local and topic.transient_local is False:
+        yield "a publisher is volatile, not transient local: late subscriptions receive nothing"
+
+
+def _pace_problems(min_rate: float | None, max_gap: int | None, pace: Pace) -> Iterator[str]:
+    if min_rate is not None and (pace.rate is None or pace.rate < min_rate):
+        there = count(pace.messages, "message") if pace.rate is None else f"the rate is {pace.rate:.3g} Hz"
+        yield f"{there}; the minimum is {min_rate:g} Hz"
+    if max_gap is not None and pace.max_gap is not None and pace.max_gap > max_gap:
+        yield f"the longest gap is {duration(pace.max_gap)}; the maximum is {duration(max_gap)}"
+
+
+def _availability(required: AvailabilityRequirement, measurement: Measurement) -> Result:
+    subject = f"{required.namespace}: " if required.namespace else ""
+    subject += f"{required.target} <- {required.source} at {required.at}"
+    return Result("availability", subject, tuple(_availability_problems(required, measurement)))
+
+
+def _availability_problems(required: AvailabilityRequirement, measurement: Measurement) -> Iterator[str]:
+    observation = measurement.observations.get(required.namespace)
+    sensors = [] if observation is None else [each for each in observation.sensors if each.topic == required.at]
+    if observation is None or not sensors:
+        yield f"no message on {required.at} has a stamp"
+        return
+    for frame in (required.target, required.source):
+        if frame not in observation.frames:
+            yield f"the frame {frame!r} was not published. {did_you_mean(frame, observation.frames)}".rstrip(". ")
+            return
+    if observation.structure.chain(required.target, required.source) is None:
+        yield f"{required.target!r} and {required.source!r} are in different trees"
+        return
+    share = _share(required, observation)
+    if share < required.share:
+        yield (
+            f"it was available within {duration(required.within)} for {_percent(share)} of the messages; the minimum "
+            f"is {_percent(required.share)}"
+        )
+
+
+def _share(required: AvailabilityRequirement, observation: Observation) -> float:
+    waits = [
+        observation.waits_between(required.target, required.source, each.stamp, each.arrived)
+        for each in observation.sensors
+        if each.topic == required.at
+    ]
+    return float(np.mean(np.concatenate(waits) <= required.within))
+
+
+def _clock(contract: Contract, measurement: Measurement) -> Iterator[Result]:
+    if contract.clock == "any":
+        return
+    for name, observation in measurement.observations.items():
+        found = observation.usual_clock
+        problem = f"the stamps are {_clock_words(found)}, not {_clock_words(contract.clock)}"
+        yield Result("clock", f"stamps of {name or '/'}", (problem,) if found != contract.clock else ())
+
+
+def _clock_words(clock: str) -> str:
+    words = {"wall": "system time", "simulated": "simulated time", "": "unknown, because there are none"}
+    return words.get(clock, "of a clock that is far from the system time")
+
+
+def _frames(contract: Contract, measurement: Measurement) -> Iterator[Result]:
+    if contract.other_frames:
+        return
+    named: dict[str, set[str]] = {}
+    for each in contract.transforms:
+        named.setdefault(each.namespace, set()).update((each.parent, each.child))
+    for name, observation in measurement.observations.items():
+        others = sorted(set(observation.frames) - named.get(name, set()))
+        problem = f"the contract does not name {count(len(others), 'frame')}: {join_names(others)}"
+        yield Result("frames", f"other frames of {name or '/'}", (problem,) if others else ())
+
+
+def _findings(contract: Contract, measurement: Measurement) -> Iterator[Result]:
+    if contract.fail_on is None:
+        return
+    ignored = {each.code for each in contract.ignore}
+    reports = (diagnose(observation, ignore=ignored) for observation in measurement.observations.values())
+    found: dict[str, list[str]] = {}
+    for finding in chain.from_iterable(report.every_finding() for report in reports):
+        if finding.severity >= contract.fail_on:
+            subject = f"{finding.subject}: " if finding.subject else ""
+            found.setdefault(finding.code, []).append(f"{subject}{finding.text}")
+    for code in sorted(found):
+        yield Result("finding", code, tuple(found[code]))
+    if not found:
+        yield Result("finding", "doctor", ())
+
+
+def _length(meters: float) -> str:
+    return f"{meters * 1e3:.3g} mm" if meters < 1 else f"{meters:.3g} m"
+
+
+def _angle(radians: float) -> str:
+    return f"{math.degrees(radians):.3g} degrees"
+
+
+def _percent(share: float) -> str:
+    """Return a percentage; rounded down, so that a share below a minimum never looks equal to it."""
+    return f"{math.floor(share * 1e4) / 1e2:g} %"

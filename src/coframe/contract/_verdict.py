@@ -1,0 +1,79 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Verdict: whether one recording, or the running system, keeps a contract."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+from coframe._output.escaping import one_line
+from coframe.bags.namespaces import ALL_TRANSFORMS
+from coframe.contract._checks import check_contract
+from coframe.contract._measurement import measure_recording
+from coframe.errors import RecordingError
+
+if TYPE_CHECKING:
+    import os
+    from collections.abc import Callable
+
+    from coframe.bags.namespaces import TransformChoice
+    from coframe.contract._checks import Result
+    from coframe.contract._contract import Contract
+
+__all__ = ["Verdict", "check_recording"]
+
+
+class Verdict(NamedTuple):
+    """The results for one recording or for the running system.
+
+    Attributes:
+        source: The path of the recording; ``live`` for the running system.
+        results: The result of each requirement; empty if the recording cannot be read.
+        unreadable: Why the recording cannot be read; "" if it can.
+    """
+
+    source: str
+    results: tuple[Result, ...]
+    unreadable: str = ""
+
+    @property
+    def broken(self) -> tuple[Result, ...]:
+        """The results of the requirements that are not met."""
+        return tuple(result for result in self.results if not result.is_met)
+
+    @property
+    def is_kept(self) -> bool:
+        """Whether the recording can be read and meets all requirements."""
+        return not self.unreadable and not self.broken
+
+    def text(self) -> str:
+        """Return a summary and a line for each problem."""
+        if self.unreadable:
+            return f"{self.source}: {one_line(self.unreadable)}"
+        met = len(self.results) - len(self.broken)
+        lines = [f"{self.source}: {met} of {len(self.results)} requirements are met"]
+        lines += [
+            f"  {one_line(f'{each.kind} {each.subject}: {problem}')}" for each in self.broken for problem in each.problems
+        ]
+        return "\n".join(lines)
+
+
+def check_recording(
+    contract: Contract,
+    path: str | os.PathLike[str],
+    choice: TransformChoice = ALL_TRANSFORMS,
+    *,
+    progress: Callable[[int, int], object] | None = None,
+) -> Verdict:
+    """Check one recording; a recording that cannot be read is a verdict, too.
+
+    Args:
+        contract: The contract.
+        path: A file, or the folder of a rosbag2 recording.
+        choice: The transforms to read, and the prefix of their frames.
+        progress: Called repeatedly with the number of bytes read and the total number.
+    """
+    try:
+        measurement = measure_recording(path, choice, progress=progress)
+    except RecordingError as error:
+        return Verdict(str(path), (), str(error))
+    return Verdict(str(path), tuple(check_contract(contract, measurement)))
