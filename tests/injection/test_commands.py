@@ -55,9 +55,8 @@ def files(tmp_path_factory):
     (folder / "robot.urdf").write_text(URDF.format(NAME_IN_XML, ""))
     (folder / "broken.urdf").write_text(URDF.format(NAME_IN_XML, f"<link name='{NAME_IN_XML}'/>"))
     (folder / "parameters.yaml").write_text(f"/talker:\n  ros__parameters:\n    {NEWLINE!r}: 1\n    evil: x\n")
-    (folder / "contract.yaml").write_text(
-        "\n".join(f"- {{parent: map, child: {json.dumps(name + 'x')}}}" for name in NAMES).replace("-", "transforms:\n-", 1)
-    )
+    required = "".join(f"- {{parent: map, child: {json.dumps(f'{name}x')}}}\n" for name in NAMES)
+    (folder / "contract.yaml").write_text(f"transforms:\n{required}")
     (folder / "hostile.launch.xml").write_text(
         f"<launch><node pkg='{NAME_IN_XML}' exec='x'/><log message='{NAME_IN_XML}'/></launch>"
     )

@@ -159,6 +159,7 @@ OTHER_COMMANDS = {
 }
 OTHER_GROUPS = {
     "action",
+    "component",
     "daemon",
     "interface",
     "lab",

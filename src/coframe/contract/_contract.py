@@ -6,6 +6,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Literal
 
+from coframe.contract._quantities import DEFAULT_TOLERANCE
 from coframe.doctor import Severity
 
 __all__ = [
@@ -41,7 +42,7 @@ class TransformRequirement:
     static: bool = False
     xyz: tuple[float, float, float] | None = None
     rpy: tuple[float, float, float] | None = None
-    tolerance: tuple[float, float] = (0.001, 0.001)
+    tolerance: tuple[float, float] = DEFAULT_TOLERANCE
     min_rate: float | None = None
     max_gap: int | None = None
 

@@ -16,6 +16,7 @@ from coframe.contract._contract import (
     TransformRequirement,
 )
 from coframe.contract._measurement import pace_of
+from coframe.contract._quantities import DEFAULT_TOLERANCE
 from coframe.doctor import Severity, diagnose
 from coframe.quaternion import to_rpy
 from coframe.time import MILLISECOND
@@ -35,7 +36,6 @@ _MIN_MESSAGES = 10  # fewer have no rate
 _MAX_IRREGULARITY = 10  # the longest gap over the median gap; what is less regular has no required rate
 _WITHIN = (20 * MILLISECOND, 50 * MILLISECOND, 100 * MILLISECOND, 200 * MILLISECOND)
 _SHARE, _MIN_SHARE = 0.99, 0.5
-_TOLERANCE = (0.001, math.radians(0.1))
 # Topics of the tools themselves, which say nothing about the robot, and the topics of transforms.
 _UNRELATED = ("/rosout", "/parameter_events", "/events/write_split", "/bond", "/diagnostics_agg")
 
@@ -73,7 +73,9 @@ def _transform(observation: Observation, edge: Edge, namespace: str) -> Transfor
     if edge.static:
         x, y, z = edge.last_pose[0, :3].tolist()
         roll, pitch, yaw = to_rpy(edge.last_pose[0, 3:]).tolist()
-        return TransformRequirement(edge.parent, edge.child, namespace, True, (x, y, z), (roll, pitch, yaw), _TOLERANCE)
+        return TransformRequirement(
+            edge.parent, edge.child, namespace, True, (x, y, z), (roll, pitch, yaw), DEFAULT_TOLERANCE
+        )
     rate, gap = _limits(pace_of(np.sort(edge.arrived), observation.end))
     return TransformRequirement(edge.parent, edge.child, namespace, min_rate=rate, max_gap=gap)
 

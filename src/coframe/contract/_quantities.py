@@ -8,13 +8,14 @@ import re
 
 from coframe.time import MICROSECOND, MILLISECOND, SECOND
 
-__all__ = ["duration_text", "parse_share", "parse_tolerance", "tolerance_text"]
+__all__ = ["DEFAULT_TOLERANCE", "duration_text", "parse_share", "parse_tolerance", "tolerance_text"]
 
 _QUANTITY = re.compile(r"(\d+(?:\.\d+)?(?:[eE][-+]?\d+)?)\s*([a-z]+)", re.ASCII)
 _METERS = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "um": 1e-6}
 _RADIANS = {"rad": 1.0, "mrad": 1e-3, "deg": math.pi / 180}
 _DURATIONS = (("s", SECOND), ("ms", MILLISECOND), ("us", MICROSECOND), ("ns", 1))
 _MAX_LENGTH = 100
+DEFAULT_TOLERANCE = (0.001, math.radians(0.1))  # meters and radians
 
 
 def parse_tolerance(text: str) -> tuple[float, float]:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, TypeVar, cast
 from coframe._files.bounded_yaml import MAX_BYTES, error_position, read_yaml
 from coframe._files.regular_files import read_regular, reading_hint
 from coframe._output.formatting import did_you_mean, join_quoted
+from coframe._process.optional_imports import pip_install
 from coframe.contract._contract import (
     AvailabilityRequirement,
     Contract,
@@ -16,7 +17,7 @@ from coframe.contract._contract import (
     TopicRequirement,
     TransformRequirement,
 )
-from coframe.contract._quantities import parse_share, parse_tolerance
+from coframe.contract._quantities import DEFAULT_TOLERANCE, parse_share, parse_tolerance
 from coframe.doctor import Severity, codes
 from coframe.errors import ContractError
 from coframe.time import duration_ns
@@ -33,7 +34,6 @@ VERSION = 1
 _CLOCKS = ("wall", "simulated", "any")
 _SEVERITIES: dict[str, Severity | None] = {"error": Severity.ERROR, "warning": Severity.WARNING, "note": Severity.NOTE}
 _SEVERITIES["never"] = None
-_DEFAULT_TOLERANCE = "1mm, 0.1deg"
 _MAX_SHOWN = 60  # characters of a wrong value
 _Value = TypeVar("_Value")
 
@@ -64,7 +64,7 @@ def parse_contract(text: str | bytes, name: str = "the contract") -> Contract:
     try:
         data = read_yaml(text)
     except ModuleNotFoundError:
-        raise ContractError("contracts are YAML, and PyYAML is missing", hint="pip install 'coframe[bags]'") from None
+        raise ContractError("contracts need the package PyYAML", hint=pip_install("bags")) from None
     except ValueError as error:
         position = error_position(error)
         place = f", line {position[0] + 1}" if position else ""
@@ -76,7 +76,7 @@ def _contract(top: _Mapping) -> Contract:
     version = top.take("version", int, "an integer", VERSION)
     if version != VERSION:
         raise top.error("version", f"is {version}; this version of coframe reads version {VERSION}")
-    tolerance = top.parsed("tolerance", parse_tolerance, _DEFAULT_TOLERANCE)
+    tolerance = top.parsed("tolerance", parse_tolerance, None) or DEFAULT_TOLERANCE
     findings = top.mapping("findings")
     contract = Contract(
         clock=cast("Clock", top.choice("clock", _CLOCKS, "any")),

@@ -51,10 +51,8 @@ class Verdict(NamedTuple):
             return f"{self.source}: {one_line(self.unreadable)}"
         met = len(self.results) - len(self.broken)
         lines = [f"{self.source}: {met} of {len(self.results)} requirements are met"]
-        lines += [
-            f"  {one_line(f'{each.kind} {each.subject}: {problem}')}" for each in self.broken for problem in each.problems
-        ]
-        return "\n".join(lines)
+        problems = [f"{each.kind} {each.subject}: {problem}" for each in self.broken for problem in each.problems]
+        return "\n".join([*lines, *(f"  {one_line(problem)}" for problem in problems)])
 
 
 def check_recording(

@@ -6,7 +6,7 @@ from __future__ import annotations
 import json
 from typing import TYPE_CHECKING, Any
 
-from coframe.contract._quantities import duration_text, tolerance_text
+from coframe.contract._quantities import DEFAULT_TOLERANCE, duration_text, tolerance_text
 from coframe.contract._reading import VERSION
 
 if TYPE_CHECKING:
@@ -30,7 +30,7 @@ def contract_yaml(contract: Contract, *, source: str = "") -> str:
         source: The name of the recording from which it was derived, for the first comment.
     """
     tolerances = [each.tolerance for each in contract.transforms if each.static]
-    tolerance = max(tolerances, key=tolerances.count, default=(0.001, 0.001))
+    tolerance = max(tolerances, key=tolerances.count, default=DEFAULT_TOLERANCE)
     severity = "never" if contract.fail_on is None else str(contract.fail_on)
     lines = [
         f"# What a good recording contains{f', derived from {_comment(source)}' if source else ''}.",
