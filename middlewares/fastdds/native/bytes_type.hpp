@@ -8,7 +8,6 @@
 #include <functional>
 #include <span>
 #include <string>
-#include <vector>
 
 #include "fastdds.hpp"
 
@@ -20,8 +19,8 @@ struct Outgoing {
   std::uint32_t size;
 };
 
-// What is read.
-using Incoming = std::vector<std::uint8_t>;
+// What is read: the payload of Fast DDS itself, which is valid until the loan of the sample is returned.
+using Incoming = std::span<const std::uint8_t>;
 
 class BytesType final : public dds::TopicDataType {
  public:
@@ -79,12 +78,7 @@ class BytesType final : public dds::TopicDataType {
   }
 
   static bool get(const rtps::SerializedPayload_t& payload, void* data) {
-    auto& message = *static_cast<Incoming*>(data);
-    if (payload.length == 0) {
-      message.clear();
-    } else {
-      message.assign(payload.data, payload.data + payload.length);
-    }
+    *static_cast<Incoming*>(data) = {payload.data, payload.length};
     return true;
   }
 };

@@ -75,7 +75,7 @@ nb::bytes array_bytes(const std::vector<Number>& numbers) {
 }
 
 // Large messages are copied without the GIL.
-nb::bytes to_bytes(const Incoming& message) {
+nb::bytes to_bytes(Incoming message) {
   constexpr std::size_t kMuch = 1 << 16;
   if (message.size() < kMuch) return nb::bytes(message.data(), message.size());
   auto copy = nb::steal<nb::bytes>(PyBytes_FromStringAndSize(nullptr, static_cast<Py_ssize_t>(message.size())));
@@ -85,6 +85,27 @@ nb::bytes to_bytes(const Incoming& message) {
   std::memcpy(memory, message.data(), message.size());
   return copy;
 }
+
+// An object that is created and destroyed without the GIL.
+template <class Object>
+class OutsideGil {
+ public:
+  template <class... Arguments>
+  explicit OutsideGil(Arguments&&... arguments) {
+    WithoutGil release;
+    object_.emplace(std::forward<Arguments>(arguments)...);
+  }
+  ~OutsideGil() {
+    WithoutGil release;
+    object_.reset();
+  }
+  OutsideGil(const OutsideGil&) = delete;
+  OutsideGil& operator=(const OutsideGil&) = delete;
+  Object* operator->() { return &*object_; }
+
+ private:
+  std::optional<Object> object_;
+};
 
 // The Python object of an endpoint: the native endpoint, and the objects of the core that its callbacks use. It is
 // closed without the GIL, because closing waits for the threads of Fast DDS.
@@ -365,15 +386,11 @@ void define_writer(nb::module_& module) {
   define_endpoint<Writer>(writer);
 }
 
-std::vector<Message> take_messages(Holder<Reader>& self, std::uint32_t limit) {
-  WithoutGil release;
-  return self.native->take(limit);
-}
-
 nb::list take(Holder<Reader>& self, std::uint32_t limit, nb::handle codec) {
   void* native_codec = codec.is_none() ? nullptr : native(core->codec, codec);
   nb::list list;
-  for (const Message& message : take_messages(self, limit)) {
+  OutsideGil<Reader::Taken> taken(*self.native, limit);
+  taken->each([&](const Message& message) {
     nb::object decoded = nb::none();
     if (native_codec != nullptr) {
       decoded = nb::steal(core->decode(native_codec, message.bytes.data(), message.bytes.size()));
@@ -381,7 +398,7 @@ nb::list take(Holder<Reader>& self, std::uint32_t limit, nb::handle codec) {
     }
     if (decoded.is_none()) decoded = to_bytes(message.bytes);
     list.append(nb::make_tuple(decoded, message.sent, message.writer));
-  }
+  });
   return list;
 }
 
@@ -391,11 +408,12 @@ std::int64_t sequence_of(const rtps::SampleIdentity& identity) {
 
 nb::list take_identified(Holder<Reader>& self, std::uint32_t limit) {
   nb::list list;
-  for (const Message& message : take_messages(self, limit)) {
+  OutsideGil<Reader::Taken> taken(*self.native, limit);
+  taken->each([&](const Message& message) {
     list.append(nb::make_tuple(to_bytes(message.bytes), message.sent, message.writer,
                                to_bytes(message.identity.writer_guid()), sequence_of(message.identity),
                                to_bytes(message.related.writer_guid()), sequence_of(message.related)));
-  }
+  });
   return list;
 }
 

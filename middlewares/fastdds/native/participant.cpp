@@ -35,11 +35,18 @@ std::uint64_t mix(std::uint64_t value) {
 }
 
 void set_own_transports(dds::DomainParticipantQos& qos) {
-  constexpr std::uint32_t kPeers =
-      120;  // participants of each peer that are looked for: all that a domain has ports for
+  // Participants of each peer that are looked for: all that a domain has ports for.
+  constexpr std::uint32_t kPeers = 120;
+  // Messages that are on their way to other processes. By default, an image of 1 MB does not fit, and most of it is
+  // sent again after milliseconds. The memory is used only as far as it is needed.
+  constexpr std::uint32_t kSegmentSize = std::uint32_t{4} << 20;
   auto& transports = qos.transport();
   transports.use_builtin_transports = false;
-  if (kSharesMemory) transports.user_transports.push_back(std::make_shared<transport::SharedMemTransportDescriptor>());
+  if (kSharesMemory) {
+    auto memory = std::make_shared<transport::SharedMemTransportDescriptor>();
+    memory->segment_size(kSegmentSize);
+    transports.user_transports.push_back(std::move(memory));
+  }
   auto udp = std::make_shared<transport::UDPv4TransportDescriptor>();
   udp->maxInitialPeersRange = kPeers;
   transports.user_transports.push_back(std::move(udp));
@@ -66,9 +73,8 @@ void set_discovery(dds::DomainParticipantQos& qos, const ParticipantOptions& opt
     for (const std::string& peer : options.peers) add_peer(qos, peer);
     add_peer(qos, "239.255.0.1");
   }
-  // By default, Fast DDS shares memory and looks for few participants of each peer.
-  const bool has_peers = !builtin.initialPeersList.empty();
-  if (!options.has_profiles && (has_peers || !kSharesMemory)) set_own_transports(qos);
+  // The user's configuration comes first.
+  if (!options.has_profiles && std::getenv("FASTDDS_BUILTIN_TRANSPORTS") == nullptr) set_own_transports(qos);
 }
 
 // Prints errors as one plain line each. Without it, Fast DDS writes them in colors, and reports descriptions of types
@@ -261,6 +267,45 @@ void Participant::return_topic(const std::string& name, const std::string& type)
   participant_->unregister_type(type);  // fails while another topic has it
 }
 
+std::shared_ptr<TopicReaders> Participant::readers_of(const std::string& topic) {
+  const std::lock_guard lock(readers_mutex_);
+  auto& readers = readers_of_[topic];
+  if (!readers) readers = std::make_shared<TopicReaders>();
+  return readers;
+}
+
+void Participant::forget_reader(const std::string& topic, Handle reader) noexcept {
+  const std::lock_guard lock(readers_mutex_);
+  const auto found = readers_of_.find(topic);
+  if (found == readers_of_.end()) return;
+  const bool is_empty = found->second->remove(reader);
+  if (is_empty && found->second.use_count() == 1) readers_of_.erase(found);  // otherwise, a writer has it
+}
+
+// Called by Fast DDS before it matches a reader. If memory runs out, messages might be sent in a form that the reader
+// cannot read, so the process ends as it would for any other failed allocation of Fast DDS.
+void Participant::note_reader(const rtps::GUID_t& guid, bool alive, const std::string& topic,
+                              const std::string& user_data) noexcept {
+  const Handle handle = handle_of(guid);
+  if (alive) {
+    {
+      const std::lock_guard lock(readers_mutex_);
+      topics_of_readers_.insert_or_assign(handle, topic);
+    }
+    readers_of(topic)->add(handle, user_data);
+    return;
+  }
+  std::string left;
+  {
+    const std::lock_guard lock(readers_mutex_);
+    const auto found = topics_of_readers_.find(handle);
+    if (found == topics_of_readers_.end()) return;
+    left = std::move(found->second);
+    topics_of_readers_.erase(found);
+  }
+  forget_reader(left, handle);
+}
+
 dds::Publisher* Participant::publisher(const std::vector<std::string>& partitions) {
   const std::lock_guard lock(mutex_);
   dds::Publisher*& publisher = publishers_[partitions];
@@ -332,6 +377,7 @@ void Participant::on_data_reader_discovery(dds::DomainParticipant*, rtps::Reader
   using Status = rtps::ReaderDiscoveryStatus;
   ignored = false;
   const bool alive = reason == Status::DISCOVERED_READER || reason == Status::CHANGED_QOS_READER;
+  note_reader(info.guid, alive, info.topic_name.to_string(), text_of(info.user_data));
   store(readers_, info.guid, alive, [&](EndpointChange& change) {
     change.topic = info.topic_name.to_string();
     change.type = info.type_name.to_string();
@@ -368,7 +414,9 @@ void Participant::on_publisher_discovery(dds::DomainParticipant*, rtps::WriterDi
 void Participant::on_subscriber_discovery(dds::DomainParticipant*, rtps::ReaderDiscoveryInfo&& info) {
   const auto& data = info.info;
   forget_multicast(data);
-  store(readers_, data.guid(), info.status != rtps::ReaderDiscoveryInfo::REMOVED_READER, [&](EndpointChange& change) {
+  const bool alive = info.status != rtps::ReaderDiscoveryInfo::REMOVED_READER;
+  note_reader(data.guid(), alive, data.topicName().to_string(), text_of(data.m_qos.m_userData));
+  store(readers_, data.guid(), alive, [&](EndpointChange& change) {
     change.topic = data.topicName().to_string();
     change.type = data.typeName().to_string();
     change.qos = read_qos(data.m_qos, false);

@@ -17,6 +17,7 @@
 
 #include "bytes_type.hpp"
 #include "fastdds.hpp"
+#include "topic_readers.hpp"
 
 namespace coframe::fastdds {
 
@@ -27,9 +28,6 @@ inline constexpr bool kSharesMemory = true;
 #else
 inline constexpr bool kSharesMemory = false;
 #endif
-
-using Handle = std::uint64_t;  // identifies an endpoint in this process
-using Guid = std::array<std::uint8_t, 16>;
 
 Guid bytes_of(const rtps::GUID_t& guid);
 rtps::GUID_t guid_of(const Guid& bytes);
@@ -111,6 +109,11 @@ class Participant final : dds::DomainParticipantListener {
   // A topic is shared by all endpoints with its name and type; each must return it.
   dds::Topic* take_topic(const std::string& name, const std::string& type);
   void return_topic(const std::string& name, const std::string& type);
+  // The readers of a topic. Those of other participants are added before they can receive messages.
+  std::shared_ptr<TopicReaders> readers_of(const std::string& topic);
+  void forget_reader(const std::string& topic, Handle reader) noexcept;
+  // Whether messages may be in blocks, which are not encrypted.
+  bool shares_blocks() const { return options_.properties.empty() && !block_namespace().empty(); }
   dds::Publisher* publisher(const std::vector<std::string>& partitions);
   dds::Subscriber* subscriber(const std::vector<std::string>& partitions);
 
@@ -138,12 +141,17 @@ class Participant final : dds::DomainParticipantListener {
 #endif
   template <class Make>
   void store(EndpointChanges& changes, const rtps::GUID_t& guid, bool alive, Make&& make) noexcept;
+  void note_reader(const rtps::GUID_t& guid, bool alive, const std::string& topic,
+                   const std::string& user_data) noexcept;
   void set_changed();
 
   const ParticipantOptions options_;
   void* const changed_;
   std::atomic<bool> stopped_ = false;
   EndpointChanges writers_, readers_;
+  std::mutex readers_mutex_;  // protects the two members below
+  std::map<std::string, std::shared_ptr<TopicReaders>> readers_of_;
+  std::unordered_map<Handle, std::string> topics_of_readers_;
   std::mutex mutex_;  // protects the three members below
   std::map<std::string, SharedTopic> topics_;
   std::map<Partitions, dds::Publisher*> publishers_;

@@ -24,28 +24,30 @@ dds::DataReaderQos make_qos(const Participant& participant, dds::Subscriber& sub
   return made;
 }
 
-// Takes the next message. Returns false if there is none; a message without data is skipped.
-bool take_next(dds::DataReader& reader, Incoming& bytes, dds::SampleInfo& info) {
-  while (is_ok(reader.take_next_sample(&bytes, &info))) {
-    if (info.valid_data && bytes.size() >= 4) return true;
-  }
-  return false;
-}
-
-Handle writer_of(const dds::SampleInfo& info) { return handle_of(info.sample_identity.writer_guid()); }
-
 }  // namespace
+
+Batch::Batch(dds::DataReader& reader, BlockMap& blocks, std::uint32_t limit)
+    : reader_(reader), blocks_(blocks), limit_(std::min(limit, kMaxMessages)) {
+  reader_.take(samples_, infos_, static_cast<std::int32_t>(limit_));
+}
 
 DataReader::DataReader(std::shared_ptr<Participant> participant, std::string topic, std::string type, void* on_change)
     : participant_(std::move(participant)), topic_(std::move(topic)), type_(std::move(type)), events_(on_change) {}
 
-void DataReader::start(const Qos& qos, const std::string& user_data) {
+void DataReader::start(const Qos& qos, const std::string& user_data, bool reads_blocks) {
   check_not_forked();
+  user_data_ = user_data;
+  // A reader without a limit may need more messages than there are blocks.
+  offers_blocks_ = reads_blocks && !qos.keep_all && participant_->shares_blocks();
+  const std::string announced =
+      offers_blocks_ ? user_data + blocks_entry(static_cast<std::uint32_t>(qos.depth)) : user_data;
   subscriber_ = participant_->subscriber(qos.partitions);
   dds::Topic* shared = participant_->take_topic(topic_, type_);
-  reader_ = subscriber_->create_datareader(shared, make_qos(*participant_, *subscriber_, topic_, qos, user_data), this,
+  participant_->readers_of(topic_)->add(own_key(), announced);
+  reader_ = subscriber_->create_datareader(shared, make_qos(*participant_, *subscriber_, topic_, qos, announced), this,
                                            dds::StatusMask::all());
   if (reader_ == nullptr) {
+    participant_->forget_reader(topic_, own_key());
     participant_->return_topic(topic_, type_);
     throw Error("could not create a reader");
   }
@@ -55,13 +57,47 @@ void DataReader::start(const Qos& qos, const std::string& user_data) {
 
 void DataReader::close() noexcept {
   if (forked()) return;
-  const std::unique_lock lock(closing_);
-  if (reader_ == nullptr) return;
-  dds::DataReader* reader = std::exchange(reader_, nullptr);
-  reader->set_listener(nullptr);
+  dds::DataReader* unused = nullptr;
+  {
+    const std::lock_guard lock(mutex_);
+    if (closed_ || reader_ == nullptr) return;
+    closed_ = true;
+    reader_->set_listener(nullptr);
+    if (users_ == 0) unused = std::exchange(reader_, nullptr);
+  }
+  if (unused != nullptr) destroy(unused);
+}
+
+dds::DataReader* DataReader::enter() {
+  check_not_forked();
+  const std::lock_guard lock(mutex_);
+  if (closed_ || reader_ == nullptr) return nullptr;
+  ++users_;
+  return reader_;
+}
+
+void DataReader::leave() noexcept {
+  dds::DataReader* unused = nullptr;
+  {
+    const std::lock_guard lock(mutex_);
+    if (--users_ == 0 && closed_) unused = std::exchange(reader_, nullptr);
+  }
+  if (unused != nullptr) destroy(unused);
+}
+
+void DataReader::destroy(dds::DataReader* reader) noexcept {
   subscriber_->delete_datareader(reader);
+  participant_->forget_reader(topic_, own_key());
   participant_->return_topic(topic_, type_);
   participant_->remove_own(participant_->readers(), guid_);
+}
+
+void DataReader::withdraw_blocks(dds::DataReader& reader) {
+  if (!offers_blocks_.exchange(false)) return;
+  dds::DataReaderQos qos = reader.get_qos();
+  qos.user_data().setValue({user_data_.begin(), user_data_.end()});
+  reader.set_qos(qos);
+  participant_->readers_of(topic_)->add(own_key(), user_data_);
 }
 
 // Called by Fast DDS, which no exception may reach. If memory runs out, a message is lost.
@@ -72,10 +108,16 @@ void DataReader::on_data_available(dds::DataReader* reader) {
   }
 }
 
+void DataReader::on_subscription_matched(dds::DataReader*, const dds::SubscriptionMatchedStatus& status) {
+  events_.add_matched(status, status.last_publication_handle);
+  if (status.current_count_change < 0)
+    blocks_.writer_left(bytes_of(rtps::iHandle2GUID(status.last_publication_handle)));
+}
+
 Reader::Reader(std::shared_ptr<Participant> participant, std::string topic, std::string type, const Qos& qos,
                const std::string& user_data, void* on_data)
     : DataReader(std::move(participant), std::move(topic), std::move(type), on_data), event_(on_data) {
-  start(qos, user_data);
+  start(qos, user_data, true);
   if (event_ != nullptr) core->set_event(event_);
 }
 
@@ -84,48 +126,50 @@ void Reader::on_data(dds::DataReader&) {
   if (event_ != nullptr) core->set_event(event_);
 }
 
-std::vector<Message> Reader::take(std::uint32_t limit) {
-  std::vector<Message> messages;
-  with_reader([&](dds::DataReader& reader) {
-    pending_ = false;
-    dds::SampleInfo info;
-    Incoming bytes;
-    while (messages.size() < limit) {
-      if (!take_next(reader, bytes, info)) return;
-      messages.push_back({std::move(bytes), info.source_timestamp.to_ns(), writer_of(info), info.sample_identity,
-                          info.related_sample_identity});
-      bytes = {};
-    }
-    pending_ = true;
-  });
-  return messages;
+Reader::Taken::Taken(Reader& reader, std::uint32_t limit) : access_(reader) {
+  dds::DataReader* native = access_.native();
+  if (native == nullptr) return;
+  if (reader.blocks_.failed()) reader.withdraw_blocks(*native);
+  reader.pending_ = false;
+  batch_.emplace(*native, reader.blocks_, limit);
+  if (batch_->full()) reader.pending_ = true;
+  if (batch_->empty()) reader.blocks_.queue_is_empty();
 }
 
 Tap::Tap(std::shared_ptr<Participant> participant, std::string topic, std::string type, const Qos& qos,
          const std::string& user_data, const Limits& limits)
     : DataReader(std::move(participant), std::move(topic), std::move(type), nullptr), limits_(limits) {
-  start(qos, user_data);
+  start(qos, user_data, true);
 }
 
 void Tap::on_data(dds::DataReader& reader) {
   const std::int64_t arrived = now();
   const std::lock_guard lock(mutex_);
-  dds::SampleInfo info;
-  Incoming bytes;
-  while (take_next(reader, bytes, info)) {
-    if (messages_.ends.size() >= limits_.messages || messages_.bytes.size() >= limits_.size) {
-      ++missed_;
-      continue;
-    }
-    messages_.bytes.append(reinterpret_cast<const char*>(bytes.data()), std::min(bytes.size(), limits_.head));
-    messages_.arrived.push_back(arrived);
-    messages_.sent.push_back(info.source_timestamp.to_ns());
-    messages_.writers.push_back(writer_of(info));
-    messages_.ends.push_back(messages_.bytes.size());
+  while (true) {
+    Batch batch(reader, blocks_, Batch::kMaxMessages);
+    if (batch.empty()) break;
+    batch.each([&](const Message& message) { store(message, arrived); });
   }
+  blocks_.queue_is_empty();
+}
+
+void Tap::store(const Message& message, std::int64_t arrived) {
+  if (messages_.ends.size() >= limits_.messages || messages_.bytes.size() >= limits_.size) {
+    ++missed_;
+    return;
+  }
+  const auto head = message.bytes.first(std::min(message.bytes.size(), limits_.head));
+  messages_.bytes.append(reinterpret_cast<const char*>(head.data()), head.size());
+  messages_.arrived.push_back(arrived);
+  messages_.sent.push_back(message.sent);
+  messages_.writers.push_back(message.writer);
+  messages_.ends.push_back(messages_.bytes.size());
 }
 
 Tap::Messages Tap::take() {
+  if (blocks_.failed()) {
+    if (const Access access(*this); access.native() != nullptr) withdraw_blocks(*access.native());
+  }
   const std::lock_guard lock(mutex_);
   return std::exchange(messages_, {});
 }
@@ -138,14 +182,16 @@ std::uint64_t Tap::missed() {
 TfReader::TfReader(std::shared_ptr<Participant> participant, std::string topic, std::string type, const Qos& qos,
                    const std::string& user_data, void* store, void* on_change)
     : DataReader(std::move(participant), std::move(topic), std::move(type), on_change), store_(store) {
-  start(qos, user_data);
+  start(qos, user_data, false);
 }
 
 void TfReader::on_data(dds::DataReader& reader) {
-  const std::lock_guard lock(mutex_);
-  dds::SampleInfo info;
-  while (take_next(reader, message_, info)) {
-    core->add_to_store(store_, writer_of(info), message_.data(), message_.size());
+  while (true) {
+    Batch batch(reader, blocks_, Batch::kMaxMessages);
+    if (batch.empty()) return;
+    batch.each([&](const Message& message) {
+      core->add_to_store(store_, message.writer, message.bytes.data(), message.bytes.size());
+    });
   }
 }
 

@@ -4,16 +4,67 @@
 
 #include <atomic>
 #include <cstdint>
+#include <fastdds/dds/core/LoanableSequence.hpp>
 #include <memory>
 #include <mutex>
-#include <shared_mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "participant.hpp"
+#include "shared_blocks.hpp"
 #include "status_events.hpp"
 
 namespace coframe::fastdds {
+
+// A message that was taken from a reader. The bytes are in the memory of Fast DDS, or in that of the writer's process.
+struct Message {
+  Incoming bytes;
+  std::int64_t sent;  // nanoseconds since 1970 by the writer's clock
+  Handle writer;
+  rtps::SampleIdentity identity, related;  // what identifies requests and replies
+};
+
+// Messages that were taken together, oldest first. Their bytes are valid as long as this object.
+class Batch {
+ public:
+  // The most messages in a batch; a default of Fast DDS.
+  static constexpr std::uint32_t kMaxMessages = 32;
+
+  Batch(dds::DataReader& reader, BlockMap& blocks, std::uint32_t limit);
+  ~Batch() { reader_.return_loan(samples_, infos_); }
+  Batch(const Batch&) = delete;
+  Batch& operator=(const Batch&) = delete;
+
+  // Whether there was a message, even if it has no bytes.
+  bool empty() const { return infos_.length() == 0; }
+  // Whether more messages may be waiting.
+  bool full() const { return static_cast<std::uint32_t>(infos_.length()) == limit_; }
+
+  template <class Use>
+  void each(Use&& use) {
+    constexpr std::size_t kHeaderSize = 4;
+    for (int i = 0; i < infos_.length(); ++i) {
+      const dds::SampleInfo& info = infos_[i];
+      if (!info.valid_data) continue;
+      const rtps::GUID_t& guid = info.sample_identity.writer_guid();
+      const bool is_reference = BlockMap::is_reference(samples_[i]);
+      const auto block = is_reference ? blocks_.find(bytes_of(guid), samples_[i]) : std::nullopt;
+      if (is_reference && !block) continue;
+      const Incoming bytes = block ? block->bytes() : samples_[i];
+      if (bytes.size() < kHeaderSize) continue;
+      use(Message{bytes, info.source_timestamp.to_ns(), handle_of(guid), info.sample_identity,
+                  info.related_sample_identity});
+    }
+  }
+
+ private:
+  dds::DataReader& reader_;
+  BlockMap& blocks_;
+  const std::uint32_t limit_;
+  dds::LoanableSequence<Incoming> samples_;
+  dds::SampleInfoSeq infos_;
+};
 
 // Receives serialized messages on the threads of Fast DDS.
 class DataReader : protected dds::DataReaderListener {
@@ -21,31 +72,52 @@ class DataReader : protected dds::DataReaderListener {
   DataReader(std::shared_ptr<Participant> participant, std::string topic, std::string type, void* on_change);
   // Classes that override `on_data` call close() in their destructors.
   ~DataReader() override { close(); }
-  // No callback runs afterwards.
+  // No callback runs afterwards. If the reader is in use, its last user deletes it.
   void close() noexcept;
 
   rtps::GUID_t guid() const { return guid_; }
   StatusEvents& events() { return events_; }
   const StatusEvents& events() const { return events_; }
 
+  // The reader is not deleted while this object exists.
+  class Access {
+   public:
+    explicit Access(DataReader& reader) : reader_(reader), native_(reader.enter()) {}
+    ~Access() {
+      if (native_ != nullptr) reader_.leave();
+    }
+    Access(const Access&) = delete;
+    Access& operator=(const Access&) = delete;
+
+    // Null if the reader is closed.
+    dds::DataReader* native() const { return native_; }
+
+   private:
+    DataReader& reader_;
+    dds::DataReader* const native_;
+  };
+
  protected:
-  // Called last by the constructors of derived classes, because messages may arrive at once.
-  void start(const Qos& qos, const std::string& user_data);
+  // Called last by the constructors of derived classes, because messages may arrive at once. `reads_blocks`: the class
+  // calls withdraw_blocks().
+  void start(const Qos& qos, const std::string& user_data, bool reads_blocks);
   // Messages may have arrived.
   virtual void on_data(dds::DataReader& reader) = 0;
-  // Calls `use` with the reader unless it is closed.
-  template <class Use>
-  void with_reader(Use&& use) {
-    check_not_forked();
-    const std::shared_lock lock(closing_);
-    if (reader_ != nullptr) use(*reader_);
-  }
+  // If blocks cannot be opened, asks the writers to send messages as they are.
+  void withdraw_blocks(dds::DataReader& reader);
+
+  BlockMap blocks_;
 
  private:
+  friend class Access;
+  dds::DataReader* enter();
+  void leave() noexcept;
+  void destroy(dds::DataReader* reader) noexcept;
+  // Identifies the reader in the list of its topic, before it has a GUID.
+  Handle own_key() const { return reinterpret_cast<Handle>(this); }
+
   void on_data_available(dds::DataReader* reader) override;
-  void on_subscription_matched(dds::DataReader*, const dds::SubscriptionMatchedStatus& status) override {
-    events_.add_matched(status, status.last_publication_handle);
-  }
+  void on_subscription_matched(dds::DataReader*, const dds::SubscriptionMatchedStatus& status) override;
   void on_requested_deadline_missed(dds::DataReader*, const DeadlineMissedStatus& status) override {
     events_.add_total(StatusEvents::kDeadlineMissed, status);
   }
@@ -62,17 +134,14 @@ class DataReader : protected dds::DataReaderListener {
   const std::shared_ptr<Participant> participant_;
   const std::string topic_, type_;
   StatusEvents events_;
-  mutable std::shared_mutex closing_;  // held by users of the reader, and exclusively while it is closed
+  std::string user_data_;  // without what says that blocks can be read
+  std::atomic<bool> offers_blocks_ = false;
   dds::Subscriber* subscriber_ = nullptr;
-  dds::DataReader* reader_ = nullptr;
   rtps::GUID_t guid_;
-};
-
-struct Message {
-  Incoming bytes;
-  std::int64_t sent;  // nanoseconds since 1970 by the writer's clock
-  Handle writer;
-  rtps::SampleIdentity identity, related;  // what identifies requests and replies
+  std::mutex mutex_;  // protects the members below
+  dds::DataReader* reader_ = nullptr;
+  int users_ = 0;
+  bool closed_ = false;
 };
 
 // Queues messages in Fast DDS. The thread that waits for the event takes them.
@@ -83,8 +152,21 @@ class Reader final : public DataReader {
          const std::string& user_data, void* on_data);
   ~Reader() override { close(); }
 
-  // Returns up to `limit` messages, oldest first.
-  std::vector<Message> take(std::uint32_t limit);
+  // Up to `limit` messages. They and the reader exist as long as this object, which need not be destroyed before
+  // close().
+  class Taken {
+   public:
+    Taken(Reader& reader, std::uint32_t limit);
+    template <class Use>
+    void each(Use&& use) {
+      if (batch_) batch_->each(use);
+    }
+
+   private:
+    Access access_;
+    std::optional<Batch> batch_;
+  };
+
   // Returns whether messages may be waiting; false positives are possible, false negatives are not.
   bool pending() const { return pending_; }
 
@@ -122,6 +204,7 @@ class Tap final : public DataReader {
 
  private:
   void on_data(dds::DataReader& reader) override;
+  void store(const Message& message, std::int64_t arrived);
 
   const Limits limits_;
   std::mutex mutex_;  // protects the two members below
@@ -140,8 +223,6 @@ class TfReader final : public DataReader {
   void on_data(dds::DataReader& reader) override;
 
   void* const store_;
-  std::mutex mutex_;  // protects the member below
-  Incoming message_;  // its memory is kept
 };
 
 }  // namespace coframe::fastdds

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "writer.hpp"
 
+#include <algorithm>
 #include <chrono>
+#include <cstring>
 #include <limits>
 #include <mutex>
+#include <thread>
 #include <utility>
 
 #include "endpoint_qos.hpp"
@@ -12,6 +15,8 @@ namespace coframe::fastdds {
 namespace {
 
 constexpr std::size_t kHeaderSize = 4;
+constexpr std::size_t kMinBlockSize = 64'000;           // larger messages do not fit into one packet
+constexpr std::int64_t kClosingPatience = 200'000'000;  // nanoseconds
 
 dds::DataWriterQos make_qos(const Participant& participant, dds::Publisher& publisher, const std::string& topic,
                             const Qos& qos, const std::string& user_data) {
@@ -43,6 +48,10 @@ Writer::Writer(std::shared_ptr<Participant> participant, std::string topic, std:
       topic_(std::move(topic)),
       type_(std::move(type)),
       checks_transforms_(checks_transforms),
+      // Later readers, and those that have to wait, need messages that Fast DDS itself keeps.
+      shares_blocks_(participant_->shares_blocks() && !qos.transient_local && !qos.keep_all &&
+                     qos.lifespan_ns == kInfinite),
+      depth_(static_cast<std::size_t>(std::max(qos.depth, 1))),
       events_(on_change) {
   check_not_forked();
   publisher_ = participant_->publisher(qos.partitions);
@@ -54,11 +63,13 @@ Writer::Writer(std::shared_ptr<Participant> participant, std::string topic, std:
     throw Error("could not create a writer");
   }
   guid_ = writer_->guid();
+  readers_ = participant_->readers_of(topic_);
   participant_->add_own(participant_->writers(), guid_, topic_, type_, qos, user_data);
 }
 
 void Writer::close() noexcept {
   if (forked()) return;
+  wait_for_blocks(kClosingPatience);  // afterwards, readers cannot open them
   const std::unique_lock lock(closing_);
   if (writer_ == nullptr) return;
   dds::DataWriter* writer = std::exchange(writer_, nullptr);
@@ -66,6 +77,8 @@ void Writer::close() noexcept {
   publisher_->delete_datawriter(writer);
   participant_->return_topic(topic_, type_);
   participant_->remove_own(participant_->writers(), guid_);
+  const std::lock_guard blocks_lock(blocks_mutex_);
+  blocks_.reset();
 }
 
 dds::DataWriter& Writer::open() const {
@@ -87,8 +100,33 @@ std::int64_t Writer::write(std::span<const coframe_part> parts, std::size_t size
   if (size > std::numeric_limits<std::uint32_t>::max() / 2) throw Error("could not write: the message is too large");
   if (!has_valid_clock()) throw Error("could not write: messages cannot have the time of the system clock");
   const std::shared_lock lock(closing_);
-  dds::DataWriter& writer = open();
+  if (size >= kMinBlockSize && related == nullptr && shares_blocks_) {
+    if (const auto number = send_in_block(parts, size)) return *number;
+  }
   Outgoing message{parts, static_cast<std::uint32_t>(size)};
+  return send(message, related);
+}
+
+std::optional<std::int64_t> Writer::send_in_block(std::span<const coframe_part> parts, std::size_t size) {
+  const auto sharing = readers_->share();
+  if (!sharing) return std::nullopt;
+  const std::lock_guard lock(blocks_mutex_);
+  if (!blocks_) blocks_.emplace(bytes_of(guid_));
+  Block* block = blocks_->take(size, sharing->readers, std::max(depth_, sharing->depth));
+  if (block == nullptr) return std::nullopt;
+  std::uint8_t* end = block->data();
+  for (const coframe_part& part : parts) {
+    std::memcpy(end, part.data, part.size);
+    end += part.size;
+  }
+  const BlockReference reference = blocks_->reference(size);
+  const coframe_part whole{&reference, sizeof reference};
+  Outgoing message{{&whole, 1}, sizeof reference};
+  return send(message, nullptr);
+}
+
+std::int64_t Writer::send(Outgoing& message, const rtps::SampleIdentity* related) {
+  dds::DataWriter& writer = open();
   rtps::WriteParams params;
   if (related != nullptr) params.related_sample_identity(*related);
 #if COFRAME_FASTDDS_3
@@ -107,8 +145,27 @@ void Writer::assert_liveliness() {
 }
 
 bool Writer::wait_for_acks(std::int64_t timeout_ns) {
-  const std::shared_lock lock(closing_);
-  return is_ok(open().wait_for_acknowledgments(to_duration(timeout_ns)));
+  const auto begin = std::chrono::steady_clock::now();
+  {
+    const std::shared_lock lock(closing_);
+    if (!is_ok(open().wait_for_acknowledgments(to_duration(timeout_ns)))) return false;
+  }
+  const std::chrono::nanoseconds spent = std::chrono::steady_clock::now() - begin;
+  return wait_for_blocks(timeout_ns - spent.count());
+}
+
+bool Writer::wait_for_blocks(std::int64_t timeout_ns) const {
+  constexpr std::chrono::milliseconds kPause(1);
+  const auto begin = std::chrono::steady_clock::now();
+  while (true) {
+    {
+      const std::lock_guard lock(blocks_mutex_);
+      if (!blocks_ || blocks_->finished()) return true;
+    }
+    const std::chrono::nanoseconds spent = std::chrono::steady_clock::now() - begin;
+    if (spent.count() >= timeout_ns) return false;
+    std::this_thread::sleep_for(kPause);
+  }
 }
 
 }  // namespace coframe::fastdds

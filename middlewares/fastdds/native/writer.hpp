@@ -3,12 +3,15 @@
 #pragma once
 
 #include <memory>
+#include <mutex>
+#include <optional>
 #include <shared_mutex>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "participant.hpp"
+#include "shared_blocks.hpp"
 #include "status_events.hpp"
 
 namespace coframe::fastdds {
@@ -50,15 +53,25 @@ class Writer final : dds::DataWriterListener {
     events_.add_total(StatusEvents::kLiveliness, status);
   }
   dds::DataWriter& open() const;
+  std::int64_t send(Outgoing& message, const rtps::SampleIdentity* related);
+  // Sends a reference to the message in a block. Returns nothing if a reader needs the message itself.
+  std::optional<std::int64_t> send_in_block(std::span<const coframe_part> parts, std::size_t size);
+  // Waits until the readers have finished with the messages in blocks. Returns false after the timeout.
+  bool wait_for_blocks(std::int64_t timeout_ns) const;
 
   const std::shared_ptr<Participant> participant_;
   const std::string topic_, type_;
   const bool checks_transforms_;
+  const bool shares_blocks_;
+  const std::size_t depth_;
   StatusEvents events_;
   mutable std::shared_mutex closing_;  // held by users of the writer, and exclusively while it is closed
   dds::Publisher* publisher_ = nullptr;
   dds::DataWriter* writer_ = nullptr;
   rtps::GUID_t guid_;
+  std::shared_ptr<TopicReaders> readers_;
+  mutable std::mutex blocks_mutex_;  // protects the member below
+  std::optional<BlockPool> blocks_;
 };
 
 }  // namespace coframe::fastdds
