@@ -7,7 +7,7 @@ import importlib
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Mapping
 
 __all__ = ["MAX_BYTES", "error_position", "read_yaml", "yaml_events"]
 
@@ -20,12 +20,17 @@ _TOO_DEEP = f"it is nested more than {MAX_DEPTH} levels deep"
 _PARSER_TOO_DEEP = "maximum nesting depth"  # newer parsers have their own limit, and may reach it before _check
 
 
-def read_yaml(text: str | bytes, max_bytes: int = MAX_BYTES) -> Any:
+def read_yaml(
+    text: str | bytes,
+    max_bytes: int = MAX_BYTES,
+    constructors: Mapping[str, Callable[[Any, Any], Any]] | None = None,
+) -> Any:
     """Return the content of a YAML document, with aliases replaced by copies.
 
     Args:
         text: The document.
         max_bytes: The maximum size.
+        constructors: PyYAML's constructors of the caller's own tags, by tag.
 
     Raises:
         ValueError: The text is not valid YAML or exceeds a limit.
@@ -34,7 +39,8 @@ def read_yaml(text: str | bytes, max_bytes: int = MAX_BYTES) -> Any:
 
     def load(yaml: Any, base: Any) -> Any:
         loader = type("BoundedLoader", (base,), {})
-        yaml.add_constructor(_INTEGER, _integer, Loader=loader)
+        for tag, construct in {_INTEGER: _integer, **(constructors or {})}.items():
+            yaml.add_constructor(tag, construct, Loader=loader)
         return _deep_copy(yaml.load(text, Loader=loader))
 
     return _within_limits(text, max_bytes, load)

@@ -176,7 +176,7 @@ COMMANDS: dict[str, CommandRow] = {
     ),
     "pkg": CommandRow("Create and find packages, like ros2 pkg.", "ros2.pkg", (), graph=False, ros=False),
     "ros2": CommandRow(
-        "Add the executables ros2 and rviz2 if no ROS is installed.", "ros2.installing", (), graph=False, ros=False
+        "Add the executables of ROS 2 if no ROS is installed.", "ros2.installing", (), graph=False, ros=False
     ),
 }
 

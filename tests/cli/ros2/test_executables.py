@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The executables `ros2` and `rviz2`: coframe's commands, unless a real ROS is installed."""
+"""The executables `ros2`, `rviz2` and `launch_test`: coframe's commands, unless a real ROS is installed."""
 
 import os
 import subprocess
@@ -38,9 +38,9 @@ def test_help_and_commands_without_a_counterpart(execute):
         0,
         "coframe has no daemon: each command reads the ROS graph itself.\n",
     )
-    code, output = execute("ros2", "component", "list")
+    code, output = execute("ros2", "control", "list_controllers")
     assert code == 1
-    assert "C++ components cannot be loaded" in output
+    assert "The controllers of ros2_control are C++ programs" in output
     code, output = execute("ros2", "topics")
     assert code == 2
     assert "Did you mean 'topic'" in output
@@ -64,6 +64,15 @@ def test_run_starts_the_executables_of_packages(execute):
     assert "TARGET_FRAME" in output
     code, output = execute("ros2", "pkg", "executables", "tf2_ros")
     assert "tf2_ros static_transform_publisher" in output.splitlines()
+
+
+def test_tests_of_launched_systems(execute, tmp_path):
+    code, output = execute("ros2", "test", "missing.py")
+    assert (code, output.splitlines()[-1]) == (2, "launch_test: error: Test file 'missing.py' does not exist")
+    (tmp_path / "empty.py").touch()
+    code, output = execute("launch_test", "empty.py")
+    assert code == 2
+    assert "launch_test: error: Test file 'empty.py' is missing generate_test_description function" in output
 
 
 def test_rviz2_opens_the_viewer(execute):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The executables ``ros2`` and ``rviz2`` for machines without ROS; an installed ROS takes precedence."""
+"""The executables ``ros2``, ``rviz2`` and ``launch_test``: those of an installed ROS take precedence."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from pathlib import Path
 
 from coframe._files.regular_files import open_regular
 
-__all__ = ["is_own_script", "real_executable", "ros2", "rviz2"]
+__all__ = ["is_own_script", "launch_test", "real_executable", "ros2", "rviz2"]
 
 _COMMANDS = (
     "action",
@@ -38,10 +38,10 @@ _UNSUPPORTED_COMMANDS = {
     "plugin": _EXTENSIONS,
     "multicast": "coframe doctor shows whether nodes are discovered.",
     "security": "SECURITY.md of coframe describes what protects the ROS graph.",
-    "test": "Run tests with pytest.",
     "extension_points": _EXTENSIONS,
     "extensions": _EXTENSIONS,
 }
+_LAUNCH_TEST = ("launch_testing", "launch_test")
 _OWN_SCRIPT = b"coframe.cli.ros2.executable"  # in the executables that `coframe ros2 install` writes
 _SCRIPT_SIZE = 10_000  # bytes of an executable to read: those of coframe contain two paths
 
@@ -61,7 +61,17 @@ def ros2() -> None:
     if name == "doctor" and not set(words[1:]) - _DOCTOR_OPTIONS:
         # ros2 doctor checks the system and the graph, coframe doctor the transforms.
         words = ["doctor", "--report"]
+    elif name == "test":
+        name, words = "run", ["run", *_LAUNCH_TEST, *words[1:]]
     run([name, *words[1:]] if words else [], program="ros2", shown=_COMMANDS)
+
+
+def launch_test() -> None:
+    """Run the console script ``launch_test``: the tests of a launched system."""
+    _run_real("launch_test")
+    from coframe.cli import run  # noqa: PLC0415 - not needed where ROS is installed
+
+    run(["run", *_LAUNCH_TEST, *sys.argv[1:]])
 
 
 def rviz2() -> None:

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""``coframe ros2``: adds the executables ``ros2`` and ``rviz2`` to the environment, and removes them.
+"""``coframe ros2``: adds the executables ``ros2``, ``rviz2`` and ``launch_test`` to the environment, and removes them.
 
 They are not installed with the package, because pip overwrites files with the same names: in a conda environment with
-ROS (RoboStack), the real ``ros2`` and ``rviz2`` are in the same folder.
+ROS (RoboStack), the real ones are in the same folder.
 """
 
 from __future__ import annotations
@@ -25,16 +25,16 @@ if TYPE_CHECKING:
 
 __all__ = ["ros2"]
 
-_NAMES = ("ros2", "rviz2")
+_NAMES = ("ros2", "rviz2", "launch_test")
 ros2 = CommandGroup(
     "ros2",
-    help="Add the executables ros2 and rviz2 if no ROS is installed.\n\nExample: coframe ros2 install",
+    help="Add the executables of ROS 2 if no ROS is installed.\n\nExample: coframe ros2 install",
 )
 
 
-@ros2.command(short_help="Add the executables ros2 and rviz2.")
+@ros2.command(short_help="Add the executables ros2, rviz2 and launch_test.")
 def install() -> None:
-    """Add the executables ros2 and rviz2 to this Python environment.
+    """Add the executables ros2, rviz2 and launch_test to this Python environment.
 
     Executables of a real ROS are not replaced. The new ones run coframe's commands. pip uninstall coframe also removes
     them.
@@ -57,7 +57,7 @@ def install() -> None:
 
 @ros2.command(short_help="Remove the executables that coframe added.")
 def remove() -> None:
-    """Remove the executables ros2 and rviz2 added by coframe ros2 install.
+    """Remove the executables ros2, rviz2 and launch_test added by coframe ros2 install.
 
     Example: coframe ros2 remove
     """

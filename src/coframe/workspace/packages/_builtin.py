@@ -46,6 +46,7 @@ EXECUTABLES: Final[dict[str, dict[str, tuple[str, ...]]]] = {
         name: (f"turtle_tf2_py.{name}:main",) for name in ("turtle_tf2_broadcaster", "turtle_tf2_listener")
     },
     "teleop_twist_keyboard": {"teleop_twist_keyboard": ("teleop_twist_keyboard:main",)},
+    "launch_testing": {"launch_test": ("launch_testing.launch_test:main",)},
     "xacro": {"xacro": ("xacro:main",)},
     "coframe": {
         name: (f"coframe.lab.{name}:main",)
