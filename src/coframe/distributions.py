@@ -137,6 +137,12 @@ BEHAVIORS: Final[Mapping[str, Behavior]] = {
     "comparisons": Behavior(
         "`Time` or `Duration` compared with an object of another class (`== None`)", _JAZZY, "`TypeError`", "not equal"
     ),
+    "exception_texts": Behavior(
+        "texts of `ParameterException`, its subclasses and `NotInitializedException`",
+        _JAZZY,
+        "`('Invalid access to undeclared parameter(s)', 'rate')`",
+        "`Invalid access to undeclared parameter(s): rate`",
+    ),
     "message_numbers": Behavior(
         "information on a message for a callback with two arguments",
         _JAZZY,

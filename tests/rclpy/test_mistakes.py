@@ -1,6 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """Helpful error messages for common mistakes."""
 
+import os
+import subprocess
+import sys
+
 import pytest
 
 import rclpy
@@ -75,3 +79,17 @@ def test_spinning_a_node_of_a_context_that_was_shut_down():
     finally:
         node.destroy_node()
         rclpy.shutdown()
+
+
+@pytest.mark.parametrize(
+    ("distribution", "text"),
+    [
+        ("humble", "('Invalid access to undeclared parameter(s)', 'rate')"),
+        ("jazzy", "Invalid access to undeclared parameter(s): rate"),
+    ],
+)
+def test_texts_of_exceptions_are_those_of_the_distribution(distribution, text):
+    program = "import rclpy.exceptions as e; f = e.ParameterNotDeclaredException('rate'); print(f, f.parameters)"
+    environment = {**os.environ, "ROS_DISTRO": distribution}
+    done = subprocess.run([sys.executable, "-c", program], env=environment, capture_output=True, text=True, check=True)
+    assert done.stdout == f"{text} ['rate']\n"

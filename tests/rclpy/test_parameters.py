@@ -121,7 +121,7 @@ def test_declare_and_get(node):
     assert node.declare_parameter("rate", 10.0).value == 10.0
     assert node.get_parameter("rate").get_parameter_value().double_value == 10.0
     assert node.has_parameter("rate")
-    assert node.get_parameter_type("rate") is Parameter.Type.DOUBLE
+    assert node.get_parameter_type("rate") == Parameter.Type.DOUBLE.value
     with pytest.raises(ParameterAlreadyDeclaredException, match="already declared"):
         node.declare_parameter("rate", 10.0)
     with pytest.raises(ParameterNotDeclaredException, match=r"undeclared parameter.*speed"):

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Final
 
+from coframe.distributions import since
 from coframe.wire.type_hashes import type_hash_of_name
 from rclpy.client import wait_until_ready
 from rclpy.duration import Duration
@@ -230,7 +231,14 @@ class NodeGraph:
             kinds: tuple[Kind, ...] = ("topic", "request", "reply")
             found = ((topic, kind) for kind in kinds if (topic := names.ros_topic(name, kind)) is not None)
             return next(found, (name, "topic"))
-        return self.__resolved(name), "topic"
+        try:
+            return self.__resolved(name), "topic"
+        except ValueError as error:
+            if since("exception_texts"):
+                raise
+            raise _with_hint(
+                ValueError(f"topic name '{name}' is invalid: topic name is invalid"), f"{error}."
+            ) from None
 
     def __resolved(self, name: str, *, is_service: bool = False) -> str:
         try:

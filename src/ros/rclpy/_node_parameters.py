@@ -214,7 +214,8 @@ class NodeParameters:
         parameter = self.__parameters.get(name)
         if parameter is None and not self.__allow_undeclared:
             raise self.__not_declared(name)
-        return Parameter.Type.NOT_SET if parameter is None else parameter.type_
+        # As in ROS 2, a number, although the annotation says otherwise.
+        return Parameter.Type.NOT_SET if parameter is None else parameter.type_.value  # type: ignore[return-value]
 
     def get_parameter_types(self, names: list[str]) -> list[Parameter.Type]:
         """Return the types of several parameters; see `get_parameter_type`."""

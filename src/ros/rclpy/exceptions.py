@@ -26,6 +26,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, TypeVar
 
+from coframe.distributions import since
 from rclpy._rclpy_pybind11 import (
     InvalidHandle,
     NodeNameNonExistentError,
@@ -82,7 +83,11 @@ class NotInitializedException(Exception):
     """A context was used before `rclpy.init()` or after its shutdown."""
 
     def __init__(self, *args: object) -> None:
-        super().__init__("rclpy.init() has not been called", *args)
+        text = "rclpy.init() has not been called"
+        if since("exception_texts"):
+            super().__init__(f"{text}. msg:{args[0]}" if args else f"{text}.")
+        else:
+            super().__init__(text, *args)
 
 
 class NoTypeSupportImportedException(Exception):
@@ -148,13 +153,16 @@ class ParameterException(Exception):
     """
 
     def __init__(self, error_msg: str, parameters: str | Sequence[str], *args: object) -> None:
-        super().__init__(error_msg, parameters, *args)
+        self.__names = [parameters] if isinstance(parameters, str) else list(parameters)
+        if since("exception_texts"):
+            super().__init__(f"{error_msg}: {parameters}", *args)
+        else:
+            super().__init__(error_msg, parameters, *args)
 
     @property
     def parameters(self) -> list[str]:
         """The names of the parameters."""
-        names = self.args[1] if len(self.args) > 1 else []
-        return [names] if isinstance(names, str) else list(names)
+        return self.__names
 
 
 class ParameterNotDeclaredException(ParameterException):
@@ -206,13 +214,9 @@ class InvalidParameterTypeException(ParameterException):
             f"Trying to set parameter '{desired_parameter.name}' to '{desired_parameter.value}' of type "
             f"'{desired_parameter.type_.name}', expecting type '{expected_type}'"
         )
-        Exception.__init__(self, text, *args)
-        self.__name = desired_parameter.name
-
-    @property
-    def parameters(self) -> list[str]:
-        """The name of the parameter."""
-        return [self.__name]
+        super().__init__(text, desired_parameter.name, *args)
+        if not since("exception_texts"):
+            self.args = (text, *args)
 
 
 class ParameterImmutableException(ParameterException):
@@ -226,13 +230,10 @@ class ParameterUninitializedException(ParameterException):
     """A parameter that was declared with only a type has no value yet."""
 
     def __init__(self, parameter_name: str, *args: object) -> None:
-        Exception.__init__(self, f"The parameter '{parameter_name}' is not initialized", *args)
-        self.__name = parameter_name
-
-    @property
-    def parameters(self) -> list[str]:
-        """The name of the parameter."""
-        return [self.__name]
+        text = f"The parameter '{parameter_name}' is not initialized"
+        super().__init__(text, parameter_name, *args)
+        if not since("exception_texts"):
+            self.args = (text, *args)
 
 
 class ROSInterruptException(Exception):

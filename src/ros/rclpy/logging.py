@@ -17,6 +17,7 @@ __all__ = [
     "clear_config",
     "get_logger",
     "get_logger_effective_level",
+    "get_logger_level",
     "get_logging_directory",
     "get_logging_severity_from_string",
     "initialize",
@@ -53,6 +54,11 @@ def set_logger_level(name: str, level: int, detailed_error: bool = False) -> Non
 def get_logger_effective_level(name: str) -> LoggingSeverity:
     """Return the lowest severity that a logger logs, which may be inherited."""
     return console.effective_level(name)
+
+
+def get_logger_level(name: str) -> LoggingSeverity:
+    """Return the level that was set for a logger; UNSET if it inherits its level."""
+    return LoggingSeverity(console.levels.get(name, LoggingSeverity.UNSET))
 
 
 def get_logging_severity_from_string(log_severity: str) -> LoggingSeverity:
