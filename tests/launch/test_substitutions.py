@@ -184,3 +184,16 @@ def test_conditions(context):
     assert LaunchConfigurationNotEquals("mode", "slow").evaluate(context)
     with pytest.raises(RuntimeError, match="invalid condition expression 'maybe', expected one of: "):
         IfCondition("maybe").evaluate(context)
+
+
+def test_the_error_of_xacro_comes_first(perform, tmp_path):
+    pytest.importorskip("xacro")
+    head = '<robot name="a" xmlns:xacro="http://www.ros.org/wiki/xacro">'
+    for text, error in (
+        ('<link name="${nope}"/></robot>', "error: name 'nope' is not defined"),
+        ("<link", "XML parsing error: unclosed token"),
+    ):
+        file = tmp_path / "a.xacro"
+        file.write_text(head + text)
+        with pytest.raises(SubstitutionFailure, match=f"^{error}"):
+            perform(Command(["xacro ", str(file)]))

@@ -116,6 +116,73 @@ def test_launch_files_of_the_tutorials_are_found():
     assert "listener" in done.stdout
 
 
+def test_a_blackboard_keeps_every_parameter(environment):
+    words = command(
+        "run", "demo_nodes_cpp", "parameter_blackboard", "--ros-args", "-p", "some:=1", "-p", "other.one:=a"
+    )
+    program = subprocess.Popen(words, env=environment, stderr=subprocess.PIPE, text=True)
+    try:
+        assert "named '/parameter_blackboard' ready, and serving" in program.stderr.readline()
+        get = command("param", "get", "/parameter_blackboard", "other.one")
+        done = subprocess.run(get, env=environment, capture_output=True, text=True, check=True)
+        assert done.stdout == "String value is: a\n"
+        new = command("param", "set", "/parameter_blackboard", "new", "[1, 2]")
+        assert subprocess.run(new, env=environment, capture_output=True, text=True, check=True).stdout
+    finally:
+        program.send_signal(signal.SIGINT)
+        program.communicate(timeout=20)
+
+
+def test_talkers_and_listeners_with_options_of_quality(environment):
+    talker = subprocess.Popen(command("run", "demo_nodes_py", "talker_qos", "-n", "60"), env=environment)
+    try:
+        listener = subprocess.run(
+            command("run", "demo_nodes_py", "listener_qos", "-n", "1"),
+            env=environment,
+            capture_output=True,
+            text=True,
+            timeout=60,
+            check=True,
+        )
+        assert "Best effort listener" in listener.stderr
+        assert "I heard: [Hello World: " in listener.stderr
+    finally:
+        talker.send_signal(signal.SIGINT)
+        talker.wait(timeout=20)
+
+
+def test_a_static_turtle(environment):
+    words = command(
+        "run", "turtle_tf2_py", "static_turtle_tf2_broadcaster", "mystaticturtle", *["0", "0", "1", "0", "0", "0"]
+    )
+    program = subprocess.Popen(words, env=environment)
+    try:
+        echo = command("topic", "echo", "/tf_static", "--once")
+        done = subprocess.run(echo, env=environment, capture_output=True, text=True, timeout=60, check=True)
+        assert "child_frame_id: mystaticturtle" in done.stdout
+    finally:
+        program.send_signal(signal.SIGINT)
+        program.wait(timeout=20)
+    mistake = subprocess.run([*words[:-1], "x"], env=environment, capture_output=True, text=True, check=False)
+    assert mistake.returncode == 1
+    assert "must be numbers, not 0 0 1 0 0 x" in mistake.stderr
+
+
+def test_two_simulators_are_launched():
+    done = subprocess.run(
+        command("launch", "turtlesim", "multisim.launch.py", "--print"), capture_output=True, text=True, check=True
+    )
+    assert "turtlesim_node" in done.stdout
+
+
+def test_xacro_says_which_file_is_missing():
+    words = command("run", "xacro", "xacro", "/no/such.xacro")
+    done = subprocess.run(words, capture_output=True, text=True, check=False)
+    assert done.returncode != 0
+    assert done.stderr.startswith("error: No such file or directory: /no/such.xacro")
+    assert "Traceback" not in done.stderr
+
+
 def test_keys_drive_a_robot(node, environment, wait_until):
     import pty
 

@@ -14,6 +14,8 @@ __all__ = ["COMPONENTS", "EXECUTABLES", "names", "share"]
 
 _COMMAND: Final = "coframe.cli:main"
 _DEMOS: Final = ("talker", "listener", "add_two_ints_server", "add_two_ints_client")
+_PYTHON_DEMOS: Final = (*_DEMOS, "talker_qos", "listener_qos")
+_CPP_DEMOS: Final = (*_DEMOS, "parameter_blackboard")
 _CONTAINERS: Final = ("component_container", "component_container_mt", "component_container_isolated")
 # Packages with the files of others.
 _FOLDERS: Final = {
@@ -37,17 +39,18 @@ EXECUTABLES: Final[dict[str, dict[str, tuple[str, ...]]]] = {
     "turtlesim": {
         name: (f"turtlesim.{name}:main",) for name in ("turtlesim_node", "turtle_teleop_key", "draw_square", "mimic")
     },
-    "demo_nodes_py": {name: (f"demo_nodes_py.{name}:main",) for name in _DEMOS},
-    "demo_nodes_cpp": {name: (f"demo_nodes_py.{name}:main",) for name in _DEMOS},
+    "demo_nodes_py": {name: (f"demo_nodes_py.{name}:main",) for name in _PYTHON_DEMOS},
+    "demo_nodes_cpp": {name: (f"demo_nodes_py.{name}:main",) for name in _CPP_DEMOS},
     "composition": {},
     "rclpy_components": {name: (f"rclpy_components.{name}:main",) for name in _CONTAINERS},
     "rclcpp_components": {name: (f"rclpy_components.{name}:main",) for name in _CONTAINERS},
     "turtle_tf2_py": {
-        name: (f"turtle_tf2_py.{name}:main",) for name in ("turtle_tf2_broadcaster", "turtle_tf2_listener")
+        name: (f"turtle_tf2_py.{name}:main",)
+        for name in ("turtle_tf2_broadcaster", "turtle_tf2_listener", "static_turtle_tf2_broadcaster")
     },
     "teleop_twist_keyboard": {"teleop_twist_keyboard": ("teleop_twist_keyboard:main",)},
     "launch_testing": {"launch_test": ("launch_testing.launch_test:main",)},
-    "xacro": {"xacro": ("xacro:main",)},
+    "xacro": {"xacro": ("coframe.robots.xacro_program:main",)},
     "coframe": {
         name: (f"coframe.lab.{name}:main",)
         for name in (

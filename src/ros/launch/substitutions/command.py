@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import os
+import re
 import shlex
 import subprocess
 from pathlib import PurePath
@@ -23,6 +24,9 @@ if TYPE_CHECKING:
 
     from launch.launch_context import LaunchContext
     from launch.some_substitutions_type import SomeSubstitutionsType
+
+# xacro writes the file that contains the error, and advice, after the error.
+_XACRO_ERROR = re.compile(r"error: |XML parsing error: |xacro\.XacroException: ")
 
 __all__ = ["Command"]
 
@@ -79,9 +83,8 @@ class Command(Substitution):
         result = _run([program, *words[1:]], capture=on_stderr == "capture")
         stderr = result.stderr or ""
         if result.returncode != 0:
-            # The last line says what is wrong; a traceback comes before it.
-            last = next((line.strip() for line in reversed(stderr.splitlines()) if line.strip()), "")
-            message = f"{f'{last}: ' if last else ''}executed command failed. Command: {text}"
+            cause = _cause(stderr)
+            message = f"{f'{cause}: ' if cause else ''}executed command failed. Command: {text}"
             raise SubstitutionFailure(f"{message}\nCaptured stderr output: {stderr}" if stderr else message)
         if stderr and on_stderr == "fail":
             raise SubstitutionFailure(
@@ -92,6 +95,12 @@ class Command(Substitution):
                 f"executed command showed stderr output. Command: {text}\nCaptured stderr output:\n{stderr}"
             )
         return result.stdout
+
+
+def _cause(stderr: str) -> str:
+    """Return the line that says why a command failed: that of xacro's error, or the last one, as after a traceback."""
+    lines = [line.strip() for line in stderr.splitlines() if line.strip()]
+    return next(filter(_XACRO_ERROR.match, lines), lines[-1] if lines else "")
 
 
 def _run(command: list[str], *, capture: bool) -> subprocess.CompletedProcess[str]:
