@@ -1,13 +1,18 @@
 # SPDX-License-Identifier: Apache-2.0
 """Lifecycle nodes, timers of the ROS clock, containers of components, and substitutions about packages."""
 
+import itertools
+import os
 import sys
+import threading
 from pathlib import Path
 
 import pytest
 
 pytest.importorskip("dds_library", reason="the nodes speak DDS")
 
+import rclpy
+from builtin_interfaces.msg import Time
 from launch.actions import EmitEvent, ExecuteProcess, LogInfo, RegisterEventHandler, Shutdown
 from launch.substitutions import SubstitutionFailure
 from launch_ros.actions import (
@@ -15,12 +20,15 @@ from launch_ros.actions import (
     RosTimer,
     SetParameter,
     SetROSLogDir,
+    SetUseSimTime,
 )
 from launch_ros.event_handlers import OnStateTransition
 from launch_ros.events import matches_node_name
 from launch_ros.events.lifecycle import ChangeState
 from launch_ros.substitutions import ExecutableInPackage, FindPackagePrefix, FindPackageShare, Parameter
 from lifecycle_msgs.msg import Transition
+from rclpy.context import Context
+from rosgraph_msgs.msg import Clock
 
 MANAGED = """
 import rclpy
@@ -133,3 +141,33 @@ def test_packages_executables_and_parameters(launched, perform, context, tmp_pat
     assert perform(Parameter("other", default=3)) == "3"
     with pytest.raises(SubstitutionFailure, match="parameter 'other' not found"):
         perform(Parameter("other"))
+
+
+def test_relative_log_folders_are_below_the_present_one(launched, tmp_path):
+    os.environ["ROS_LOG_DIR"] = str(tmp_path / "log")
+    launched(SetROSLogDir("a"), SetROSLogDir("b"))
+    assert os.environ["ROS_LOG_DIR"] == str(tmp_path / "log" / "a" / "b")
+
+
+def test_a_timer_uses_the_time_of_the_nodes(domain_id, launched):
+    context = Context()
+    rclpy.init(context=context, domain_id=domain_id)
+    node = rclpy.create_node("clock", context=context)
+    publisher = node.create_publisher(Clock, "/clock", 10)
+    seconds, done = itertools.count(0, 10), threading.Event()
+
+    def tick():
+        while not done.wait(0.02):
+            publisher.publish(Clock(clock=Time(sec=next(seconds))))
+
+    thread = threading.Thread(target=tick)
+    thread.start()
+    try:
+        timer = RosTimer(period=300.0, actions=[LogInfo(msg="five minutes later"), Shutdown()])
+        code, lines = launched(timer, SetUseSimTime(True))
+    finally:
+        done.set()
+        thread.join()
+        rclpy.shutdown(context=context)
+    assert code == 0
+    assert any("five minutes later" in line for line in lines)

@@ -528,6 +528,7 @@ def test_names_follow_namespaces_and_remaps(make_node, serve, count, result_of, 
     expected = [("/robot/numbers", ["test_interfaces/action/Fibonacci"])]
     wait_until(lambda: get_action_server_names_and_types_by_node(client_node, "server", "/robot") == expected)
     assert dict(get_action_names_and_types(client_node))["/robot/numbers"] == expected[0][1]
+    assert dict(client_node.get_action_names_and_types())["/robot/numbers"] == expected[0][1]
     assert expected[0] in get_action_client_names_and_types_by_node(server_node, "client", "/")
     assert get_action_server_names_and_types_by_node(server_node, "client", "/") == []
     services = dict(client_node.get_service_names_and_types())

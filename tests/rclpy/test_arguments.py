@@ -324,3 +324,8 @@ def test_rules_that_ros_rejects(rule):
 def test_rules_that_ros_accepts(rule):
     (remap,) = _arguments.parse(["--ros-args", "-r", rule]).remaps
     assert rule.endswith(f"{remap.match}:={remap.replacement}")
+
+
+def test_arguments_that_are_not_text_are_an_error():
+    with pytest.raises(UnicodeEncodeError, match="surrogates not allowed"):
+        Context().init(args=["\udcff"])

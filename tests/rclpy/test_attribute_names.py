@@ -81,6 +81,8 @@ _LATER = {
         *("count_clients", "count_services", "list_parameters", "wait_for_node"),
         *("remove_post_set_parameters_callback", "remove_pre_set_parameters_callback"),
         *("get_clients_info_by_service", "get_servers_info_by_service", "_parameters"),
+        *("get_action_client_names_and_types_by_node", "get_action_names_and_types"),
+        "get_action_server_names_and_types_by_node",
     },
     "Subscription": {"get_publisher_count"},
     "Timer": {"callback"},

@@ -166,3 +166,20 @@ def test_logging_directory(monkeypatch):
     assert rclpy.logging.get_logging_directory() == Path("/home/ros/log")
     monkeypatch.setenv("ROS_LOG_DIR", "/logs")
     assert rclpy.logging.get_logging_directory() == Path("/logs")
+
+
+def test_the_throttle_comes_before_the_other_filters():
+    clock = ROSClock()
+    clock._set_ros_time_is_active(True)
+    logged = []
+    for second in range(0, 10, 2):
+        clock.set_ros_time_override(Time(seconds=second, clock_type=clock.clock_type))
+        options = {"throttle_duration_sec": 3, "throttle_time_source_type": clock, "skip_first": True}
+        logged.append(get_logger("arm").info("x", **options))
+    assert logged == [False, False, True, False, True], "the call that is skipped has started a period"
+
+
+def test_the_level_of_a_logger_itself():
+    assert rclpy.logging.get_logger_level("arm.hand") == LoggingSeverity.UNSET
+    rclpy.logging.set_logger_level("arm.hand", LoggingSeverity.WARN)
+    assert rclpy.logging.get_logger_level("arm.hand") == LoggingSeverity.WARN

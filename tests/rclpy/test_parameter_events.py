@@ -201,3 +201,16 @@ def test_callbacks_before_and_after_a_change(node):
     node.add_pre_set_parameters_callback(lambda _: [])
     assert "parameter list cannot be empty" in node.set_parameters([Parameter("a", value=1)])[0].reason
     node.remove_post_set_parameters_callback(after.append)
+
+
+def test_a_client_subscribes_to_the_events_of_all_nodes(make_node, executor, wait_until):
+    observer, robot, events = make_node("observer"), make_node("robot"), []
+    subscription = AsyncParameterClient.on_parameter_event(observer, events.append)
+    executor.add_node(observer)
+    wait_until(lambda: subscription.get_publisher_count() >= 2, timeout=20.0)
+    robot.declare_parameter("rate", 5)
+    wait_until(
+        lambda: any(event.node == "/robot" for event in events),
+        lambda: executor.spin_once(timeout_sec=0.05),
+        timeout=20.0,
+    )

@@ -7,7 +7,13 @@ import enum
 import numpy as np
 import pytest
 
-from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescriptor, SetParametersResult
+from rcl_interfaces.msg import (
+    FloatingPointRange,
+    IntegerRange,
+    ParameterDescriptor,
+    ParameterValue,
+    SetParametersResult,
+)
 from rclpy.exceptions import (
     InvalidParameterException,
     InvalidParameterTypeException,
@@ -307,3 +313,16 @@ def test_parameters_by_name_as_programs_for_humble_read_them(node):
     node.declare_parameter("a", 1)
     assert node._parameters["a"].value == 1
     assert set(node._parameters) >= {"a", "use_sim_time"}
+
+
+def test_a_default_may_be_a_message(node):
+    assert node.declare_parameter("n", ParameterValue(type=2, integer_value=4)).value == 4
+    dynamic = ParameterDescriptor(dynamic_typing=True)
+    assert node.declare_parameter("nothing", ParameterValue(), dynamic).type_ is Parameter.Type.NOT_SET
+
+
+def test_a_static_parameter_cannot_lose_its_value(node):
+    node.declare_parameter("n", 4)
+    (result,) = node.set_parameters([Parameter("n", Parameter.Type.NOT_SET)])
+    assert (result.successful, result.reason) == (False, "Static parameter cannot be undeclared")
+    assert node.get_parameter("n").value == 4

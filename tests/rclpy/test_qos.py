@@ -131,3 +131,17 @@ def test_qos_override_parameters(make_node):
     never = QoSOverridingOptions([], callback=lambda _: SetParametersResult(successful=False, reason="not so"))
     with pytest.raises(InvalidQosOverridesError, match="not so"):
         node.create_publisher(String, "refused", 10, qos_overriding_options=never)
+
+
+def test_a_queue_without_places_is_reported():
+    with pytest.warns(UserWarning, match="A zero depth with KEEP_LAST doesn't make sense"):
+        assert QoSProfile(depth=0).depth == 0
+
+
+def test_policies_are_also_positional_arguments():
+    profile = QoSProfile(HistoryPolicy.KEEP_LAST, 3, ReliabilityPolicy.BEST_EFFORT)
+    assert (profile.history, profile.depth, profile.reliability) == (
+        HistoryPolicy.KEEP_LAST,
+        3,
+        ReliabilityPolicy.BEST_EFFORT,
+    )

@@ -67,7 +67,7 @@ from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.impl import implementation_singleton  # noqa: F401 - libraries use it as an attribute
 from rclpy.parameter import Parameter
-from rclpy.qos import qos_profile_rosout_default
+from rclpy.qos import QoSProfile, qos_profile_rosout_default
 from rclpy.signals import (
     SignalHandlerOptions,
     install_signal_handlers,
@@ -89,7 +89,6 @@ if TYPE_CHECKING:
 
     from rclpy.executors import Executor
     from rclpy.node import Node
-    from rclpy.qos import QoSProfile
 
 __all__ = [
     "Context",
@@ -162,10 +161,23 @@ _absent.install(
 
 
 class InitContextManager:
-    """Context manager returned by `init()`. `with rclpy.init(): ...` shuts down at the end of the block."""
+    """Context manager returned by `init()`. `with rclpy.init(): ...` shuts down at the end of the block.
 
-    def __init__(self, context: Context) -> None:
-        self.context = context
+    The arguments are those of `init`.
+    """
+
+    def __init__(
+        self,
+        args: list[str] | None = None,
+        context: Context | None = None,
+        domain_id: int | None = None,
+        signal_handler_options: SignalHandlerOptions | None = None,
+    ) -> None:
+        if signal_handler_options is None:
+            signal_handler_options = SignalHandlerOptions.ALL if context is None else SignalHandlerOptions.NO
+        self.context = context or get_default_context()
+        self.context.init(args, domain_id=domain_id)
+        install_signal_handlers(signal_handler_options)
 
     def __enter__(self) -> Self:
         return self
@@ -203,12 +215,7 @@ def init(
         RuntimeError: The context was initialized before.
         RCLInvalidROSArgsError: The arguments are malformed.
     """
-    if signal_handler_options is None:
-        signal_handler_options = SignalHandlerOptions.ALL if context is None else SignalHandlerOptions.NO
-    context = context or get_default_context()
-    context.init(args, domain_id=domain_id)
-    install_signal_handlers(signal_handler_options)
-    return InitContextManager(context)
+    return InitContextManager(args, context, domain_id, signal_handler_options)
 
 
 def shutdown(*, context: Context | None = None, uninstall_handlers: bool | None = None) -> None:

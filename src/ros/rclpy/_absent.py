@@ -2,7 +2,8 @@
 """Names of upstream's modules that are defined elsewhere here, or that coframe does not have on purpose.
 
 `install` gives them to the modules: a name that an upstream module merely imports is found in every module of rclpy,
-and a name that does not exist raises an error with the reason and what to use instead.
+a name that upstream uses in annotations only is `typing.Any`, and a name that does not exist raises an error with the
+reason and what to use instead.
 """
 
 from __future__ import annotations
@@ -19,49 +20,82 @@ if TYPE_CHECKING:
 
 # Where the names are defined that upstream's modules import from each other.
 _ORIGINS: Final = {
+    "builtin_interfaces.msg": ("Time",),
     "rcl_interfaces.msg": (
-        *("FloatingPointRange", "IntegerRange", "ParameterDescriptor", "ParameterType", "ParameterValue"),
-        "SetParametersResult",
+        *("FloatingPointRange", "IntegerRange", "ListParametersResult", "ParameterDescriptor", "ParameterEvent"),
+        *("ParameterType", "ParameterValue", "SetParametersResult"),
     ),
+    "rcl_interfaces.srv": ("ListParameters",),
     "rclpy.callback_groups": ("CallbackGroup",),
     "rclpy.client": ("Client",),
     "rclpy.clock": ("Clock", "ClockType", "ROSClock"),
     "rclpy.constants": ("S_TO_NS",),
     "rclpy.context": ("Context",),
     "rclpy.duration": ("Duration",),
-    "rclpy.event_handler": ("PublisherEventCallbacks", "SubscriptionEventCallbacks"),
+    "rclpy.destroyable": ("DestroyableType",),
+    "rclpy.event_handler": (
+        *("EventHandler", "IncompatibleTypeInfo", "PublisherEventCallbacks", "QoSPublisherMatchedInfo"),
+        *("QoSSubscriptionMatchedInfo", "SubscriptionEventCallbacks"),
+    ),
     "rclpy.exceptions": (
         *("InvalidHandle", "InvalidParameterTypeException", "InvalidParameterValueException"),
         *("InvalidTopicNameException", "NodeNameNonExistentError", "ParameterAlreadyDeclaredException"),
         *("ParameterImmutableException", "ParameterNotDeclaredException", "ParameterUninitializedException"),
+        "TimerCancelledError",
     ),
     "rclpy.executors": ("Executor", "await_or_execute"),
     "rclpy.expand_topic_name": ("expand_topic_name",),
     "rclpy.guard_condition": ("GuardCondition",),
+    "rclpy.impl.rcutils_logger": ("RcutilsLogger",),
     "rclpy.logging": ("get_logger",),
+    "rclpy.logging_service": ("LoggingService",),
     "rclpy.node": ("Node",),
     "rclpy.parameter": ("PARAMETER_SEPARATOR_STRING", "Parameter", "ParameterMsg"),
     "rclpy.publisher": ("Publisher",),
-    "rclpy.qos": ("QoSHistoryPolicy", "QoSProfile"),
+    "rclpy.qos": (
+        *("QoSDurabilityPolicy", "QoSHistoryPolicy", "QoSLivelinessPolicy", "QoSProfile", "QoSReliabilityPolicy"),
+        *("qos_policy_name_from_kind", "qos_profile_parameter_events"),
+    ),
     "rclpy.qos_event": ("QoSEventHandler",),
+    "rclpy.qos_overriding_options": ("QoSOverridingOptions",),
     "rclpy.service": ("Service",),
     "rclpy.service_introspection": ("ServiceIntrospectionState",),
     "rclpy.signals": ("SignalHandlerGuardCondition",),
     "rclpy.subscription": ("MessageInfo", "Subscription"),
-    "rclpy.task": ("Future", "Task"),
+    "rclpy.subscription_content_filter_options": ("ContentFilterOptions",),
+    "rclpy.task": ("Future", "FutureState", "Task"),
     "rclpy.timer": ("Timer", "TimerInfo"),
     "rclpy.topic_endpoint_info": ("TopicEndpointInfo",),
     "rclpy.type_support": (
-        *("MsgType", "SrvType", "SrvTypeRequest", "SrvTypeResponse"),
-        *("check_for_type_support", "check_is_valid_msg_type"),
+        *("Action", "ActionT", "EventMessage", "FeedbackMessage", "FeedbackT", "GetResultService"),
+        *("GetResultServiceRequest", "GetResultServiceResponse", "GoalT", "Msg", "MsgT", "MsgType", "ResultT"),
+        *("SendGoalService", "SendGoalServiceRequest", "SendGoalServiceResponse", "Srv", "SrvRequestT"),
+        *("SrvResponseT", "SrvT", "SrvType", "SrvTypeRequest", "SrvTypeResponse"),
+        *("check_for_type_support", "check_is_valid_msg_type", "check_is_valid_srv_type"),
     ),
     "rclpy.utilities": ("timeout_sec_to_nsec",),
     "rclpy.validate_full_topic_name": ("validate_full_topic_name",),
     "rclpy.validate_parameter_name": ("validate_parameter_name",),
     "rclpy.validate_topic_name": ("TOPIC_SEPARATOR_STRING", "validate_topic_name"),
     "rclpy.waitable": ("NumberOfEntities", "Waitable"),
+    "service_msgs.msg": ("ServiceEventInfo",),
+    "type_description_interfaces.srv": ("GetTypeDescription",),
+    "unique_identifier_msgs.msg": ("UUID",),
 }
 _ORIGIN_OF: Final = {name: module for module, names in _ORIGINS.items() for name in names}
+
+# Types that upstream's annotations name: typed dictionaries, unions, and protocols of C objects.
+_IN_ANNOTATIONS: Final = frozenset(
+    {
+        *("AllowableParameterValue", "AllowableParameterValueT", "CallbackNames", "ClientGoalHandleDict"),
+        *("ClockHandle", "CommonMsgSrvMetaClass", "ContextHandle", "CreateLifecyclePublisherArgs", "DurationType"),
+        *("EventHandlerData", "JumpHandlePreCallbackType", "LifecycleNodeArgs", "LoggingArgs", "LoggingFilterArgs"),
+        *("LoggingFilterParams", "MsgMetaClass", "OnceContext", "ProtocolType", "PyCapsule", "QoSProfileAttributes"),
+        *("RcutilsLoggerContext", "SendGoalKWargs", "ServerGoalHandleDict", "SkipFirstContext"),
+        *("SupportedFiltersKeys", "ThrottleContext", "TimeHandle", "TimeJumpDictionary", "TypeHashDictionary"),
+        "YieldedCallback",
+    }
+)
 
 _LOCKS = "Contexts and logging need no global lock or counter here. Use rclpy.utilities.get_default_context()."
 _FILTERS = (
@@ -73,6 +107,7 @@ _WAIT_SETS = (
     "Executor.create_task."
 )
 _HANDLES = "coframe has no C objects. Use the methods of the Python object."
+_TYPES = "It is used in annotations only. Use typing.Any."
 _ACTIONS = "Executors run actions without these methods of a waitable. Use the methods with `goal` in their names."
 
 # What upstream has and coframe does not have, with the sentence that the user gets.
@@ -99,6 +134,15 @@ ABSENT_ATTRIBUTES: Final = {
 }
 for _attributes, _ in ABSENT_ATTRIBUTES.values():
     _attributes.update({"notify_goal_done", "remove_future", "take_data"})
+ABSENT_ATTRIBUTES.update(
+    {
+        "InvalidParameterTypeException": ({"Parameter"}, "Use rclpy.parameter.Parameter."),
+        "LifecycleNode": ({"ParameterInput"}, _TYPES),
+        "Node": ({"ParameterInput"}, _TYPES),
+        "ParameterEventHandler": ({"Callbacks"}, "Use the methods of the handler that add and remove callbacks."),
+        "Subscription": ({"CallbackType"}, "Pass a function with one argument, or with two for the MessageInfo."),
+    }
+)
 
 
 class EntityHandle:
@@ -151,13 +195,21 @@ def install(modules: Iterable[ModuleType]) -> None:
     """Give the names to modules."""
     for module in modules:
         if "__getattr__" not in vars(module):
-            module.__getattr__ = partial(_find, module.__name__)  # type: ignore[method-assign]
+            module.__getattr__ = partial(find, module.__name__)  # type: ignore[method-assign]
 
 
-def _find(module: str, name: str) -> Any:
+def find(module: str, name: str) -> Any:
+    """Return a name that a module does not define itself.
+
+    Raises:
+        ImportError: coframe does not have it on purpose.
+        AttributeError: There is no such name.
+    """
     if (reason := ABSENT.get(f"{module}.{name}")) is not None:
         # An AttributeError would lose its text in `from module import name`.
         raise ImportError(f"{module}.{name} does not exist in coframe. {reason}", name=module)
+    if name in _IN_ANNOTATIONS:
+        return Any
     origin = _ORIGIN_OF.get(name)
     if origin is None or origin == module:
         raise AttributeError(f"module {module!r} has no attribute {name!r}")

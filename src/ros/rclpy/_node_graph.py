@@ -16,6 +16,8 @@ from rclpy.topic_endpoint_info import TopicEndpointInfo, TopicEndpointTypeEnum
 from rclpy.type_hash import TypeHash
 
 if TYPE_CHECKING:
+    from types import ModuleType
+
     from coframe.wire.endpoints import GraphNode
     from coframe.wire.graph import EndpointInfo
     from coframe.wire.names import Kind
@@ -25,6 +27,12 @@ if TYPE_CHECKING:
 
 NamesAndTypes = list[tuple[str, list[str]]]
 _GID_LENGTH: Final = 24
+
+
+def _action_graph() -> ModuleType:
+    from rclpy.action import graph  # noqa: PLC0415 - actions need nodes
+
+    return graph
 
 
 class NodeGraph:
@@ -42,6 +50,23 @@ class NodeGraph:
     def context(self) -> Context:
         """The context of the node."""
         raise TypeError(f"{type(self).__name__} has no context")
+
+    def get_action_names_and_types(self) -> NamesAndTypes:
+        """Return all actions with their types."""
+        names: NamesAndTypes = _action_graph().get_action_names_and_types(self)
+        return names
+
+    def get_action_client_names_and_types_by_node(self, node_name: str, node_namespace: str) -> NamesAndTypes:
+        """Return the actions for which a node has clients; an error if the node does not exist."""
+        query = _action_graph().get_action_client_names_and_types_by_node
+        names: NamesAndTypes = query(self, node_name, node_namespace)
+        return names
+
+    def get_action_server_names_and_types_by_node(self, node_name: str, node_namespace: str) -> NamesAndTypes:
+        """Return the actions that a node serves; an error if the node does not exist."""
+        query = _action_graph().get_action_server_names_and_types_by_node
+        names: NamesAndTypes = query(self, node_name, node_namespace)
+        return names
 
     def resolve_service_name(self, service: str, *, only_expand: bool = False) -> str:
         """Return the fully qualified name of a service, remapped unless `only_expand` is set."""

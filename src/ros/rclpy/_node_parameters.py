@@ -10,7 +10,13 @@ from collections.abc import Set as AbstractSet
 from typing import Any
 
 from coframe._output.formatting import did_you_mean
-from rcl_interfaces.msg import ListParametersResult, ParameterDescriptor, ParameterEvent, SetParametersResult
+from rcl_interfaces.msg import (
+    ListParametersResult,
+    ParameterDescriptor,
+    ParameterEvent,
+    ParameterValue,
+    SetParametersResult,
+)
 from rclpy._parameter_ranges import (
     RELATIVE_TOLERANCE,
     change_fault,
@@ -90,8 +96,9 @@ class NodeParameters:
 
         Args:
             name: Name of the parameter.
-            value: Default value, or a Parameter.Type if there is no default. None: a dynamically typed parameter. An
-                empty list has the array type of the descriptor, of the override, or of the first list that is set.
+            value: Default value, which may be a ParameterValue, or a Parameter.Type if there is no default. None: a
+                dynamically typed parameter. An empty list has the array type of the descriptor, of the override, or of
+                the first list that is set.
             descriptor: Description, range, and whether the parameter is read-only or dynamically typed.
             ignore_override: Whether to use the default even if there is an override.
 
@@ -105,6 +112,8 @@ class NodeParameters:
             InvalidParameterValueException: The value is out of range, or a callback rejected it.
         """
         validate_parameter_name(name)
+        if isinstance(value, ParameterValue):
+            value = parameter_value_to_python(value)
         if descriptor is None:
             if value is None:
                 _warn_of_missing_default(name)

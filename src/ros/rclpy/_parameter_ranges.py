@@ -36,6 +36,8 @@ def change_fault(parameter: Parameter[Any], descriptor: ParameterDescriptor) -> 
     """Return why a declared parameter must not be changed to this value, or an empty string if it may."""
     if descriptor.read_only:
         return f"Trying to set a read-only parameter: {parameter.name}."
+    if not descriptor.dynamic_typing and parameter.type_ is Parameter.Type.NOT_SET:
+        return "Static parameter cannot be undeclared"
     if not descriptor.dynamic_typing and parameter.type_.value != descriptor.type:
         return f"Wrong parameter type, expected '{Parameter.Type(descriptor.type)}' got '{parameter.type_}'"
     return ""

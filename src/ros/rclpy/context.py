@@ -189,6 +189,8 @@ class Context:
 
 
 def _parse_arguments(args: list[str]) -> _arguments.Arguments:
+    for argument in args:
+        argument.encode()  # Arguments with surrogates are a UnicodeEncodeError, as in ROS 2.
     try:
         arguments = _arguments.parse(args)
     except RCLInvalidROSArgsError as error:

@@ -66,6 +66,7 @@ __all__ = [
     "RCLInvalidROSArgsError",
     "RMWError",
     "ROSInterruptException",
+    "TimerCancelledError",
     "UnknownROSArgsError",
     "UnsupportedEventTypeError",
 ]
@@ -234,6 +235,10 @@ class ParameterUninitializedException(ParameterException):
         super().__init__(text, parameter_name, *args)
         if not since("exception_texts"):
             self.args = (text, *args)
+
+
+class TimerCancelledError(Exception):
+    """A timer that was cancelled is called."""
 
 
 class ROSInterruptException(Exception):

@@ -3,10 +3,12 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from rcl_interfaces.msg import LoggerLevel, SetLoggerLevelsResult
 from rcl_interfaces.srv import GetLoggerLevels, SetLoggerLevels
+from rclpy import _absent
 from rclpy.impl.console import console
 from rclpy.impl.logging_severity import LoggingSeverity
 from rclpy.logging import set_logger_level
@@ -49,3 +51,6 @@ def _set(name: str, level: int) -> SetLoggerLevelsResult:
     except ValueError as error:
         return SetLoggerLevelsResult(successful=False, reason=str(error))
     return SetLoggerLevelsResult(successful=True)
+
+
+__getattr__ = partial(_absent.find, __name__)  # names that upstream's module imports

@@ -4,10 +4,11 @@
 from __future__ import annotations
 
 import time
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from rcl_interfaces.msg import Parameter as ParameterMsg
-from rcl_interfaces.msg import ParameterValue
+from rcl_interfaces.msg import ParameterEvent, ParameterValue
 from rcl_interfaces.srv import (
     DescribeParameters,
     GetParameters,
@@ -16,15 +17,19 @@ from rcl_interfaces.srv import (
     SetParameters,
     SetParametersAtomically,
 )
+from rclpy import _absent
 from rclpy.parameter import Parameter, parameter_dict_from_yaml_file
-from rclpy.qos import QoSProfile, qos_profile_services_default
+from rclpy.qos import QoSProfile, qos_profile_parameter_events, qos_profile_services_default
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from rclpy.callback_groups import CallbackGroup
     from rclpy.client import Client
+    from rclpy.event_handler import SubscriptionEventCallbacks
     from rclpy.node import Node
+    from rclpy.qos_overriding_options import QoSOverridingOptions
+    from rclpy.subscription import Subscription
     from rclpy.task import Future
 
 __all__ = ["AsyncParameterClient"]
@@ -166,6 +171,42 @@ class AsyncParameterClient:
         """Request that all parameters of a YAML file are set, or none; see `load_parameter_file`."""
         return self.set_parameters_atomically(self.__read(parameter_file, use_wildcard=use_wildcard), callback)
 
+    @staticmethod
+    def on_parameter_event(
+        node: Node,
+        callback: Callable[[ParameterEvent], None],
+        qos_profile: QoSProfile = qos_profile_parameter_events,
+        *,
+        callback_group: CallbackGroup | None = None,
+        event_callbacks: SubscriptionEventCallbacks | None = None,
+        qos_overriding_options: QoSOverridingOptions | None = None,
+        raw: bool = False,
+    ) -> Subscription:
+        """Call a function for the changes of the parameters of all nodes.
+
+        Args:
+            node: Node of the subscription.
+            callback: Function that is called with each event.
+            qos_profile: QoS profile of the subscription.
+            callback_group: Group of the callback. None: the default group of the node.
+            event_callbacks: Callbacks for QoS events of the subscription.
+            qos_overriding_options: The QoS policies that parameters may override.
+            raw: Whether the callback receives the serialized bytes.
+
+        Returns:
+            The subscription to `/parameter_events`.
+        """
+        return node.create_subscription(
+            ParameterEvent,
+            "/parameter_events",
+            callback,
+            qos_profile,
+            callback_group=callback_group,
+            event_callbacks=event_callbacks,
+            qos_overriding_options=qos_overriding_options,
+            raw=raw,
+        )
+
     def __read(self, parameter_file: str, *, use_wildcard: bool) -> list[ParameterMsg]:
         nodes = [self.remote_node_name]
         return list(parameter_dict_from_yaml_file(parameter_file, use_wildcard, target_nodes=nodes).values())
@@ -179,3 +220,6 @@ class AsyncParameterClient:
 
 def _messages(parameters: Sequence[Parameter[Any] | ParameterMsg]) -> list[ParameterMsg]:
     return [parameter.to_parameter_msg() if isinstance(parameter, Parameter) else parameter for parameter in parameters]
+
+
+__getattr__ = partial(_absent.find, __name__)  # names that upstream's module imports

@@ -4,18 +4,22 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 from itertools import chain
 from typing import TYPE_CHECKING
 
 from rcl_interfaces.msg import Parameter as ParameterMsg
 from rcl_interfaces.msg import ParameterEvent
+from rclpy import _absent
 from rclpy.qos import QoSProfile, qos_profile_parameter_events
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
     from rclpy.callback_groups import CallbackGroup
+    from rclpy.event_handler import SubscriptionEventCallbacks
     from rclpy.node import Node
+    from rclpy.qos_overriding_options import QoSOverridingOptions
 
 __all__ = ["ParameterCallbackHandle", "ParameterEventCallbackHandle", "ParameterEventHandler"]
 
@@ -43,6 +47,9 @@ class ParameterEventHandler:
         node: Node of the subscription.
         qos_profile: QoS profile of the subscription.
         callback_group: Group of the callbacks. None: the default group of the node.
+        event_callbacks: Callbacks for QoS events of the subscription.
+        qos_overriding_options: The QoS policies that parameters may override.
+        raw: Whether the subscription receives serialized bytes, which this class then cannot examine.
     """
 
     def __init__(
@@ -50,13 +57,23 @@ class ParameterEventHandler:
         node: Node,
         qos_profile: QoSProfile = qos_profile_parameter_events,
         callback_group: CallbackGroup | None = None,
+        event_callbacks: SubscriptionEventCallbacks | None = None,
+        qos_overriding_options: QoSOverridingOptions | None = None,
+        raw: bool = False,
     ) -> None:
         self.__node = node
         self.__parameter_callbacks: list[ParameterCallbackHandle] = []
         self.__event_callbacks: list[ParameterEventCallbackHandle] = []
         self.__node_names: set[str] = set()
         self.__subscription = node.create_subscription(
-            ParameterEvent, "/parameter_events", self.__on_event, qos_profile, callback_group=callback_group
+            ParameterEvent,
+            "/parameter_events",
+            self.__on_event,
+            qos_profile,
+            callback_group=callback_group,
+            event_callbacks=event_callbacks,
+            qos_overriding_options=qos_overriding_options,
+            raw=raw,
         )
 
     def destroy(self) -> None:
@@ -142,3 +159,6 @@ class ParameterEventHandler:
         if not node_name:
             return self.__node.get_fully_qualified_name()
         return node_name if node_name.startswith("/") else f"{self.__node.get_namespace().rstrip('/')}/{node_name}"
+
+
+__getattr__ = partial(_absent.find, __name__)  # names that upstream's module imports

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import warnings
 from enum import Enum, IntEnum
 from typing import TYPE_CHECKING, Any, Final
 
@@ -165,6 +166,10 @@ _POLICIES: Final[dict[str, Any]] = {
 }
 
 
+# The durations with which an endpoint matches all others, like the policies BEST_AVAILABLE.
+DeadlineBestAvailable: Final = Duration(nanoseconds=Infinite.nanoseconds - 1)
+LivelinessLeaseDurationeBestAvailable: Final = DeadlineBestAvailable
+
 # The depth of profiles whose history does not use it, as in upstream.
 _DEFAULT_DEPTH: Final = 10
 
@@ -172,10 +177,19 @@ _DEFAULT_DEPTH: Final = 10
 class QoSProfile:
     """A complete set of QoS policies. Profiles with equal policies are equal.
 
+    A policy that is None has its default value.
+
     Args:
-        **kwargs: `history` and/or `depth` (a queue size, required with KEEP_LAST), `reliability`, `durability`,
-            `lifespan`, `deadline`, `liveliness`, `liveliness_lease_duration` (Durations),
-            `avoid_ros_namespace_conventions`.
+        history: Whether the last messages are kept, or all; KEEP_LAST if only `depth` is given.
+        depth: Size of the queue, required with KEEP_LAST.
+        reliability: RELIABLE by default.
+        durability: VOLATILE by default.
+        lifespan: Duration after which messages are dropped.
+        deadline: Expected maximum duration between messages.
+        liveliness: How publishers show that they are alive.
+        liveliness_lease_duration: Duration in which they must do so.
+        avoid_ros_namespace_conventions: Whether the name of the topic is used without ROS's prefix.
+        unknown: Other names, which are an AssertionError.
 
     Raises:
         InvalidQoSProfileException: Neither history nor depth is given, or KEEP_LAST is given without depth.
@@ -193,8 +207,24 @@ class QoSProfile:
 
     __slots__ = tuple(f"_{policy}" for policy in _POLICIES)
 
-    def __init__(self, **kwargs: Any) -> None:
-        unknown = {name: value for name, value in kwargs.items() if name not in _POLICIES}
+    def __init__(
+        self,
+        history: HistoryPolicy | int | None = None,
+        depth: int | None = None,
+        reliability: ReliabilityPolicy | int | None = None,
+        durability: DurabilityPolicy | int | None = None,
+        lifespan: Duration | None = None,
+        deadline: Duration | None = None,
+        liveliness: LivelinessPolicy | int | None = None,
+        liveliness_lease_duration: Duration | None = None,
+        avoid_ros_namespace_conventions: bool | None = None,
+        **unknown: Any,
+    ) -> None:
+        values = (
+            *(history, depth, reliability, durability, lifespan, deadline),
+            *(liveliness, liveliness_lease_duration, avoid_ros_namespace_conventions),
+        )
+        kwargs = {name: value for name, value in zip(_POLICIES, values, strict=True) if value is not None}
         assert not unknown, f"Invalid arguments passed to constructor: {unknown.keys()}"
         if "history" not in kwargs:
             if "depth" not in kwargs:
@@ -214,6 +244,12 @@ class QoSProfile:
         }
         for policy, value in (defaults | kwargs).items():
             setattr(self, policy, value)
+        if self.depth == 0 and self.history is HistoryPolicy.KEEP_LAST:
+            warnings.warn(
+                "A zero depth with KEEP_LAST doesn't make sense; no data could be stored. "
+                "This will be interpreted as SYSTEM_DEFAULT",
+                stacklevel=2,
+            )
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, QoSProfile):

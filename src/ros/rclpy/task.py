@@ -12,6 +12,7 @@ import threading
 import traceback
 import weakref
 from contextlib import suppress
+from enum import Enum
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 from rclpy import _asyncio
@@ -22,6 +23,14 @@ if TYPE_CHECKING:
     from rclpy.executors import Executor
 
 T = TypeVar("T")
+
+
+class FutureState(Enum):
+    """The states of a future, for programs that compare them."""
+
+    PENDING = "PENDING"
+    CANCELLED = "CANCELLED"
+    FINISHED = "FINISHED"
 
 
 class Future(Generic[T]):

@@ -26,19 +26,19 @@ class TopicEndpointInfo:
         node_name: Name of its node, or `_NODE_NAME_UNKNOWN_`.
         node_namespace: Namespace of its node, or `_NODE_NAMESPACE_UNKNOWN_`.
         topic_type: Type of the messages, for example `std_msgs/msg/String`.
+        topic_type_hash: Hash of the type, which endpoints of ROS 2 Iron and later announce.
         endpoint_type: Whether it is a publisher or a subscription.
         endpoint_gid: The 24 bytes of its identifier: the 16 bytes of the DDS GUID and zeros, as in Humble.
         qos_profile: Its QoS profile. Durations without a limit are `rclpy.duration.Infinite`.
-        topic_type_hash: Hash of the type, which endpoints of ROS 2 Iron and later announce.
     """
 
     node_name: str = ""
     node_namespace: str = ""
     topic_type: str = ""
+    topic_type_hash: TypeHash = field(default_factory=TypeHash)
     endpoint_type: TopicEndpointTypeEnum = TopicEndpointTypeEnum.INVALID
     endpoint_gid: list[int] = field(default_factory=list)
     qos_profile: QoSProfile = field(default_factory=lambda: QoSPresetProfiles.UNKNOWN.value)
-    topic_type_hash: TypeHash = field(default_factory=TypeHash)
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, TopicEndpointInfo) and str(self) == str(other)

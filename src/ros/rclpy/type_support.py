@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from typing import Any, TypeVar
+from typing import Any, Generic, TypeVar
 
 from rclpy.exceptions import NoTypeSupportImportedException, _with_hint
 
@@ -25,6 +25,62 @@ MsgType = TypeVar("MsgType")
 SrvType = TypeVar("SrvType")
 SrvTypeRequest = TypeVar("SrvTypeRequest")
 SrvTypeResponse = TypeVar("SrvTypeResponse")
+
+
+class Msg:
+    """A message, in annotations."""
+
+
+MsgT = TypeVar("MsgT", bound=Msg)
+SrvRequestT = TypeVar("SrvRequestT", bound=Msg)
+SrvResponseT = TypeVar("SrvResponseT", bound=Msg)
+GoalT = TypeVar("GoalT", bound=Msg)
+ResultT = TypeVar("ResultT", bound=Msg)
+FeedbackT = TypeVar("FeedbackT", bound=Msg)
+
+
+class EventMessage(Msg, Generic[SrvRequestT, SrvResponseT]):
+    """An event of a service, in annotations."""
+
+
+class Srv(Generic[SrvRequestT, SrvResponseT]):
+    """A service type, in annotations: ``type[Srv[Request, Response]]``."""
+
+
+class SendGoalServiceRequest(Msg, Generic[GoalT]):
+    """The request that sends a goal, in annotations."""
+
+
+class SendGoalServiceResponse(Msg):
+    """The response to a goal, in annotations."""
+
+
+class SendGoalService(Srv[SendGoalServiceRequest[GoalT], SendGoalServiceResponse], Generic[GoalT]):
+    """The service that sends goals, in annotations."""
+
+
+class GetResultServiceRequest(Msg):
+    """The request for a result, in annotations."""
+
+
+class GetResultServiceResponse(Msg, Generic[ResultT]):
+    """The response with a result, in annotations."""
+
+
+class GetResultService(Srv[GetResultServiceRequest, GetResultServiceResponse[ResultT]], Generic[ResultT]):
+    """The service that returns results, in annotations."""
+
+
+class FeedbackMessage(Msg, Generic[FeedbackT]):
+    """A message with feedback, in annotations."""
+
+
+class Action(Generic[GoalT, ResultT, FeedbackT]):
+    """An action type, in annotations: ``type[Action[Goal, Result, Feedback]]``."""
+
+
+SrvT = TypeVar("SrvT", bound=type[Srv[Any, Any]])
+ActionT = TypeVar("ActionT", bound=type[Action[Any, Any, Any]])
 
 
 def check_for_type_support(msg_or_srv_type: Any) -> None:

@@ -3,10 +3,12 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from launch.action import Action
 from launch.frontend.expose import expose_action
+from launch.logging import launch_config
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 if TYPE_CHECKING:
@@ -20,7 +22,10 @@ __all__ = ["SetROSLogDir"]
 
 @expose_action("set_ros_log_dir")
 class SetROSLogDir(Action):
-    """Set the environment variable ROS_LOG_DIR for all processes after it in the same group."""
+    """Set the environment variable ROS_LOG_DIR for all processes after it in the same group.
+
+    A relative path is relative to the present folder: that of ROS_LOG_DIR, or else that of this launch.
+    """
 
     def __init__(self, new_log_dir: SomeSubstitutionsType, **options: Any) -> None:
         super().__init__(**options)
@@ -39,5 +44,6 @@ class SetROSLogDir(Action):
 
     def execute(self, context: LaunchContext) -> list[Any] | None:
         """Set the variable."""
-        context.environment["ROS_LOG_DIR"] = perform_substitutions(context, self.__log_dir)
+        present = context.environment.get("ROS_LOG_DIR") or launch_config.log_dir
+        context.environment["ROS_LOG_DIR"] = str(Path(present) / perform_substitutions(context, self.__log_dir))
         return None

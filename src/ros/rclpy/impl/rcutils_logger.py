@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import sys
 import time
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Final
 
 from rclpy._numbers import require_number
@@ -32,19 +32,28 @@ class _CallSite:
     severity: LoggingSeverity
     name: str
     options: dict[str, Any]
-    last_ns: int | None = None
-    calls: int = field(default=0)
+    last_ns: int | None = None  # when the throttle last let a call pass
+    was_skipped: bool = False
+    was_logged: bool = False
 
     def should_log(self) -> bool:
-        """Update the filters and return whether this call should be logged."""
-        self.calls += 1
-        if self.options.get("skip_first") and self.calls == 1:
+        """Update the filters, in the order of upstream, and return whether this call should be logged."""
+        if not self._passes_throttle():
             return False
-        if self.options.get("once") and self.last_ns is not None:
+        if self.options.get("skip_first") and not self.was_skipped:
+            self.was_skipped = True
             return False
+        if self.options.get("once") and self.was_logged:
+            return False
+        self.was_logged = True
+        return True
+
+    def _passes_throttle(self) -> bool:
+        if "throttle_duration_sec" not in self.options:
+            return True
         clock: Clock | None = self.options.get("throttle_time_source_type")
         now = time.time_ns() if clock is None else clock.now().nanoseconds
-        period = int(require_number(self.options.get("throttle_duration_sec", 0)) * S_TO_NS)
+        period = int(require_number(self.options["throttle_duration_sec"]) * S_TO_NS)
         # A clock that jumped back starts a new period.
         if self.last_ns is not None and self.last_ns <= now < self.last_ns + period:
             return False

@@ -4,11 +4,13 @@
 from __future__ import annotations
 
 import traceback
+from functools import partial
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from lifecycle_msgs.msg import State as StateMsg
 from lifecycle_msgs.msg import Transition, TransitionDescription, TransitionEvent
 from lifecycle_msgs.srv import ChangeState, GetAvailableStates, GetAvailableTransitions, GetState
+from rclpy import _absent
 from rclpy.exceptions import RCLError
 from rclpy.lifecycle.managed_entity import ManagedEntity
 from rclpy.lifecycle.publisher import LifecyclePublisher
@@ -253,3 +255,6 @@ def _description(edge: Edge) -> TransitionDescription:
         start_state=_state(edge.start),
         goal_state=_state(edge.goal),
     )
+
+
+__getattr__ = partial(_absent.find, __name__)  # names that upstream's module imports

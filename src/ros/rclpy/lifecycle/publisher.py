@@ -3,8 +3,10 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import Any
 
+from rclpy import _absent
 from rclpy.lifecycle.managed_entity import SimpleManagedEntity
 from rclpy.publisher import Publisher
 
@@ -20,3 +22,6 @@ class LifecyclePublisher(SimpleManagedEntity, Publisher):
     def publish(self, msg: Any) -> None:
         """Publish a message; do nothing unless the node is active."""
         Publisher.publish(self, msg)
+
+
+__getattr__ = partial(_absent.find, __name__)  # names that upstream's module imports
