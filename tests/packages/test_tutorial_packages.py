@@ -157,7 +157,8 @@ def test_a_static_turtle(environment):
     )
     program = subprocess.Popen(words, env=environment)
     try:
-        echo = command("topic", "echo", "/tf_static", "--once")
+        latched = ("--qos-durability", "transient_local", "--qos-reliability", "reliable")
+        echo = command("topic", "echo", "/tf_static", "tf2_msgs/msg/TFMessage", "--once", *latched)
         done = subprocess.run(echo, env=environment, capture_output=True, text=True, timeout=60, check=True)
         assert "child_frame_id: mystaticturtle" in done.stdout
     finally:
