@@ -51,11 +51,6 @@ def set_logger_level(name: str, level: int, detailed_error: bool = False) -> Non
     console.levels[name] = LoggingSeverity(level)
 
 
-def get_logger_level(name: str) -> LoggingSeverity:
-    """Return the severity that was set for a logger itself; UNSET if none was."""
-    return LoggingSeverity(console.levels.get(name, LoggingSeverity.UNSET))
-
-
 def get_logger_effective_level(name: str) -> LoggingSeverity:
     """Return the lowest severity that a logger logs, which may be inherited."""
     return console.effective_level(name)
